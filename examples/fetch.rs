@@ -6,8 +6,7 @@ use std::error::Error;
 use std::path::Path;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Method, Progress, change_now};
-use orthoframe::language::Language;
+use orthoframe::engine::{Dialogue, Method, change_now};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let dir = tempfile::tempdir()?;
@@ -22,11 +21,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let way = engine.route("Точка-А", "Комната-Y", Method::Shortest)?;
     println!("{:.1} м", way.route?.length / 100.0);
 
-    engine.perform("Принеси лекарство", &mut |progress| {
-        if let Progress::Finished(report) = progress {
-            let place = report.position.as_ref().map(|p| p.say(Language::Russian));
-            println!("{}\n    {}", report.directive, place.unwrap_or_default());
-        }
-    })?;
+    let mut dialogue = Dialogue::default();
+    for line in ["Где лекарство?", "Принеси его", "What did you do?"] {
+        dialogue.hear(&mut engine, line, &mut |_, event| {
+            event.in_words().iter().for_each(|told| println!("{told}"));
+        })?;
+    }
     Ok(())
 }

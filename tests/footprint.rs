@@ -184,8 +184,10 @@ fn a_robot_that_turns_about_its_very_edge_is_not_shrunk() {
 
 /// What stopped a drive.
 fn bumped(driven: Result<(), Unfinished<Bump>>) -> Bump {
-    let Err(Unfinished::Met(bump)) = driven else { panic!("{driven:?}") };
-    bump
+    match driven {
+        Err(Unfinished::Met(bump)) => bump,
+        other => panic!("{other:?}"),
+    }
 }
 
 /// A turn is looked at as a whole: a post that stands between two degrees is met, and told by its angle.

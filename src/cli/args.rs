@@ -120,23 +120,18 @@ pub(super) enum Command {
         #[arg(long)]
         not: bool,
     },
-    /// Plan a scenario of a rule file, or a PDDL problem
+    /// Plan a scenario of a rule file, or a PDDL problem; or the facts that the map gives to planning
     Plan(PlanArgs),
-    /// Carry out a task given in words, in the simulator: ortho do "Принеси лекарство"
-    Do {
-        task: String,
-        /// Write the plan drawing here, as SVG or PNG by the name's ending
-        #[arg(long, value_name = "FILE")]
-        draw: Option<PathBuf>,
-        /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
+    /// Write the built-in rule files into a directory, to be edited and read with --rules
+    Rules {
+        #[arg(long, value_name = "DIR")]
+        export: PathBuf,
+        /// Overwrite files that are there
         #[arg(long)]
-        reset: bool,
-        /// The robot stands here: a name, or X,Y in cm; else where the last task left it, or at the map's start
-        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
-        from: Option<String>,
-        #[command(flatten)]
-        vehicle: VehicleArgs,
+        force: bool,
     },
+    /// Carry out a task given in words, or a scenario, in the simulator or with a robot: ortho do "Принеси лекарство"
+    Do(DoArgs),
     /// Offer the simulated robot, in the world of a map file, by the vehicle protocol (docs/vehicle.md)
     Simulate(SimulateArgs),
     /// Answer a question in words: ortho ask "Где лекарство?"
@@ -216,6 +211,29 @@ impl Detail {
             Self::Full => Level::Heading,
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct DoArgs {
+    #[arg(required_unless_present = "scenario")]
+    pub task: Option<String>,
+    /// Drive a scenario of a rule file (.strips) instead of a task in words
+    #[arg(long, value_name = "FILE", conflicts_with = "task")]
+    pub scenario: Option<PathBuf>,
+    /// The world in which is driven, where it is not as the robot believes: a map file, or a file of edits
+    #[arg(long, value_name = "FILE")]
+    pub truth: Option<PathBuf>,
+    /// Write the plan drawing here, as SVG or PNG by the name's ending
+    #[arg(long, value_name = "FILE")]
+    pub draw: Option<PathBuf>,
+    /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
+    #[arg(long)]
+    pub reset: bool,
+    /// The robot stands here: a name, or X,Y in cm; else where the last task left it, or at the map's start
+    #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
+    pub from: Option<String>,
+    #[command(flatten)]
+    pub vehicle: VehicleArgs,
 }
 
 #[derive(Debug, Args)]
@@ -307,8 +325,14 @@ fn parse_cell(text: &str) -> Result<f64, String> {
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
     /// Scenario file (.strips)
-    #[arg(required_unless_present = "problem")]
+    #[arg(required_unless_present_any = ["problem", "facts"])]
     pub scenario: Option<PathBuf>,
+    /// Print the facts that the map gives to planning, in the language of rule files
+    #[arg(long, conflicts_with_all = ["scenario", "problem", "domain", "out", "check", "any", "without"])]
+    pub facts: bool,
+    /// Only facts of this predicate
+    #[arg(long, requires = "facts", value_name = "PREDICATE")]
+    pub name: Option<String>,
     /// PDDL domain file
     #[arg(long, requires = "problem", value_name = "FILE")]
     pub domain: Option<PathBuf>,

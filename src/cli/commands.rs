@@ -5,17 +5,18 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, World, change_now, check_map_closely, opens_in_words, parse_pose,
-    ride_in_words, uncertain_names,
+    Dialogue, Engine, Method, Outcome, Reply, Rules, Truth, World, change_now, check_map_closely,
+    opens_in_words, parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
+use crate::robot::Vehicle;
+use crate::strips::Scenario;
 
-use super::args::{Common, Detail, Lang, RouteMethod};
+use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
 use super::fault::{Failure, drawn, views};
-use super::vehicle::{VehicleArgs, Wheels};
-use super::{Answer, json, say, text};
+use super::{Answer, came_to, heeded, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
 
@@ -238,39 +239,77 @@ pub(super) fn relations(
     say(&text::facts(&rows))
 }
 
-pub(super) fn perform(
-    common: &Common,
-    task: &str,
-    draw: Option<&Path>,
-    reset: bool,
-    from: Option<&str>,
-    vehicle: &VehicleArgs,
-) -> Result<Answer, Failure> {
-    let mut engine = open(common)?;
-    if reset {
+pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure> {
+    let scenario = args.scenario.as_deref().map(Scenario::read).transpose()?;
+    let mut engine = match scenario.as_ref().map(|scenario| &scenario.map) {
+        Some(map) => super::plan::engine_for(common, map.as_deref())?,
+        None => open(common)?,
+    };
+    if args.reset {
         engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
     }
-    if let Some(from) = from {
+    if let Some(from) = &args.from {
         engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
-    if let Some(question) = only_asked(&engine, task)? {
-        return super::ask::answer(common, &engine, &question, false);
+    if let Some(scenario) = &scenario {
+        super::plan::warn(&scenario.warnings, common.lang);
     }
-    let answer = super::demo::perform(common, &mut engine, task, &mut Wheels::of(vehicle))?;
-    if let Some(path) = draw {
-        super::draw::put_driven(common, &engine, &answer, path)?;
+    let truth = args.truth.as_deref().map(|file| truth(common, &engine, file)).transpose()?;
+    if let Some(scenario) = &scenario {
+        let mut robot: Box<dyn Vehicle> = match args.vehicle.connect(engine.world()?)? {
+            Some(robot) => Box::new(robot),
+            None => Box::new(engine.simulator(truth)?),
+        };
+        let answer = super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot)?;
+        if let Some(path) = &args.draw {
+            super::draw::put_driven(common, &engine, &answer, path)?;
+        }
+        return Ok(came_to(&answer));
     }
-    Ok(super::demo::came_to(&answer))
+    let task = args.task.as_deref().unwrap_or_default();
+    let mut dialogue = Dialogue::new(common.lang.language());
+    if let Some(truth) = truth {
+        dialogue = dialogue.in_truth(truth);
+    }
+    if let Some(robot) = args.vehicle.connect(engine.world()?)? {
+        dialogue = dialogue.driving(Box::new(robot));
+    }
+    let heard = super::demo::perform(common, &mut engine, task, dialogue)?;
+    if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
+        super::draw::put_driven(common, &engine, answer, path)?;
+    }
+    let is_task = |reply: &&Reply| matches!(reply.outcome, Outcome::Task(_));
+    let last = heard.replies.iter().rfind(is_task).or(heard.replies.last());
+    Ok(last.map_or(Answer::Yes, |reply| heeded(&reply.outcome)))
 }
 
-/// The question in a task that orders nothing but an answer: «Проверь, открыт ли холодильник».
-fn only_asked(engine: &Engine, task: &str) -> Result<Option<String>, Failure> {
-    Ok(match engine.parts_of(task)?.as_deref() {
-        Some([question]) => Some(question.clone()),
-        None if !engine.is_command(task)? && engine.asks_something(task)? => Some(task.to_owned()),
-        _ => None,
-    })
+/// The world of `--truth`; what stayed behind in it is told beside.
+fn truth(common: &Common, engine: &Engine, file: &Path) -> Result<World, Failure> {
+    let Truth { world, left_behind } = engine.read_truth(file)?;
+    if !left_behind.is_empty() {
+        let names = left_behind.join(", ");
+        note(&match common.lang {
+            Lang::Ru => format!(
+                "--truth: остаётся на прежнем месте, хотя опора уходит: {names}; carry = true перенесёт и это."
+            ),
+            Lang::En => format!(
+                "--truth: stays behind, though what bears it goes: {names}; carry = true takes it along."
+            ),
+        });
+    }
+    Ok(world)
+}
+
+pub(super) fn export_rules(common: &Common, dir: &Path, force: bool) -> Result<Answer, Failure> {
+    let written: Vec<String> = crate::engine::export_rules(dir, force)?
+        .into_iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    if common.json {
+        return say(&json!({"outcome": "done", "written": written}).to_string());
+    }
+    say(&written.join("\n"))
 }
 
 pub(super) fn route(

@@ -16,7 +16,6 @@ use crate::units::{MapId, Point, write_file};
 use super::args::{Common, CorridorArgs, Lang};
 use super::commands::{note, open};
 use super::fault::Failure;
-use super::text::decimal;
 use super::{Answer, json, say};
 
 #[derive(Debug, Args)]
@@ -272,7 +271,7 @@ fn tell_faces(common: &Common, args: &ViewArgs) -> Result<Answer, Failure> {
     let line = |face: &crate::geometry::FaceInView| {
         let name = face_in_words(world, &face.face, language);
         let share = (100.0 * face.area / face.whole.max(1e-9)).clamp(0.0, 100.0);
-        let away = decimal(face.distance / 100.0, common.lang.pick("м", "m"), common.lang);
+        let away = crate::engine::decimal(face.distance / 100.0, language.pick("м", "m"), language);
         match common.lang {
             Lang::Ru => format!("{name} – видно {share:.0} %, {away}"),
             Lang::En => format!("{name} – {share:.0}% in view, {away}"),

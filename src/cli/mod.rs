@@ -13,13 +13,13 @@ mod edit;
 mod export;
 mod fault;
 mod import;
-mod json;
 mod observe;
 mod plan;
 mod read;
 mod signals;
 mod store;
 mod talk;
+mod teller;
 mod text;
 mod vehicle;
 mod why;
@@ -29,6 +29,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
+
+use crate::engine::{Outcome, TaskAnswer, TaskEnding, json};
+use crate::language::question::Said;
 
 use args::{Arguments, Command};
 use fault::Failure;
@@ -79,10 +82,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Plan(plan) => plan::run(common, plan),
         Command::Ask(ask) => ask::run(common, ask),
-        Command::Do { task, draw, reset, from, vehicle } => {
-            commands::perform(common, task, draw.as_deref(), *reset, from.as_deref(), vehicle)
-        }
+        Command::Do(args) => commands::perform(common, args),
         Command::Simulate(args) => vehicle::simulate(common, args),
+        Command::Rules { export, force } => commands::export_rules(common, export, *force),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),
@@ -106,6 +108,32 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Observe(command) => observe::run(common, command),
         Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),
+    }
+}
+
+/// The exit code of what a dialogue replied.
+fn heeded(outcome: &Outcome) -> Answer {
+    match outcome {
+        Outcome::Answered(answer) => match answer.said {
+            Said::No | Said::Nothing | Said::Unknown => Answer::No,
+            Said::Yes | Said::Found => Answer::Yes,
+        },
+        Outcome::Unanswered(_) => Answer::Wrong,
+        Outcome::Task(task) => came_to(task),
+        _ => Answer::Yes,
+    }
+}
+
+/// The exit code of a task.
+fn came_to(task: &TaskAnswer) -> Answer {
+    match &task.ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue if task.left.is_empty() => Answer::Yes,
+        TaskEnding::Done
+        | TaskEnding::AlreadyTrue
+        | TaskEnding::NoPlan(_)
+        | TaskEnding::Stuck(_) => Answer::No,
+        TaskEnding::Stopped => Answer::Stopped,
+        TaskEnding::Failed(_) => Answer::Failed,
     }
 }
 

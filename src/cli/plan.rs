@@ -5,11 +5,12 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Engine, PlanAnswer, Solved, check_map, check_plan_alone, name_in, plan_alone,
-    plan_alone_without,
+    Engine, PlanAnswer, Solved, check_map, check_plan_alone, facts_in_rule_text, in_rule_text,
+    name_in, plan_alone, plan_alone_without,
 };
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
+use crate::semantics::planning::InitialFact;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
 use crate::units::{English, write_file};
 
@@ -20,6 +21,9 @@ use super::signals::stopped_by_signals;
 use super::{Answer, json as views, say, text};
 
 pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
+    if args.facts {
+        return facts(common, args.name.as_deref());
+    }
     let (mut scenario, engine) = read(common, args)?;
     if let Some(plan) = &args.check {
         for text in &args.without {
@@ -123,6 +127,37 @@ fn interim(lang: Lang) -> fn(&Plan) {
     }
 }
 
+/// Who knows the map of a scenario: the store that was named; else the map that the scenario names; else the default
+/// store.
+pub(super) fn engine_for(common: &Common, map: Option<&Path>) -> Result<Engine, Failure> {
+    match map {
+        Some(map) if common.store.is_none() => {
+            let (world, _) = check_map(map)?;
+            Ok(Engine::in_memory(world, rules_dir(common).as_deref())?)
+        }
+        _ => open(common),
+    }
+}
+
+/// What the map gives to planning, in the language of rule files.
+fn facts(common: &Common, predicate: Option<&str>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let facts = engine.facts_given(predicate)?;
+    if common.json {
+        let fact = |fact: &InitialFact| {
+            let args: Vec<&str> = fact.arguments.iter().map(|a| a.name.as_str()).collect();
+            let kinds: Vec<&str> = fact.arguments.iter().map(|a| a.kind).collect();
+            let text = in_rule_text(fact);
+            json!({"predicate": fact.predicate, "args": args, "types": kinds, "assumed": fact.assumed, "text": text})
+        };
+        return say(&json!({"facts": facts.iter().map(fact).collect::<Vec<_>>()}).to_string());
+    }
+    if facts.is_empty() {
+        return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
+    }
+    say(facts_in_rule_text(&facts).trim_end())
+}
+
 /// The scenario with what its map knows, and who knows that map: the store that was named; else the map that the
 /// scenario names; else the default store, if there is one; else nobody, and the scenario's own facts are all there is.
 fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), Failure> {
@@ -135,15 +170,9 @@ fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), 
     };
     let (mut scenario, faults) = Scenario::read_whole(path)?;
     let engine = || -> Result<Option<Engine>, Failure> {
-        Ok(match &scenario.map {
-            _ if common.store.is_some() => Some(open(common)?),
-            Some(map) => {
-                let (world, _) = check_map(map)?;
-                Some(Engine::in_memory(world, rules_dir(common).as_deref())?)
-            }
-            None if Path::new(DEFAULT_STORE).is_dir() => Some(open(common)?),
-            None => None,
-        })
+        let is_any =
+            common.store.is_some() || scenario.map.is_some() || Path::new(DEFAULT_STORE).is_dir();
+        is_any.then(|| engine_for(common, scenario.map.as_deref())).transpose()
     };
     if faults.is_empty() {
         let engine = engine()?;

@@ -3,15 +3,16 @@
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-use crate::engine::{Relations, Replanned, RouteAnswer, Solved, World, no_way_in_words};
+pub(super) use crate::engine::{counted_in_english as english_size, plan_in_words as plan};
+
+use crate::engine::{Relations, Replanned, RouteAnswer, World, decimal, no_way_in_words};
 use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::language::names::english_name;
-use crate::language::words::english;
 use crate::map::Entity;
-use crate::strips::{Broken, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording};
+use crate::strips::{Broken, Replayed, RuleFault, RuleFaults, Wording};
 use crate::units::{English, capitalized};
 
 use super::args::Lang;
@@ -69,65 +70,6 @@ fn fact(relation: &str, values: &[Value]) -> String {
     }
 }
 
-/// A plan as the paper prints it, one directive a line, parallel ones under one number; by the phrases of the rules
-/// where they have any in the language.
-pub(super) fn plan(solved: &Solved, wording: &Wording<'_>) -> String {
-    let directive = |id: &OperatorId| wording.action(&Said::from(solved.task.operator(*id)));
-    let steps = solved.outcome.plan().map_or_else(Vec::new, |plan| {
-        plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
-    });
-    plan_of(solved, &steps, wording)
-}
-
-/// A plan, its directives given in words.
-pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> String {
-    let pick = |russian, english| wording.language.pick(russian, english);
-    // What was given up before it began knows no plan, and one of no steps would be an answer.
-    let is_found = match solved.outcome {
-        Outcome::Plan(_) => true,
-        Outcome::NoPlan { .. } => false,
-        Outcome::LimitReached(_) => !steps.is_empty(),
-    };
-    if !is_found {
-        let head = match solved.outcome {
-            Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
-            _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
-        };
-        return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());
-    }
-    if steps.is_empty() {
-        return pick("Цель уже достигнута.", "The goal holds already.").to_owned();
-    }
-    let actions: usize = steps.iter().map(Vec::len).sum();
-    let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
-    let proof = match is_proven {
-        true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
-        false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
-    };
-    let mut text = wording.language.pick(
-        format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
-        format!("Plan: {}; {proof}.", english_size(steps.len(), actions)),
-    );
-    for (number, step) in steps.iter().enumerate() {
-        for (i, action) in step.iter().enumerate() {
-            let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
-            text.push_str(&format!("\n{label:>4} {action}"));
-        }
-    }
-    if let (Outcome::LimitReached(_), Some(known)) =
-        (&solved.outcome, solved.explanation_with(wording))
-    {
-        let head = pick("Это не ответ до конца: ", "This is no full answer: ");
-        text.push_str(&format!("\n{head}{known}"));
-    }
-    if !solved.assumptions.is_empty() {
-        let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
-        let told = solved.assumptions_with(wording).join("\n     ");
-        text.push_str(&format!("\n{head}\n     {told}"));
-    }
-    text
-}
-
 /// What was withdrawn, whether the plan before rested on it, and the plan now.
 pub(super) fn replanned(replanned: &Replanned, wording: &Wording<'_>) -> String {
     let mut told: Vec<String> = replanned.withdrawn.iter().map(|f| wording.fact(f)).collect();
@@ -144,12 +86,6 @@ pub(super) fn replanned(replanned: &Replanned, wording: &Wording<'_>) -> String 
     };
     let head = wording.language.pick("Отозвано", "Withdrawn");
     format!("{head}: {withdrawn} – {before}.\n{}", plan(&replanned.after, wording))
-}
-
-/// "1 step, 2 actions"
-pub(super) fn english_size(steps: usize, actions: usize) -> String {
-    let count = |number: usize, noun| english::count(number as u64, noun);
-    format!("{}, {}", count(steps, "step"), count(actions, "action"))
 }
 
 /// A plan carried out: every step that could be, and where it breaks.
@@ -222,10 +158,20 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
     let meters = route.length / 100.0;
     let mut text = match lang {
         Lang::Ru => {
-            format!("{} → {}: {}\n{stages}", answer.from, answer.to, decimal(meters, "м", lang))
+            format!(
+                "{} → {}: {}\n{stages}",
+                answer.from,
+                answer.to,
+                decimal(meters, "м", lang.language())
+            )
         }
         Lang::En => {
-            format!("{} → {}: {}\n{stages}", answer.from, answer.to, decimal(meters, "m", lang))
+            format!(
+                "{} → {}: {}\n{stages}",
+                answer.from,
+                answer.to,
+                decimal(meters, "m", lang.language())
+            )
         }
     };
     let frames: Vec<String> = answer.chain.iter().map(|(_, id)| id.to_string()).collect();
@@ -250,10 +196,4 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
         }
     }
     text
-}
-
-/// A number with one decimal, its mark as the language has it.
-pub(super) fn decimal(value: f64, unit: &str, lang: Lang) -> String {
-    let text = format!("{value:.1} {unit}");
-    if lang == Lang::Ru { text.replacen('.', ",", 1) } else { text }
 }

@@ -7,24 +7,21 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{Engine, Progress, TaskAnswer, check_map_closely};
-use crate::language::command::Command;
-use crate::map::Entity;
+use crate::engine::{World, check_map_closely};
 use crate::robot::{Address, Moment, Patience, RemoteVehicle, Served, Simulator, serve};
 use crate::robot::{Vehicle, starting_pose};
-use crate::units::{Language, Stop};
+use crate::units::Language;
 
 use super::Answer;
 use super::args::Common;
 use super::commands::{note, rules_dir, warn};
 use super::fault::Failure;
-use super::signals::stopped_by_signals;
 
 /// What carries out a task.
 #[derive(Debug, Clone, Args)]
 pub(super) struct VehicleArgs {
     /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
-    #[arg(long, value_name = "ADDRESS", value_parser = address)]
+    #[arg(long, value_name = "ADDRESS", value_parser = address, conflicts_with = "truth")]
     vehicle: Option<Address>,
     /// How long that robot may keep silent while it owes an answer
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "vehicle")]
@@ -41,41 +38,16 @@ fn seconds(text: &str) -> Result<Duration, String> {
     duration.ok_or_else(|| "a number of seconds is wanted, such as 10 or 0.5".to_owned())
 }
 
-/// The vehicle of a run of the program: a robot elsewhere, met when it is first needed, or the simulator. A signal stops it.
-pub(super) struct Wheels {
-    elsewhere: Option<Address>,
-    patience: Patience,
-    met: Option<RemoteVehicle>,
-    stop: Option<Stop>,
-}
-
-impl Wheels {
-    pub(super) fn simulated() -> Self {
-        Self { elsewhere: None, patience: Patience::default(), met: None, stop: None }
-    }
-
-    pub(super) fn of(args: &VehicleArgs) -> Self {
-        let all = Patience::default();
-        let patience = Patience { silence: args.silence.unwrap_or(all.silence), ..all };
-        Self { elsewhere: args.vehicle.clone(), patience, met: None, stop: None }
-    }
-
-    pub(super) fn carry_out(
-        &mut self,
-        engine: &Engine,
-        commands: &[Command<Entity>],
-        tell: &mut dyn FnMut(&Progress<'_>),
-    ) -> Result<TaskAnswer, Failure> {
-        let stop = self.stop.get_or_insert_with(stopped_by_signals);
-        let Some(address) = &self.elsewhere else {
-            let mut robot = engine.simulator(None)?;
-            return Ok(engine.carry_out_with(commands, &mut robot, tell, stop)?);
-        };
-        let robot = match &mut self.met {
-            Some(robot) => robot,
-            none => none.insert(address.connect(engine.world()?, self.patience).map_err(Box::new)?),
-        };
-        Ok(engine.carry_out_with(commands, robot, tell, stop)?)
+impl VehicleArgs {
+    /// The robot elsewhere that is to be driven; none, where that is the simulator.
+    ///
+    /// # Errors
+    /// It does not answer, or is another than the map needs.
+    pub(super) fn connect(&self, world: &World) -> Result<Option<RemoteVehicle>, Failure> {
+        let Some(address) = &self.vehicle else { return Ok(None) };
+        let usual = Patience::default();
+        let patience = Patience { silence: self.silence.unwrap_or(usual.silence), ..usual };
+        Ok(Some(address.connect(world, patience).map_err(Box::new)?))
     }
 }
 

@@ -6,6 +6,7 @@
 use crate::geometry::{FloorPlan, Remedy};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity, World};
+use crate::semantics::Relations;
 use crate::units::{DoorId, Point, ReplicaId, Vector};
 
 use super::lexicon::named;
@@ -37,13 +38,19 @@ pub enum Landmark {
 
 /// A landmark lies in a direction that is off by so much at most, degrees.
 const OFF: f64 = 25.0;
-/// What stands higher is no landmark on the floor, cm.
-const ON_FLOOR: f64 = 20.0;
 
 impl Advice {
-    pub(super) fn of(world: &World, floor: &FloorPlan, remedy: Remedy) -> Self {
+    /// `relations` are asked for where something is to be pushed.
+    pub(super) fn of<'r>(
+        world: &World,
+        floor: &FloorPlan,
+        relations: impl FnOnce() -> Option<&'r Relations>,
+        remedy: Remedy,
+    ) -> Self {
         let whither = match &remedy {
-            Remedy::Move { replica, by, .. } => Some(whither(world, floor, *replica, *by)),
+            Remedy::Move { replica, by, .. } => {
+                Some(whither(world, floor, relations(), *replica, *by))
+            }
             _ => None,
         };
         Self { remedy, whither }
@@ -138,7 +145,13 @@ impl Advice {
 }
 
 /// What lies in the direction of a push, seen from the thing that is pushed.
-fn whither(world: &World, floor: &FloorPlan, replica: ReplicaId, by: Vector) -> Whither {
+fn whither(
+    world: &World,
+    floor: &FloorPlan,
+    relations: Option<&Relations>,
+    replica: ReplicaId,
+    by: Vector,
+) -> Whither {
     let angle = || Whither::Angle(by.y.atan2(by.x).to_degrees().round().rem_euclid(360.0));
     let Some(thing) = floor.scene().replicas.get(&replica) else { return angle() };
     let centre = nalgebra::center(&thing.bounds.min, &thing.bounds.max);
@@ -146,7 +159,7 @@ fn whither(world: &World, floor: &FloorPlan, replica: ReplicaId, by: Vector) -> 
         let to = at - centre;
         way.perp(&to).atan2(way.dot(&to)).abs().to_degrees()
     };
-    let landmarks = landmarks(world, floor, replica);
+    let landmarks = landmarks(world, floor, relations, replica);
     let nearest = |way: Vector| {
         let that_way = landmarks.iter().filter(|(_, at)| off(way, *at) <= OFF);
         that_way.min_by(|a, b| off(way, a.1).total_cmp(&off(way, b.1))).map(|(l, _)| *l)
@@ -158,7 +171,12 @@ fn whither(world: &World, floor: &FloorPlan, replica: ReplicaId, by: Vector) -> 
 }
 
 /// Windows, doors and furniture of a thing's room, and where they are.
-fn landmarks(world: &World, floor: &FloorPlan, replica: ReplicaId) -> Vec<(Landmark, Point)> {
+fn landmarks(
+    world: &World,
+    floor: &FloorPlan,
+    relations: Option<&Relations>,
+    replica: ReplicaId,
+) -> Vec<(Landmark, Point)> {
     let Some(area) = world.replicas.get(&replica).map(|r| r.area) else { return Vec::new() };
     let Some(placed) = floor.scene().areas.get(&area) else { return Vec::new() };
     let mut found = Vec::new();
@@ -171,12 +189,13 @@ fn landmarks(world: &World, floor: &FloorPlan, replica: ReplicaId) -> Vec<(Landm
     let is_named = |id: DoorId| world.doors.get(&id).is_some_and(|d| !d.name.is_empty());
     let doors = doorways.filter_map(|d| Some((Landmark::Door(d.door?), d.middle())));
     found.extend(doors.filter(|(l, _)| matches!(l, Landmark::Door(id) if is_named(*id))));
-    let level = placed.prisms.first().map_or(0.0, |p| p.bottom);
     let things = floor.scene().replicas_in(area).filter(|r| r.id != replica);
-    let standing = things.filter(|r| r.bottom - level < ON_FLOOR).filter(|r| {
-        let model = world.replicas.get(&r.id);
-        model.is_some_and(|m| !m.name.is_empty())
-    });
+    let standing = things
+        .filter(|r| relations.is_some_and(|all| all.stands_on_floor(r.id, area)))
+        .filter(|r| {
+            let model = world.replicas.get(&r.id);
+            model.is_some_and(|m| !m.name.is_empty())
+        });
     found.extend(
         standing.map(|r| (Landmark::Thing(r.id), nalgebra::center(&r.bounds.min, &r.bounds.max))),
     );

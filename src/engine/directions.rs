@@ -26,10 +26,6 @@ use super::{Error, State};
 
 /// A bend that stays this near to the straight way is none, cm.
 const SMALL_BEND: f64 = 35.0;
-/// What stands this near to a stretch is passed, cm.
-const BESIDE: f64 = 130.0;
-/// What stands this near to a bend tells where to turn, cm.
-const AT_BEND: f64 = 110.0;
 /// So far before and behind an opening a way is looked at to see whether it turns there, cm.
 const THROUGH: f64 = 50.0;
 /// Shorter stretches pass nothing worth a word, cm.
@@ -203,7 +199,7 @@ struct Guide<'e> {
 
 impl Guide<'_> {
     fn stretches(&self, area: AreaId, piece: &[Point], mut facing: Option<Vector>) -> Vec<Stretch> {
-        let landmarks = self.landmarks(area);
+        let (landmarks, near) = (self.landmarks(area), self.relations.thresholds());
         let mut stretches: Vec<Stretch> = Vec::new();
         // Corners of the plain line with the lengths of the real one between them.
         let corners = plain(piece);
@@ -214,7 +210,7 @@ impl Guide<'_> {
             let passed = if length < WORTH_TELLING {
                 Vec::new()
             } else {
-                passed(&landmarks, pair[0], pair[1], way)
+                passed(&landmarks, (pair[0], pair[1]), way, near.way_beside)
             };
             facing = Some(way);
             match (stretches.last_mut(), angle) {
@@ -227,7 +223,7 @@ impl Guide<'_> {
                 (before, angle) => {
                     let bends =
                         before.is_some() && angle.is_some_and(|a| Turn::of(a) != Turn::Straight);
-                    let at = bends.then(|| nearest(&landmarks, pair[0])).flatten();
+                    let at = bends.then(|| nearest(&landmarks, pair[0], near.way_bend)).flatten();
                     stretches.push(Stretch { angle, at, length, passed });
                 }
             }
@@ -297,12 +293,12 @@ fn segments_apart((a, b): (Point, Point), (c, d): (Point, Point)) -> f64 {
     to(a, (c, d)).min(to(b, (c, d))).min(to(c, (a, b))).min(to(d, (a, b)))
 }
 
-/// What one passes between two points, in order, the nearest only, and nothing that lies across the way.
+/// What one passes between two points within reach, in order, the nearest only, and nothing that lies across the way.
 fn passed(
     landmarks: &[(&PlacedReplica, Named)],
-    a: Point,
-    b: Point,
+    (a, b): (Point, Point),
     way: Vector,
+    reach: f64,
 ) -> Vec<(Side, Named)> {
     let length = (b - a).norm();
     let mut beside: Vec<(f64, f64, Side, &Named)> = landmarks
@@ -317,7 +313,7 @@ fn passed(
                 () if corners().all(|p| way.perp(&(p - a)) < 0.0) => Side::Right,
                 () => return None,
             };
-            (away <= BESIDE && along > 0.0 && along < length).then_some((away, along, side, name))
+            (away <= reach && along > 0.0 && along < length).then_some((away, along, side, name))
         })
         .collect();
     beside.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -326,8 +322,8 @@ fn passed(
     beside.into_iter().map(|(_, _, side, name)| (side, name.clone())).collect()
 }
 
-fn nearest(landmarks: &[(&PlacedReplica, Named)], at: Point) -> Option<Named> {
+fn nearest(landmarks: &[(&PlacedReplica, Named)], at: Point, reach: f64) -> Option<Named> {
     let away = landmarks.iter().map(|(thing, name)| (distance(thing, at, at), name));
-    let nearest = away.filter(|(d, _)| *d <= AT_BEND).min_by(|a, b| a.0.total_cmp(&b.0));
+    let nearest = away.filter(|(d, _)| *d <= reach).min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.map(|(_, name)| name.clone())
 }

@@ -16,17 +16,13 @@ use super::memory::Now;
 use super::task::thing_of;
 use super::{Error, RequestError, State};
 
-/// Where the rule text names none: likelier than not.
-const TOLD_FROM: f64 = 0.5;
-
 impl State {
     /// How sure the robot is of where a thing is, 0..=1, where that is less than what is told as a fact.
     pub(super) fn doubted(&self, thing: ReplicaId) -> Option<f64> {
         let reader = self.reader.as_ref()?;
         let replica = self.world.as_ref()?.replicas.get(&thing)?;
         let belief = reader.belief(replica, SystemTime::now().into()).ok()?;
-        let relations = self.relations().ok()?;
-        let told = relations.threshold("belief told").map_or(TOLD_FROM, |t| t as f64 / 1000.0);
+        let told = self.relations().ok()?.thresholds().belief_told;
         (belief.confidence < told).then_some(belief.confidence)
     }
 

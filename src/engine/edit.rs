@@ -182,9 +182,13 @@ impl State {
         self.forms.take();
         let after = Arc::new(after);
         let Some(before) = self.world.replace(Arc::clone(&after)) else {
+            self.changes = Arc::default();
             return self.forget_derived();
         };
-        let Some(changed) = only_replicas(&before, &after) else {
+        let changed = only_replicas(&before, &after);
+        let ids_are_unique = self.reader.is_some();
+        Arc::make_mut(&mut self.changes).note(&before, &after, changed.as_deref(), ids_are_unique);
+        let Some(changed) = changed else {
             return self.forget_derived();
         };
         if let Some(floors) = self.floors.get_mut() {

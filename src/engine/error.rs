@@ -345,6 +345,14 @@ pub enum RequestError {
     )]
     RobotNowhere,
 
+    /// A truth that stands something on the robot.
+    #[error("на деле там, где стоит робот, находится «{thing}»")]
+    #[diagnostic(
+        code(engine::truth_on_robot),
+        help("подвиньте вещь в файле --truth, или поставьте робота в другое место: --from МЕСТО")
+    )]
+    TruthOnRobot { thing: String },
+
     /// A directory of rule files that was named and is not there.
     #[error("каталога правил «{dir}» нет")]
     #[diagnostic(
@@ -354,6 +362,14 @@ pub enum RequestError {
         )
     )]
     NoRules { dir: String },
+
+    /// Rule files where others are to be written.
+    #[error("здесь уже есть файлы правил: {files}")]
+    #[diagnostic(
+        code(engine::rules_there),
+        help("назовите другой каталог, или перезапишите их: ortho rules --export КАТАЛОГ --force")
+    )]
+    RulesThere { files: String },
 
     /// A floor too large for a picture.
     #[error("этаж «{map}» не помещается в картинку из {limit} клеток")]
@@ -498,6 +514,13 @@ impl RequestError {
                     capitalized(&called(thing))
                 )
             }
+            Self::RulesThere { files } => format!(
+                "There are rule files already: {files}. Name another directory, or overwrite them: --force."
+            ),
+            Self::TruthOnRobot { thing } => format!(
+                "In truth {} is where the robot stands; move it in the file of --truth, or the robot: --from PLACE.",
+                called(thing)
+            ),
             Self::RobotNowhere => {
                 "It is not known where the robot is; tell it: ortho do … --from PLACE.".to_owned()
             }

@@ -127,6 +127,7 @@ impl Engine {
             None => {
                 let (state, store) = self.next_with_store();
                 state.world = None;
+                state.changes = Arc::default();
                 state.forget_derived();
                 state.stand_on(store);
                 Ok(())

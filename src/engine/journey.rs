@@ -116,7 +116,8 @@ impl Surroundings<'_> {
                     let floor = &*floor.with_lifts_open(world);
                     let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
                     let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
-                    (alone || opens()).then(|| Advice::of(world, floor, remedy))
+                    (alone || opens())
+                        .then(|| Advice::of(world, floor, || self.relations().ok(), remedy))
                 });
                 let leg = RouteAnswer::new(no.map, from, (to, goal.end), Err(no.why));
                 Ok(Journey { legs: vec![leg], rides: vec![], opens, advice })

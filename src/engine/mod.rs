@@ -28,22 +28,28 @@
 mod advice;
 mod apart;
 mod barriers;
+mod changes;
 mod deeds;
 mod delivery;
+mod dialogue;
 mod directions;
 mod doubtful;
 mod doubts;
 mod drawing;
 mod edit;
 mod error;
+mod events;
 mod export;
 mod forms;
+mod given;
 mod goals;
 mod history;
 mod journey;
+pub mod json;
 mod lexicon;
 mod load;
 mod memory;
+mod narration;
 mod observe;
 mod opening;
 mod plan;
@@ -51,7 +57,9 @@ mod position;
 mod present;
 mod reading;
 mod route;
+mod rule_files;
 mod rules;
+mod scenario;
 mod sight;
 mod stance;
 mod state;
@@ -60,6 +68,7 @@ mod surroundings;
 mod talk;
 mod task;
 mod tidy;
+mod truth;
 mod upkeep;
 mod utterance;
 mod words;
@@ -70,25 +79,33 @@ use std::sync::Arc;
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
 pub use deeds::{deeds_in_words, directive_in_words, name_in, task_in_words};
+pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
+pub use events::{DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents};
 pub use forms::uncertain_names;
+pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;
 pub use journey::{Journey, ride_in_words};
 pub use memory::{After, Now, ROBOT};
+pub use narration::{
+    counted_in_english, decimal, directive_told, plan_in_words, progress_in_words,
+};
 pub use observe::{Believed, Proposal, Source, Station};
 pub use opening::opens_in_words;
 pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, plan_alone_without, steps};
 pub use position::Whereabout;
 pub use reading::Region;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
+pub use rule_files::{RULE_FILES, export_rules};
 pub use rules::Rules;
 pub use sight::face_in_words;
 pub use state::State;
 pub use surprises::surprise_in_words;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
+pub use truth::Truth;
 pub use upkeep::{check_store, restore_store};
 
 pub use crate::exchange::GridFiles;
@@ -234,6 +251,8 @@ impl Engine {
             }
             None => {
                 self.follow(world)?;
+                // Its ids have nothing to do with those of the map before.
+                self.next().changes = Arc::default();
                 ImportReport::default()
             }
         };

@@ -58,7 +58,7 @@ impl State {
     /// Where a thing is believed to be at a moment, by what was known then.
     ///
     /// # Errors
-    /// As [`Engine::thing`]; [`RequestError::NotYet`] when it was not on the map at that moment.
+    /// As [`State::thing`]; [`RequestError::NotYet`] when it was not on the map at that moment.
     pub fn where_is(&self, name: &str, at: Timestamp) -> Result<Believed, Error> {
         let replica = self.thing(name)?.clone();
         let reader = self.reader()?;
@@ -76,7 +76,7 @@ impl State {
     /// Everything that is known of where a thing stood, by the map and by what was seen, the oldest first.
     ///
     /// # Errors
-    /// As [`Engine::thing`].
+    /// As [`State::thing`].
     pub fn story_of(&self, name: &str) -> Result<Vec<Station>, Error> {
         let id = self.thing(name)?.id;
         let reader = self.reader()?;
@@ -111,7 +111,7 @@ impl Engine {
     /// that it was not where it was expected. The map stays as it was.
     ///
     /// # Errors
-    /// As [`Engine::thing`]; the disk refused.
+    /// As [`State::thing`]; the disk refused.
     pub fn observe(
         &mut self,
         name: &str,
@@ -166,7 +166,7 @@ impl Engine {
     /// A person says that a thing does stand where it is believed to: an edit of the map, checked as any.
     ///
     /// # Errors
-    /// As [`Engine::thing`]; the map would be faulty.
+    /// As [`State::thing`]; the map would be faulty.
     pub fn confirm(&mut self, name: &str, change: &Change) -> Result<ImportReport, Error> {
         let id = self.thing(name)?.id;
         let believed = self.where_is(name, change.at)?.belief;
@@ -184,7 +184,7 @@ impl Engine {
     /// A person says that a thing stands where the map says: what was seen until now counts no more.
     ///
     /// # Errors
-    /// As [`Engine::thing`]; the disk refused.
+    /// As [`State::thing`]; the disk refused.
     pub fn reject(&mut self, name: &str, change: &Change) -> Result<(), Error> {
         let id = self.thing(name)?.id;
         self.next().forget_present();

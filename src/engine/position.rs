@@ -8,7 +8,7 @@ use crate::language::report::{
     Beside, Context, Doorway, Facing, Mark, Named, Opening, Position, Spot,
 };
 use crate::map::{DoorStatus, Entity, Permeability, World};
-use crate::semantics::{self, Nearness, Relations, Way, Whereabouts, whereabouts};
+use crate::semantics::{self, Relations, Way, Whereabouts, whereabouts};
 use crate::units::{AreaId, DoorId, MapId, Point, Pose, ReplicaId, Vector, name_key};
 
 use super::lexicon::named;
@@ -66,14 +66,7 @@ pub(super) fn describe(
     pose: Pose,
     floor: Option<&FloorPlan>,
 ) -> Option<Whereabout> {
-    let terms = whereabouts(
-        world,
-        relations.measurements(),
-        relations.openings(),
-        map,
-        &pose,
-        &Nearness::default(),
-    )?;
+    let terms = whereabouts(world, relations, map, &pose)?;
     let area = |id: AreaId| named(world, Entity::Area(id));
     let spot = match terms.spot {
         semantics::Spot::InDoorway(way) => Some(Spot::InDoorway(doorway(world, relations, way))),
@@ -275,9 +268,6 @@ fn is_passage(world: &World, door: Option<DoorId>) -> bool {
     door.and_then(|d| world.doors.get(&d)).is_none_or(|d| d.kind == crate::map::DoorKind::Passage)
 }
 
-/// Farther than this, nothing in particular is faced, cm.
-const FACING_RANGE: f64 = 250.0;
-
 /// What the robot faces, before words are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Faced {
@@ -301,13 +291,13 @@ pub(super) fn faced(
     area: AreaId,
     pose: Pose,
 ) -> Option<Faced> {
-    let scene = floor.scene();
+    let (scene, near) = (floor.scene(), relations.thresholds());
     let (sin, cos) = pose.heading.sin_cos();
     let ray = Vector::new(cos, sin);
     let height = world.robot.height.get();
     let mut nearest: Option<(f64, Faced)> = None;
     let mut offer = |distance: f64, what: Faced| {
-        if distance <= FACING_RANGE && nearest.as_ref().is_none_or(|(d, _)| distance < *d) {
+        if distance <= near.robot_facing && nearest.as_ref().is_none_or(|(d, _)| distance < *d) {
             nearest = Some((distance, what));
         }
     };
@@ -344,7 +334,7 @@ pub(super) fn faced(
             let Some(distance) = hit(pose.at, ray, a, b) else { continue };
             if side.permeability == Permeability::Impermeable {
                 let away = (pose.at - nearest_on_segment(pose.at, a, b)).norm();
-                offer(distance, Faced::Wall { own: away <= Nearness::default().wall });
+                offer(distance, Faced::Wall { own: away <= near.robot_wall });
             } else if let Some(way) = way_through(relations, area, nalgebra::center(&a, &b)) {
                 offer(distance, Faced::Door(way));
             }

@@ -8,7 +8,7 @@ use crate::language::report::read::{
 };
 use crate::language::report::{Beside, Opening};
 use crate::map::{Entity, Permeability, World};
-use crate::semantics::{Claim, Nearness, Relations, Way, claim_bounds, claim_holds, stands_in};
+use crate::semantics::{Claim, Relations, Way, claim_bounds, claim_holds};
 use crate::units::{AreaId, Deg, MapId, Point, Pose, ReplicaId};
 
 use super::lexicon::named;
@@ -106,9 +106,7 @@ impl State {
 
 impl Region {
     fn has_point(&self, world: &World, relations: &Relations, at: Point) -> bool {
-        let (measured, openings) = (relations.measurements(), relations.openings());
-        let place = (self.map, self.area);
-        claim_holds(world, measured, openings, place, &self.claim, at, &Nearness::default())
+        claim_holds(world, relations, (self.map, self.area), &self.claim, at)
     }
 
     fn has_heading(
@@ -159,8 +157,6 @@ pub(super) fn regions(
     relations: &Relations,
     said: &SaidPosition<Entity>,
 ) -> Result<Vec<Region>, Error> {
-    let measured = relations.measurements();
-    let near = Nearness::default();
     let areas = match (&said.spot, said.area.is_empty()) {
         (Some(SaidSpot::InDoorway(door)), true) => &door.from,
         _ => &said.area,
@@ -168,7 +164,7 @@ pub(super) fn regions(
     let mut found = Vec::new();
     for area in areas {
         let Entity::Area(area) = *area else { continue };
-        let Some((map, bounds)) = claim_bounds(measured, area, &near) else { continue };
+        let Some((map, bounds)) = claim_bounds(relations, area) else { continue };
         let on_map = |names: &Vec<Entity>| names.contains(&Entity::Map(map));
         let is_marked = said.mark.as_ref().is_none_or(|mark| bears(relations, area, mark));
         if !said.within.iter().all(on_map) || !is_marked {
@@ -232,7 +228,7 @@ fn claims(
         Some(SaidSpot::InDoorway(door)) => Claim::InDoorway(ways(door)),
         Some(SaidSpot::AtDoor(door)) => Claim::AtDoor(ways(door)),
         Some(SaidSpot::Object(beside @ (Beside::NextTo | Beside::On), names)) => {
-            let is_here = |id: &ReplicaId| stands_in(relations.measurements(), *id, area);
+            let is_here = |id: &ReplicaId| relations.stands_on_floor(*id, area);
             let things = names.iter().filter_map(|name| match name {
                 Entity::Replica(id) => Some(*id).filter(is_here),
                 _ => None,

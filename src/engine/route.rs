@@ -51,7 +51,7 @@ pub struct Located {
 
 impl State {
     /// A way between two places given by name or as `X,Y`, over the floor as it is believed to be now, doors as they
-    /// stand: see [`Engine::journey`] for one that opens doors and rides lifts.
+    /// stand: see [`State::journey`] for one that opens doors and rides lifts.
     ///
     /// # Errors
     /// A name that means nothing, or places on different maps. No way at all is an answer, not an error.

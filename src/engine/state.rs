@@ -15,6 +15,7 @@ use crate::semantics::{Relations, derive};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{MapId, nearest_name};
 
+use super::changes::Changes;
 use super::lexicon::form_index;
 use super::present::Present;
 use super::{Error, RequestError, Rules, Value};
@@ -42,6 +43,8 @@ pub struct State {
     pub(super) memory: OnceLock<RobotMemory>,
     /// The world as it is believed to be now, where that differs from the map.
     pub(super) present: OnceLock<Option<Box<Present>>>,
+    /// What the map and the robot's knowledge went through, for dialogues that began before.
+    pub(super) changes: Arc<Changes>,
 }
 
 impl State {
@@ -59,6 +62,7 @@ impl State {
             forms: OnceLock::new(),
             memory: OnceLock::new(),
             present: OnceLock::new(),
+            changes: Arc::default(),
         }
     }
 
@@ -76,6 +80,7 @@ impl State {
             forms: self.forms.clone(),
             memory: OnceLock::new(),
             present: OnceLock::new(),
+            changes: Arc::clone(&self.changes),
         }
     }
 
@@ -89,6 +94,7 @@ impl State {
     pub(super) fn forget_present(&mut self) {
         self.memory.take();
         self.present.take();
+        Arc::make_mut(&mut self.changes).note_deed();
     }
 
     pub(super) fn forget_derived(&mut self) {

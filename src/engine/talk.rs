@@ -24,13 +24,9 @@ use super::route::Located;
 use super::sight::things_in_view;
 use super::{Error, State};
 
-/// How far the robot is taken to see, cm.
-const SIGHT: f64 = 400.0;
-/// How wide it looks, degrees: as a wide camera does.
-const FIELD: f64 = 120.0;
-
 impl State {
-    /// Answers a question in Russian or English and remembers what it was about.
+    /// Answers a question in Russian or English and remembers what it was about. What is remembered belongs to a state
+    /// of the map: of what left it since, only that is said.
     ///
     /// The inner result is the answer, or why there is none: not understood, ambiguous, unknown to the map.
     ///
@@ -41,15 +37,21 @@ impl State {
         question: &str,
         memory: &mut Memory,
     ) -> Result<Result<Answer, Unanswered>, Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.ask(question, memory))
+        let answered = self.asker(&senses)?.ask(question, memory);
+        Ok(answered.map(|answer| answer.of(memory)))
     }
 
-    /// The query of an answer as a Datalog rule.
+    /// The query of an answer as a Datalog rule; a remark where the map has become another since.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
+        if answer.stamp().is_some_and(|stamp| self.changes.has_renamed_since(stamp)) {
+            let changed = ("// карта с тех пор изменилась", "// the map has changed since");
+            return Ok(answer.language.pick(changed.0, changed.1).to_owned());
+        }
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.rule(&answer.query, answer.language))
     }
@@ -57,7 +59,7 @@ impl State {
     /// The proof of a fact of an answer, or what it lacks, a premise a line.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn proof_of(&self, fact: &Fact, language: Language) -> Result<Vec<String>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.proof(fact, language))
@@ -65,6 +67,7 @@ impl State {
 
     /// A command with its descriptions replaced by names: see [`Asker::settle`].
     pub(super) fn settle(&self, sentence: &str, memory: &mut Memory) -> Result<Settled, Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         let forms = self.forms()?;
         let strict = |text: &str| {
@@ -83,6 +86,7 @@ impl State {
 
     /// Notes what a sentence speaks of that neither asks nor orders.
     pub(super) fn hear_of(&self, text: &str, memory: &mut Memory) -> Result<(), Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         self.asker(&senses)?.hear_of(text, memory);
         Ok(())
@@ -91,16 +95,18 @@ impl State {
     /// A command that waited for an answer, with what these words choose; none where they choose nothing.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn resumed(&self, text: &str, memory: &Memory) -> Result<Option<String>, Error> {
+        let mut memory = memory.clone();
+        self.catch_up(&mut memory)?;
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.resumed(text, memory))
+        Ok(self.asker(&senses)?.resumed(text, &memory))
     }
 
     /// Whether a text asks or commands, by how it begins.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn is_command(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
@@ -112,7 +118,7 @@ impl State {
     /// Whether a text begins as a question does.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn asks_something(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.begins_as_question(text))
@@ -122,7 +128,7 @@ impl State {
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_and_questions(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_and_questions(text))
@@ -139,7 +145,7 @@ impl State {
     /// Whether a text without a verb orders: «К холодильнику!», "The medicine, please".
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_tersely(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_tersely(text))
@@ -358,7 +364,9 @@ impl Senses for RobotSenses<'_> {
         let stands = floor.scene().area_at(pose.at);
         let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
         let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
-        things_in_view(world, floor, &Eye { pose, height, field: FIELD, range: SIGHT })
+        let Ok(near) = around.relations().map(Relations::thresholds) else { return Vec::new() };
+        let eye = Eye { pose, height, field: near.robot_field, range: near.robot_sight };
+        things_in_view(world, floor, &eye)
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {

@@ -18,6 +18,7 @@ use crate::robot::{
     Person, Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
 };
 use crate::semantics::{Relations, derive, predicate};
+use crate::strips::Domain;
 use crate::units::{MapId, Point, Pose, ReplicaId, Stop};
 
 use super::memory::{After, Now};
@@ -113,13 +114,23 @@ pub struct TaskAnswer {
     pub reported: Option<Position>,
     /// Things of which it was not sure where they are, and looked for before all else, each with how sure it was, 0..=1.
     pub unsure: Vec<(ReplicaId, f64)>,
-    /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
+    /// What the robot would keep in mind: see [`Engine::remember`](super::Engine::remember). None where nothing was done.
     pub after: Option<After>,
+}
+
+/// What is to be driven: from a sentence, or from a scenario.
+pub(super) struct Errand<'r> {
+    pub(super) domain: &'r Domain,
+    pub(super) belief: Belief,
+    /// One after another; the facts of one hold together.
+    pub(super) goals: Vec<Vec<GoalFact>>,
+    /// Whether a thing that cannot be put into its place lets the rest be tidied.
+    pub(super) tidies: bool,
 }
 
 impl State {
     /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
-    /// Map says, and as the robot's last task left it. [`Engine::remember`] notes how this one leaves it.
+    /// Map says, and as the robot's last task left it. [`Engine::remember`](super::Engine::remember) notes how this one leaves it.
     ///
     /// # Errors
     /// The command is not understood, or the Map lacks what it needs. That there is no plan is an answer.
@@ -128,55 +139,61 @@ impl State {
         command: &str,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        self.perform_from(command, &now, now.world.clone(), tell)
+        self.carry_out(&self.understand(command)?, tell)
     }
 
     /// Carries out a command in a world that may differ from the Map.
     ///
     /// # Errors
-    /// As [`Engine::perform`].
+    /// As [`State::perform`].
     pub fn perform_in(
         &self,
         command: &str,
-        truth: World,
+        mut truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        self.perform_from(command, &now, truth, tell)
-    }
-
-    fn perform_from(
-        &self,
-        command: &str,
-        now: &Now,
-        truth: World,
-        tell: &mut dyn FnMut(&Progress<'_>),
-    ) -> Result<TaskAnswer, Error> {
-        self.carry_out_from(&self.understand(command)?, now, truth, tell)
+        self.carry_out_in(&self.understand(command)?, &mut truth, tell)
     }
 
     /// Carries out commands that were understood already, in a world that is as it is believed to be.
     ///
     /// # Errors
-    /// As [`Engine::perform`].
+    /// As [`State::perform`].
     pub fn carry_out(
         &self,
         commands: &[Command<Entity>],
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
         let now = self.now(std::time::SystemTime::now().into())?;
-        self.carry_out_from(commands, &now, now.world.clone(), tell)
+        let mut robot = simulated(&now, now.world.clone());
+        self.carry_out_by(commands, &now, &mut robot, tell, &Stop::new())
+    }
+
+    /// Carries out commands that were understood already, in a world that may differ from what is believed; it is left
+    /// as the task leaves it.
+    ///
+    /// # Errors
+    /// As [`State::perform`].
+    pub fn carry_out_in(
+        &self,
+        commands: &[Command<Entity>],
+        truth: &mut World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        let mut robot = self.simulator(Some(truth.clone()))?;
+        let answer = self.carry_out_with(commands, &mut robot, tell, &Stop::new())?;
+        *truth = robot.into_truth();
+        Ok(answer)
     }
 
     /// Carries out commands that were understood already, with a vehicle: the simulator, one of the caller's own, or a
     /// [`crate::robot::RemoteVehicle`]. Where the vehicle says that it stands, there it is, whatever was believed.
     ///
     /// A [`Stop`] that is raised, by another thread or a signal, ends planning and driving at once; the answer then tells
-    /// how the robot stands, and [`Engine::remember`] notes that as it does after any other ending.
+    /// how the robot stands, and [`Engine::remember`](super::Engine::remember) notes that as it does after any other ending.
     ///
     /// # Errors
-    /// As [`Engine::perform`]. That the vehicle fails is an answer.
+    /// As [`State::perform`]. That the vehicle fails is an answer.
     pub fn carry_out_with(
         &self,
         commands: &[Command<Entity>],
@@ -192,42 +209,28 @@ impl State {
     /// believed; none, one that does not.
     ///
     /// # Errors
-    /// As [`Engine::now`].
+    /// There is no map.
     pub fn simulator(&self, truth: Option<World>) -> Result<Simulator, Error> {
         let now = self.now(std::time::SystemTime::now().into())?;
-        Ok(simulator(&now, truth.unwrap_or_else(|| now.world.clone())))
+        Ok(simulated(&now, truth.unwrap_or_else(|| now.world.clone())))
     }
 
-    fn carry_out_from(
-        &self,
-        commands: &[Command<Entity>],
-        now: &Now,
-        truth: World,
-        tell: &mut dyn FnMut(&Progress<'_>),
-    ) -> Result<TaskAnswer, Error> {
-        self.carry_out_by(commands, now, &mut simulator(now, truth), tell, &Stop::new())
-    }
-
-    fn carry_out_by(
-        &self,
-        commands: &[Command<Entity>],
-        now: &Now,
-        vehicle: &mut dyn Vehicle,
-        tell: &mut dyn FnMut(&Progress<'_>),
-        stop: &Stop,
-    ) -> Result<TaskAnswer, Error> {
-        let (map, start) = vehicle.pose();
-        let is_finite = [start.at.x, start.at.y].iter().all(|number| number.is_finite());
-        let stands = || self.floor(map).is_ok_and(|floor| floor.locate(start.at).is_some());
-        if !is_finite || !self.world()?.maps.contains_key(&map) || !stands() {
-            let failure = match is_finite {
-                true => Failure::OffTheMap { pose: start },
-                false => Failure::NoNumber,
-            };
-            return Ok(TaskAnswer::not_begun(now, failure));
+    /// What is so now by the word of the vehicle, which knows where it stands; else why it cannot be used.
+    pub(super) fn now_with(&self, now: &Now, vehicle: &dyn Vehicle) -> Result<Now, Failure> {
+        let (map, pose) = vehicle.pose();
+        if ![pose.at.x, pose.at.y].iter().all(|number| number.is_finite()) {
+            return Err(Failure::NoNumber);
         }
-        let now = &Now { map, pose: start, ..now.clone() };
-        let begun_at = vehicle.time();
+        let is_on_map = self.world().is_ok_and(|world| world.maps.contains_key(&map));
+        if !is_on_map || !self.floor(map).is_ok_and(|floor| floor.locate(pose.at).is_some()) {
+            return Err(Failure::OffTheMap { pose });
+        }
+        Ok(Now { map, pose, ..now.clone() })
+    }
+
+    /// What the robot believes when a task begins, and the place where it then stands; the operator stands there too.
+    pub(super) fn belief_of(&self, now: &Now) -> Result<(Belief, String), Error> {
+        let (map, start) = (now.map, now.pose);
         let mut belief = Belief::new(now.world.clone(), self.floors_now(now)?, map, start)
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
@@ -241,6 +244,22 @@ impl State {
             name_en: "operator".to_owned(),
             place: here.clone(),
         });
+        Ok((belief, here))
+    }
+
+    fn carry_out_by(
+        &self,
+        commands: &[Command<Entity>],
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let now = &match self.now_with(now, vehicle) {
+            Ok(now) => now,
+            Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
+        };
+        let (mut belief, here) = self.belief_of(now)?;
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
@@ -256,33 +275,75 @@ impl State {
             );
         }
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
-        let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
-        let is_lit = facts_of_map(&now.world, relations)
-            .iter()
-            .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
         let sought = commands.iter().filter_map(|command| match command {
             Command::Find(what) => Some(what.id),
             _ => None,
         });
-        let mut failed = None;
         let unsure_ones = unsure.iter().map(|(thing, _)| Entity::Replica(*thing));
-        for what in sought.chain(unsure_ones) {
-            let Entity::Replica(id) = what else { continue };
-            let name = self.world()?.name(what).to_owned();
+        let sought = sought.chain(unsure_ones).filter_map(|what| match what {
+            Entity::Replica(id) => Some(id),
+            _ => None,
+        });
+        if let Err(failure) = self.seek(sought, now, relations, &mut belief, vehicle)? {
+            return Ok(TaskAnswer::not_begun(now, failure));
+        }
+        let tidies = commands
+            .iter()
+            .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
+        let errand = Errand { domain: &self.rules.robot, belief, goals, tidies };
+        let mut answer = self.drive(errand, now, vehicle, tell, stop)?;
+        let must_report = matches!(answer.ending, TaskEnding::Stopped)
+            || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
+        let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
+        answer.reported = reported.and_then(Result::ok).map(|found| found.position);
+        answer.tidies = commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_)));
+        answer.stops = matches!(commands, [Command::Stop]);
+        answer.unsure = unsure;
+        Ok(answer)
+    }
+
+    /// Of what is to be found, what is in view or in the hand is found already; the rest is looked for.
+    pub(super) fn seek(
+        &self,
+        things: impl Iterator<Item = ReplicaId>,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+        vehicle: &mut dyn Vehicle,
+    ) -> Result<Result<(), Failure>, Error> {
+        let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
+        let is_lit = facts_of_map(&now.world, relations)
+            .iter()
+            .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
+        for id in things {
+            let name = self.world()?.name(Entity::Replica(id)).to_owned();
             let in_hand = !now.world.replicas.contains_key(&id);
             let seen = if is_lit && !in_hand { vehicle.sees(id) } else { Ok(None) };
-            let in_view = seen.unwrap_or_else(|failure| {
-                failed.get_or_insert(failure);
-                None
-            });
-            if in_hand || in_view.is_some() {
+            let in_view = match seen {
+                Ok(seen) => seen.is_some(),
+                Err(failure) => return Ok(Err(failure)),
+            };
+            if in_hand || in_view {
                 belief.found.insert(name);
             } else {
                 belief.sought.insert(name, BTreeSet::new());
             }
         }
-        let mut mission =
-            Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
+        Ok(Ok(()))
+    }
+
+    /// Drives to goals, one after another, until one is out of reach.
+    pub(super) fn drive(
+        &self,
+        errand: Errand<'_>,
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let begun_at = vehicle.time();
+        let Errand { domain, belief, goals, tidies } = errand;
+        let mut mission = Mission::new(belief, domain, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
@@ -306,16 +367,10 @@ impl State {
                 tell(&Progress::Surprised { directive, surprise });
             }
         };
-        let mut ending = failed.map_or(TaskEnding::AlreadyTrue, TaskEnding::Failed);
+        let mut ending = TaskEnding::AlreadyTrue;
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
-        let tidies = commands
-            .iter()
-            .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
         let mut begun = 0;
         for goal in &goals {
-            if let TaskEnding::Failed(_) = ending {
-                break;
-            }
             begun += 1;
             let ended = match (mission.run(goal, vehicle, stop, &mut hear), surprised.take()) {
                 (Ok(ended), _) => ended,
@@ -354,27 +409,23 @@ impl State {
         if matches!(ending, TaskEnding::AlreadyTrue) && !left.is_empty() {
             ending = left.remove(0).1;
         }
-        let (end_map, end) = (mission.belief.map, mission.belief.pose);
-        let must_report = matches!(ending, TaskEnding::Stopped)
-            || (reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
-        let reported = must_report.then(|| self.locate(end_map, end, false));
         Ok(TaskAnswer {
             goal: goals.concat(),
-            map,
-            start,
-            end,
-            end_map,
+            map: now.map,
+            start: now.pose,
+            end: mission.belief.pose,
+            end_map: mission.belief.map,
             reports,
             replans: usize::saturating_sub(plans, begun),
             seconds: vehicle.time() - begun_at,
             ending,
             left,
             not_begun: goals.len() - begun,
-            tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
-            stops: matches!(commands, [Command::Stop]),
-            reported: reported.and_then(Result::ok).map(|found| found.position),
+            tidies: false,
+            stops: false,
+            reported: None,
             after: Some(After::of(self.world()?, now, &mission)),
-            unsure,
+            unsure: Vec::new(),
         })
     }
 
@@ -389,7 +440,7 @@ impl State {
     /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
     ///
     /// # Errors
-    /// As [`Engine::understand`].
+    /// As [`State::understand`].
     pub fn understand_in(
         &self,
         sentence: &str,
@@ -451,7 +502,7 @@ impl State {
     /// Whether a condition holds, with the answer that says so; else why that is not known.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn holds(
         &self,
         conditional: &Conditional,
@@ -500,16 +551,25 @@ impl State {
                     let language = Language::of(&settled);
                     memory.wait(&settled, at, vec![Thing::Entity(only)], language);
                 }
+                // What was spoken of may have left the map.
+                if let Misheard::Incomplete { .. } = &misheard
+                    && let Some(gone) = memory.lost_topic(Language::of(&settled))
+                {
+                    return Err(Misheard::NoneSuch(Box::new(gone)).into());
+                }
                 return Err(misheard.into());
             }
         };
         self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
-        if let [Command::ComeBack] = commands[..]
-            && let Some(Thing::Entity(anchor)) = memory.place_left()
-        {
-            let to = Placement::new(Relation::At, anchor);
-            commands = vec![Command::GoTo { to, via: None, facing: None }];
+        if let [Command::ComeBack] = commands[..] {
+            if let Some(gone) = memory.lost_place(Language::of(&settled)) {
+                return Err(Misheard::NoneSuch(Box::new(gone)).into());
+            }
+            if let Some(Thing::Entity(anchor)) = memory.place_left() {
+                let to = Placement::new(Relation::At, anchor);
+                commands = vec![Command::GoTo { to, via: None, facing: None }];
+            }
         }
         if let Some(here) = self.place_of_robot() {
             memory.leave(Thing::Entity(here));
@@ -592,14 +652,13 @@ impl State {
 
     /// Where the robot is, by what one can send it back to: a place of the map, else its room.
     fn place_of_robot(&self) -> Option<Entity> {
-        /// So near to a place it is at it, cm.
-        const AT: f64 = 30.0;
         let (map, pose) = self.robot_pose()?;
         let world = self.world().ok()?;
+        let at = self.relations().ok()?.thresholds().robot_place;
         let place = world.places.values().find(|place| {
             let placed = world.placement(place.area);
             placed.is_some_and(|(on, frame)| {
-                on == map && (frame.apply(place.at) - pose.at).norm() <= AT
+                on == map && (frame.apply(place.at) - pose.at).norm() <= at
             })
         });
         let area = || self.relations().ok()?.measurements().area_at(map, pose.at);
@@ -651,15 +710,15 @@ impl State {
     }
 }
 
-/// The simulated robot as it now is, in a world of its own.
-fn simulator(now: &Now, truth: World) -> Simulator {
+/// The simulated robot as a task finds it, in a world of its own.
+fn simulated(now: &Now, truth: World) -> Simulator {
     let robot = Simulator::new(truth, now.map, now.pose);
     robot.laden(now.held.clone(), &now.handed_over, &now.aboard)
 }
 
 impl TaskAnswer {
     /// Nothing was begun, since the vehicle cannot be used; the robot is held to be where it was.
-    fn not_begun(now: &Now, failure: Failure) -> Self {
+    pub(super) fn not_begun(now: &Now, failure: Failure) -> Self {
         Self {
             goal: Vec::new(),
             map: now.map,

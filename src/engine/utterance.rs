@@ -11,7 +11,7 @@ impl State {
     /// that begins with the verb of an order is an order.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn parts_of(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
         if conditional(text).is_some() {
             return Ok(None);

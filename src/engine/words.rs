@@ -28,7 +28,7 @@ impl State {
 }
 
 impl Surroundings<'_> {
-    /// As [`Engine::route_in_words`].
+    /// As [`State::route_in_words`].
     pub(super) fn route_in_words(
         &self,
         answer: &RouteAnswer,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::fault::{Faults, FileFaults, RuleError};
 use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
-use super::word::{Word, Words};
+use super::word::{Value, Word, Words};
 use super::{check, parse};
 use crate::units::{Source, name_key};
 
@@ -290,6 +290,30 @@ impl Program {
     /// All relations, in the order of their declarations.
     pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
         self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), info))
+    }
+
+    /// The facts of a relation that stand in the text, each with its values and where it stands.
+    pub fn written(
+        &self,
+        relation: RelationId,
+    ) -> impl Iterator<Item = (Vec<Value>, &Source, miette::SourceSpan)> {
+        let columns = &self.info(relation).columns;
+        let facts = self.facts.iter().filter(move |fact| fact.relation == relation);
+        facts.map(move |fact| {
+            let values = fact.words.iter().zip(columns);
+            let values = values.map(|(word, column)| self.words.value(*word, column.kind));
+            (values.collect(), &self.sources[fact.at.file as usize], fact.at.into())
+        })
+    }
+
+    /// The texts of the rules that read a relation, each as often as it has such a rule.
+    pub fn readers(&self, relation: RelationId) -> impl Iterator<Item = &Source> {
+        let reads = move |clause: &&Clause| {
+            let mut found = false;
+            check::reads(&clause.body, false, &mut |of, _, _| found |= of == relation);
+            found
+        };
+        self.clauses.iter().filter(reads).map(|clause| &self.sources[clause.at.file as usize])
     }
 
     /// A rule's text, its source and its line, for proofs.

@@ -42,6 +42,7 @@
 //! named passage is a door without leaves.
 
 mod check;
+mod counterpart;
 mod device;
 mod door;
 mod doorway;
@@ -59,7 +60,8 @@ pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{
-    EditReading, Format, NextIds, Reading, edit, json_schema, kinds, locate, read, read_file,
+    EditReading, Format, NextIds, Reading, Truth, edit, json_schema, kinds, locate, read,
+    read_file, read_truth,
 };
 pub use marks::Mark;
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};

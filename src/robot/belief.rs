@@ -175,6 +175,12 @@ impl Belief {
         (of_map.chain(known).collect(), initial.places)
     }
 
+    /// The facts that a plan begins with, given the relations of the believed world.
+    #[must_use]
+    pub fn facts(&self, relations: &Relations) -> Vec<InitialFact> {
+        self.initial(relations).0
+    }
+
     /// The storey on which the robot is, unless it is in the cabin of a lift, and where cabins were seen.
     fn on_storey(&self, relations: &Relations) -> Vec<InitialFact> {
         let mut all = Vec::new();

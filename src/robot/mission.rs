@@ -308,10 +308,11 @@ impl<'r> Mission<'r> {
             if let Some(times) = self.is_restless(&surprise) {
                 return Ok(Ending::Failed(Failure::Restless { times }));
             }
-            if !self.learn(&surprise) {
+            if !self.learn(&surprise, directives[done]) {
                 return Ok(Ending::Stuck(surprise));
             }
-            given_up = surprise.bars_a_way().then_some(surprise);
+            let bars = surprise.bars_a_way() || self.is_new(&surprise);
+            given_up = bars.then_some(surprise);
             learned = now_learned.and_then(|learned| learned.after(&first(&plan.steps, done)));
         }
     }
@@ -405,6 +406,12 @@ impl<'r> Mission<'r> {
                 let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
                 if let Some(pose) = looks.map(|spot| spot.pose) {
                     self.turn(pose.heading, reins)?;
+                }
+                // Before a thing it stands only if the thing is there.
+                if let Target::Replica(thing) = target
+                    && self.is_elsewhere(thing, reins)?
+                {
+                    return Err(refused(Refusal::NotThere(thing).into(), reins));
                 }
                 self.belief.station = Station::Place(name.clone());
             }
@@ -666,9 +673,38 @@ impl<'r> Mission<'r> {
             }
         };
         let put = reins.act(|vehicle, watch| vehicle.put(held, area, frame, watch));
-        put.map_err(|r| refused(r, reins))?;
+        if let Err(unfinished) = put {
+            let support = onto.and_then(|name| self.replica(name).ok());
+            // What should bear it is elsewhere, or bears what nobody knew of.
+            let unfinished = match (unfinished, support) {
+                (Unfinished::Met(Refusal::NoRoom(_)), Some(support)) => {
+                    Unfinished::Met(match self.is_elsewhere(support, reins)? {
+                        true => Refusal::NotThere(support),
+                        false => Refusal::NoRoom(support),
+                    })
+                }
+                (other, _) => other,
+            };
+            return Err(refused(unfinished, reins));
+        }
         self.belief.set_down(area, frame);
         Ok(())
+    }
+
+    /// Whether a thing, at which the vehicle looks, is not where it is believed to be.
+    fn is_elsewhere(
+        &self,
+        thing: ReplicaId,
+        reins: &mut Reins<'_>,
+    ) -> Result<bool, Unfinished<Surprise>> {
+        let seen = reins.look_at(Obstruction::Replica(thing)).map_err(Unfinished::Failed)?;
+        Ok(match (seen, self.belief.world.replicas.get(&thing)) {
+            (Some(Sighting::Replica { area, frame, .. }), Some(believed)) => {
+                (area, frame) != (believed.area, believed.frame)
+            }
+            (None, Some(_)) => true,
+            _ => false,
+        })
     }
 
     /// The middle of the thing beside which another is to be put.
@@ -678,9 +714,30 @@ impl<'r> Mission<'r> {
         Some(nalgebra::center(&placed.bounds.min, &placed.bounds.max))
     }
 
+    /// Whether something stood in the way of which the Map knows nothing.
+    fn is_new(&self, surprise: &Surprise) -> bool {
+        let Surprise::Blocked { bump, .. } = surprise else { return false };
+        match bump.against {
+            Obstruction::Something => true,
+            Obstruction::Replica(id) => !self.belief.world.replicas.contains_key(&id),
+            Obstruction::Wall(_) | Obstruction::Door(_) => false,
+        }
+    }
+
     /// Changes the belief; false when the surprise says nothing that was not believed already.
-    fn learn(&mut self, surprise: &Surprise) -> bool {
+    fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
         match surprise {
+            // How large it is nobody knows: the way of this directive is given up, others may be free.
+            Surprise::Blocked { .. } if self.is_new(surprise) => {
+                self.name_this_point();
+                let aims = directive.deeds().into_iter().filter_map(|deed| match deed {
+                    Deed::GoToPlace(name) | Deed::GoToDoor(name) => Some(name),
+                    Deed::Cross { door, .. } => Some(door),
+                    _ => None,
+                });
+                // Each of them is noted.
+                aims.map(|name| self.belief.no_way_to(name)).filter(|is_news| *is_news).count() > 0
+            }
             // Where the thing stands may be known; that the door does not open for it was not.
             Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {
                 self.name_this_point();

@@ -145,6 +145,32 @@ pub(super) fn spot_on_floor(
     })
 }
 
+/// Whether a thing stays where it is put: on a floor, a roof, or the bottom of something hollow, and not within another.
+///
+/// A thing set down where [`spot_on`], [`spot_in`] or [`spot_on_floor`] say does, in the world that they were asked about.
+pub(super) fn rests(scene: &Scene, thing: ReplicaId) -> bool {
+    let Some(placed) = scene.replicas.get(&thing) else { return false };
+    let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
+    let is_under = |height: f64| (height - placed.bottom).abs() <= FLAT;
+    let bears = |p: &Prism| {
+        (is_under(p.top) || is_hollow(p) && is_under(p.bottom)) && p.polygon.contains(middle, 1e-6)
+    };
+    let on_floor = scene.areas.get(&placed.area).is_some_and(|room| {
+        is_under(room.frame.z.get()) && room.prisms.iter().any(|p| p.polygon.contains(middle, 1e-6))
+    });
+    let core = placed.bounds.grown(-MARGIN);
+    let others = || scene.replicas.values().filter(|r| r.id != thing);
+    let stands_within = || {
+        others().filter(|r| r.bounds.meets(&core)).flat_map(|r| &r.prisms).any(|p| {
+            !is_hollow(p)
+                && p.top > placed.bottom + FLAT
+                && p.bottom < placed.top - FLAT
+                && p.bounds.meets(&core)
+        })
+    };
+    (on_floor || others().flat_map(|r| &r.prisms).any(bears)) && !stands_within()
+}
+
 /// What a thing may be set down on.
 struct Surface<'p> {
     polygon: &'p Polygon,

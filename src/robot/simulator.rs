@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
-use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
+use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
 use crate::geometry::{
@@ -23,6 +23,7 @@ use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Ve
 
 use super::belief::frame_aboard;
 use super::eye::View;
+use super::placing::rests;
 use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
@@ -134,6 +135,33 @@ impl Simulator {
     #[must_use]
     pub fn truth(&self) -> &World {
         &self.truth
+    }
+
+    /// The world as it really is now, when the robot is no longer wanted.
+    #[must_use]
+    pub fn into_truth(self) -> World {
+        self.truth
+    }
+
+    /// What stands where the robot stands, so that it could not move; none where its place is free.
+    #[must_use]
+    pub fn stands_in(&self) -> Option<Obstruction> {
+        let (body, at) = (self.body(), placed(self.pose));
+        let near = Bounds::of([self.pose.at]).grown(self.profile.radius.get());
+        let still = ShapePose::identity();
+        let touched = self.edges.iter().filter(|e| Bounds::of([e.a, e.b]).meets(&near)).find(|e| {
+            let edge = Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
+            intersection_test(&at, &*body, &still, &edge)
+                .expect("parry tests a ball or a polygon against a segment")
+                .intersecting
+        });
+        let scene = Scene::of(&self.truth, self.map);
+        let within = || {
+            let around =
+                |p: &&Prism| self.is_in_the_way(p) && p.polygon.contains(self.pose.at, 0.0);
+            scene.replicas.values().find(|r| r.prisms.iter().any(|p| around(&p)))
+        };
+        touched.map(|e| e.of).or_else(|| within().map(|r| Obstruction::Replica(r.id)))
     }
 
     /// Whom it has called, in order.
@@ -513,8 +541,18 @@ impl Vehicle for Simulator {
         Ok(())
     }
 
+    /// What would fall, or stand within another thing, is kept in the hand.
     fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame, watch: &mut Watch<'_>) -> Done {
         watch.check()?;
+        if let Some(held) = self.held.as_ref().filter(|held| held.id == thing) {
+            let there = Replica { area, frame, ..held.clone() };
+            self.truth.replicas.insert(thing, there);
+            let stays = rests(&Scene::of(&self.truth, self.map), thing);
+            self.truth.replicas.remove(&thing);
+            if !stays {
+                return Err(Refusal::NoRoom(thing).into());
+            }
+        }
         let replica = self.let_go(thing)?;
         for carried in std::mem::take(&mut self.aboard) {
             let frame = frame_aboard(&self.truth, &replica, &carried, &frame);

@@ -22,10 +22,10 @@ pub struct Extent {
     pub base: f64,
 }
 
-/// What stands between two things fills at least this of the way between their middles, cm.
-const BETWEEN_LEAST: f64 = 1.0;
-/// A thing this far beside that way still stands between, cm.
-const BETWEEN_SLACK: f64 = 15.0;
+/// A strip that a thing covers less of is touched by it, cm².
+const TOUCHED: f64 = 1.0;
+/// A strip shorter than this lies before no wall, cm.
+const SHORTEST: f64 = 1.0;
 
 impl Relations {
     /// Distance between the surfaces of two things of one Map, cm.
@@ -121,11 +121,11 @@ impl Relations {
         gaps.map(|g| g.distance).reduce(f64::min)
     }
 
-    /// What stands between two things: across the shortest way from one to the other or at most 15 cm beside it, or with
-    /// half of itself where both see each other. Between two things on one support is only what is on that too.
+    /// What stands between two things: across the shortest way from one to the other or beside it, or with a good
+    /// part of itself where both see each other, as the thresholds say. Between two things on one support is only what is on that too.
     #[must_use]
     pub fn standing_between(&self, a: ReplicaId, b: ReplicaId) -> Vec<ReplicaId> {
-        let bodies = &self.measurements().bodies;
+        let (bodies, near) = (&self.measurements().bodies, self.thresholds());
         let (Some(first), Some(second)) = (bodies.get(&a), bodies.get(&b)) else {
             return Vec::new();
         };
@@ -136,7 +136,7 @@ impl Relations {
         let (from, to) =
             if way.distance > 0.0 { (way.from, way.to) } else { (first.centre, second.centre) };
         let Some(along) = (to - from).try_normalize(1e-6) else { return Vec::new() };
-        let side = Vector::new(along.y, -along.x) * BETWEEN_SLACK;
+        let side = Vector::new(along.y, -along.x) * near.between_aside;
         let band =
             Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
         let (low, high) = (first.bottom.min(second.bottom), first.top.max(second.top));
@@ -147,7 +147,7 @@ impl Relations {
                 && overlap_area(&body.hull, &amid)
                     - overlap_area(&body.hull, &first.hull)
                     - overlap_area(&body.hull, &second.hull)
-                    >= 0.5 * body.hull.area
+                    >= near.between_amid * body.hull.area
         };
         let shared = self.support_of(a).filter(|support| self.support_of(b) == Some(*support));
         let crosses = |id: &ReplicaId| {
@@ -163,7 +163,7 @@ impl Relations {
                 && !self.holds_up(*id, a)
                 && !self.holds_up(*id, b)
                 && shared.is_none_or(|support| self.holds_up(*id, support))
-                && (length_within(from, to, &body.hull) >= BETWEEN_LEAST
+                && (length_within(from, to, &body.hull) >= near.between_way
                     || overlap_area(&body.hull, &band) > 0.0
                     || is_amid(body))
         };
@@ -190,7 +190,7 @@ impl Relations {
             (low.min(at), high.max(at))
         });
         let (from, to) = (from.max(0.0), to.min((wall.1 - wall.0).norm()));
-        if to - from < BETWEEN_LEAST {
+        if to - from < SHORTEST {
             return None;
         }
         let corner = |at: f64, off: f64| wall.0 + along * at + inwards * off;
@@ -209,7 +209,7 @@ impl Relations {
                 && self.area_of(*id) == self.area_of(a)
                 && !self.holds_up(a, *id)
                 && !self.holds_up(*id, a)
-                && overlap_area(&other.hull, &strip) >= BETWEEN_LEAST
+                && overlap_area(&other.hull, &strip) >= TOUCHED
         };
         Some((away, bodies.keys().copied().filter(within).collect()))
     }

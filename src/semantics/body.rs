@@ -164,6 +164,8 @@ pub(super) struct Body {
     pub(super) map: MapId,
     /// The Fragment to which the Map's maker gave it.
     pub(super) fragment: AreaId,
+    /// Of the replica within its Fragment.
+    pub(super) frame: Frame,
     pub(super) object: ObjectId,
     pub(super) move_prob: u8,
     pub(super) blocks: Vec<Block>,
@@ -193,6 +195,7 @@ impl Body {
             id,
             map: *map,
             fragment: replica.area,
+            frame: replica.frame,
             object: replica.object,
             move_prob: replica.move_prob,
             outline: kind.outline.iter().map(|f| f.placed(&frame)).collect(),

@@ -6,9 +6,9 @@
 use crate::map::World;
 use crate::units::{AreaId, MapId, Point, ReplicaId};
 
-use super::measure::Measurements;
 use super::openings::Opening;
-use super::position::{Nearness, Spot, by_walls, in_doorway};
+use super::position::{Spot, by_walls, in_doorway};
+use super::relations::Relations;
 use crate::geometry::{Bounds, nearest_on_segment};
 
 /// Something said of a spot. Openings are named by their places in the list; one of them is meant.
@@ -28,13 +28,13 @@ pub enum Claim {
 #[must_use]
 pub fn claim_holds(
     world: &World,
-    measured: &Measurements,
-    openings: &[Opening],
+    relations: &Relations,
     (map, area): (MapId, AreaId),
     claim: &Claim,
     at: Point,
-    near: &Nearness,
 ) -> bool {
+    let (measured, openings) = (relations.measurements(), relations.openings());
+    let near = relations.thresholds();
     let Some(room) = measured.rooms.get(&area).filter(|room| room.map == map) else {
         return false;
     };
@@ -52,30 +52,28 @@ pub fn claim_holds(
         Claim::InArea => true,
         Claim::InDoorway(_) => false,
         Claim::AtDoor(places) => meant(places, &|o| {
-            (at - nearest_on_segment(at, o.ends.0, o.ends.1)).norm() <= near.door
+            (at - nearest_on_segment(at, o.ends.0, o.ends.1)).norm() <= near.robot_door
         }),
         Claim::On(thing) => measured
             .bodies
             .get(thing)
             .is_some_and(|body| body.outline.iter().any(|part| part.distance_to(at) <= 0.0)),
         Claim::NextTo(thing) => measured.bodies.get(thing).is_some_and(|body| {
-            body.outline.iter().any(|part| part.distance_to(at) <= near.object)
+            body.outline.iter().any(|part| part.distance_to(at) <= near.robot_thing)
         }),
-        Claim::InCorner => by_walls(world, measured, area, at, near) == Spot::InCorner,
+        Claim::InCorner => by_walls(world, relations, area, at) == Spot::InCorner,
         Claim::AlongWall => {
-            let spot = by_walls(world, measured, area, at, near);
+            let spot = by_walls(world, relations, area, at);
             matches!(spot, Spot::InCorner | Spot::AlongWall)
         }
-        Claim::InMiddle => by_walls(world, measured, area, at, near) == Spot::InMiddle,
+        Claim::InMiddle => by_walls(world, relations, area, at) == Spot::InMiddle,
     }
 }
 
 /// A box around an Area, with the thickness of its doorways; none for an Area that lies on no Map.
 #[must_use]
-pub fn claim_bounds(
-    measured: &Measurements,
-    area: AreaId,
-    near: &Nearness,
-) -> Option<(MapId, Bounds)> {
-    measured.rooms.get(&area).map(|room| (room.map, room.bounds.grown(near.wall_thickness)))
+pub fn claim_bounds(relations: &Relations, area: AreaId) -> Option<(MapId, Bounds)> {
+    let thickness = relations.thresholds().step_distance;
+    let room = relations.measurements().rooms.get(&area)?;
+    Some((room.map, room.bounds.grown(thickness)))
 }

@@ -3,6 +3,7 @@
 //! Two kinds of rows: those of things, which one moved replica changes, and those of the world beneath them – Areas,
 //! openings, parts, properties – which it does not.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::facts::Value;
@@ -81,6 +82,7 @@ pub(super) struct Feed<'a> {
     pub(super) world: &'a World,
     pub(super) symbols: &'a Symbols,
     pub(super) measured: &'a Measurements,
+    pub(super) openings: &'a [Opening],
 }
 
 impl Feed<'_> {
@@ -99,7 +101,7 @@ impl Feed<'_> {
         let (kind, fragment) =
             (self.symbols.object(single.object), self.symbols.area(single.fragment));
         row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(single.move_prob));
-        let Single { bottom, top, thin, mean_size, base, .. } = *single;
+        let &Single { bottom, top, thin, mean_size, base, .. } = single;
         row!(sink, "body", x, bottom, top, thin, mean_size, base);
         match single.place {
             Located::In { area, above_floor, below_ceiling } => {
@@ -110,25 +112,57 @@ impl Feed<'_> {
             }
             Located::Nowhere => {}
         }
+        let [at_x, at_y, at_z, angle] = single.at;
+        row!(sink, "at", x, fragment, at_x, at_y, at_z, angle);
+        let room = match single.place {
+            Located::In { area, .. } | Located::Out { fragment: area, .. } => area,
+            Located::Nowhere => return self.near_openings(x, single, sink),
+        };
+        for &(wall, distance) in &single.walls {
+            row!(sink, "edge_distance", x, self.symbols.area(room), wall as i64, distance);
+        }
+        if let Some(middle) = single.middle {
+            row!(sink, "middle_distance", x, self.symbols.area(room), middle);
+        }
+        self.near_openings(x, single, sink);
+    }
+
+    /// Both sides of an opening bear one name: the nearer counts.
+    fn near_openings(&self, x: &Arc<str>, single: &Single, sink: &mut impl Sink) {
+        let mut near: BTreeMap<&String, i64> = BTreeMap::new();
+        for &(n, distance) in &single.openings {
+            let known = near.entry(&self.openings[n].name).or_insert(distance);
+            *known = distance.min(*known);
+        }
+        for (name, distance) in near {
+            row!(sink, "opening_distance", x, name, distance);
+        }
     }
 
     pub(super) fn pair(&self, key: (ReplicaId, ReplicaId), pair: &Pair, sink: &mut impl Sink) {
         let (a, b) = (self.symbols.replica(key.0), self.symbols.replica(key.1));
-        if pair.distance <= self.measured.reach().distance {
-            row!(sink, "distance", a, b, pair.distance);
-        }
-        if let Some(beside) = &pair.beside {
-            row!(sink, "beside", a, b, pair.distance, pair.level, beside.facing);
-            for (third, &share) in &beside.between {
-                let third = match third {
-                    Between::Replica(id) => self.symbols.replica(*id),
-                    Between::Wall(area) => self.symbols.area(*area),
-                };
-                row!(sink, "between", a, b, third, share);
-            }
+        self.unordered(a, b, pair, sink);
+        if self.measured.reach().both_orders {
+            self.unordered(b, a, pair, sink);
         }
         self.directed(a, key.1, pair, &pair.first, sink);
         self.directed(b, key.0, pair, &pair.second, sink);
+    }
+
+    /// What is measured of a pair whichever stands first.
+    fn unordered(&self, a: &Arc<str>, b: &Arc<str>, pair: &Pair, sink: &mut impl Sink) {
+        if pair.distance <= self.measured.reach().distance {
+            row!(sink, "distance", a, b, pair.distance);
+        }
+        let Some(beside) = &pair.beside else { return };
+        row!(sink, "beside", a, b, pair.distance, pair.level, beside.facing);
+        for (third, &share) in &beside.between {
+            let third = match third {
+                Between::Replica(id) => self.symbols.replica(*id),
+                Between::Wall(area) => self.symbols.area(*area),
+            };
+            row!(sink, "between", a, b, third, share);
+        }
     }
 
     /// `a` against the thing `b`.
@@ -173,6 +207,9 @@ impl Feed<'_> {
                 sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.held
             );
         }
+        if let Some(middle) = found.middle {
+            row!(sink, "middle_distance", a, to, middle);
+        }
         if let Some(apart) = found.apart {
             row!(sink, "apart", a, to, apart);
         }
@@ -182,10 +219,17 @@ impl Feed<'_> {
     }
 
     /// Everything but the things: Areas, openings, parts, properties, the robot.
-    pub(super) fn ground(&self, openings: &[Opening], sink: &mut impl Sink) {
+    pub(super) fn ground(&self, sink: &mut impl Sink) {
         for room in self.measured.rooms.values() {
             let map = self.symbols.symbol(Subject::Entity(Entity::Map(room.map)));
-            row!(sink, "area", self.symbols.area(room.id), map);
+            let area = self.symbols.area(room.id);
+            row!(sink, "area", area, map);
+            if let Some(narrow) = self.measured.narrow_side(room.id) {
+                row!(sink, "narrow_side", area, narrow);
+            }
+            for (wall, next, turn) in self.measured.corners(room.id) {
+                row!(sink, "corner", area, wall as i64, next as i64, turn);
+            }
         }
         for object in self.world.objects.values() {
             let entry = self.world.types.object.get(object.object_type);
@@ -196,14 +240,14 @@ impl Feed<'_> {
         let robot = &self.world.robot;
         let width = Cm::of(robot.passing_width());
         row!(sink, "robot", width.to_tenths_mm(), robot.height.to_tenths_mm());
-        self.openings(openings, sink);
+        self.openings(sink);
         self.parts(sink);
         self.properties(sink);
     }
 
-    pub(super) fn openings(&self, openings: &[Opening], sink: &mut impl Sink) {
+    pub(super) fn openings(&self, sink: &mut impl Sink) {
         let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
-        for o in openings {
+        for o in self.openings {
             let name = &o.name;
             let kind = if o.permeability == Permeability::Conditional { "door" } else { "passage" };
             row!(sink, "opening", name, kind, tenths(o.width), tenths(o.height));

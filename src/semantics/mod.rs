@@ -5,8 +5,8 @@
 //! `rules/relations.dl`, which says what they mean. Every threshold and every relation stands in that text, which is
 //! read at run time: a user adds a relation without recompiling.
 //!
-//! **Invariant:** no code here compares a measurement with a meaning; only the reach of measuring is known, and that
-//! too is read from the rule text.
+//! **Invariant:** no threshold stands in code. Rules compare measurements with them; where code must – a pose, what lies
+//! between two things, what is asked for once – it reads them from the rule text as [`Thresholds`].
 //!
 //! ```
 //! use orthoframe::map::{Format, World};
@@ -59,12 +59,14 @@ mod feed;
 mod grid;
 mod lifts;
 mod measure;
+mod measured;
 mod names;
 mod openings;
 pub mod planning;
 mod position;
 pub mod predicate;
 mod relations;
+mod thresholds;
 mod view;
 
 pub use crate::map::Profile;
@@ -76,10 +78,12 @@ pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
     Single, Within,
 };
+pub use measured::{MEASURED, Measured, Order, measured_table};
 pub use names::{Subject, Symbols};
 pub use openings::Opening;
-pub use position::{Nearness, Spot, Way, Whereabouts, stands_in, walls, whereabouts};
+pub use position::{Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
     Join, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
 };
+pub use thresholds::{KNOWN as THRESHOLDS, Known as Threshold, ThresholdFault, Thresholds, Unit};
 pub use view::Seen;

@@ -54,7 +54,7 @@ impl Opening {
     }
 }
 
-/// All openings of all Areas, in the order of Areas, items and sides.
+/// All openings of all Areas, in the order of the open borders that were measured: those of Areas, items and sides.
 pub(super) fn openings(
     world: &World,
     measured: &Measurements,
@@ -69,41 +69,33 @@ pub(super) fn openings(
 /// Every open side of an Area by itself.
 fn sides(world: &World, measured: &Measurements, reach: f64) -> Vec<Opening> {
     let links = links(world);
-    let rooms = &measured.rooms;
     let mut found = Vec::new();
-    for area in world.areas.values() {
-        let Some((_, frame)) = measured.placements.get(&area.id) else { continue };
-        for item in &area.items {
-            let orthoframe = world.orthoframe_of(item);
-            let place = frame.compose(&item.frame);
-            for vector in &orthoframe.base {
-                let side = SideRef { item: item.id.clone(), side: vector.id.clone() };
-                let ends = (place.apply(vector.start), place.apply(vector.end));
-                let inner = joins_own_items(&rooms[&area.id], ends);
-                if vector.permeability == Permeability::Impermeable || inner {
-                    continue;
-                }
-                let mount = area.doors.iter().find(|m| m.item == side.item && m.side == side.side);
-                let door = mount.and_then(|m| world.doors.get(&m.door));
-                let width = vector.length().get();
-                let step = |sign: f64| step_off(measured, area.id, ends, sign, reach);
-                let outward = step(1.0);
-                found.push(Opening {
-                    name: String::new(),
-                    area: area.id,
-                    ends,
-                    door: door.map(|d| d.id),
-                    permeability: vector.permeability,
-                    width,
-                    height: door.map_or(orthoframe.height, |d| d.height).get(),
-                    clear_width: door.map_or(width, |d| left_free(d, width, outward)),
-                    linked: links.get(&(area.id, side.clone())).copied(),
-                    inward: step(-1.0),
-                    outward,
-                    side,
-                });
-            }
-        }
+    for border in &measured.borders.open {
+        let area = &world.areas[&border.area];
+        let item = &area.items[border.item];
+        let orthoframe = world.orthoframe_of(item);
+        let vector = &orthoframe.base[border.side];
+        let side = SideRef { item: item.id.clone(), side: vector.id.clone() };
+        let ends = border.ends;
+        let mount = area.doors.iter().find(|m| m.item == side.item && m.side == side.side);
+        let door = mount.and_then(|m| world.doors.get(&m.door));
+        let width = vector.length().get();
+        let step = |sign: f64| step_off(measured, area.id, ends, sign, reach);
+        let outward = step(1.0);
+        found.push(Opening {
+            name: String::new(),
+            area: area.id,
+            ends,
+            door: door.map(|d| d.id),
+            permeability: vector.permeability,
+            width,
+            height: door.map_or(orthoframe.height, |d| d.height).get(),
+            clear_width: door.map_or(width, |d| left_free(d, width, outward)),
+            linked: links.get(&(area.id, side.clone())).copied(),
+            inward: step(-1.0),
+            outward,
+            side,
+        });
     }
     found
 }

@@ -11,12 +11,9 @@ use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_dark, is_on};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::lifts::{Lift, lifts, storey_name};
-use super::measure::Located;
+use super::measure::Single;
 use super::predicate;
 use super::relations::Relations;
-
-/// Things whose base is this near to the floor stand on it, in tenths of a millimetre: one can step up to them.
-const ON_FLOOR: i64 = 800;
 
 /// One argument of a fact, with its type in the rule file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -353,10 +350,8 @@ impl Writer<'_> {
     }
 
     fn on_floor(&self, id: ReplicaId) -> bool {
-        let single = self.relations.measurements().singles.get(&id);
-        single.is_some_and(
-            |s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR),
-        )
+        let area = self.relations.measurements().of_thing(id).and_then(Single::area);
+        area.is_some_and(|area| self.relations.stands_on_floor(id, area))
     }
 
     /// The places that serve a thing, or the one before it.

@@ -8,36 +8,10 @@ use crate::map::{Permeability, World};
 use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Vector};
 
 use super::body::Body;
-use super::measure::{Located, Measurements};
-use super::openings::{Opening, joins_own_items, outward_normal};
+use super::openings::{Opening, outward_normal};
+use super::relations::Relations;
+use super::thresholds::Thresholds;
 use crate::geometry::{Polygon, nearest_on_segment};
-
-/// Distances, in cm from the robot's middle, that decide between the descriptions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearness {
-    /// In the doorway: this near to the line of the door, or within the thickness of its wall.
-    pub doorway: f64,
-    pub door: f64,
-    pub object: f64,
-    pub wall: f64,
-    /// The thickest wall through which a doorway leads.
-    pub wall_thickness: f64,
-    /// In the middle: within the Area's outline shrunk to this share about its centroid, no wall being near. No length.
-    pub middle: f64,
-}
-
-impl Default for Nearness {
-    fn default() -> Self {
-        Self {
-            doorway: 15.0,
-            door: 130.0,
-            object: 70.0,
-            wall: 70.0,
-            wall_thickness: 60.0,
-            middle: 0.4,
-        }
-    }
-}
 
 /// A door or passage as a report speaks of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,12 +60,12 @@ pub struct Whereabouts {
 #[must_use]
 pub fn whereabouts(
     world: &World,
-    measured: &Measurements,
-    openings: &[Opening],
+    relations: &Relations,
     map: MapId,
     pose: &Pose,
-    near: &Nearness,
 ) -> Option<Whereabouts> {
+    let (measured, openings) = (relations.measurements(), relations.openings());
+    let near = relations.thresholds();
     let here = measured.area_at(map, pose.at);
     let on_map = |o: &&Opening| measured.rooms.get(&o.area).is_some_and(|r| r.map == map);
     if let Some(opening) =
@@ -106,8 +80,8 @@ pub fn whereabouts(
     }
     let area = here?;
     let spot = at_door(openings, area, pose.at, near)
-        .or_else(|| next_to(world, measured, area, pose.at, near))
-        .unwrap_or_else(|| by_walls(world, measured, area, pose.at, near));
+        .or_else(|| next_to(world, relations, area, pose.at))
+        .unwrap_or_else(|| by_walls(world, relations, area, pose.at));
     Some(Whereabouts { area, spot, heading: pose.heading })
 }
 
@@ -130,17 +104,20 @@ pub(super) fn in_doorway(
     opening: &Opening,
     p: Point,
     here: Option<AreaId>,
-    near: &Nearness,
+    near: &Thresholds,
 ) -> bool {
     let Some((share, out)) = along_and_out(opening.ends, p) else { return false };
     // In the wall's thickness no Area is underfoot.
-    let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.wall_thickness));
-    let within =
-        if here.is_none() { -near.doorway..=thickness } else { -near.doorway..=near.doorway };
+    let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.step_distance));
+    let within = if here.is_none() {
+        -near.robot_doorway..=thickness
+    } else {
+        -near.robot_doorway..=near.robot_doorway
+    };
     (0.0..=1.0).contains(&share) && within.contains(&out)
 }
 
-fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Option<Spot> {
+fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Thresholds) -> Option<Spot> {
     let leads = |o: &&Opening| o.area == area || o.leads_to() == Some(area);
     let nearest = openings
         .iter()
@@ -149,29 +126,14 @@ fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Opt
         // The Area's own side says more than the other's when both are at hand.
         .min_by(|(d, o), (e, q)| d.total_cmp(e).then((o.area != area).cmp(&(q.area != area))))?;
     let (distance, opening) = nearest;
-    (distance <= near.door).then(|| Spot::AtDoor { way: way(opening, area), distance })
-}
-
-/// Whether a thing stands on the floor of an Area, so that one can be said to be next to it.
-#[must_use]
-pub fn stands_in(measured: &Measurements, thing: ReplicaId, area: AreaId) -> bool {
-    /// Tenths of a millimetre.
-    const FLOOR: i64 = 800;
-    measured.of_thing(thing).is_some_and(|single| {
-        matches!(single.place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR)
-    })
+    (distance <= near.robot_door).then(|| Spot::AtDoor { way: way(opening, area), distance })
 }
 
 /// The nearest thing that stands on the floor and is the only one of its kind and of its name in the Area.
-fn next_to(
-    world: &World,
-    measured: &Measurements,
-    area: AreaId,
-    p: Point,
-    near: &Nearness,
-) -> Option<Spot> {
-    let stands = |b: &&Body| stands_in(measured, b.id, area);
-    let bodies: Vec<&Body> = measured.bodies.values().filter(stands).collect();
+fn next_to(world: &World, relations: &Relations, area: AreaId, p: Point) -> Option<Spot> {
+    let bodies = &relations.measurements().bodies;
+    let standing = relations.on_floor_of(area);
+    let bodies: Vec<&Body> = standing.iter().filter_map(|id| bodies.get(id)).collect();
     let name = |id: ReplicaId| world.replicas.get(&id).map(|r| r.name.as_str());
     let distance = |outline: &[Footprint]| {
         outline.iter().map(|f| f.distance_to(p)).fold(f64::INFINITY, f64::min)
@@ -183,7 +145,7 @@ fn next_to(
             others.all(|c| c.object != b.object && name(c.id) != name(b.id))
         })
         .map(|b| (distance(&b.outline), *b))
-        .filter(|(d, _)| *d <= near.object)
+        .filter(|(d, _)| *d <= relations.thresholds().robot_thing)
         .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.id.cmp(&b.1.id)))
         .map(|(distance, body)| {
             let is_flat = body.top - body.bottom <= world.robot.step.get();
@@ -194,21 +156,17 @@ fn next_to(
         })
 }
 
-pub(super) fn by_walls(
-    world: &World,
-    measured: &Measurements,
-    area: AreaId,
-    p: Point,
-    near: &Nearness,
-) -> Spot {
-    let walls: Vec<Vector> = walls(world, measured, area)
-        .into_iter()
-        .filter(|&(a, b)| (p - nearest_on_segment(p, a, b)).norm() <= near.wall)
+pub(super) fn by_walls(world: &World, relations: &Relations, area: AreaId, p: Point) -> Spot {
+    let near = relations.thresholds();
+    let walls: Vec<Vector> = relations
+        .measurements()
+        .walls(area)
+        .filter(|&(a, b)| (p - nearest_on_segment(p, a, b)).norm() <= near.robot_wall)
         .filter_map(|(a, b)| outward_normal(a, b))
         .collect();
-    // Two walls make a corner when they turn by more than 30°.
-    let turned = |u: &Vector, v: &Vector| u.dot(v) < 0.866;
-    let opposite = |u: &Vector, v: &Vector| u.dot(v) < -0.866;
+    let straight = near.corner_turn.to_radians().cos();
+    let turned = |u: &Vector, v: &Vector| u.dot(v) < straight;
+    let opposite = |u: &Vector, v: &Vector| u.dot(v) < -straight;
     let corner = walls.iter().any(|u| walls.iter().any(|v| turned(u, v) && !opposite(u, v)));
     match walls.len() {
         0 if in_middle(world, area, p, near) => Spot::InMiddle,
@@ -220,7 +178,7 @@ pub(super) fn by_walls(
 
 /// Whether a point lies in the middle of an Area: away from its centroid by no more than a share of the way from there to
 /// its rim. An Area whose centroid lies outside it, like an L, has no middle.
-fn in_middle(world: &World, area: AreaId, p: Point, near: &Nearness) -> bool {
+fn in_middle(world: &World, area: AreaId, p: Point, near: &Thresholds) -> bool {
     let Some((_, frame)) = world.placement(area) else { return false };
     let parts: Vec<Polygon> = world.areas[&area]
         .items
@@ -235,26 +193,7 @@ fn in_middle(world: &World, area: AreaId, p: Point, near: &Nearness) -> bool {
     let moments = parts.iter().map(|part| part.centroid().coords * part.signed_area());
     let centroid = Point::from(moments.fold(Vector::zeros(), |sum, m| sum + m) / whole);
     let holds = |at: Point| parts.iter().any(|part| part.contains(at, 1e-6));
-    whole > 0.0 && holds(centroid) && holds(centroid + (p - centroid) / near.middle)
-}
-
-/// Solid sides of an Area that bound it, in the Map's frame.
-#[must_use]
-pub fn walls(world: &World, measured: &Measurements, area: AreaId) -> Vec<(Point, Point)> {
-    let (Some(room), Some((_, frame))) = (measured.rooms.get(&area), world.placement(area)) else {
-        return Vec::new();
-    };
-    let mut found = Vec::new();
-    for item in &world.areas[&area].items {
-        let place = frame.compose(&item.frame);
-        for side in &world.orthoframe_of(item).base {
-            let ends = (place.apply(side.start), place.apply(side.end));
-            if side.permeability == Permeability::Impermeable && !joins_own_items(room, ends) {
-                found.push(ends);
-            }
-        }
-    }
-    found
+    whole > 0.0 && holds(centroid) && holds(centroid + (p - centroid) / near.robot_middle.max(1e-6))
 }
 
 #[cfg(test)]
@@ -319,10 +258,7 @@ links = [{ from = "a.C", to = "b.E" }]
             .iter()
             .map(|&(x, y)| {
                 let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
-                let (measured, openings) = (relations.measurements(), relations.openings());
-                let Some(found) =
-                    whereabouts(&world, measured, openings, map, &pose, &Nearness::default())
-                else {
+                let Some(found) = whereabouts(&world, &relations, map, &pose) else {
                     return format!("{x},{y}: nowhere\n");
                 };
                 let through = |w: &Way| format!("{} > {}", area(Some(w.from)), area(w.to));

@@ -5,7 +5,8 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
-use super::error::Place;
+use super::check::hint;
+use super::error::{Place, RuleError, RuleFault, RuleFaults};
 use super::phrase::Phrases;
 use crate::units::{Bilingual, name_key};
 
@@ -126,6 +127,18 @@ impl Domain {
     #[must_use]
     pub fn predicate(&self, name: &str) -> Option<PredicateId> {
         self.predicate_index.get(&name_key(name)).copied()
+    }
+
+    /// The predicate of this name, or what may have been meant.
+    ///
+    /// # Errors
+    /// [`RuleError::UnknownPredicate`].
+    pub fn known_predicate(&self, name: &str) -> Result<PredicateId, RuleFaults> {
+        self.predicate(name).ok_or_else(|| {
+            let help = hint(name, self.predicates.iter().map(|p| p.name.as_str()));
+            let (name, at) = (name.to_owned(), (0, 0).into());
+            RuleFault::placeless(RuleError::UnknownPredicate { name, help, at }).into()
+        })
     }
 
     #[must_use]

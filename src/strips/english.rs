@@ -52,6 +52,12 @@ impl RuleError {
                 let fact_it_is = if *is_fact { " (it is a fact)" } else { "" };
                 format!("there is no such assumption: {fact}{fact_it_is}")
             }
+            Self::NotBelieved { fact, .. } => {
+                format!("neither the map nor the robot knows this: {}", shown(fact))
+            }
+            Self::NotDriven { fact, .. } => {
+                format!("the robot cannot bring this about: {}", shown(fact))
+            }
             Self::UnknownType { name, .. } => format!("unknown type “{name}”"),
             Self::TypeCycle { name, .. } => format!("the type “{name}” inherits from itself"),
             Self::UnknownPredicate { name, .. } => format!("unknown predicate “{name}”"),
@@ -197,9 +203,11 @@ impl RuleError {
             | Self::Arity { help, .. }
             | Self::Duplicate { help, .. }
             | Self::ObjectTwice { help, .. }
+            | Self::NotDriven { help, .. }
             | Self::ArgumentType { help, .. } => en(help),
             Self::UnknownHeading { help, .. }
             | Self::NotAssumed { help, .. }
+            | Self::NotBelieved { help, .. }
             | Self::UnknownType { help, .. }
             | Self::UnknownPredicate { help, .. }
             | Self::LonelyPredicate { help, .. }

@@ -157,6 +157,27 @@ pub enum RuleError {
         at: SourceSpan,
     },
 
+    /// A scenario that is to be driven states what neither the map nor the robot knows to be so.
+    #[error("карта и робот этого не знают: {fact}")]
+    #[diagnostic(code(strips::not_believed))]
+    NotBelieved {
+        fact: String,
+        #[help]
+        help: Option<Bilingual>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A scenario that is to be driven wants what no deed of the robot brings about.
+    #[error("этого робот исполнить не может: {fact}")]
+    #[diagnostic(code(strips::not_driven), help("{help}"))]
+    NotDriven {
+        fact: String,
+        help: Bilingual,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
     /// A type that is declared nowhere, though types are declared.
     #[error("неизвестный тип «{name}»")]
     #[diagnostic(code(strips::unknown_type))]

@@ -58,9 +58,10 @@ pub use ground::{ground, ground_while, without_price};
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use phrase::{Phrases, Said, SaidArgument, Wording};
 pub use plan_text::{Directive, PlanText};
-pub use problem::{Problem, Standing};
+pub use problem::{Problem, Standing, Stated};
 pub use replay::{Broken, Replayed};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
+pub use token::in_quotes;
 
 #[cfg(test)]
 mod tests;

@@ -206,6 +206,16 @@ impl Problem {
         if faults.is_empty() { Ok(()) } else { Err(RuleFaults(faults)) }
     }
 
+    /// The facts and assumptions that a text states.
+    pub fn stated_facts(&self) -> impl Iterator<Item = Stated<'_>> {
+        self.facts.iter().filter(|fact| fact.text.is_some()).map(Stated)
+    }
+
+    /// What a text wants to hold in the end, comparisons left aside.
+    pub fn stated_goals(&self) -> impl Iterator<Item = Stated<'_>> {
+        self.goal.iter().filter(|fact| fact.text.is_some()).map(Stated)
+    }
+
     /// The statements of a document.
     pub(super) fn of(document: &Document, faults: &mut Vec<RuleFault>) -> Self {
         let mut problem = Self {
@@ -253,6 +263,53 @@ impl Problem {
         }
         let stated = self.facts.iter().chain(&self.goal).filter(|s| s.text.is_some());
         faults.extend(stated.filter_map(|statement| statement.predicate(domain).err()));
+    }
+}
+
+/// A fact of a text: as it is, as it is assumed, or as it is wanted.
+#[derive(Debug, Clone, Copy)]
+pub struct Stated<'p>(&'p Statement);
+
+impl<'p> Stated<'p> {
+    #[must_use]
+    pub fn predicate(self) -> &'p str {
+        &self.0.predicate
+    }
+
+    #[must_use]
+    pub fn args(self) -> &'p [String] {
+        &self.0.args
+    }
+
+    /// Whether it is not to hold.
+    #[must_use]
+    pub fn is_negated(self) -> bool {
+        self.0.negated
+    }
+
+    /// As the rule language writes it.
+    #[must_use]
+    pub fn shown(self) -> String {
+        self.0.shown()
+    }
+
+    /// A fault of it, at its place in the text.
+    #[must_use]
+    pub fn fault(self, error: impl FnOnce(miette::SourceSpan) -> RuleError) -> RuleFault {
+        self.0.fault(error)
+    }
+
+    /// A fault of one of its arguments.
+    ///
+    /// # Panics
+    /// When it has no such argument.
+    #[must_use]
+    pub fn argument_fault(
+        self,
+        place: usize,
+        error: impl FnOnce(miette::SourceSpan) -> RuleError,
+    ) -> RuleFault {
+        self.0.argument_fault(place, error)
     }
 }
 

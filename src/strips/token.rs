@@ -4,6 +4,8 @@
 //! (`Движение-в_от-двери_до-места`); a name with other signs stands in quotes. White space and line
 //! ends only separate. Comments run from `;`, `#` or `//` to the end of the line.
 
+use std::borrow::Cow;
+
 use miette::SourceSpan;
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_till, take_while, take_while1};
@@ -101,6 +103,25 @@ fn quoted(input: &str) -> IResult<&str, &str> {
         delimited(tag("\""), take_while1(|c| c != '"' && c != '\n'), tag("\"")),
     ))
     .parse(input)
+}
+
+/// A name as it stands in a rule file: in quotes, where it is not one word. One that has line ends or the quotation marks
+/// of both kinds cannot be told; of these it is left without.
+#[must_use]
+pub fn in_quotes(name: &str) -> Cow<'_, str> {
+    let is_word = word(name).is_ok_and(|(rest, _)| rest.is_empty());
+    let fits = |mark: char| !name.contains([mark, '\n']);
+    if is_word {
+        return name.into();
+    }
+    if !name.is_empty() && fits('»') {
+        return format!("«{name}»").into();
+    }
+    if !name.is_empty() && fits('"') {
+        return format!("\"{name}\"").into();
+    }
+    let told: String = name.chars().filter(|c| !"»\"\n".contains(*c)).collect();
+    format!("«{}»", if told.is_empty() { "?" } else { &told }).into()
 }
 
 fn skip_blank(input: &str) -> &str {

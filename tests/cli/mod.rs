@@ -1,5 +1,6 @@
 //! The program as it is run: answers, exit codes, and what wrong input comes to.
 
+mod drives;
 mod faults;
 mod limits;
 mod map;
@@ -76,8 +77,14 @@ impl Place {
     fn json(&self, args: &[&str], code: i32) -> Value {
         let args: Vec<&str> = args.iter().copied().chain(["--json"]).collect();
         let run = self.run(&args).is(code);
-        assert_eq!(run.out.lines().count(), 1, "{args:?}: {}", run.out);
-        serde_json::from_str(&run.out).expect("one JSON value a line")
+        let mut lines = run
+            .out
+            .lines()
+            .map(|line| serde_json::from_str::<Value>(line).expect("one JSON value a line"));
+        // What happens on the way of a task stands before its value.
+        let value = lines.next_back().expect("a command with --json has a value");
+        assert!(lines.all(|event| event["event"].is_string()), "{args:?}: {}", run.out);
+        value
     }
 
     /// What the store holds: its revision and its world.

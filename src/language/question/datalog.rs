@@ -3,7 +3,7 @@
 use crate::language::words::Language;
 use crate::map::{DoorStatus, Entity};
 
-use super::knowledge::{FURNITURE, Knowledge, NO_FURNITURE, bases};
+use super::knowledge::{Knowledge, bases};
 use super::lexicon::Extension;
 use super::query::{Claim, Filter, Noun, Query, Rel, Restriction, Thing};
 use super::values::Property;
@@ -346,11 +346,7 @@ impl Rule<'_, '_> {
                 }
                 Extension::Things => add(format!("replica({term}, _, _, _, _)")),
                 Extension::Furniture => {
-                    let used = FURNITURE.map(|t| format!("{has_trait}({term}, \"{t}\")"));
-                    let none = NO_FURNITURE.map(|t| format!("!{has_trait}({term}, \"{t}\")"));
-                    let holds = format!("{has_trait}({term}, \"container\"), {}", none.join(", "));
-                    let used = format!("{} ; {holds}", used.join(" ; "));
-                    add(format!("({used}), !{has_trait}({term}, \"portable\")"));
+                    add(format!("{}({term})", self.relation("IS_FURNITURE")));
                 }
                 Extension::Rooms => add(format!("area({term}, _)")),
                 Extension::AreaType(id) => {
@@ -447,7 +443,7 @@ impl Rule<'_, '_> {
     fn restriction(&mut self, term: &str, restriction: &Restriction) {
         let Some(anchor) = restriction.anchors.first() else { return };
         if self.knowledge.is_floor(anchor) {
-            self.atoms.push(format!("stands_on_floor({term}, _)"));
+            self.atoms.push(format!("{}({term}, _)", self.relation("STANDS_ON_FLOOR")));
             return;
         }
         self.measured |= restriction.anchors.iter().any(|a| self.is_measured(restriction.rel, a));

@@ -4,6 +4,7 @@
 
 use super::Unanswered;
 use super::knowledge::Knowledge;
+use super::outlive::{self, Departed};
 use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
@@ -50,6 +51,10 @@ pub enum Doubt {
     NoReferent {
         word: String,
     },
+    /// What a pronoun would mean left the map since it was spoken of.
+    Departed {
+        things: Vec<Departed>,
+    },
     /// «наверху», "downstairs", where there is no such storey.
     NoStorey {
         above: bool,
@@ -76,6 +81,7 @@ impl Doubt {
             Self::Unknown { .. }
             | Self::NoneSuch { .. }
             | Self::TooFew { .. }
+            | Self::Departed { .. }
             | Self::NoStorey { .. } => "unknown",
         }
     }
@@ -140,6 +146,7 @@ impl Knowledge<'_> {
                 true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
                 false => format!("I do not know what \"{}\" means here", tidy(word)),
             },
+            Doubt::Departed { things } => outlive::departed_words(things, self.language),
             Doubt::TooFew { found } => match russian {
                 true => format!("столько нет, есть только {}", self.list(found)),
                 false => format!("there are not so many, only {}", self.list(found)),

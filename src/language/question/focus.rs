@@ -48,6 +48,11 @@ impl Exchange {
         self.topics.first().copied()
     }
 
+    /// All that it was about.
+    pub(super) fn things(&self) -> impl Iterator<Item = &Thing> {
+        self.topics.iter().chain(&self.listed)
+    }
+
     fn is_empty(&self) -> bool {
         self.topics.is_empty() && self.listed.is_empty()
     }
@@ -70,6 +75,9 @@ impl Memory {
         if !exchange.is_empty() {
             self.exchanges.insert(0, exchange);
             self.exchanges.truncate(RECENT);
+            if self.exchanges.len() == RECENT {
+                self.departed.clear();
+            }
         }
     }
 

@@ -8,6 +8,7 @@
 //! three different [`Doubt`]s. No text makes it panic.
 
 mod answer;
+mod asides;
 mod assemble;
 mod compared;
 mod constructions;
@@ -23,9 +24,11 @@ mod knowledge;
 mod level_words;
 mod lexicon;
 mod mark;
+mod memory;
 mod onward;
 mod opening;
 mod orders;
+mod outlive;
 mod purposes;
 mod query;
 mod rephrase;
@@ -40,12 +43,15 @@ mod values;
 mod vocabulary;
 mod why;
 
+pub use asides::{Aside, aside, asks_whether, begs};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use courtesy::Courtesy;
 pub use doubts::Doubt;
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
+pub use memory::Memory;
 pub use orders::{Conditional, conditional};
+pub use outlive::{Departed, Stamp};
 pub use query::{Best, Claim, Filter, Head, Noun, Passing, Query, Rel, Restriction, Thing, Use};
 pub use settle::{Settled, Strict};
 pub use several::sentences;
@@ -56,11 +62,12 @@ use crate::language::report::Detail;
 use crate::language::words::{Language, everyday as everyday_words, phrase_at, word_keys};
 use crate::map::World;
 use crate::semantics::Relations;
-use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, MapId, Pose, ReplicaId};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
 use mark::{Mark, Pronoun};
+use memory::Pending;
 
 /// What the map alone cannot know: where the robot is, ways over the floor, what was seen when.
 pub trait Senses {
@@ -123,125 +130,6 @@ pub struct Past {
     pub support: Option<ReplicaId>,
 }
 
-/// What was said so far in a dialogue.
-#[derive(Debug, Clone, Default)]
-pub struct Memory {
-    /// In which language was last spoken: that of an answer to what has no words.
-    language: Language,
-    /// What was spoken of, the latest first.
-    pub(super) spoken: Vec<Thing>,
-    /// What the last exchanges were about, the latest first.
-    exchanges: Vec<focus::Exchange>,
-    /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
-    is_lost: bool,
-    /// The things of the last answer.
-    last: Vec<Thing>,
-    /// The last several things that an answer told, in its order: «вторую» counts them.
-    listed: Vec<Thing>,
-    facts: Vec<Fact>,
-    /// What the last answer said, for a "why" that rests on no fact.
-    said: Option<String>,
-    /// The words of the last question: who asked for a «софа» calls a «Диван» «она».
-    words: String,
-    /// What was asked last, for «А чайник?»
-    query: Option<Query>,
-    /// A question that waits for the person to say which thing was meant.
-    pending: Option<Pending>,
-    /// A command that waits for the same.
-    waiting: Option<settle::Waiting>,
-    /// The command that was understood last, for «А теперь другую».
-    ordered: Option<settle::Ordered>,
-    /// Where the robot was before it was last sent away.
-    left: Option<Thing>,
-    /// The last command that was carried out, and what it came to.
-    done: Option<Bilingual>,
-}
-
-#[derive(Debug, Clone)]
-struct Pending {
-    query: Query,
-    language: Language,
-    reference: String,
-    candidates: Vec<Thing>,
-}
-
-impl Memory {
-    /// Nothing was said yet, and who has no words is answered in this language.
-    #[must_use]
-    pub fn speaking(language: Language) -> Self {
-        Self { language, ..Self::default() }
-    }
-
-    /// The single thing spoken of last, for «её» in a command.
-    #[must_use]
-    pub fn last_thing(&self) -> Option<Thing> {
-        self.spoken.first().copied()
-    }
-
-    /// Where the robot was before it was last sent away.
-    #[must_use]
-    pub fn place_left(&self) -> Option<Thing> {
-        self.left
-    }
-
-    /// Notes where the robot is while it is sent away.
-    pub fn leave(&mut self, place: Thing) {
-        self.left = Some(place);
-    }
-
-    /// Notes what a command came to, for "What did you do?".
-    pub fn did(&mut self, told: Bilingual) {
-        self.done = Some(told);
-    }
-
-    /// Remembers what an answer was about.
-    pub fn learn(&mut self, answer: &Answer) {
-        self.pending = None;
-        if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
-            self.facts.clone_from(&answer.facts);
-            self.said = Some(answer.text.clone());
-            self.query = Some(answer.query.clone());
-            self.words.clone_from(&answer.words);
-        }
-        self.hear(answer);
-        if answer.topic.is_empty() {
-            return;
-        }
-        self.last.clone_from(&answer.things);
-        if answer.things.len() > 1 {
-            self.listed.clone_from(&answer.things);
-        }
-        for thing in answer.topic.iter().rev() {
-            self.spoken.retain(|t| t != thing);
-            self.spoken.insert(0, *thing);
-        }
-        self.spoken.truncate(50);
-    }
-
-    /// Notes the things that a command named.
-    pub fn mention(&mut self, things: &[Thing]) {
-        self.hear_of_things(things);
-        self.last = things.to_vec();
-        for thing in things {
-            self.spoken.retain(|t| t != thing);
-            self.spoken.insert(0, *thing);
-        }
-    }
-
-    /// What "them" means in a command, the one that "it" means at the end.
-    #[must_use]
-    pub fn last_things(&self) -> Vec<Thing> {
-        let Some(first) = self.spoken.first() else { return self.last.clone() };
-        let mut things = match self.last.contains(first) {
-            true => self.last.clone(),
-            false => Vec::new(),
-        };
-        things.retain(|t| t != first);
-        things.push(*first);
-        things
-    }
-}
-
 /// A fact that an answer rests on, or that would have to hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fact {
@@ -300,6 +188,8 @@ pub struct Answer {
     topic: Vec<Thing>,
     /// The words of the question.
     words: String,
+    /// Of which its query speaks by places in lists.
+    stamp: Option<Stamp>,
 }
 
 impl Answer {
@@ -318,6 +208,7 @@ impl Answer {
             number: None,
             topic: Vec::new(),
             words: String::new(),
+            stamp: None,
         };
         let mut queries = Vec::new();
         let texts: Vec<String> = answers.iter().map(|a| a.text.clone()).collect();
@@ -409,6 +300,7 @@ impl Asker<'_> {
             }
             Err(unanswered) => {
                 let (doubt, query) = *unanswered;
+                let doubt = memory.why_nothing(doubt);
                 let before = memory.exchanges.clone();
                 // What else the question named is spoken of all the same.
                 if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {

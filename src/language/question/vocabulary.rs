@@ -470,8 +470,8 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Rank(5), "пятом|пятому|пятым|пятый|пятая|пятое|пятые|пятого|пятой|пятую|fifth|5th|5 th"),
     (
         Mark::Help,
-        "что умеешь|что можешь|чем можешь помочь|на что ты способен|what are you able to do|what do you know how to do|кто ты|кто ты такой|как тебя зовут|что ты умеешь|что ты можешь|что ты умеешь делать|помоги|помощь|справка|о чём тебя можно спросить|что можно спросить|что у тебя можно спросить|\
-        help|who are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help",
+        "что умеешь|что можешь|чем можешь помочь|на что ты способен|what are you able to do|what do you know how to do|кто ты|кто ты такой|как тебя зовут|что ты умеешь|что ты можешь|что ты умеешь делать|помоги|помощь|справка|подсказка|команды|какие есть команды|список команд|что тебе можно приказать|что тебе можно сказать|о чём тебя можно спросить|что можно спросить|что у тебя можно спросить|\
+        help|who are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help|commands|list of commands|what can i tell you|what can i say",
     ),
     (
         Mark::Did,

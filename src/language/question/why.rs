@@ -43,6 +43,13 @@ impl Knowledge<'_> {
             _ => self.memory.facts.clone(),
         };
         let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
+            if self.memory.is_outdated {
+                let text = self.pick(
+                    "с тех пор на карте что-то изменилось: спросите ещё раз",
+                    "the map has changed since: ask again",
+                );
+                return Ok(Draft::plain(Said::Unknown, text.to_owned()));
+            }
             let text = self
                 .pick(
                     "объяснять нечего: за последним ответом не стоит ни одного отношения карты",
@@ -333,6 +340,14 @@ impl Knowledge<'_> {
             }
             ("off_area", true) => format!("от {a} до стены {b} {}", cm(2)),
             ("off_area", false) => format!("{a} is in the wall, {} from {b}", cm(2)),
+            ("edge_distance", true) => format!("от {a} до стены {}", cm(3)),
+            ("edge_distance", false) => format!("{a} is {} from a wall", cm(3)),
+            ("corner", true) => format!("стены сходятся под углом {:.0}°", 180.0 - number(3)),
+            ("corner", false) => format!("the walls meet at {:.0}°", 180.0 - number(3)),
+            ("opening_distance", true) => format!("от {a} до {b} {}", cm(2)),
+            ("opening_distance", false) => format!("{a} is {} from {b}", cm(2)),
+            ("middle_distance", true) => format!("от {a} до середины {b} {}", cm(2)),
+            ("middle_distance", false) => format!("{a} is {} from the middle of {b}", cm(2)),
             ("links", true) => format!("карта связывает «{}» и «{}»", word(1), word(2)),
             ("links", false) => format!("the map links {} and {} through {a}", word(1), word(2)),
             ("step", true) => format!("шаг с порога {a} ведёт в «{}»", word(2)),
@@ -455,6 +470,14 @@ impl Knowledge<'_> {
             ("HAS", _, [x, name, text]) => format!("{x}: {name} – {text}"),
             ("HAS_TRAIT", true, [x, kind]) => format!("{x} – {kind}"),
             ("HAS_TRAIT", false, [x, kind]) => format!("{x} is a {kind}"),
+            ("AT_WALL", true, [x, room]) => format!("{x} стоит у стены («{room}»)"),
+            ("AT_WALL", false, [x, room]) => format!("{x} stands at a wall of {room}"),
+            ("IN_CORNER", true, [x, room]) => format!("{x} стоит в углу («{room}»)"),
+            ("IN_CORNER", false, [x, room]) => format!("{x} stands in a corner of {room}"),
+            ("ON_WALL", true, [x, room]) => format!("{x} висит на стене («{room}»)"),
+            ("ON_WALL", false, [x, room]) => format!("{x} hangs on a wall of {room}"),
+            ("STANDS_ON_FLOOR", true, [x, room]) => format!("{x} стоит на полу («{room}»)"),
+            ("STANDS_ON_FLOOR", false, [x, room]) => format!("{x} stands on the floor of {room}"),
             ("PART_OF", true, [part, whole]) => format!("{part} – часть «{whole}»"),
             ("PART_OF", false, [part, whole]) => format!("{part} is part of {whole}"),
             _ => format!("{relation}({})", words.join(", ")),
@@ -476,6 +499,8 @@ fn relation_word(relation: &str) -> Option<Rel> {
         "BEHIND" => Some(Rel::Behind),
         "IN_FRONT_OF" => Some(Rel::InFrontOf),
         "LEANING_AGAINST" => Some(Rel::Leaning),
+        "AT_DOOR" | "STANDS_AT" => Some(Rel::NextTo),
+        "IN_MIDDLE_OF" => Some(Rel::Middle),
         _ => None,
     }
 }

@@ -266,6 +266,10 @@ impl MapError {
                 format!("{}: the size is {size}; are these metres?", en(what))
             }
             Self::MoreAlike { count, kind } => format!("and {count} more of this sort ({kind})"),
+            Self::OtherBuilding { what, how } => format!("{}: {}", en(what), en(how)),
+            Self::Carried { name } => format!(
+                "the robot, or whom it was handed to, has “{name}”, which stands nowhere on the map now"
+            ),
             Self::More { count } => format!("and {count} more"),
         }
     }
@@ -430,6 +434,12 @@ impl MapError {
                 );
             }
             Self::MoreAlike { .. } => "mend what is shown, and check the map again",
+            Self::OtherBuilding { .. } => {
+                "a truth is the same building: doors open or locked, things moved, gone or new; where the building has changed, edit the map: ortho edit"
+            }
+            Self::Carried { .. } => {
+                "leave out the edit of this thing, or begin anew: ortho do … --reset"
+            }
             Self::More { .. } => "mend what is shown, and check the map again",
         };
         told.to_owned()

@@ -517,6 +517,22 @@ pub enum MapError {
     )]
     AreaNowhereYet { area: String },
 
+    /// A truth in which another building stands than the one that the robot knows.
+    #[error("{what}: {how}")]
+    #[diagnostic(
+        code(map::other_building),
+        help(
+            "истина – то же здание: двери открыты или заперты, вещи сдвинуты, убраны, добавлены; если изменилось здание, правьте карту: ortho edit"
+        )
+    )]
+    OtherBuilding { what: Bilingual, how: Bilingual },
+    /// A truth that moves what the robot holds, or a person from it.
+    #[error("«{name}» у робота или у того, кому он это отдал, и на карте сейчас не стоит")]
+    #[diagnostic(
+        code(map::carried),
+        help("уберите правку этой вещи, или начните сначала: ortho do … --reset")
+    )]
+    Carried { name: String },
     /// More faults than anyone reads.
     #[error("и ещё ошибок: {count}")]
     #[diagnostic(code(map::more), help("исправьте показанные и проверьте карту снова"))]

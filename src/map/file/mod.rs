@@ -11,6 +11,7 @@ mod read;
 mod records;
 mod schema;
 mod text;
+mod truth;
 mod write;
 
 use std::collections::{BTreeMap, HashSet};
@@ -26,6 +27,7 @@ use crate::units::{Bilingual, FileFault, Source};
 
 pub use edit::{EditReading, NextIds, edit, kinds};
 pub use schema::json_schema;
+pub use truth::{Truth, read_truth};
 
 /// Bytes. A text larger than this is no map: forty thousand replicas take some five megabytes.
 const LIMIT: u64 = 64 << 20;

@@ -17,7 +17,7 @@ pub use server::{Served, serve};
 use std::ops::ControlFlow;
 
 use crate::geometry::Ride;
-use crate::map::DoorState;
+use crate::map::{DoorState, Entity};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Stop};
 
 use self::protocol::Scan;
@@ -39,6 +39,19 @@ pub enum Obstruction {
     Replica(ReplicaId),
     /// What the Map does not know.
     Something,
+}
+
+impl Obstruction {
+    /// What it is on the Map; of a wall, the room; none where the Map does not know it.
+    #[must_use]
+    pub fn entity(self) -> Option<Entity> {
+        match self {
+            Self::Wall(area) => Some(Entity::Area(area)),
+            Self::Door(door) => Some(Entity::Door(door)),
+            Self::Replica(replica) => Some(Entity::Replica(replica)),
+            Self::Something => None,
+        }
+    }
 }
 
 /// A motion that ended early, with the robot stopped just before the contact.
@@ -98,6 +111,17 @@ pub enum Sighting {
         area: AreaId,
         frame: Frame,
     },
+}
+
+impl Sighting {
+    /// What was seen.
+    #[must_use]
+    pub fn entity(self) -> Entity {
+        match self {
+            Self::Door { door, .. } => Entity::Door(door),
+            Self::Replica { replica, .. } => Entity::Replica(replica),
+        }
+    }
 }
 
 /// Why something was not done to its end.

@@ -5,6 +5,7 @@
 //! says how far measuring need look, so that its cost grows with the number of near pairs.
 
 mod between;
+mod borders;
 mod pair;
 mod rooms;
 mod single;
@@ -14,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 pub use between::{Beside, Between};
+use borders::{Borders, borders};
 pub use pair::{Below, Directed, Into, Over, Pair, Within};
 pub(super) use pair::{level, surface_distance};
 pub(super) use rooms::Room;
@@ -45,8 +47,14 @@ pub struct Reach {
     pub escape: i64,
     /// How far from its Fragment a thing that is in no Area may be.
     pub outside: i64,
+    /// How far from a wall of its Area a thing may be.
+    pub edge: i64,
+    /// How far from a door or passage a thing may be.
+    pub opening: i64,
     /// From the middle of one thing to what surrounds another, up to this; the standard rules do without it.
     pub apart: i64,
+    /// Whether what may be told either way is told in both orders.
+    pub both_orders: bool,
 }
 
 impl Default for Reach {
@@ -58,7 +66,10 @@ impl Default for Reach {
             sink: 1_000,
             escape: 1_000,
             outside: 5_000,
+            edge: 5_000,
+            opening: 10_000,
             apart: 0,
+            both_orders: false,
         }
     }
 }
@@ -71,6 +82,7 @@ pub struct Measurements {
     pub(super) placements: BTreeMap<AreaId, (MapId, Frame)>,
     pub(super) rooms: BTreeMap<AreaId, Room>,
     room_grid: BTreeMap<MapId, Grid<AreaId>>,
+    pub(super) borders: Borders,
     pub(super) bodies: BTreeMap<ReplicaId, Body>,
     grids: BTreeMap<MapId, Grid<ReplicaId>>,
     pub(super) singles: BTreeMap<ReplicaId, Single>,
@@ -117,6 +129,7 @@ impl Measurements {
                 .collect(),
             rooms: rooms(world),
             room_grid: BTreeMap::new(),
+            borders: Borders::default(),
             bodies: BTreeMap::new(),
             grids: BTreeMap::new(),
             singles: BTreeMap::new(),
@@ -126,6 +139,7 @@ impl Measurements {
         for room in measured.rooms.values() {
             measured.room_grid.entry(room.map).or_default().insert(room.id, &room.bounds);
         }
+        measured.borders = borders(world, &measured.rooms, &measured.placements);
         measured.bodies = world
             .replicas
             .keys()

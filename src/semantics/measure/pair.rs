@@ -76,6 +76,8 @@ pub struct Directed {
     pub bearing: Option<i64>,
     /// From the middle of this thing to the hull of the other, from its bottom to its top.
     pub apart: Option<i64>,
+    /// Of what is over the other: from that one's middle, in the plan.
+    pub middle: Option<i64>,
 }
 
 /// All that is measured of a pair of things, the lower id first.
@@ -173,6 +175,11 @@ impl Measurements {
         if kind_b.container {
             let within = self.within(a, kind_a, &b.outline, (b.bottom, b.top), kind_b.volume);
             found.within.extend(within);
+        }
+        if !found.over.is_empty() {
+            let away = a.outline.iter().map(|f| f.distance_to(b.centre)).reduce(f64::min);
+            let narrow = kind_b.size.0.min(kind_b.size.1);
+            found.middle = away.filter(|away| *away <= narrow / 2.0).map(tenths);
         }
         found
     }

@@ -6,10 +6,10 @@ use crate::units::{AreaId, ObjectId};
 
 use super::super::body::Body;
 use super::rooms::Room;
-use super::{Measurements, cm, tenths};
+use super::{Measurements, cm, hundredths, tenths};
 
 /// One thing by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Single {
     pub object: ObjectId,
     pub fragment: AreaId,
@@ -23,6 +23,14 @@ pub struct Single {
     /// cm² of its outline.
     pub base: i64,
     pub place: Located,
+    /// Where it stands in its Fragment's frame: x, y, z, angle.
+    pub at: [i64; 4],
+    /// Near walls of the Area where it is, by their places among its walls, with the distance in the plan.
+    pub walls: Vec<(usize, i64)>,
+    /// Near doors and passages, by their places among all openings of all Areas, with the distance in the plan.
+    pub openings: Vec<(usize, i64)>,
+    /// From the middle of the Area whose base holds it.
+    pub middle: Option<i64>,
 }
 
 /// Which Area holds the interior point of a thing.
@@ -49,6 +57,14 @@ impl Single {
 impl Measurements {
     pub(super) fn single(&self, body: &Body) -> Single {
         let kind = &self.kinds[&body.object];
+        let place = self.locate(body);
+        let room = match place {
+            Located::In { area, .. } => Some(area),
+            Located::Out { fragment, .. } => Some(fragment),
+            Located::Nowhere => None,
+        };
+        let frame = &body.frame;
+        let origin = frame.origin();
         Single {
             object: body.object,
             fragment: body.fragment,
@@ -58,7 +74,16 @@ impl Measurements {
             thin: tenths(kind.size.0.min(kind.size.1)),
             mean_size: tenths(f64::midpoint(kind.size.0, kind.size.1)),
             base: kind.outline_area.round() as i64,
-            place: self.locate(body),
+            at: [
+                tenths(origin.x),
+                tenths(origin.y),
+                frame.z.to_tenths_mm(),
+                hundredths(frame.angle.get()),
+            ],
+            walls: room.map(|room| self.near_walls(body, room)).unwrap_or_default(),
+            openings: self.near_openings(body),
+            middle: room.and_then(|room| self.to_middle(body, room)),
+            place,
         }
     }
 

@@ -35,7 +35,7 @@ impl Measurements {
         if let Some(body) = Body::new(world, &self.kinds, &self.placements, id) {
             self.enter(body, &mut near, &mut change);
         }
-        change.single_after = self.singles.get(&id).copied();
+        change.single_after = self.singles.get(&id).cloned();
         change
     }
 

@@ -44,7 +44,12 @@ impl Relations {
                 rows.out.insert((rel, tuple(cells)));
             };
             // What is gone, or goes later, is in the old world only; the Objects of things are the same in both.
-            let feed = Feed { world: before, symbols: &self.symbols, measured: &self.measured };
+            let feed = Feed {
+                world: before,
+                symbols: &self.symbols,
+                measured: &self.measured,
+                openings: &self.openings,
+            };
             change.single_before.iter().for_each(|s| feed.single(id, s, &mut put));
             change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut put));
             let mut back: Vec<(&'static str, Vec<Value>)> = Vec::new();
@@ -86,9 +91,14 @@ impl Relations {
         mut put: impl FnMut(&'static str, Vec<Value>),
     ) {
         let mut sink = |rel: &'static str, cells: &[Cell<'_>]| put(rel, tuple(cells));
-        let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
+        let feed = Feed {
+            world,
+            symbols: &self.symbols,
+            measured: &self.measured,
+            openings: &self.openings,
+        };
         if !doors.is_empty() {
-            feed.openings(&self.openings, &mut sink);
+            feed.openings(&mut sink);
         }
         doors.iter().for_each(|&door| feed.door_properties(door, &mut sink));
         // A door of furniture tells the state of what it belongs to.

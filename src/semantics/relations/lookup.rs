@@ -1,4 +1,5 @@
-//! What others ask of relations often, looked up once: the Areas of things, what bears them, what they bear.
+//! What others ask of relations often, looked up once: the Areas of things, what bears them, what they bear, what stands on
+//! which floor.
 //!
 //! **Invariant**: after an update it is what looking up anew would give.
 
@@ -24,6 +25,15 @@ impl Relations {
                     symbols.replica_of(tuple.symbol(1)).zip(symbols.area_of(tuple.symbol(0))),
                 );
             }
+        }
+        if let Some(on_floor) = find("STANDS_ON_FLOOR") {
+            let pair = |tuple: &crate::facts::Tuple<'_>| {
+                symbols.area_of(tuple.symbol(1)).zip(symbols.replica_of(tuple.symbol(0)))
+            };
+            for gone in self.live.removed(on_floor).filter_map(|tuple| pair(&tuple)) {
+                self.on_floor.remove(&gone);
+            }
+            self.on_floor.extend(self.live.added(on_floor).filter_map(|tuple| pair(&tuple)));
         }
         if let Some(rests_on) = find("RESTS_ON") {
             for tuple in self.live.removed(rests_on) {
@@ -64,7 +74,12 @@ impl Relations {
         let bearing = pairs("ON_TOP_OF").filter_map(|t| {
             Some((symbols.replica_of(t.symbol(1))?, symbols.replica_of(t.symbol(0))?))
         });
+        let on_floor = pairs("STANDS_ON_FLOOR").filter_map(|t| {
+            Some((symbols.area_of(t.symbol(1))?, symbols.replica_of(t.symbol(0))?))
+        });
         let (areas, supports, bearing) = (areas.collect(), supports.collect(), bearing.collect());
+        let on_floor = on_floor.collect();
         (self.areas, self.supports, self.bearing) = (areas, supports, bearing);
+        self.on_floor = on_floor;
     }
 }

@@ -16,6 +16,7 @@ use super::feed::{Cell, Feed, Sink};
 use super::measure::Measurements;
 use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
+use super::thresholds::Thresholds;
 
 pub(super) use rows::Rows;
 use rows::{Load, note, tuple};
@@ -54,11 +55,14 @@ pub struct Relations {
     measured: Measurements,
     openings: Vec<Opening>,
     live: Live,
+    thresholds: Thresholds,
     /// Each thing with the Areas in which it is.
     areas: BTreeSet<(ReplicaId, AreaId)>,
     supports: BTreeMap<ReplicaId, ReplicaId>,
     /// What bears something, and what it bears.
     bearing: BTreeSet<(ReplicaId, ReplicaId)>,
+    /// Each Area with what stands on its floor.
+    on_floor: BTreeSet<(AreaId, ReplicaId)>,
 }
 
 /// Measures a world and derives its relations.
@@ -87,11 +91,11 @@ pub fn derive_from(
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
     let openings = openings(world, &measured, rules.step_cm(), &symbols);
-    let feed = Feed { world, symbols: &symbols, measured: &measured };
+    let feed = Feed { world, symbols: &symbols, measured: &measured, openings: &openings };
     let mut database = rules.program().database();
     let mut rows = Load::new(rules.program(), &mut database);
     rows.row("profile", &[Cell::Word(profile.name())]);
-    feed.ground(&openings, &mut rows);
+    feed.ground(&mut rows);
     feed.things(&mut rows);
     if measured.bodies.len() * measured.rooms.len() <= MOST_OUTSIDE {
         for body in measured.bodies.values() {
@@ -140,7 +144,11 @@ impl Relations {
         openings: Vec<Opening>,
         live: Live,
     ) -> Self {
+        let told = live.derived().tuples("threshold").into_iter().flatten();
+        let told = told.filter_map(|t| Some((t.symbol(0)?.to_owned(), t.number(1)?)));
+        let thresholds = Thresholds::of(told);
         let mut relations = Self {
+            thresholds,
             rules: rules.clone(),
             profile,
             symbols,
@@ -150,6 +158,7 @@ impl Relations {
             areas: BTreeSet::new(),
             supports: BTreeMap::new(),
             bearing: BTreeSet::new(),
+            on_floor: BTreeSet::new(),
         };
         relations.index();
         relations
@@ -178,7 +187,12 @@ impl Relations {
             return Ok(false);
         }
         let change = self.measured.update(world, moved);
-        let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
+        let feed = Feed {
+            world,
+            symbols: &self.symbols,
+            measured: &self.measured,
+            openings: &self.openings,
+        };
         let (live, mut fault) = (&mut self.live, None);
         let mut take = |relation: &'static str, cells: &[Cell<'_>]| {
             if let Err(e) = live.remove(relation, &tuple(cells)) {

@@ -8,6 +8,7 @@ use crate::map::{Entity, Profile};
 use crate::semantics::measure::Measurements;
 use crate::semantics::names::{Subject, Symbols};
 use crate::semantics::openings::Opening;
+use crate::semantics::thresholds::Thresholds;
 use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
@@ -182,14 +183,23 @@ impl Relations {
         pairs.filter(|(_, with)| *with == carrier).map(|(thing, _)| thing).collect()
     }
 
-    /// A threshold of the rule text, of this profile; none where it names none.
+    /// The thresholds of the rule text, of this profile.
     #[must_use]
-    pub fn threshold(&self, name: &str) -> Option<i64> {
-        let tuples = self.tuples("threshold").ok()?;
-        tuples.into_iter().find_map(|tuple| match &tuple[..] {
-            [Value::Symbol(own), Value::Number(value)] if &**own == name => Some(*value),
-            _ => None,
-        })
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.thresholds
+    }
+
+    /// What stands on the floor of an Area, in the order of ids.
+    #[must_use]
+    pub fn on_floor_of(&self, area: AreaId) -> Vec<ReplicaId> {
+        let all = self.on_floor.range((area, ReplicaId(0))..);
+        all.take_while(|(of, _)| *of == area).map(|(_, id)| *id).collect()
+    }
+
+    /// Whether a thing stands on the floor of an Area.
+    #[must_use]
+    pub fn stands_on_floor(&self, thing: ReplicaId, area: AreaId) -> bool {
+        self.on_floor.contains(&(area, thing))
     }
 
     /// The other ends of the pairs in which a thing stands first.

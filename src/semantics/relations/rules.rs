@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::facts::{EvaluateError, FactError, Faults, Program};
+use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
 use crate::semantics::measure::Reach;
+use crate::semantics::measured::{MEASURED, Measured, Order};
+use crate::semantics::thresholds::{self, ThresholdFault};
 use crate::units::{FileFault, Source};
 
 /// The rule text that the crate brings along.
@@ -51,6 +53,13 @@ pub enum RelationError {
         )
     )]
     Schema { fault: FactError },
+    /// Thresholds of the rule text that cannot be meant.
+    #[error("{}", .faults.first().map(ToString::to_string).unwrap_or_default())]
+    #[diagnostic(code(semantics::thresholds))]
+    Thresholds {
+        #[related]
+        faults: Vec<ThresholdFault>,
+    },
     /// Evaluation does not end within its limits.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -111,27 +120,51 @@ impl RelationRules {
     /// # Errors
     /// [`RelationError::Rules`] with all faults of all texts, [`RelationError::Schema`].
     pub fn parse(texts: &[Source]) -> Result<Self, RelationError> {
-        let program = Program::parse_all(texts)?;
+        let (texts, program) = declared(texts)?;
+        let faults = thresholds::faults(&program);
+        if !faults.is_empty() {
+            return Err(RelationError::Thresholds { faults });
+        }
+        let program = completed(&texts, program);
         let empty = program.evaluate(&program.database())?;
         let mut rules = Self { program, reach: Reach::default(), step: 6_000 };
-        let Ok(facts) = empty.tuples("reach") else { return Ok(rules) };
-        for fact in facts {
-            let (Some(name), Some(limit)) = (fact.symbol(0), fact.number(1)) else { continue };
+        let facts = empty.tuples("reach").into_iter().flatten();
+        for (name, limit) in
+            facts.filter_map(|fact| Some((fact.symbol(0)?.to_owned(), fact.number(1)?)))
+        {
             // Beyond a hundred metres nothing in a room is near.
             let limit = limit.clamp(0, 1_000_000);
-            match name {
-                "distance" => rules.reach.distance = limit,
-                "beside" => rules.reach.beside = limit,
-                "sector" => rules.reach.sector = limit,
-                "sink" => rules.reach.sink = limit,
-                "escape" => rules.reach.escape = limit,
-                "outside" => rules.reach.outside = limit,
-                "apart" => rules.reach.apart = limit,
-                "step" => rules.step = limit,
-                _ => {}
-            }
+            rules.reach_of(&name).into_iter().for_each(|reach| *reach = limit);
         }
+        // What a threshold asks for is measured, whatever the text says of measuring.
+        for name in REACHES {
+            let farthest = thresholds::farthest(&rules.program, name);
+            rules.reach_of(name).into_iter().for_each(|reach| *reach = farthest.max(*reach));
+        }
+        let own = |source: &Source| {
+            source.text() != STANDARD && texts.iter().any(|text| text.text() == source.text())
+        };
+        let either = MEASURED.iter().filter(|measured| measured.order == Order::Either);
+        let mut either = either.filter_map(|measured| rules.program.relation(measured.name));
+        let program = &rules.program;
+        rules.reach.both_orders = either.any(|relation| program.readers(relation).any(own));
         Ok(rules)
+    }
+
+    fn reach_of(&mut self, name: &str) -> Option<&mut i64> {
+        Some(match name {
+            "distance" => &mut self.reach.distance,
+            "beside" => &mut self.reach.beside,
+            "sector" => &mut self.reach.sector,
+            "sink" => &mut self.reach.sink,
+            "escape" => &mut self.reach.escape,
+            "outside" => &mut self.reach.outside,
+            "edge" => &mut self.reach.edge,
+            "opening" => &mut self.reach.opening,
+            "apart" => &mut self.reach.apart,
+            "step" => &mut self.step,
+            _ => return None,
+        })
     }
 
     /// How far measuring must look for these rules.
@@ -149,6 +182,59 @@ impl RelationRules {
     pub fn program(&self) -> &Program {
         &self.program
     }
+}
+
+/// The names of all reaches.
+const REACHES: [&str; 10] = [
+    "distance", "beside", "sector", "sink", "escape", "outside", "edge", "opening", "apart", "step",
+];
+
+/// The program of some texts, with declarations of the measured relations that they use without declaring them.
+fn declared(texts: &[Source]) -> Result<(Vec<Source>, Program), Faults> {
+    let faults = match Program::parse_all(texts) {
+        Ok(program) => return Ok((texts.to_vec(), program)),
+        Err(faults) => faults,
+    };
+    let unknown = |measured: &&Measured| {
+        let is_it = |fault: &RuleError| matches!(fault, RuleError::UnknownRelation { name, .. } if name == measured.name);
+        faults.iter().any(is_it)
+    };
+    let declarations: String = MEASURED.iter().filter(unknown).map(Measured::declaration).collect();
+    if declarations.is_empty() {
+        return Err(faults);
+    }
+    let more = Source::new("измерения (встроенные)", declarations);
+    let texts: Vec<Source> = texts.iter().cloned().chain([more]).collect();
+    let program = Program::parse_all(&texts)?;
+    Ok((texts, program))
+}
+
+/// A text that is older than a threshold or a section of the standard text gets it from there. A text that goes without
+/// what these need stays as it is.
+fn completed(texts: &[Source], program: Program) -> Program {
+    let lacking = thresholds::lacking(&program);
+    let section = section(PLACES).filter(|section| {
+        let names = section.lines().filter_map(|line| line.strip_prefix(".decl "));
+        let mut names = names.filter_map(|line| line.split('(').next());
+        !lacking.is_empty() && names.all(|name| program.relation(name).is_none())
+    });
+    if lacking.is_empty() && section.is_none() {
+        return program;
+    }
+    let of_standard = format!("{lacking}{}", section.unwrap_or_default());
+    let own = Source::new("rules/relations.dl (встроенный)", of_standard);
+    let texts: Vec<Source> = texts.iter().cloned().chain([own]).collect();
+    Program::parse_all(&texts).unwrap_or(program)
+}
+
+/// The section of the standard text about walls, doors and middles, which needs nothing but what stands before it.
+const PLACES: &str = "У стены, у двери, посередине";
+
+/// A section of the standard text, from its heading to the next.
+fn section(heading: &str) -> Option<&'static str> {
+    let (_, from) = STANDARD.split_once(&format!("// ═══ {heading} "))?;
+    let (_, from) = from.split_once('\n')?;
+    Some(from.split_once("// ═══").map_or(from, |(section, _)| section))
 }
 
 fn text_of(path: &Path) -> Result<Source, RelationError> {

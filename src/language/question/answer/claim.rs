@@ -105,7 +105,8 @@ impl Knowledge<'_> {
         if restriction.rel == Rel::NextTo
             && let Some(&hit) = anchors.iter().find(|a| self.stands_at(thing, **a))
         {
-            return Ok((true, Vec::new(), vec![hit]));
+            let fact = Fact::holding("STANDS_AT", vec![self.symbol(thing), self.symbol(hit)]);
+            return Ok((true, vec![fact], vec![hit]));
         }
         let fact = anchors.first().and_then(|a| self.missing(restriction.rel, thing, *a));
         Ok((false, fact.into_iter().collect(), anchors))

@@ -190,6 +190,7 @@ impl Knowledge<'_> {
             number: draft.number,
             topic,
             words: String::new(),
+            stamp: None,
         })
     }
 
@@ -270,6 +271,14 @@ impl Knowledge<'_> {
         }
         for restriction in &noun.restrictions {
             let Some(anchor) = restriction.anchors.first() else { continue };
+            if !restriction.negated && (self.is_walls(anchor) || self.is_floor(anchor)) {
+                let held = |thing: &Thing| {
+                    let (relation, room) = self.stands_in(restriction.rel, *thing, anchor)?;
+                    Some(Fact::holding(relation, vec![self.symbol(*thing), self.symbol(room)]))
+                };
+                facts.extend(found.iter().take(50).filter_map(held));
+                continue;
+            }
             let Ok(anchors) = self.find(anchor, true) else { continue };
             for thing in found.iter().take(50) {
                 facts.extend(anchors.iter().find_map(|a| self.fact(restriction.rel, *thing, *a)));

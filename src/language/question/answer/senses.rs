@@ -4,13 +4,14 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::Extension;
 use crate::language::question::lexicon::lower_first;
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::question::{Courtesy, speech};
 use crate::language::question::{Doubt, Said};
 use crate::language::report::Detail;
 use crate::language::words::{Case, Number, enumerate};
-use crate::map::Entity;
+use crate::map::{DoorStatus, Entity};
 
 impl Knowledge<'_> {
     pub(super) fn last_seen(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -152,7 +153,45 @@ impl Knowledge<'_> {
             true => format!("я робот и знаю эту карту. Спросите, например: {asked}"),
             false => format!("I am a robot and know this map. Ask, for example: {asked}"),
         };
+        let orders = enumerate(&self.orders_for_example(room), self.language);
+        let text = match (orders.is_empty(), self.is_russian()) {
+            (true, _) => text,
+            (_, true) => format!("{text}. Или прикажите: {orders}"),
+            (_, false) => format!("{text}. Or command: {orders}"),
+        };
         Draft::new(Said::Found, text)
+    }
+
+    /// An order of each of the commonest kinds that this map allows.
+    fn orders_for_example(&self, room: Option<Thing>) -> Vec<String> {
+        let mut orders = Vec::new();
+        let pick = |russian: String, english: String| self.language.pick(russian, english);
+        if let Some(room) = room {
+            let place = self.place(Rel::To, &[room]);
+            orders.push(pick(format!("«Поезжай {place}»"), format!("\"Go {place}\"")));
+        }
+        let mut things = self.world.replicas.keys();
+        let carried = things.find(|id| self.world.has_trait(**id, "portable"));
+        if let Some(id) = carried {
+            let name = self.form(Thing::Entity(Entity::Replica(*id)), Case::Accusative);
+            orders.push(pick(format!("«Принеси {name}»"), format!("\"Bring {name}\"")));
+        }
+        let doors = self.members(&Extension::Doors);
+        let mut joined = self.relations.joins().into_iter().filter_map(|join| join.door);
+        let moved = joined.find_map(|id| {
+            let thing = Thing::Entity(Entity::Door(id));
+            let status = self.world.doors.get(&id)?.state.status;
+            (doors.contains(&thing) && status != DoorStatus::Locked).then_some((thing, status))
+        });
+        if let Some((door, status)) = moved {
+            let name = self.form(door, Case::Accusative);
+            let (russian, english) = match status {
+                DoorStatus::Open => ("Закрой", "Close"),
+                DoorStatus::Closed | DoorStatus::Locked => ("Открой", "Open"),
+            };
+            orders.push(pick(format!("«{russian} {name}»"), format!("\"{english} {name}\"")));
+        }
+        orders
     }
 
     /// What is answered to politeness.

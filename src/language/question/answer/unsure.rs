@@ -13,7 +13,7 @@ use crate::map::Entity;
 const FACTS: usize = 60;
 
 /// Relations that tell a place.
-const OF_PLACE: [&str; 14] = [
+const OF_PLACE: [&str; 21] = [
     "ON_TOP_OF",
     "BORNE_BY",
     "INSIDE",
@@ -28,6 +28,13 @@ const OF_PLACE: [&str; 14] = [
     "IN_FRONT_OF",
     "LIES_ON_OR_IN",
     "CONTAINS",
+    "STANDS_ON_FLOOR",
+    "AT_WALL",
+    "IN_CORNER",
+    "ON_WALL",
+    "AT_DOOR",
+    "IN_MIDDLE_OF",
+    "STANDS_AT",
 ];
 
 impl Knowledge<'_> {

@@ -9,12 +9,6 @@ use crate::map::Entity;
 use crate::units::Point;
 use std::collections::HashSet;
 
-/// Straight ahead are things so far from the line of sight, degrees; beyond the other angle they are behind.
-const AHEAD: f64 = 15.0;
-const BEHIND: f64 = 120.0;
-/// What is to the side of a thing is no farther from it, cm.
-const BESIDE: f64 = 200.0;
-
 impl Knowledge<'_> {
     /// Where one stands who faces a thing, and whether that is the robot's own place.
     pub(in crate::language::question) fn standpoint(&self, faced: Thing) -> Option<(Point, bool)> {
@@ -36,8 +30,7 @@ impl Knowledge<'_> {
         thing: Thing,
         of: Thing,
     ) -> Option<Rel> {
-        /// Straight ahead tells no side, cm.
-        const ASIDE: f64 = 5.0;
+        let aside = self.relations.thresholds().view_aside;
         if self.area_of(thing) != self.area_of(of) {
             return None;
         }
@@ -51,10 +44,10 @@ impl Knowledge<'_> {
         };
         let (left, before) = (ahead.perp(&(at - from)), seen * ahead.dot(&(at - from)));
         let of_side = |rel: Rel| match rel {
-            Rel::LeftOf => left > ASIDE,
-            Rel::RightOf => left < -ASIDE,
-            Rel::InFrontOf => before > ASIDE,
-            Rel::Behind => before < -ASIDE,
+            Rel::LeftOf => left > aside,
+            Rel::RightOf => left < -aside,
+            Rel::InFrontOf => before > aside,
+            Rel::Behind => before < -aside,
             _ => false,
         };
         sides.into_iter().find(|rel| of_side(*rel))
@@ -72,6 +65,8 @@ impl Knowledge<'_> {
         let Some((((from, _), (_, at)), area)) = seen else { return Ok(HashSet::new()) };
         let Some(ahead) = (at - from).try_normalize(1.0) else { return Ok(HashSet::new()) };
         let around = if side.of_all() { from } else { self.point(of).map_or(from, |(_, p)| p) };
+        let near = self.relations.thresholds();
+        let sideways = near.sector_half..=180.0 - near.sector_half;
         let in_room = self.related(Rel::In, Thing::Entity(Entity::Area(area)));
         let aside = |thing: &Thing| {
             let Some((_, p)) = self.point(*thing).filter(|_| thing.replica().is_some()) else {
@@ -81,10 +76,10 @@ impl Knowledge<'_> {
             let angle = ahead.perp(&away).atan2(ahead.dot(&away)).to_degrees();
             let angle = if side.is_left() { angle } else { -angle };
             match side.of_all() {
-                true => (AHEAD..BEHIND).contains(&angle),
+                true => (near.view_ahead..near.view_behind).contains(&angle),
                 false => {
-                    (45.0..=135.0).contains(&angle)
-                        && self.distance(*thing, of).is_some_and(|d| d <= BESIDE)
+                    sideways.contains(&angle)
+                        && self.distance(*thing, of).is_some_and(|d| d <= near.sector_distance)
                 }
             }
         };

@@ -256,9 +256,9 @@ impl Knowledge<'_> {
             _ => 0.0,
         };
         // A cellar has no number of its own, unless there is nothing else.
-        const GROUND: f64 = -50.0;
-        if found.iter().any(|t| height(t) >= GROUND) {
-            found.retain(|t| height(t) >= GROUND);
+        let ground = -self.relations.thresholds().cellar_depth;
+        if found.iter().any(|t| height(t) >= ground) {
+            found.retain(|t| height(t) >= ground);
         }
         found.sort_by(|a, b| height(a).total_cmp(&height(b)).then(a.cmp(b)));
         let at = usize::try_from(rank.max(1) - 1).unwrap_or(usize::MAX);

@@ -10,9 +10,6 @@ use crate::language::question::query::{Best, Extreme, Noun, Rel, Restriction, Th
 use crate::map::Entity;
 use std::collections::HashSet;
 
-/// What stands on a part sinks into it by no more, cm.
-const SUNK: f64 = 3.0;
-
 /// One of the parts of a kind that a thing has above each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::language::question) struct Level {
@@ -100,7 +97,7 @@ impl Knowledge<'_> {
             .find(|t| !self.level_heights(**t, part).is_empty())?;
         let bottom = self.measure(Extreme::Bottommost, thing)?;
         let heights = self.level_heights(owner, part);
-        let place = heights.iter().rposition(|height| *height <= bottom + SUNK)?;
+        let place = heights.iter().rposition(|height| *height <= bottom + self.sunk())?;
         self.level_at(owner, part, place)
     }
 
@@ -108,12 +105,17 @@ impl Knowledge<'_> {
     pub(super) fn on_level(&self, level: &Level) -> HashSet<Thing> {
         let mut found = self.related(Rel::On, level.owner);
         found.extend(self.related(Rel::In, level.owner));
-        let (from, to) = (level.heights.0 - SUNK, level.heights.1 - SUNK);
+        let (from, to) = (level.heights.0 - self.sunk(), level.heights.1 - self.sunk());
         let here = |t: &Thing| {
             self.measure(Extreme::Bottommost, *t)
                 .is_some_and(|bottom| bottom >= from && bottom < to)
         };
         found.into_iter().filter(here).collect()
+    }
+
+    /// By how much what stands on a part sinks into it, cm.
+    fn sunk(&self) -> f64 {
+        self.relations.thresholds().level_sunk
     }
 
     fn level_at(&self, owner: Thing, part: &Noun, place: usize) -> Option<Level> {
@@ -148,7 +150,7 @@ impl Knowledge<'_> {
         });
         let mut heights: Vec<f64> = of_kind.collect();
         heights.sort_by(f64::total_cmp);
-        heights.dedup_by(|a, b| (*a - *b).abs() < SUNK);
+        heights.dedup_by(|a, b| (*a - *b).abs() < self.sunk());
         heights
     }
 }

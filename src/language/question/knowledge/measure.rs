@@ -93,13 +93,13 @@ impl Knowledge<'_> {
         extreme: Extreme,
         things: &[Thing],
     ) -> Extreme {
-        const EQUAL: f64 = 1.0;
+        let equal = self.relations.thresholds().level_equal;
         if extreme == extreme.of_size() {
             return extreme;
         }
         let feet: Option<Vec<f64>> = things.iter().map(|t| self.measure(extreme, *t)).collect();
         let feet = feet.unwrap_or_default();
-        let apart = feet.iter().any(|foot| (foot - feet[0]).abs() > EQUAL);
+        let apart = feet.iter().any(|foot| (foot - feet[0]).abs() > equal);
         if apart { extreme } else { extreme.of_size() }
     }
 

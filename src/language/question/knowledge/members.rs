@@ -8,11 +8,6 @@ use crate::language::question::query::Thing;
 use crate::map::Entity;
 use crate::units::{ObjectId, ReplicaId};
 
-/// What furniture is for; a picture or a television set is none.
-pub(in crate::language::question) const FURNITURE: [&str; 3] = ["support", "seat", "bed"];
-/// What only holds things is furniture unless it is one of these: a bin, a microwave.
-pub(in crate::language::question) const NO_FURNITURE: [&str; 2] = ["movable", "device"];
-
 impl Knowledge<'_> {
     /// Everything of a kind.
     pub(in crate::language::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
@@ -49,13 +44,7 @@ impl Knowledge<'_> {
                 found
             }
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
-            Extension::Furniture => {
-                let has_any = |id, of: &[&str]| of.iter().any(|t| self.world.has_trait(id, t));
-                let holds = |id| has_any(id, &["container"]) && !has_any(id, &NO_FURNITURE);
-                let used = |id| has_any(id, &FURNITURE) || holds(id);
-                let furniture = |id: &&_| used(**id) && !self.world.has_trait(**id, "portable");
-                self.world.replicas.keys().filter(furniture).map(replica).collect()
-            }
+            Extension::Furniture => self.furniture().iter().map(replica).collect(),
             Extension::AreaType(kind) => {
                 let all = self.world.areas.values().filter(|a| a.area_type == Some(*kind));
                 all.map(|a| Thing::Entity(Entity::Area(a.id))).collect()

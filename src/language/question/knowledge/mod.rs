@@ -11,7 +11,6 @@ mod values;
 mod walls;
 
 pub(super) use levels::Level;
-pub(super) use members::{FURNITURE, NO_FURNITURE};
 pub(super) use passages::{Limits, Passage};
 pub(super) use walls::Held;
 
@@ -100,7 +99,7 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
     }
 }
 
-const RELATIONS: [&str; 12] = [
+const RELATIONS: [&str; 19] = [
     "ON_TOP_OF",
     "BORNE_BY",
     "INSIDE",
@@ -113,6 +112,13 @@ const RELATIONS: [&str; 12] = [
     "RIGHT_OF",
     "BEHIND",
     "IN_FRONT_OF",
+    "AT_WALL",
+    "IN_CORNER",
+    "ON_WALL",
+    "STANDS_ON_FLOOR",
+    "AT_DOOR",
+    "IN_MIDDLE_OF",
+    "STANDS_AT",
 ];
 
 /// From whose side left and right are seen.
@@ -144,6 +150,7 @@ pub struct Mind {
     gates: OnceLock<Vec<Gate>>,
     by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
     on_floor: OnceLock<HashSet<ReplicaId>>,
+    furniture: OnceLock<Vec<ReplicaId>>,
 }
 
 impl Mind {
@@ -156,6 +163,7 @@ impl Mind {
             gates: OnceLock::new(),
             by_type: OnceLock::new(),
             on_floor: OnceLock::new(),
+            furniture: OnceLock::new(),
         }
     }
 }
@@ -197,7 +205,9 @@ impl Knowledge<'_> {
             Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
             Some(_) => None,
             None => {
-                let gate = self.gates().iter().find(|g| g.name == symbol).map(|g| g.thing);
+                let gates = self.gates();
+                let gate = gates.binary_search_by(|g| g.name.as_str().cmp(symbol));
+                let gate = gate.ok().map(|n| gates[n].thing);
                 let windows = &self.lexicon().windows;
                 let window = || windows.iter().position(|w| !w.name.is_empty() && w.name == symbol);
                 gate.or_else(|| window().map(|n| Thing::Window(n as u32)))
@@ -219,7 +229,7 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Doors and passages of Areas, each once.
+    /// Doors and passages of Areas, each once, in the order of their names.
     pub(super) fn gates(&self) -> &[Gate] {
         self.mind.gates.get_or_init(|| {
             let mut gates: BTreeMap<String, Gate> = BTreeMap::new();
@@ -264,11 +274,21 @@ impl Knowledge<'_> {
         })
     }
 
+    fn furniture(&self) -> &[ReplicaId] {
+        self.mind.furniture.get_or_init(|| {
+            let tuples = self.relations.derived().tuples("IS_FURNITURE").into_iter().flatten();
+            let mut found: Vec<ReplicaId> =
+                tuples.filter_map(|t| self.thing(t.symbol(0)?)?.replica()).collect();
+            found.sort_unstable();
+            found
+        })
+    }
+
     fn on_floor(&self) -> &HashSet<ReplicaId> {
         self.mind.on_floor.get_or_init(|| {
-            let tuples = self.relations.derived().tuples("stands_on_floor");
-            let things = tuples.into_iter().flatten();
-            things.filter_map(|t| self.thing(t.symbol(0)?)?.replica()).collect()
+            let pairs = self.pairs("STANDS_ON_FLOOR");
+            let things = pairs.into_iter().flat_map(|pairs| pairs.forward.keys());
+            things.filter_map(|thing| thing.replica()).collect()
         })
     }
 }

@@ -6,19 +6,15 @@ use super::Frame;
 use super::Knowledge;
 use super::bases;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Extreme, Rel, Thing};
+use crate::language::question::query::{Rel, Thing};
 use crate::map::{Entity, Mark};
 use crate::units::{AreaId, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
-/// What stands this far from a door is at it, cm.
-const AT_DOOR: f64 = 100.0;
-/// Furniture this far from other furniture stands at it, whatever their sizes: a chair at a table, cm.
-const AT_FURNITURE: f64 = 60.0;
-
 impl Knowledge<'_> {
     /// What lies to a thing as a preposition says.
     pub(in crate::language::question) fn related(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+        let near = self.relations.thresholds();
         match (rel, anchor) {
             (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
                 self.on_map(map)
@@ -51,13 +47,13 @@ impl Knowledge<'_> {
                 Thing::Entity(Entity::Door(_)) | Thing::Opening(_),
             ) => {
                 let Some(gate) = self.gate(anchor) else { return Vec::new() };
-                self.within_reach(AT_DOOR, &gate.areas, |id| {
-                    self.relations.distance_to_segment(id, gate.ends)
-                })
+                let all = self.pairs("AT_DOOR").and_then(|pairs| pairs.backward.get(&anchor));
+                let away = |id| self.relations.distance_to_segment(id, gate.ends);
+                nearest_first(all.into_iter().flatten().copied(), away)
             }
             (Rel::Near | Rel::NextTo | Rel::At | Rel::Under, Thing::Window(n)) => {
                 let window = &self.lexicon().windows[n as usize];
-                self.within_reach(AT_DOOR, &[window.area], |id| {
+                self.within_reach(near.door_gap, &[window.area], |id| {
                     self.relations.distance_to_segment(id, window.ends)
                 })
             }
@@ -65,7 +61,7 @@ impl Knowledge<'_> {
                 let Some((map, at)) = self.point(anchor) else { return Vec::new() };
                 let area = self.relations.measurements().area_at(map, at);
                 let areas: Vec<AreaId> = area.into_iter().collect();
-                self.within_reach(AT_DOOR, &areas, |id| {
+                self.within_reach(near.door_gap, &areas, |id| {
                     self.relations.distance_to_point(id, map, at)
                 })
             }
@@ -107,13 +103,8 @@ impl Knowledge<'_> {
 
     /// Whether both are furniture of one room and stand so near that one is at the other.
     pub(in crate::language::question) fn stands_at(&self, x: Thing, y: Thing) -> bool {
-        let furniture =
-            |t: Thing| t.replica().is_some_and(|id| !self.world.has_trait(id, "portable"));
-        x != y
-            && furniture(x)
-            && furniture(y)
-            && self.area_of(x) == self.area_of(y)
-            && self.distance(x, y).is_some_and(|d| d <= AT_FURNITURE)
+        let at = self.pairs("STANDS_AT").and_then(|pairs| pairs.forward.get(&x));
+        at.is_some_and(|others| others.contains(&y))
     }
 
     /// How things lie to what «там» means: on what bears them, else in it.
@@ -125,23 +116,11 @@ impl Knowledge<'_> {
         if !inside && anchor.replica().is_some_and(on) { Rel::On } else { Rel::In }
     }
 
-    /// What stands on a room's floor, or on a thing, no farther from its middle than a quarter of its narrower side.
+    /// What stands in the middle of a room, or on a thing in its middle.
     fn in_middle(&self, anchor: Thing) -> Vec<Thing> {
-        let (Some((map, middle)), Some(narrower)) =
-            (self.point(anchor), self.measure(Extreme::Narrowest, anchor))
-        else {
-            return Vec::new();
-        };
-        let mut found = match anchor.area() {
-            Some(area) => self.in_area(area),
-            None => self.by_relation(Rel::On, anchor),
-        };
-        let on_floor = |id: ReplicaId| anchor.area().is_none() || self.on_floor().contains(&id);
-        let away = |id: ReplicaId| self.relations.distance_to_point(id, map, middle);
-        found.retain(|t| {
-            t.replica()
-                .is_some_and(|id| on_floor(id) && away(id).is_some_and(|d| d <= narrower / 4.0))
-        });
+        let all = self.pairs("IN_MIDDLE_OF").and_then(|pairs| pairs.backward.get(&anchor));
+        let mut found = all.cloned().unwrap_or_default();
+        found.sort_unstable();
         found
     }
 
@@ -209,6 +188,19 @@ impl Knowledge<'_> {
         if let (Rel::Has, _) = (rel, y) {
             return self.tuple(Rel::In, y, x);
         }
+        let own = match rel {
+            Rel::Near | Rel::NextTo | Rel::At if self.gate(y).is_some() => Some("AT_DOOR"),
+            Rel::Middle => Some("IN_MIDDLE_OF"),
+            _ => None,
+        };
+        let holds = |relation: &str| {
+            self.pairs(relation)
+                .and_then(|pairs| pairs.forward.get(&x))
+                .is_some_and(|all| all.contains(&y))
+        };
+        if let Some(relation) = own {
+            return holds(relation).then_some((relation, x, y));
+        }
         bases(rel).iter().find_map(|basis| {
             let (a, b) = if basis.swapped { (y, x) } else { (x, y) };
             let pairs = self.pairs(basis.relation)?;
@@ -271,14 +263,8 @@ impl Knowledge<'_> {
         distance: impl Fn(ReplicaId) -> Option<f64>,
     ) -> Vec<Thing> {
         let rooms = areas.iter().map(|a| Thing::Entity(Entity::Area(*a)));
-        let mut near: Vec<(f64, Thing)> = rooms
-            .flat_map(|room| self.by_relation(Rel::In, room))
-            .filter_map(|t| Some((distance(t.replica()?)?, t)))
-            .filter(|(d, _)| *d <= reach)
-            .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        near.dedup_by_key(|(_, t)| *t);
-        near.into_iter().map(|(_, t)| t).collect()
+        let inside = rooms.flat_map(|room| self.by_relation(Rel::In, room));
+        nearest_first(inside, |id| distance(id).filter(|away| *away <= reach))
     }
 
     /// From whose side left and right of a thing are told.
@@ -303,9 +289,9 @@ impl Knowledge<'_> {
         seen.filter_map(|s| self.thing(&s.thing)).collect()
     }
 
-    /// What is ahead of the robot, behind it or at its sides, in its room, within four metres, nearest first.
+    /// What is ahead of the robot, behind it or at its sides, in its room, nearest first.
     fn beside_robot(&self, rel: Rel) -> Vec<Thing> {
-        const REACH: f64 = 400.0;
+        let reach = self.relations.thresholds().robot_around;
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
         let Some(area) = self.relations.measurements().area_at(map, pose.at) else {
             return Vec::new();
@@ -326,7 +312,7 @@ impl Knowledge<'_> {
                 Rel::LeftOf => sideways > forward.abs(),
                 _ => -sideways > forward.abs(),
             };
-            if fits && distance <= REACH {
+            if fits && distance <= reach {
                 found.push((distance, thing));
             }
         }
@@ -370,4 +356,16 @@ impl Knowledge<'_> {
         }
         chain
     }
+}
+
+/// Things that have a distance, the nearest first, each once.
+fn nearest_first(
+    things: impl Iterator<Item = Thing>,
+    distance: impl Fn(ReplicaId) -> Option<f64>,
+) -> Vec<Thing> {
+    let away = things.filter_map(|t| Some((distance(t.replica()?)?, t)));
+    let mut near: Vec<(f64, Thing)> = away.collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.dedup_by_key(|(_, t)| *t);
+    near.into_iter().map(|(_, t)| t).collect()
 }

@@ -8,7 +8,7 @@ use crate::language::question::assemble;
 use crate::language::question::grammar::{Item, Sentence};
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
-use crate::language::question::{Asker, Memory};
+use crate::language::question::{Aside, Asker, Memory, aside};
 use crate::language::words::{Case, Language, word_keys, word_ranges};
 use crate::map::Entity;
 use crate::units::name_key;
@@ -260,7 +260,6 @@ impl Asker<'_> {
             "ближайшую",
         ];
         const ALL: [&str; 6] = ["все", "обе", "оба", "all", "both", "all of them"];
-        const YES: [&str; 6] = ["да", "ага", "верно", "yes", "yeah", "right"];
         let candidates = &waiting.candidates;
         let key = name_key(text.trim_matches(|c: char| !c.is_alphanumeric()));
         let nearest = Best { extreme: Extreme::Nearest, anchor: None };
@@ -275,7 +274,7 @@ impl Asker<'_> {
             let noun = among(Noun { best: Some(nearest), ..Noun::default() });
             return knowledge.find(&noun, true).ok()?.first().map(|t| vec![*t]);
         }
-        if YES.contains(&key.as_str()) && candidates.len() == 1 {
+        if aside(text) == Some(Aside::Yes) && candidates.len() == 1 {
             return Some(candidates.clone());
         }
         let text = &self.plain(without_pointing(text));

@@ -116,6 +116,18 @@ pub fn edit(
     ids: NextIds,
     names: &dyn Fn(&str) -> Vec<Entity>,
 ) -> EditReading {
+    edit_judged(world, source, format, ids, names, &|_| Vec::new())
+}
+
+/// The same, where the edited world has also to please a judge: what that finds is told as the faults of the map are.
+pub(super) fn edit_judged(
+    world: &World,
+    source: &Source,
+    format: Format,
+    ids: NextIds,
+    names: &dyn Fn(&str) -> Vec<Entity>,
+    judge: &dyn Fn(&World) -> Vec<Fault>,
+) -> EditReading {
     let text = source.text();
     let fail = |faults: Vec<Fault>| EditReading {
         world: None,
@@ -147,7 +159,9 @@ pub fn edit(
     let is_whole = all.is_empty();
     let known = check(world);
     let news = super::super::check::check_except(&edited, &broken);
-    for mut fault in news.into_iter().filter(|f| !known.iter().any(|k| k.error == f.error)) {
+    let judged = if is_whole { judge(&edited) } else { Vec::new() };
+    let news = news.into_iter().filter(|f| !known.iter().any(|k| k.error == f.error));
+    for mut fault in news.chain(judged) {
         fault.locate(&origins, &left_out);
         all.push(fault);
     }

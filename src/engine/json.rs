@@ -1,12 +1,12 @@
-//! Engine values as JSON. The field names are documented in docs/cli.md and stay.
+//! Engine values as JSON, for all faces alike. The field names are documented in docs/cli.md and stay.
 
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::engine::{
-    Journey, PlanStep, Relations, Replanned, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding,
-    Whereabout, World, deeds_in_words, directive_in_words, face_in_words, name_in, no_way_in_words,
-    steps, surprise_in_words,
+use super::{
+    Answer, Engine, Error, Heard, Journey, Outcome as Heeded, PlanStep, Relations, Replanned,
+    Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Unanswered, Whereabout, World,
+    face_in_words, name_in, no_way_in_words, steps, surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
@@ -24,7 +24,7 @@ struct StepView {
 }
 
 /// `name` gives the English names of objects.
-pub(super) fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
+pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
     let english = solved.wording(Language::English, name);
     let steps: Vec<Vec<StepView>> = steps(solved)
         .into_iter()
@@ -75,7 +75,7 @@ pub(super) fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
 }
 
 /// The plan after assumptions were withdrawn, and what became of the one before.
-pub(super) fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
+pub fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
     let before = steps(&replanned.before);
     let mut view = plan(&replanned.after, name);
     view["withdrawn"] =
@@ -91,7 +91,7 @@ pub(super) fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) ->
 }
 
 /// A plan carried out, as far as it goes.
-pub(super) fn replayed(replayed: &Replayed) -> Value {
+pub fn replayed(replayed: &Replayed) -> Value {
     let steps: Vec<Value> = replayed
         .steps
         .iter()
@@ -131,7 +131,7 @@ pub(super) fn replayed(replayed: &Replayed) -> Value {
     })
 }
 
-fn outcome(outcome: &Outcome) -> &'static str {
+pub(super) fn outcome(outcome: &Outcome) -> &'static str {
     match outcome {
         Outcome::Plan(_) => "plan",
         Outcome::NoPlan { .. } => "no_plan",
@@ -139,7 +139,7 @@ fn outcome(outcome: &Outcome) -> &'static str {
     }
 }
 
-pub(super) fn counts(relations: &Relations) -> Value {
+pub fn counts(relations: &Relations) -> Value {
     let rows: Vec<Value> = relations
         .counts()
         .into_iter()
@@ -148,7 +148,7 @@ pub(super) fn counts(relations: &Relations) -> Value {
     json!({ "relations": rows })
 }
 
-pub(super) fn tuple(values: &[facts::Value]) -> Vec<Value> {
+pub fn tuple(values: &[facts::Value]) -> Vec<Value> {
     values
         .iter()
         .map(|value| match value {
@@ -161,7 +161,7 @@ pub(super) fn tuple(values: &[facts::Value]) -> Vec<Value> {
         .collect()
 }
 
-pub(super) fn route(world: &World, answer: &RouteAnswer, language: Language) -> Value {
+pub fn route(world: &World, answer: &RouteAnswer, language: Language) -> Value {
     let mut view = json!({
         "from": answer.from,
         "to": answer.to,
@@ -209,7 +209,7 @@ fn remedy(world: &World, remedy: &Remedy) -> Value {
 }
 
 /// A face in view.
-pub(super) fn face(world: &World, view: &FaceInView, language: Language) -> Value {
+pub fn face(world: &World, view: &FaceInView, language: Language) -> Value {
     json!({
         "face": face_in_words(world, &view.face, language),
         "area_cm2": round(view.area),
@@ -219,7 +219,7 @@ pub(super) fn face(world: &World, view: &FaceInView, language: Language) -> Valu
 }
 
 /// A single leg as [`route`] gives it; several as a list of those, with the rides between them.
-pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> Value {
+pub fn journey(world: &World, journey: &Journey, language: Language) -> Value {
     let opens: Vec<&str> =
         journey.opens.iter().map(|door| world.name(Entity::Door(*door))).collect();
     if let [leg] = &journey.legs[..] {
@@ -271,7 +271,7 @@ fn way(world: &World, route: &Route, chain: &[(AreaId, PassframeId)]) -> Value {
     })
 }
 
-pub(super) fn whereabout(world: &World, found: &Whereabout) -> Value {
+pub fn whereabout(world: &World, found: &Whereabout) -> Value {
     let terms = &found.terms;
     let map = &world.maps[&found.map];
     let mut view = json!({
@@ -311,18 +311,67 @@ fn passage(world: &World, way: &crate::semantics::Way) -> Value {
     })
 }
 
-pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
+/// What a dialogue replied: an answer with its rule and proofs, a task with its steps, else the outcome and its words.
+///
+/// # Errors
+/// As [`State::ask`](crate::engine::State::ask).
+pub fn reply(engine: &Engine, reply: &Reply) -> Result<Value, Error> {
+    Ok(match &reply.outcome {
+        Heeded::Answered(found) => answer(engine, found)?,
+        Heeded::Unanswered(unanswered) => doubt(unanswered),
+        Heeded::Task(done) => task(engine.world()?, done),
+        other => json!({ "outcome": other.word(), "text": reply.text }),
+    })
+}
+
+/// All that came of a line, in its order.
+///
+/// # Errors
+/// As [`State::ask`](crate::engine::State::ask).
+pub fn heard(engine: &Engine, heard: &Heard) -> Result<Vec<Value>, Error> {
+    heard.replies.iter().map(|one| reply(engine, one)).collect()
+}
+
+/// The answer as data: outcome, query, bindings, facts with their proofs.
+///
+/// # Errors
+/// As [`State::ask`](crate::engine::State::ask).
+pub fn answer(engine: &Engine, answer: &Answer) -> Result<Value, Error> {
+    let mut facts = Vec::new();
+    for fact in answer.facts.iter().take(20) {
+        facts.push(json!({
+            "relation": fact.relation,
+            "args": fact.args,
+            "holds": fact.holds,
+            "proof": engine.proof_of(fact, answer.language)?,
+        }));
+    }
+    Ok(json!({
+        "outcome": answer.said.word(),
+        "kind": answer.query.kind(),
+        "rule": engine.rule_of(answer)?,
+        "bindings": answer.symbols,
+        "number": answer.number,
+        "facts": facts,
+        "text": answer.text,
+    }))
+}
+
+/// Why there is no answer, and what may have been meant.
+pub fn doubt(unanswered: &Unanswered) -> Value {
+    json!({
+        "outcome": unanswered.doubt.kind(),
+        "candidates": unanswered.names,
+        "text": unanswered.text,
+    })
+}
+
+/// A task carried out, or shown impossible.
+pub fn task(world: &World, answer: &TaskAnswer) -> Value {
     let goal: Vec<Value> =
         answer.goal.iter().map(|g| json!({"predicate": g.predicate, "args": g.args})).collect();
     let mut view = json!({
-        "outcome": match &answer.ending {
-            TaskEnding::Done => "done",
-            TaskEnding::AlreadyTrue => "already_true",
-            TaskEnding::NoPlan(planned) => outcome(&planned.solved.outcome),
-            TaskEnding::Stuck(_) => "stuck",
-            TaskEnding::Stopped => "stopped",
-            TaskEnding::Failed(_) => "vehicle_failed",
-        },
+        "outcome": answer.word(),
         "map": world.maps[&answer.map].name,
         "goal": goal,
         "start": pose(answer.start),
@@ -331,7 +380,7 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         "seconds": round(answer.seconds),
         "length_cm": round(answer.reports.iter().map(|r| r.length).sum()),
         "replans": answer.replans,
-        "directives": answer.reports.iter().map(|r| report(world, r)).collect::<Vec<_>>(),
+        "directives": answer.reports.iter().map(|r| ReportView::of(world, r)).collect::<Vec<_>>(),
     });
     match &answer.ending {
         TaskEnding::NoPlan(planned) => {
@@ -361,27 +410,6 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         view["en"] = json!(position.say(Language::English));
     }
     view
-}
-
-fn report(world: &World, report: &Report) -> Value {
-    let said = |language| deeds_in_words(world, &report.directive, language);
-    let asked = |language| directive_in_words(world, &report.directive, language);
-    json!({
-        "do_ru": asked(Language::Russian),
-        "do_en": asked(Language::English),
-        "done_ru": said(Language::Russian),
-        "done_en": said(Language::English),
-        "number": report.number,
-        "action": report.directive.action.as_ref(),
-        "args": report.directive.args.iter().map(AsRef::as_ref).collect::<Vec<&str>>(),
-        "map": world.maps[&report.map].name,
-        "pose": pose(report.pose),
-        "length_cm": round(report.length),
-        "seconds": round(report.seconds),
-        "points": report.points.iter().map(|&p| point(p)).collect::<Vec<_>>(),
-        "ru": report.position.as_ref().map(|p| p.say(Language::Russian)),
-        "en": report.position.as_ref().map(|p| p.say(Language::English)),
-    })
 }
 
 fn point(p: Point) -> [f64; 2] {

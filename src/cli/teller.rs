@@ -1,0 +1,127 @@
+//! What a dialogue replies and does, as it happens: on standard output, with a bar on the terminal.
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use serde_json::json;
+
+use crate::engine::{Engine, Event, Outcome, Progress, Reply, TaskEvents, directive_told, json};
+
+use super::args::{Common, Lang};
+use super::fault::Failure;
+use super::say;
+
+/// Tells a dialogue, or a task alone.
+pub(super) struct Teller {
+    json: bool,
+    lang: Lang,
+    /// A task given alone: its words stand above what is done, what is wrong with it is the command's fault, and of its
+    /// condition programs learn by what was done.
+    is_task: bool,
+    /// Rule and proof are shown below each answer.
+    pub(super) explains: bool,
+    bar: ProgressBar,
+    events: TaskEvents,
+    /// Why no more could be told.
+    failure: Option<Failure>,
+}
+
+impl Teller {
+    pub(super) fn of_dialogue(common: &Common) -> Self {
+        Self::new(common, false)
+    }
+
+    pub(super) fn of_task(common: &Common) -> Self {
+        Self::new(common, true)
+    }
+
+    fn new(common: &Common, is_task: bool) -> Self {
+        let (json, lang) = (common.json, common.lang);
+        let (bar, events) = (ProgressBar::hidden(), TaskEvents::default());
+        Self { json, lang, is_task, explains: false, bar, events, failure: None }
+    }
+
+    /// # Errors
+    /// Something could not be told.
+    pub(super) fn end(&mut self) -> Result<(), Failure> {
+        self.failure.take().map_or(Ok(()), Err)
+    }
+
+    pub(super) fn tell(&mut self, engine: &Engine, event: &Event<'_>) {
+        if self.failure.is_none()
+            && let Err(failure) = self.told(engine, event)
+        {
+            self.failure = Some(failure);
+        }
+    }
+
+    fn told(&mut self, engine: &Engine, event: &Event<'_>) -> Result<(), Failure> {
+        match event {
+            Event::Progress { progress, world, .. } if self.json && self.is_task => {
+                if let Some(event) = self.events.of(world, progress) {
+                    // A closed pipe is noticed by the command's last words.
+                    drop(say(&json!(event).to_string()));
+                }
+                Ok(())
+            }
+            Event::Ordered(_) | Event::Progress { .. } if self.json => Ok(()),
+            Event::Ordered(order) => {
+                self.bar = bar();
+                match (self.is_task, self.lang) {
+                    (false, _) => Ok(()),
+                    (true, Lang::Ru) => put(&format!("Задание: «{order}»")),
+                    (true, Lang::En) => put(&format!("Task: \"{order}\"")),
+                }
+            }
+            Event::Progress { progress, world, language } => {
+                for line in event.in_words() {
+                    // A closed pipe is noticed by the command's last words.
+                    self.bar.suspend(|| drop(say(&line)));
+                }
+                match progress {
+                    Progress::Planned(planned) => {
+                        let steps = planned.steps.iter().map(Vec::len).sum::<usize>();
+                        self.bar.set_length(steps as u64);
+                        self.bar.set_position(0);
+                    }
+                    Progress::Started { directive, .. } => {
+                        self.bar.set_message(directive_told(world, directive, *language));
+                        self.bar.tick();
+                    }
+                    Progress::Finished(_) => self.bar.inc(1),
+                    Progress::Moved(_) | Progress::Scanned(_) | Progress::Surprised { .. } => {}
+                }
+                Ok(())
+            }
+            Event::Replied(reply) => {
+                self.bar.finish_and_clear();
+                self.replied(engine, reply)
+            }
+        }
+    }
+
+    fn replied(&self, engine: &Engine, reply: &Reply) -> Result<(), Failure> {
+        match &reply.outcome {
+            Outcome::Ended => Ok(()),
+            Outcome::Misheard(_) | Outcome::Refused(_) if self.is_task => Ok(()),
+            Outcome::Condition { .. } if self.is_task && self.json => Ok(()),
+            _ if self.json => put(&json::reply(engine, reply)?.to_string()),
+            Outcome::Answered(answer) if self.explains => {
+                put(&reply.text)?;
+                put(&engine.explained(answer)?)
+            }
+            _ => put(&reply.text),
+        }
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {wide_msg}")
+        .expect("the template is a constant and sound");
+    bar.set_style(style);
+    bar
+}
+
+fn put(text: &str) -> Result<(), Failure> {
+    say(text).map(|_| ())
+}

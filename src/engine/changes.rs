@@ -1,0 +1,152 @@
+//! Since when an id of the map means what it means: what a dialogue remembers is compared with this.
+//!
+//! **Invariant.** A thing that left the map is known by the name that it had, and whoever bears its id later is another.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::language::names::{english_name, hints};
+use crate::language::question::{Departed, Memory, Stamp, Thing};
+use crate::map::{Entity, Replica, World};
+use crate::units::ReplicaId;
+
+use super::{Error, State};
+
+/// The changes that a map has seen since it was opened.
+#[derive(Debug, Clone)]
+pub(super) struct Changes {
+    /// Which map, among all that this program has opened.
+    map: u64,
+    /// How many changes it has seen, those of the robot's own deeds among them.
+    count: u64,
+    /// The last one that was more than a move or a deed: names, kinds, values and openings count from there.
+    vocabulary: u64,
+    /// The last one that changed more than things.
+    building: u64,
+    /// What left the map, and by which change.
+    gone: BTreeMap<Entity, (u64, Departed)>,
+}
+
+impl Default for Changes {
+    fn default() -> Self {
+        static MAPS: AtomicU64 = AtomicU64::new(0);
+        let map = MAPS.fetch_add(1, Ordering::Relaxed);
+        Self { map, count: 0, vocabulary: 0, building: 0, gone: BTreeMap::new() }
+    }
+}
+
+impl Changes {
+    /// The robot did something, or something was seen.
+    pub(super) fn note_deed(&mut self) {
+        self.count += 1;
+    }
+
+    /// The map became another one; `changed` are the things that differ, where nothing else does. Where ids are given
+    /// once for ever (in a store), what comes back is what it was.
+    pub(super) fn note(
+        &mut self,
+        before: &World,
+        after: &World,
+        changed: Option<&[ReplicaId]>,
+        ids_are_unique: bool,
+    ) {
+        self.count += 1;
+        let Some(changed) = changed else {
+            (self.building, self.vocabulary) = (self.count, self.count);
+            for entity in entities(before).filter(|entity| !is_on(after, *entity)) {
+                self.gone.insert(entity, (self.count, departed(before, entity)));
+            }
+            if ids_are_unique {
+                self.gone.retain(|entity, _| !is_on(after, *entity));
+            }
+            return;
+        };
+        for id in changed {
+            let entity = Entity::Replica(*id);
+            match (before.replicas.get(id), after.replicas.get(id)) {
+                (Some(was), Some(is)) => {
+                    let moved = Replica { area: is.area, frame: is.frame, ..was.clone() };
+                    if moved == *is {
+                        continue;
+                    }
+                }
+                (Some(_), None) => {
+                    self.gone.insert(entity, (self.count, departed(before, entity)));
+                }
+                (None, _) if ids_are_unique => {
+                    self.gone.remove(&entity);
+                }
+                (None, _) => {}
+            }
+            self.vocabulary = self.count;
+        }
+    }
+
+    /// Whether names, kinds or openings may be others than they were.
+    pub(super) fn has_renamed_since(&self, stamp: Stamp) -> bool {
+        stamp.map != self.map || self.vocabulary > stamp.change
+    }
+
+    fn stamp(&self) -> Stamp {
+        Stamp { map: self.map, change: self.count }
+    }
+}
+
+fn entities(world: &World) -> impl Iterator<Item = Entity> + '_ {
+    let maps = world.maps.keys().map(|id| Entity::Map(*id));
+    let areas = world.areas.keys().map(|id| Entity::Area(*id));
+    let doors = world.doors.keys().map(|id| Entity::Door(*id));
+    let replicas = world.replicas.keys().map(|id| Entity::Replica(*id));
+    let places = world.places.keys().map(|id| Entity::Place(*id));
+    maps.chain(areas).chain(doors).chain(replicas).chain(places)
+}
+
+fn is_on(world: &World, entity: Entity) -> bool {
+    match entity {
+        Entity::Map(id) => world.maps.contains_key(&id),
+        Entity::Area(id) => world.areas.contains_key(&id),
+        Entity::Door(id) => world.doors.contains_key(&id),
+        Entity::Replica(id) => world.replicas.contains_key(&id),
+        Entity::Place(id) => world.places.contains_key(&id),
+    }
+}
+
+fn departed(world: &World, entity: Entity) -> Departed {
+    let (name, english) = (world.name(entity).to_owned(), english_name(world, entity).to_owned());
+    Departed { name, english, hints: hints(world, entity) }
+}
+
+impl State {
+    /// Brings what a dialogue remembers to the map as it now is.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub(super) fn catch_up(&self, memory: &mut Memory) -> Result<(), Error> {
+        let (now, world) = (self.changes.stamp(), self.world()?);
+        let since = match memory.stamp() {
+            Some(was) if was == now => return Ok(()),
+            // Another map, or an older state of this one, which may lack what is remembered.
+            Some(was) if was.map != now.map || was.change > now.change => {
+                memory.forget();
+                None
+            }
+            was => was,
+        };
+        if let Some(since) = since {
+            let changes = &self.changes;
+            let gone = |thing: Thing| match thing {
+                Thing::Entity(entity) => match changes.gone.get(&entity) {
+                    Some((left, departed)) if *left > since.change => Some(departed.clone()),
+                    _ => (!is_on(world, entity)).then(Departed::default),
+                },
+                Thing::Opening(_) | Thing::Window(_) => {
+                    (changes.building > since.change).then(Departed::default)
+                }
+                Thing::Robot => None,
+            };
+            memory.outlive(&gone, changes.vocabulary > since.change);
+        }
+        memory.belongs_to(now);
+        Ok(())
+    }
+}

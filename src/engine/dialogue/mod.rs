@@ -1,0 +1,567 @@
+//! A dialogue: whatever a person says, heard against what was said before.
+//!
+//! ```
+//! use orthoframe::{Engine, map::World};
+//! use orthoframe::engine::Dialogue;
+//! # let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
+//! let mut engine = Engine::in_memory(World::load(map).unwrap(), None)?;
+//! let mut dialogue = Dialogue::default();
+//! for line in ["Где лекарство?", "Поезжай туда", "Почему Книга-4 на Столе-1?"] {
+//!     println!("{}", dialogue.hear(&mut engine, line, &mut |_, _| {})?.text());
+//! }
+//! # Ok::<(), orthoframe::engine::Error>(())
+//! ```
+//!
+//! A line is, in this order: an aside (yes, why, the end), the reply for which an order waits, an order under a
+//! condition, several orders and questions, one order, or a question. All parts of a line are read before the first is
+//! begun, and what is ordered behind an order that failed is not begun.
+//!
+//! # Invariants
+//!
+//! - Every face hears and answers by this; no face has words of its own for it.
+//! - What is remembered belongs to a revision of the map: see [`Engine::ask`].
+
+mod heard;
+
+pub use heard::{Event, Heard, Outcome, Reply};
+
+use crate::language::Language;
+use crate::language::command::{
+    Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb,
+};
+use crate::language::question::{
+    Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, sentences,
+};
+use crate::map::{Entity, World};
+use crate::robot::Vehicle;
+use crate::units::Stop;
+
+use super::narration::nothing_to_stop;
+use super::task::Progress;
+use super::{Engine, Error, task_in_words};
+
+/// How whoever speaks is told what happens, as it happens.
+pub type Tell<'t> = dyn FnMut(&Engine, &Event<'_>) + 't;
+
+/// What was said so far, and what waits for an answer.
+#[derive(Debug)]
+pub struct Dialogue {
+    memory: Memory,
+    /// A line with its verb put right, until the person says that it was meant.
+    offered: Option<String>,
+    /// Why the last line was not carried out, until another one is answered.
+    refusal: Option<String>,
+    /// The language of what has no words, and of tasks given by [`Dialogue::order`].
+    language: Language,
+    keeps: bool,
+    wheels: Wheels,
+    stop: Stop,
+}
+
+/// What carries out the orders of a dialogue.
+enum Wheels {
+    /// The simulated robot, in a world that is as it is believed to be.
+    Simulated,
+    /// The simulated robot, in a world that may differ from what it believes.
+    InTruth(Box<World>),
+    Vehicle(Box<dyn Vehicle + Send>),
+}
+
+impl std::fmt::Debug for Wheels {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Simulated => "Simulated",
+            Self::InTruth(_) => "InTruth",
+            Self::Vehicle(_) => "Vehicle",
+        })
+    }
+}
+
+impl Default for Dialogue {
+    fn default() -> Self {
+        Self::new(Language::default())
+    }
+}
+
+impl Dialogue {
+    /// Nothing was said yet. Each line is answered in its own language, and what has no words in this one.
+    #[must_use]
+    pub fn new(language: Language) -> Self {
+        Self {
+            memory: Memory::speaking(language),
+            offered: None,
+            refusal: None,
+            language,
+            keeps: true,
+            wheels: Wheels::Simulated,
+            stop: Stop::new(),
+        }
+    }
+
+    /// What is done leaves no trace in the store: it is only read.
+    #[must_use]
+    pub fn keeping_nothing(self) -> Self {
+        Self { keeps: false, ..self }
+    }
+
+    /// The simulated robot drives in a world that may differ from what it believes, and leaves it as it then is.
+    #[must_use]
+    pub fn in_truth(self, truth: World) -> Self {
+        Self { wheels: Wheels::InTruth(Box::new(truth)), ..self }
+    }
+
+    /// This vehicle carries out the orders, in place of the simulated robot.
+    #[must_use]
+    pub fn driving(self, vehicle: Box<dyn Vehicle + Send>) -> Self {
+        Self { wheels: Wheels::Vehicle(vehicle), ..self }
+    }
+
+    /// Raised, by another thread or a signal, it ends the order that is under way, and each that follows until another
+    /// is given here.
+    pub fn stopped_by(&mut self, stop: Stop) {
+        self.stop = stop;
+    }
+
+    /// What was spoken of.
+    #[must_use]
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Hears a line, whatever it is, and does what it asks and orders.
+    ///
+    /// # Errors
+    /// There is no map, or the disk refused. What is not understood or cannot be done is an outcome.
+    pub fn hear(
+        &mut self,
+        engine: &mut Engine,
+        text: &str,
+        tell: &mut Tell<'_>,
+    ) -> Result<Heard, Error> {
+        let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
+        hearing.hear(text.trim())?;
+        Ok(hearing.heard)
+    }
+
+    /// Hears a question, and nothing else: no order is carried out.
+    ///
+    /// # Errors
+    /// As [`Dialogue::hear`].
+    pub fn ask(&mut self, engine: &Engine, question: &str) -> Result<Reply, Error> {
+        let answered = engine.ask(question, &mut self.memory)?;
+        Ok(answered.map_or_else(Reply::unanswered, Reply::answer))
+    }
+
+    /// Hears what is meant as an order, and is told of in the dialogue's language: a question in it is answered, but
+    /// nothing waits for a reply.
+    ///
+    /// # Errors
+    /// As [`Dialogue::hear`].
+    pub fn order(
+        &mut self,
+        engine: &mut Engine,
+        task: &str,
+        tell: &mut Tell<'_>,
+    ) -> Result<Heard, Error> {
+        let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
+        hearing.order(task)?;
+        Ok(hearing.heard)
+    }
+}
+
+impl Reply {
+    fn answer(answer: crate::language::question::Answer) -> Self {
+        let (text, language) = (answer.text.clone(), answer.language);
+        Self { outcome: Outcome::Answered(Box::new(answer)), text, language }
+    }
+
+    fn unanswered(unanswered: Unanswered) -> Self {
+        let (text, language) = (unanswered.text.clone(), unanswered.language);
+        Self { outcome: Outcome::Unanswered(Box::new(unanswered)), text, language }
+    }
+}
+
+/// A line on its way to what comes of it.
+struct Hearing<'h, 't> {
+    dialogue: &'h mut Dialogue,
+    engine: &'h mut Engine,
+    tell: &'h mut Tell<'t>,
+    heard: Heard,
+}
+
+impl Hearing<'_, '_> {
+    fn hear(&mut self, line: &str) -> Result<(), Error> {
+        if line.is_empty() {
+            return Ok(());
+        }
+        let said = aside(line);
+        if said == Some(Aside::End) {
+            return self.put(Outcome::Ended, "", self.dialogue.language);
+        }
+        if is_too_long(line) {
+            return self.ask(line);
+        }
+        let offered = self.dialogue.offered.take();
+        let awaited = offered.is_some() || self.dialogue.memory.awaits_reply();
+        let refusal = self.dialogue.refusal.take();
+        let language = self.spoken(line);
+        match (said, refusal, offered) {
+            (Some(Aside::Why), Some(reason), _) => {
+                let text = match language {
+                    Language::Russian => format!("Вот причина: {reason}"),
+                    Language::English => format!("The reason: {reason}"),
+                };
+                return self.put(Outcome::Reason, &text, language);
+            }
+            (Some(Aside::Yes), _, Some(meant)) => return self.command(&meant, true),
+            (Some(Aside::No), _, _) if awaited => return self.stop(true, language),
+            _ => {}
+        }
+        if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
+            return self.command(&whole, awaited);
+        }
+        if let (Some(Aside::Yes | Aside::No), false) = (said, awaited) {
+            let text = language.pick(
+                "Я ни о чём не спрашивал. Спросите или прикажите.",
+                "I asked nothing. Ask or command.",
+            );
+            return self.put(Outcome::NothingOffered, text, language);
+        }
+        if let Some(line) = in_time(line).filter(|line| is_order(line)) {
+            return self.command(&line, awaited);
+        }
+        if let Some(conditional) = conditional(line) {
+            return self.if_so(&conditional);
+        }
+        // «Где пульт? Принеси его.»: a question and a command.
+        let parts = sentences(line);
+        if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
+            let (order, before) = parts.split_last().expect("there are several");
+            let mut heard = Vec::new();
+            for part in before {
+                // "I am thirsty. Bring me a cup.": what asks nothing and commands nothing is let pass.
+                let asked = part.ends_with('?') || self.engine.is_command(part)?;
+                if asked || self.engine.ask(part, &mut self.dialogue.memory.clone())?.is_ok() {
+                    heard.push((*part).to_owned());
+                }
+            }
+            heard.push((*order).to_owned());
+            return self.hear_each(&heard, awaited);
+        }
+        if let Some(parts) = self.engine.parts_of(line)? {
+            return self.hear_each(&parts, awaited);
+        }
+        self.hear_one(line, awaited)
+    }
+
+    /// Orders and questions of one line: none is begun where another cannot be followed.
+    fn hear_each(&mut self, parts: &[String], awaited: bool) -> Result<(), Error> {
+        if parts.len() > 1
+            && let Err(error) = self.engine.read_ahead(parts, &self.dialogue.memory)
+        {
+            return self.refuse(error, Language::of(&parts.join(" ")));
+        }
+        for part in parts {
+            if self.has_failed() && self.engine.is_command(part)? {
+                self.not_begun(part)?;
+            } else {
+                self.hear_one(part, awaited)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is found out is told, and what then is to be done follows.
+    fn if_so(&mut self, conditional: &Conditional) -> Result<(), Error> {
+        if let Some(first) = &conditional.first {
+            self.hear_one(first, false)?;
+            if self.has_failed() {
+                return match &conditional.then {
+                    Some(then) => self.not_begun(then),
+                    None => Ok(()),
+                };
+            }
+        }
+        let (holds, answer) = match self.engine.holds(conditional, &mut self.dialogue.memory)? {
+            Ok(found) => found,
+            Err(mut unanswered) => {
+                if let Some(text) = conditional.unwatched() {
+                    text.clone_into(&mut unanswered.text);
+                }
+                return self.reply(Reply::unanswered(unanswered));
+            }
+        };
+        let (text, language) = (answer.text.clone(), answer.language);
+        self.put(Outcome::Condition { holds, answer: Box::new(answer) }, &text, language)?;
+        let order = if holds { &conditional.then } else { &conditional.otherwise };
+        match order {
+            Some(order) => self.hear(order),
+            // What was waited for is so.
+            None if holds && conditional.waits => Ok(()),
+            None => self.put(Outcome::Waiting, conditional.undone(), language),
+        }
+    }
+
+    fn hear_one(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        // "I need to read something. Where are the books?" asks, whatever is said before.
+        let asks = match &sentences(line)[..] {
+            [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
+            _ => false,
+        };
+        // "Two spoons to the table, please" asks nothing, though a question may begin so.
+        let begs =
+            !asks && !line.contains('?') && begs(line) && !self.engine.asks_something(line)?;
+        if !asks && self.engine.is_command(line)? || begs && self.engine.orders_tersely(line)? {
+            return self.command(line, awaited);
+        }
+        self.answer(line, awaited)
+    }
+
+    /// Answers a question, or carries out what proves to be none.
+    fn answer(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        let unanswered = match self.engine.ask(line, &mut self.dialogue.memory)? {
+            Ok(answer) => return self.reply(Reply::answer(answer)),
+            Err(unanswered) => unanswered,
+        };
+        // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
+        let kind = unanswered.doubt.kind();
+        let not_understood = kind != "ambiguous" && !line.contains('?');
+        // What the map lacks is an answer to a question, whatever its words are like.
+        let asked = kind == "unknown" && self.engine.asks_something(line)?;
+        let heard = || self.engine.understand_in(line, &mut self.dialogue.memory.clone());
+        let commands = || match heard() {
+            // A question with such a verb in it stays a question.
+            Err(Error::Misheard(Misheard::NotUnderstood { .. })) => false,
+            Err(_) => has_verb(line),
+            Ok(_) => true,
+        };
+        // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
+        let orders = not_understood && !asks_whether(line);
+        if orders && (commands() || self.engine.orders_tersely(line)?) {
+            return self.command(line, awaited);
+        }
+        let Some((at, verb)) = likely_verb(line).filter(|_| !asked) else {
+            return self.reply(Reply::unanswered(unanswered));
+        };
+        let (said, language) = (&line[at.clone()], Language::of(line));
+        let text = match language {
+            Language::Russian => format!("Я не понимаю слова «{said}». Может быть, «{verb}»?"),
+            Language::English => {
+                format!("I do not understand the word \"{said}\". Do you mean \"{verb}\"?")
+            }
+        };
+        let mut order = line.to_owned();
+        order.replace_range(at, verb);
+        self.dialogue.offered = Some(order.clone());
+        self.put(Outcome::Offered { order }, &text, language)
+    }
+
+    /// A question alone, whatever it may order.
+    fn ask(&mut self, line: &str) -> Result<(), Error> {
+        let reply = self.dialogue.ask(self.engine, line)?;
+        self.reply(reply)
+    }
+
+    fn command(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        let language = Language::of(line);
+        (self.tell)(self.engine, &Event::Ordered(line));
+        let commands = match self.engine.understand_in(line, &mut self.dialogue.memory) {
+            Ok(commands) => commands,
+            Err(error) => return self.refuse(error, language),
+        };
+        let pick = |russian, english| language.pick(russian, english);
+        match &commands[..] {
+            [Command::Stop] => self.stop(awaited, language),
+            [Command::Wait] => self.put(Outcome::Waiting, pick("Жду.", "I am waiting."), language),
+            [Command::ComeBack] => {
+                let text = pick(
+                    "Я ещё никуда не уезжал. Скажите, куда ехать.",
+                    "I have not been sent anywhere yet. Say where to go.",
+                );
+                self.put(Outcome::NeverLeft, text, language)
+            }
+            [Command::Report] => {
+                let asked = pick("Где ты?", "Where are you?");
+                let text = match self.engine.ask(asked, &mut self.dialogue.memory)? {
+                    Ok(answer) => answer.text,
+                    Err(unanswered) => unanswered.text,
+                };
+                self.put(Outcome::Reported, &text, language)
+            }
+            _ => self.carry_out(line, &commands, language),
+        }
+    }
+
+    /// A task that cannot be done is an answer within a dialogue, not its end.
+    fn carry_out(
+        &mut self,
+        line: &str,
+        commands: &[Command<Entity>],
+        language: Language,
+    ) -> Result<(), Error> {
+        let (engine, tell) = (&*self.engine, &mut *self.tell);
+        let world = engine.world()?;
+        let mut told = |progress: &Progress<'_>| {
+            tell(engine, &Event::Progress { progress, world, language });
+        };
+        let stop = &self.dialogue.stop;
+        let carried_out = match &mut self.dialogue.wheels {
+            Wheels::Simulated => engine
+                .simulator(None)
+                .and_then(|mut robot| engine.carry_out_with(commands, &mut robot, &mut told, stop)),
+            Wheels::InTruth(truth) => {
+                let mut robot = engine.simulator(Some(World::clone(truth)))?;
+                let carried_out = engine.carry_out_with(commands, &mut robot, &mut told, stop);
+                **truth = robot.into_truth();
+                carried_out
+            }
+            Wheels::Vehicle(vehicle) => {
+                engine.carry_out_with(commands, &mut **vehicle, &mut told, stop)
+            }
+        };
+        let task = match carried_out {
+            Ok(task) => task,
+            Err(error) => return self.refuse(error, language),
+        };
+        self.done(line, task, None, language)
+    }
+
+    fn done(
+        &mut self,
+        line: &str,
+        task: super::TaskAnswer,
+        text: Option<&str>,
+        language: Language,
+    ) -> Result<(), Error> {
+        let ending = match text {
+            Some(text) => text.to_owned(),
+            None => self.engine.ending_in_words(&task, language)?,
+        };
+        self.dialogue.memory.did(task_in_words(self.engine.world()?, line, &task));
+        self.put(Outcome::Task(Box::new(task)), &ending, language)?;
+        let done = self.heard.replies.last().map(|reply| &reply.outcome);
+        if let (true, Some(Outcome::Task(task))) = (self.dialogue.keeps, done) {
+            self.engine.remember(task, std::time::SystemTime::now().into())?;
+        }
+        Ok(())
+    }
+
+    /// Nothing is under way between two lines; what waited for an answer is dropped.
+    fn stop(&mut self, waited: bool, language: Language) -> Result<(), Error> {
+        self.dialogue.memory.forget_reply();
+        let text = match waited {
+            true => language.pick("Хорошо, отменено.", "All right, that is cancelled."),
+            false => nothing_to_stop(language),
+        };
+        self.put(Outcome::Stopped { waited }, text, language)
+    }
+
+    fn refuse(&mut self, error: Error, language: Language) -> Result<(), Error> {
+        let (outcome, text) = match error {
+            Error::Misheard(misheard) => {
+                let text = misheard.say(language);
+                (Outcome::Misheard(Box::new(misheard)), text)
+            }
+            other => {
+                let text = other.say(self.engine.world()?, language);
+                (Outcome::Refused(Box::new(other)), text)
+            }
+        };
+        self.dialogue.refusal = Some(text.clone());
+        self.put(outcome, &text, language)
+    }
+
+    fn not_begun(&mut self, order: &str) -> Result<(), Error> {
+        let language = self.spoken(order);
+        let text = match language {
+            Language::Russian => format!("Не начато: «{order}»."),
+            Language::English => format!("Not begun: \"{order}\"."),
+        };
+        self.put(Outcome::NotBegun { order: order.to_owned() }, &text, language)
+    }
+
+    /// Whether an order of this line has failed.
+    fn has_failed(&self) -> bool {
+        self.heard.replies.iter().any(|reply| reply.outcome.has_failed())
+    }
+
+    /// The language of a line; of one without words, that of the dialogue.
+    fn spoken(&self, line: &str) -> Language {
+        match line.chars().any(char::is_alphabetic) {
+            true => Language::of(line),
+            false => self.dialogue.language,
+        }
+    }
+
+    fn put(&mut self, outcome: Outcome, text: &str, language: Language) -> Result<(), Error> {
+        self.reply(Reply { outcome, text: text.to_owned(), language })
+    }
+
+    #[expect(clippy::unnecessary_wraps, reason = "what is put is the end of many a fallible way")]
+    fn reply(&mut self, reply: Reply) -> Result<(), Error> {
+        (self.tell)(self.engine, &Event::Replied(&reply));
+        self.heard.replies.push(reply);
+        Ok(())
+    }
+}
+
+/// What is given as a task alone.
+impl Hearing<'_, '_> {
+    fn order(&mut self, task: &str) -> Result<(), Error> {
+        let parts = match self.engine.parts_of(task)? {
+            // «Проверь, открыт ли холодильник» orders nothing but an answer.
+            Some(parts) if parts.len() == 1 => return self.ask(&parts[0]),
+            None if !self.engine.is_command(task)? && self.engine.asks_something(task)? => {
+                return self.ask(task);
+            }
+            Some(parts) if parts.len() > 1 => {
+                if let Err(error) = self.engine.read_ahead(&parts, &self.dialogue.memory) {
+                    return self.refuse(error, self.dialogue.language);
+                }
+                parts
+            }
+            _ => vec![task.to_owned()],
+        };
+        for part in &parts {
+            let orders = parts.len() == 1 || self.engine.is_command(part)?;
+            match (orders, self.has_failed()) {
+                // What is asked may speak of where the robot was sent.
+                (false, _) => self.ask(part)?,
+                (true, true) => self.not_begun(part)?,
+                (true, false) => self.one_order(part)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn one_order(&mut self, order: &str) -> Result<(), Error> {
+        let language = self.dialogue.language;
+        let in_order = in_time(order).filter(|order| is_order(order));
+        let order = in_order.as_deref().unwrap_or(order);
+        let mut idle = None;
+        if let Some(conditional) = conditional(order)
+            && let Ok((holds, answer)) =
+                self.engine.holds(&conditional, &mut self.dialogue.memory.clone())?
+        {
+            let (text, spoken) = (answer.text.clone(), answer.language);
+            self.put(Outcome::Condition { holds, answer: Box::new(answer) }, &text, spoken)?;
+            let then = if holds { &conditional.then } else { &conditional.otherwise };
+            let nothing = then.is_none() && conditional.first.is_none();
+            idle = nothing.then(|| conditional.undone());
+        }
+        if idle.is_none() {
+            (self.tell)(self.engine, &Event::Ordered(order));
+        }
+        let commands = match self.engine.understand_in(order, &mut self.dialogue.memory) {
+            Ok(commands) => commands,
+            Err(error) => return self.refuse(error, language),
+        };
+        match idle {
+            Some(text) => {
+                let task = self.engine.carry_out(&commands, &mut |_| {})?;
+                self.done(order, task, Some(text), language)
+            }
+            None => self.carry_out(order, &commands, language),
+        }
+    }
+}

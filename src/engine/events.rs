@@ -1,0 +1,276 @@
+//! What happens while a task is driven, as data: one [`TaskEvent`] after another, each a JSON object with its name in
+//! the field `event` (docs/cli.md lists the fields, which stay).
+//!
+//! ```
+//! use orthoframe::Engine;
+//! use orthoframe::engine::TaskEvents;
+//! use orthoframe::map::World;
+//!
+//! let engine = Engine::in_memory(World::load("maps/rb2.toml").unwrap(), None).unwrap();
+//! let (mut events, mut names) = (TaskEvents::default(), Vec::new());
+//! engine.perform("Поезжай к Точке-К", &mut |progress| {
+//!     let Some(event) = events.of(engine.world().unwrap(), progress) else { return };
+//!     let event = serde_json::to_value(event).unwrap();
+//!     names.push(event["event"].as_str().unwrap().to_owned());
+//! }).unwrap();
+//! assert_eq!(names[..3], ["planned", "started", "arrived"]);
+//! ```
+
+use serde::Serialize;
+
+use crate::graphplan::Outcome;
+use crate::language::Language;
+use crate::map::World;
+use crate::robot::{Deed, Directive, Planned, Refusal, Surprise};
+use crate::units::{Point, Pose};
+
+use super::{Progress, Report, deeds_in_words, directive_in_words, name_in, surprise_in_words};
+
+/// One thing that happened on the way.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum TaskEvent {
+    /// A goal has a plan, or is shown to have none.
+    Planned(PlanView),
+    /// The same after a surprise.
+    Replanned(PlanView),
+    /// A directive is begun.
+    Started {
+        /// Counts from 1 over all directives of the plan in force.
+        number: usize,
+        of: usize,
+        #[serde(flatten)]
+        directive: DirectiveView,
+    },
+    /// A directive that drives is done.
+    Arrived(ReportView),
+    /// A directive that does something where the robot stands is done.
+    Done(ReportView),
+    /// The world is not as believed.
+    Surprised {
+        /// `blocked`, `not_there`, `refused`, `no_way`, `unknown`, `not_seen` or `no_return`.
+        kind: &'static str,
+        /// What stood in the way or would not, where it is something of the map.
+        thing: Option<String>,
+        explanation: String,
+        explanation_en: String,
+        #[serde(flatten)]
+        directive: DirectiveView,
+    },
+}
+
+/// A directive in names and in words.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DirectiveView {
+    pub action: String,
+    pub args: Vec<String>,
+    pub do_ru: String,
+    pub do_en: String,
+}
+
+/// A plan, as far as who follows the drive cares.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlanView {
+    /// `plan`, `no_plan` or `limit`.
+    pub outcome: &'static str,
+    /// The facts that are wanted, as the rule language writes them.
+    pub goal: Vec<String>,
+    /// Parallel steps, empty where there is no plan.
+    pub steps: Vec<Vec<DirectiveView>>,
+    pub assumptions: Vec<String>,
+    pub assumptions_en: Vec<String>,
+    /// Why there is no plan.
+    pub explanation: Option<String>,
+    pub explanation_en: Option<String>,
+}
+
+/// A directive that is done, and where the robot then is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportView {
+    pub do_ru: String,
+    pub do_en: String,
+    /// Sentences on what was switched, found, put away, and who was called.
+    pub done_ru: Vec<String>,
+    pub done_en: Vec<String>,
+    pub number: usize,
+    pub action: String,
+    pub args: Vec<String>,
+    pub map: String,
+    pub pose: PoseView,
+    pub length_cm: f64,
+    pub seconds: f64,
+    pub points: Vec<[f64; 2]>,
+    /// The report of the position; none outside of every room.
+    pub ru: Option<String>,
+    pub en: Option<String>,
+}
+
+/// On the Map, cm and degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PoseView {
+    pub x: f64,
+    pub y: f64,
+    pub heading_deg: f64,
+}
+
+/// Makes events of the progress of one task.
+#[derive(Debug, Default)]
+pub struct TaskEvents {
+    surprised: bool,
+}
+
+impl TaskEvents {
+    /// The event for what has just happened, if it is one: a pose on the way and a scan are none. To be asked once for
+    /// each, in order.
+    pub fn of(&mut self, world: &World, progress: &Progress<'_>) -> Option<TaskEvent> {
+        Some(match progress {
+            Progress::Moved(_) | Progress::Scanned(_) => return None,
+            Progress::Planned(planned) => {
+                let plan = PlanView::of(world, planned);
+                match std::mem::take(&mut self.surprised) {
+                    true => TaskEvent::Replanned(plan),
+                    false => TaskEvent::Planned(plan),
+                }
+            }
+            Progress::Started { number, of, directive } => TaskEvent::Started {
+                number: *number,
+                of: *of,
+                directive: DirectiveView::of(world, directive),
+            },
+            Progress::Finished(report) => {
+                let view = ReportView::of(world, report);
+                let drives = |deed: &Deed| {
+                    matches!(
+                        deed,
+                        Deed::GoToPlace(_)
+                            | Deed::GoToDoor(_)
+                            | Deed::Cross { .. }
+                            | Deed::Ride { .. }
+                    )
+                };
+                match report.directive.deeds().iter().any(drives) {
+                    true => TaskEvent::Arrived(view),
+                    false => TaskEvent::Done(view),
+                }
+            }
+            Progress::Surprised { directive, surprise } => {
+                self.surprised = true;
+                let told = |language| surprise_in_words(world, surprise, language);
+                TaskEvent::Surprised {
+                    kind: kind(surprise),
+                    thing: thing(world, surprise),
+                    explanation: told(Language::Russian),
+                    explanation_en: told(Language::English),
+                    directive: DirectiveView::of(world, directive),
+                }
+            }
+        })
+    }
+}
+
+/// What a surprise is about, by its name on the map; what the map does not have has none.
+fn thing(world: &World, surprise: &Surprise) -> Option<String> {
+    let what = match surprise {
+        Surprise::Blocked { bump, .. } => bump.against.entity(),
+        Surprise::Refused { refusal, .. } => refusal.about().and_then(|what| what.entity()),
+        Surprise::Noticed { seen } => Some(seen.entity()),
+        Surprise::NoWay { to: name, .. }
+        | Surprise::Unknown { name }
+        | Surprise::NotSeen { thing: name, .. } => return Some(name.clone()),
+        Surprise::NoReturn { door, .. } => Some(crate::map::Entity::Door(*door)),
+    };
+    let known = world.names().find(|(entity, _)| Some(*entity) == what);
+    known.map(|(_, name)| name.to_owned())
+}
+
+fn kind(surprise: &Surprise) -> &'static str {
+    match surprise {
+        Surprise::Blocked { .. } => "blocked",
+        Surprise::Refused { refusal: Refusal::NotThere(_), .. } => "not_there",
+        Surprise::Refused { .. } => "refused",
+        Surprise::NoWay { .. } => "no_way",
+        Surprise::Unknown { .. } => "unknown",
+        Surprise::NotSeen { .. } => "not_seen",
+        Surprise::NoReturn { .. } => "no_return",
+        Surprise::Noticed { .. } => "noticed",
+    }
+}
+
+impl DirectiveView {
+    #[must_use]
+    pub fn of(world: &World, directive: &Directive) -> Self {
+        let asked = |language| directive_in_words(world, directive, language);
+        Self {
+            action: directive.action.to_string(),
+            args: directive.args.iter().map(ToString::to_string).collect(),
+            do_ru: asked(Language::Russian),
+            do_en: asked(Language::English),
+        }
+    }
+}
+
+impl PlanView {
+    #[must_use]
+    pub fn of(world: &World, planned: &Planned) -> Self {
+        let solved = &planned.solved;
+        let name = |name: &str| name_in(world, name, Language::English);
+        let english = solved.wording(Language::English, &name);
+        let step = |step: &Vec<Directive>| {
+            step.iter().map(|directive| DirectiveView::of(world, directive)).collect()
+        };
+        let is_plan = matches!(solved.outcome, Outcome::Plan(_));
+        Self {
+            outcome: match solved.outcome {
+                Outcome::Plan(_) => "plan",
+                Outcome::NoPlan { .. } => "no_plan",
+                Outcome::LimitReached(_) => "limit",
+            },
+            goal: solved.task.goal.iter().map(|&id| solved.task.fact(id).to_string()).collect(),
+            steps: planned.steps.iter().map(step).collect(),
+            assumptions: solved.assumptions.iter().map(ToString::to_string).collect(),
+            assumptions_en: solved.assumptions_with(&english),
+            explanation: (!is_plan).then(|| solved.explanation(Language::Russian)).flatten(),
+            explanation_en: (!is_plan).then(|| solved.explanation_with(&english)).flatten(),
+        }
+    }
+}
+
+impl ReportView {
+    #[must_use]
+    pub fn of(world: &World, report: &Report) -> Self {
+        let DirectiveView { action, args, do_ru, do_en } =
+            DirectiveView::of(world, &report.directive);
+        let done = |language| deeds_in_words(world, &report.directive, language);
+        let point = |p: &Point| [hundredths(p.x), hundredths(p.y)];
+        let said = |language| report.position.as_ref().map(|position| position.say(language));
+        Self {
+            do_ru,
+            do_en,
+            done_ru: done(Language::Russian),
+            done_en: done(Language::English),
+            number: report.number,
+            action,
+            args,
+            map: world.maps[&report.map].name.clone(),
+            pose: report.pose.into(),
+            length_cm: hundredths(report.length),
+            seconds: hundredths(report.seconds),
+            points: report.points.iter().map(point).collect(),
+            ru: said(Language::Russian),
+            en: said(Language::English),
+        }
+    }
+}
+
+impl From<Pose> for PoseView {
+    fn from(pose: Pose) -> Self {
+        let heading_deg = hundredths(pose.heading.get());
+        Self { x: hundredths(pose.at.x), y: hundredths(pose.at.y), heading_deg }
+    }
+}
+
+/// A tenth of a millimetre, a hundredth of a degree; nothing is minus zero.
+fn hundredths(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0 + 0.0
+}

@@ -1,0 +1,313 @@
+//! What a run tells a person: its plan, each step as it ends, and what it came to.
+//!
+//! **Invariant.** Every face tells a task in these words and has none of its own.
+
+use crate::graphplan::Outcome;
+use crate::language::Language;
+use crate::language::question::{Answer, Memory};
+use crate::language::words::english;
+use crate::map::{Entity, World};
+use crate::robot::{Directive, Solved};
+use crate::semantics::predicate;
+use crate::strips::{OperatorId, Said, Wording};
+
+use super::deeds::{deeds_in_words, directive_in_words, name_in};
+use super::surprises::surprise_in_words;
+use super::task::{Progress, TaskAnswer, TaskEnding};
+use super::{Error, State};
+
+/// What is said to "Stop" where nothing is under way.
+pub(super) fn nothing_to_stop(language: Language) -> &'static str {
+    language.pick("Стою: ничего не выполняется.", "I stand still: nothing is under way.")
+}
+
+/// A plan as the paper prints it, one directive a line, parallel ones under one number; by the phrases of the rules
+/// where they have any in the language.
+#[must_use]
+pub fn plan_in_words(solved: &Solved, wording: &Wording<'_>) -> String {
+    let directive = |id: &OperatorId| wording.action(&Said::from(solved.task.operator(*id)));
+    let steps = solved.outcome.plan().map_or_else(Vec::new, |plan| {
+        plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
+    });
+    plan_of(solved, &steps, wording)
+}
+
+/// A plan, its directives given in words.
+fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> String {
+    let pick = |russian, english| wording.language.pick(russian, english);
+    // What was given up before it began knows no plan, and one of no steps would be an answer.
+    let is_found = match solved.outcome {
+        Outcome::Plan(_) => true,
+        Outcome::NoPlan { .. } => false,
+        Outcome::LimitReached(_) => !steps.is_empty(),
+    };
+    if !is_found {
+        let head = match solved.outcome {
+            Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
+            _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
+        };
+        return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());
+    }
+    if steps.is_empty() {
+        return pick("Цель уже достигнута.", "The goal holds already.").to_owned();
+    }
+    let actions: usize = steps.iter().map(Vec::len).sum();
+    let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
+    let proof = match is_proven {
+        true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
+        false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
+    };
+    let mut text = wording.language.pick(
+        format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
+        format!("Plan: {}; {proof}.", counted_in_english(steps.len(), actions)),
+    );
+    for (number, step) in steps.iter().enumerate() {
+        for (i, action) in step.iter().enumerate() {
+            let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
+            text.push_str(&format!("\n{label:>4} {action}"));
+        }
+    }
+    if let (Outcome::LimitReached(_), Some(known)) =
+        (&solved.outcome, solved.explanation_with(wording))
+    {
+        let head = pick("Это не ответ до конца: ", "This is no full answer: ");
+        text.push_str(&format!("\n{head}{known}"));
+    }
+    if !solved.assumptions.is_empty() {
+        let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
+        let told = solved.assumptions_with(wording).join("\n     ");
+        text.push_str(&format!("\n{head}\n     {told}"));
+    }
+    text
+}
+
+/// "1 step, 2 actions"
+#[must_use]
+pub fn counted_in_english(steps: usize, actions: usize) -> String {
+    let count = |number: usize, noun| english::count(number as u64, noun);
+    format!("{}, {}", count(steps, "step"), count(actions, "action"))
+}
+
+/// A number with one decimal, its mark as the language has it.
+#[must_use]
+pub fn decimal(value: f64, unit: &str, language: Language) -> String {
+    let text = format!("{value:.1} {unit}");
+    if language == Language::Russian { text.replacen('.', ",", 1) } else { text }
+}
+
+/// A directive as the paper prints it; in English, where its Russian names tell nothing, in words.
+#[must_use]
+pub fn directive_told(world: &World, directive: &Directive, language: Language) -> String {
+    match language {
+        Language::Russian => directive.to_string(),
+        Language::English => directive_in_words(world, directive, language),
+    }
+}
+
+/// What happens on the way, a line each; nothing for what is only begun.
+#[must_use]
+pub fn progress_in_words(
+    world: &World,
+    progress: &Progress<'_>,
+    language: Language,
+) -> Vec<String> {
+    match progress {
+        Progress::Planned(planned) => {
+            if !matches!(planned.solved.outcome, Outcome::Plan(_)) || planned.steps.is_empty() {
+                return Vec::new();
+            }
+            let told = |directive: &Directive| directive_told(world, directive, language);
+            let steps: Vec<Vec<String>> =
+                planned.steps.iter().map(|step| step.iter().map(told).collect()).collect();
+            let name = |name: &str| name_in(world, name, language);
+            let wording = planned.solved.wording(language, &name);
+            vec![format!("{}\n", plan_of(&planned.solved, &steps, &wording))]
+        }
+        Progress::Started { .. } | Progress::Moved(_) | Progress::Scanned(_) => Vec::new(),
+        Progress::Finished(report) => {
+            let way = if report.points.is_empty() {
+                String::new()
+            } else {
+                format!("{}, ", decimal(report.length / 100.0, language.pick("м", "m"), language))
+            };
+            let time = decimal(report.seconds, language.pick("с", "s"), language);
+            let mut lines = vec![format!(
+                "{:>4} {} – {way}{time}",
+                format!("{}.", report.number),
+                directive_told(world, &report.directive, language)
+            )];
+            let deeds = deeds_in_words(world, &report.directive, language);
+            lines.extend(deeds.into_iter().map(|sentence| format!("     {sentence}")));
+            lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
+            lines
+        }
+        Progress::Surprised { directive, surprise } => {
+            let what = surprise_in_words(world, surprise, language);
+            vec![
+                format!("   ! {}: {what}", directive_told(world, directive, language)),
+                language.pick("     Новый план.", "     Planning anew.").to_owned(),
+            ]
+        }
+    }
+}
+
+impl TaskAnswer {
+    /// How it ended, by a stable word for programs.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match &self.ending {
+            TaskEnding::Done => "done",
+            TaskEnding::AlreadyTrue => "already_true",
+            TaskEnding::NoPlan(planned) => super::json::outcome(&planned.solved.outcome),
+            TaskEnding::Stuck(_) => "stuck",
+            TaskEnding::Stopped => "stopped",
+            TaskEnding::Failed(_) => "vehicle_failed",
+        }
+    }
+}
+
+impl State {
+    /// What a task came to, in words.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn ending_in_words(
+        &self,
+        answer: &TaskAnswer,
+        language: Language,
+    ) -> Result<String, Error> {
+        if let TaskEnding::NoPlan(planned) = &answer.ending
+            && matches!(planned.solved.outcome, Outcome::NoPlan { .. })
+        {
+            // Where nothing leads at all, that is the reason; the rules would only say it in more words.
+            let apart = self.unconnected_in_words(answer, language);
+            if !apart.is_empty() {
+                let head = language
+                    .pick("Плана нет, и это доказано.", "There is no plan; this is proven.");
+                return Ok(format!("{head} {}", apart.join(" ")));
+            }
+        }
+        let mut told = vec![ending(self.world()?, answer, language)];
+        let places = self.places_found(answer, language)?;
+        // That a thing is found already says nothing more than where it is.
+        let finds = answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND);
+        let is_so = matches!(answer.ending, TaskEnding::AlreadyTrue) && answer.left.is_empty();
+        if is_so && finds && !places.is_empty() {
+            told.clear();
+        }
+        told.extend(places);
+        Ok(told.join(" "))
+    }
+
+    /// Who asks to find a thing wants to know where it is.
+    fn places_found(&self, answer: &TaskAnswer, language: Language) -> Result<Vec<String>, Error> {
+        let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
+        let mut places = Vec::new();
+        for name in goals.flat_map(|goal| goal.args.first()) {
+            let shown = name_in(self.world()?, name, language);
+            let question = match language {
+                Language::Russian => format!("Где {name}?"),
+                Language::English => format!("Where is {shown}?"),
+            };
+            places
+                .extend(self.ask(&question, &mut Memory::default())?.ok().map(|found| found.text));
+        }
+        Ok(places)
+    }
+
+    /// The rule of an answer, and below it the proof of each of the first facts.
+    ///
+    /// # Errors
+    /// As [`State::ask`](crate::engine::State::ask).
+    pub fn explained(&self, answer: &Answer) -> Result<String, Error> {
+        let mut lines = vec![self.rule_of(answer)?];
+        for fact in answer.facts.iter().take(3) {
+            let sign = if fact.holds { "" } else { "!" };
+            lines.push(format!("{sign}{}({})", fact.relation, fact.args.join(", ")));
+            let proof = self.proof_of(fact, answer.language)?;
+            lines.extend(proof.into_iter().map(|line| format!("    {line}")));
+        }
+        Ok(lines.join("\n"))
+    }
+}
+
+fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
+    let length = answer.reports.iter().map(|r| r.length).sum::<f64>() / 100.0;
+    let spent = format!(
+        "{}, {}",
+        decimal(length, language.pick("м", "m"), language),
+        decimal(answer.seconds, language.pick("с", "s"), language)
+    );
+    let mut told = match &answer.ending {
+        TaskEnding::Done => match language {
+            Language::Russian => format!("\nСделано: {spent}."),
+            Language::English => format!("\nDone: {spent}."),
+        },
+        ending => unfinished(world, ending, answer, language),
+    };
+    for (thing, sure) in &answer.unsure {
+        let name = name_in(world, world.name(Entity::Replica(*thing)), language);
+        let percent = (sure * 100.0).round();
+        told.push_str(&match language {
+            Language::Russian => format!(
+                "\nГде {name}, я не был уверен (уверенность {percent:.0} %), поэтому сначала искал."
+            ),
+            Language::English => {
+                format!(
+                    "\nI was not sure where {name} was ({percent:.0}% sure), so I looked first."
+                )
+            }
+        });
+    }
+    for (goal, ending) in &answer.left {
+        let thing = goal.args.first().map(|name| name_in(world, name, language));
+        let stays = language.pick("осталось не на месте", "is not in its place");
+        let why = unfinished(world, ending, answer, language);
+        told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
+    }
+    if answer.not_begun > 0 {
+        let rest = "\nОстальное из этого задания не начато.";
+        told.push_str(language.pick(rest, "\nThe rest of this order was not begun."));
+    }
+    told
+}
+
+fn unfinished(
+    world: &World,
+    ending: &TaskEnding,
+    answer: &TaskAnswer,
+    language: Language,
+) -> String {
+    match ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
+            Some(position) => position.say(language),
+            None if answer.stops => nothing_to_stop(language).to_owned(),
+            None if answer.tidies => {
+                let kept = "Всё уже на своих местах: там, где хранится или было на карте.";
+                let english =
+                    "Everything is in its place already: where it is kept, or was surveyed.";
+                language.pick(kept, english).to_owned()
+            }
+            None => language.pick("Так уже и есть.", "It is so already.").to_owned(),
+        },
+        TaskEnding::NoPlan(planned) => {
+            let name = |name: &str| name_in(world, name, language);
+            plan_in_words(&planned.solved, &planned.solved.wording(language, &name))
+        }
+        TaskEnding::Stuck(surprise) => {
+            let what = surprise_in_words(world, surprise, language);
+            format!("{}: {what}.", language.pick("Не выходит", "Stuck"))
+        }
+        TaskEnding::Stopped => {
+            let stopped = language.pick("Остановлено.", "Stopped.");
+            match &answer.reported {
+                Some(position) => format!("{stopped} {}", position.say(language)),
+                None => stopped.to_owned(),
+            }
+        }
+        TaskEnding::Failed(failure) => {
+            let broken_off = language.pick("Задание прервано", "The task was broken off");
+            format!("{broken_off}: {}.", failure.say(language))
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The rule files that are built in, written out for who would edit them.
+
+use std::path::{Path, PathBuf};
+
+use crate::units::{is_input, write_file};
+
+use super::{Error, RequestError};
+
+macro_rules! files {
+    ($($name:literal),+ $(,)?) => {
+        &[$(($name, include_str!(concat!("../../rules/", $name)))),+]
+    };
+}
+
+/// Every rule file by its path within a directory of rules, and its text.
+pub const RULE_FILES: &[(&str, &str)] = files![
+    "relations.dl",
+    "service-robot.strips",
+    "import-synonyms.toml",
+    "scenarios/another-floor.strips",
+    "scenarios/chair-in-the-way.strips",
+    "scenarios/dark-room.strips",
+    "scenarios/guests.strips",
+    "scenarios/leaving-the-room.strips",
+    "scenarios/medicine-closed-door.strips",
+    "scenarios/medicine-locked-door.strips",
+    "scenarios/medicine-walk.strips",
+    "scenarios/operator-opens-the-door.strips",
+    "scenarios/tidy-up.strips",
+    "scenarios/two-goals-exclude.strips",
+];
+
+/// Writes the built-in rule files into a directory, which is made where there is none; the paths written.
+///
+/// # Errors
+/// A file is there already and `overwrite` is not set: nothing is written then. The disk refused.
+pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> {
+    let there: Vec<String> = RULE_FILES
+        .iter()
+        .map(|(name, _)| dir.join(name))
+        .filter(|path| path.symlink_metadata().is_ok())
+        .map(|path| path.display().to_string())
+        .collect();
+    if !there.is_empty() && !overwrite {
+        return Err(RequestError::RulesThere { files: there.join(", ") }.into());
+    }
+    let refused = |path: &Path, error: &std::io::Error| RequestError::File {
+        path: path.display().to_string(),
+        reason: error.to_string(),
+        is_input: is_input(error.kind()),
+    };
+    let mut written = Vec::new();
+    for (name, text) in RULE_FILES {
+        let path = dir.join(name);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| refused(folder, &e))?;
+        }
+        write_file(&path, text.as_bytes()).map_err(|e| refused(&path, &e))?;
+        written.push(path);
+    }
+    Ok(written)
+}

@@ -1,0 +1,93 @@
+//! The world as it really is, apart from what the robot believes: told in a file, driven in by the simulator.
+//!
+//! **Invariant.** The store never hears of a truth; it keeps what the robot found out in it.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use crate::map::{self, Entity, Format, MapError, MapErrors, World};
+use crate::robot::Simulator;
+use crate::units::{Bilingual, FileFault, ReplicaId, Source};
+
+use super::lexicon::form_index;
+use super::memory::Now;
+use super::{Error, RequestError, State, load};
+
+/// What is really so.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// Without what the robot holds or has handed over. In the ids of the map, for what that has too.
+    pub world: World,
+    /// What stood on a thing that the file moves without its load, and so hangs where it was.
+    pub left_behind: Vec<String>,
+}
+
+/// No map or file of edits is larger, bytes.
+const LIMIT: u64 = 64 << 20;
+
+impl State {
+    /// Reads a truth from a file: a map, or edits of what is believed now (see [`map::read_truth`]).
+    ///
+    /// # Errors
+    /// All faults of the file, and where it tells of another building or robot than the map does.
+    pub fn read_truth(&self, file: &Path) -> Result<Truth, Error> {
+        let source = Source::read_within(file, LIMIT).map_err(|fault| unreadable(file, &fault))?;
+        self.truth(&source, Format::of(file))
+    }
+
+    /// The same from a text.
+    ///
+    /// # Errors
+    /// As [`State::read_truth`].
+    pub fn truth(&self, source: &Source, format: Format) -> Result<Truth, Error> {
+        let now = self.now(std::time::SystemTime::now().into())?;
+        let (believed, away) = with_carried(&now);
+        let index = std::cell::OnceCell::new();
+        let names = |name: &str| -> Vec<Entity> {
+            let index = index.get_or_init(|| form_index(&believed));
+            index.find(name).into_iter().map(|hit| *hit.id).collect()
+        };
+        let read = map::read_truth(&believed, &away, source, format, &names);
+        let Some(mut world) = read.world else { return Err(read.faults.into()) };
+        for carried in &away {
+            world.replicas.remove(carried);
+        }
+        let left_behind = if world.replicas == now.world.replicas {
+            Vec::new()
+        } else {
+            let relations = self.relations_now(&now)?;
+            let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
+            load::carry(&now.world, relations, &read.carriers, &mut world)
+        };
+        let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
+        let left_behind = left_behind.iter().filter_map(name).collect();
+        let standing = Simulator::new(world, now.map, now.pose);
+        let inside = standing.stands_in();
+        let world = standing.into_truth();
+        if let Some(what) = inside {
+            let thing = what.entity().map_or(String::new(), |it| world.name(it).to_owned());
+            return Err(RequestError::TruthOnRobot { thing }.into());
+        }
+        Ok(Truth { world, left_behind })
+    }
+}
+
+/// The world of now with what is carried or was handed over, where it was last, and which that is.
+fn with_carried(now: &Now) -> (World, BTreeSet<ReplicaId>) {
+    let mut world = now.world.clone();
+    let given = now.handed_over.iter().map(|(thing, _)| thing);
+    let aboard = now.aboard.iter().map(|(thing, _)| thing);
+    let carried: Vec<_> = now.held.iter().chain(given).chain(aboard).cloned().collect();
+    let away = carried.iter().map(|thing| thing.id).collect();
+    world.replicas.extend(carried.into_iter().map(|thing| (thing.id, thing)));
+    (world, away)
+}
+
+fn unreadable(file: &Path, fault: &FileFault) -> MapErrors {
+    let path = file.to_string_lossy().into_owned();
+    let message = Bilingual::new(fault.to_string(), fault.english());
+    MapErrors::of(match fault {
+        FileFault::TooLarge { bytes, limit } => MapError::TooLarge { bytes: *bytes, limit: *limit },
+        _ => MapError::Unreadable { path, message },
+    })
+}

@@ -1,0 +1,67 @@
+//! What is said in a dialogue and is neither a question nor an order of its own: yes and no to what was offered, "why?",
+//! the end; and the small words by which a line asks or begs.
+//!
+//! Invariant: only a line of nothing else is an aside.
+
+use crate::language::words::word_keys;
+use crate::units::name_key;
+
+/// A line that means something only after what was said before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Aside {
+    Yes,
+    No,
+    Why,
+    /// The dialogue is over.
+    End,
+}
+
+const PHRASES: &[(Aside, &str)] = &[
+    (Aside::Yes, "да|ага|верно|конечно|yes|yeah|yep|sure|right"),
+    (Aside::No, "нет|не надо|не нужно|no|nope|no thanks"),
+    (Aside::Why, "почему|а почему|почему нет|почему же|why|why not"),
+    (Aside::End, "выход|exit|quit|конец"),
+];
+
+/// The aside that a line is. What ends in a question mark only asks: «Выход?» is no farewell.
+#[must_use]
+pub fn aside(text: &str) -> Option<Aside> {
+    let key = name_key(text.trim_matches(|c: char| !c.is_alphanumeric()));
+    let said = |all: &str| all.split('|').any(|one| one == key);
+    let found = PHRASES.iter().find(|(_, all)| said(all)).map(|(aside, _)| *aside)?;
+    (found == Aside::Why || !text.contains('?')).then_some(found)
+}
+
+/// Whether a line begs: "Two spoons to the table, please".
+#[must_use]
+pub fn begs(text: &str) -> bool {
+    word_keys(text).iter().any(|word| matches!(word.as_str(), "please" | "пожалуйста"))
+}
+
+/// Whether a particle makes a question of a line: «Дойдёшь ли ты до спальни».
+#[must_use]
+pub fn asks_whether(text: &str) -> bool {
+    word_keys(text).get(1).is_some_and(|word| word == "ли")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_line_of_nothing_else_is_an_aside() {
+        for (text, expected) in [
+            ("Да!", Some(Aside::Yes)),
+            ("нет", Some(Aside::No)),
+            ("А почему?", Some(Aside::Why)),
+            ("Why not?", Some(Aside::Why)),
+            ("Выход", Some(Aside::End)),
+            ("Выход?", None),
+            ("Да, принеси", None),
+            ("почему стол здесь", None),
+            ("", None),
+        ] {
+            assert_eq!(aside(text), expected, "{text}");
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! The thresholds of the rule text, with their units: the one place where code reads them.
+//!
+//! `rules/relations.dl` holds every number that decides whether something is so, as `limit(profile, name, value)`;
+//! rules read it as `threshold(name, value)`, code as a field of [`Thresholds`]. The table below names each, its unit,
+//! what it is where a rule text does not say it, and how far measuring looks for it. A rule text that lacks one gets
+//! the value of the table, rules and code alike; one whose value cannot be meant is refused with its place.
+//!
+//! **Invariant:** the standard text says of every name what the table says; a test holds it.
+
+use miette::{Diagnostic, SourceSpan};
+use thiserror::Error;
+
+use crate::facts::{Program, Value};
+use crate::units::Source;
+
+/// What a number of the rule text counts, and what it may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Tenths of a millimetre there, cm here; up to 100 m, within which is all that a room knows.
+    Length,
+    /// Hundredths of a degree there, degrees here; up to half a turn.
+    Angle,
+    /// Thousandths there, a share of one here.
+    Share,
+    /// A number of times.
+    Times,
+}
+
+impl Unit {
+    /// How many of the rule text's units make one of those of code.
+    fn scale(self) -> f64 {
+        match self {
+            Self::Length | Self::Angle => 100.0,
+            Self::Share => 1000.0,
+            Self::Times => 1.0,
+        }
+    }
+
+    fn range(self) -> (i64, i64) {
+        match self {
+            Self::Length => (0, 1_000_000),
+            Self::Angle => (0, 18_000),
+            Self::Share => (0, 1_000),
+            Self::Times => (1, 1_000),
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Length => "длина в десятых долях миллиметра, от 0 до 1000000 (100 м)",
+            Self::Angle => "угол в сотых долях градуса, от 0 до 18000",
+            Self::Share => "доля в тысячных, от 0 до 1000",
+            Self::Times => "число раз, от 1 до 1000",
+        }
+    }
+}
+
+/// One name of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Known {
+    pub name: &'static str,
+    pub unit: Unit,
+    /// Of the profile «common», in the rule text's unit.
+    pub standard: i64,
+    /// The name of the `reach` that must look as far as the threshold does.
+    pub(super) reach: Option<&'static str>,
+}
+
+macro_rules! thresholds {
+    ($($(#[$doc:meta])* $field:ident = $name:literal, $unit:ident, $standard:literal $(, $reach:literal)?;)+) => {
+        /// The thresholds of one profile: lengths in cm, angles in degrees, shares of one.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct Thresholds {
+            $($(#[$doc])* pub $field: f64,)+
+        }
+
+        /// All names that the program knows.
+        pub const KNOWN: &[Known] = &[$(Known {
+            name: $name,
+            unit: Unit::$unit,
+            standard: $standard,
+            reach: thresholds!(@reach $($reach)?),
+        },)+];
+
+        impl Default for Thresholds {
+            fn default() -> Self {
+                Self { $($field: f64::from($standard) / Unit::$unit.scale(),)+ }
+            }
+        }
+
+        impl Thresholds {
+            fn set(&mut self, name: &str, value: i64) {
+                match name {
+                    $($name => {
+                        let (least, most) = Unit::$unit.range();
+                        self.$field = value.clamp(least, most) as f64 / Unit::$unit.scale();
+                    })+
+                    // Of the user's own rules.
+                    _ => {}
+                }
+            }
+        }
+    };
+    (@reach) => { None };
+    (@reach $reach:literal) => { Some($reach) };
+}
+
+thresholds! {
+    support_gap_up = "support gap up", Length, 600;
+    support_gap_down = "support gap down", Length, 600, "sink";
+    support_share = "support share", Share, 500;
+    overlap_share = "overlap share", Share, 200;
+    inside_slack = "inside slack", Length, 500, "escape";
+    inside_held = "inside held", Share, 500;
+    inside_open_held = "inside open held", Share, 300;
+    floor_gap = "floor gap", Length, 800;
+    wall_reach = "wall reach", Length, 3000, "outside";
+    next_level = "next level", Share, 333;
+    next_divisor = "next divisor", Times, 4;
+    next_least = "next least", Length, 3000, "beside";
+    next_most = "next most", Length, 6000, "beside";
+    between_share = "between share", Share, 250;
+    facing_share = "facing share", Share, 500;
+    close_distance = "close distance", Length, 13000, "distance";
+    sector_half = "sector half", Angle, 4500;
+    sector_distance = "sector distance", Length, 20000, "sector";
+    lean_gap = "lean gap", Length, 500, "beside";
+    lean_level = "lean level", Share, 500;
+    slender_times = "slender times", Times, 3;
+    step_distance = "step distance", Length, 6000, "step";
+    part_edge = "part edge", Share, 10;
+    part_middle = "part middle", Share, 500;
+    belief_told = "belief told", Share, 500;
+
+    /// What stands this near to a solid side of its room stands at the wall.
+    wall_gap = "wall gap", Length, 3000, "edge";
+    /// Both walls of a corner are this near to what stands in it.
+    corner_gap = "corner gap", Length, 5000, "edge";
+    /// Two walls make a corner when they turn by more than this, and by less than what is left of half a turn.
+    corner_turn = "corner turn", Angle, 3000;
+    /// What hangs on a wall is this near to it.
+    hanging_gap = "hanging gap", Length, 800, "edge";
+    /// What is this near to a door, a window or a point is at it.
+    door_gap = "door gap", Length, 10000, "opening";
+    /// Furniture this near to other furniture stands at it, whatever their sizes: a chair at a table.
+    furniture_gap = "furniture gap", Length, 6000, "distance";
+    /// In the middle: no farther from the middle than this share of the narrower side.
+    middle_share = "middle share", Share, 250;
+
+    /// What is between two things fills so much of the shortest way from one to the other,
+    between_way = "between way", Length, 100;
+    /// or is so near beside that way,
+    between_aside = "between aside", Length, 1500;
+    /// or lies with such a share of itself where both see each other.
+    between_amid = "between amid", Share, 500;
+    /// So far from a wall a thing may stand that people speak of what is between them.
+    before_wall = "before wall", Length, 15000;
+    /// A door or window this near to the line of a wall is in it: as thick as walls are.
+    wall_line = "wall line", Length, 3000;
+    /// What stands on a part sinks into it by no more; parts nearer in height are one level.
+    level_sunk = "level sunk", Length, 300;
+    /// Heights that differ by less are equal.
+    level_equal = "level equal", Length, 100;
+    /// A storey this deep under the ground is a cellar and has no number.
+    cellar_depth = "cellar depth", Length, 5000;
+
+    /// Ahead of one who faces something is what is so near to the line of sight; beyond it, things are aside.
+    view_ahead = "view ahead", Angle, 1500;
+    /// Beyond this angle things are behind him.
+    view_behind = "view behind", Angle, 12000;
+    /// What is so near to straight ahead of a thing is rather on neither side of it.
+    view_aside = "view aside", Length, 500;
+
+    /// In a doorway: this near to the line of the door, or within the thickness of its wall.
+    robot_doorway = "robot doorway", Length, 1500;
+    /// The robot's middle is this near to a door at which it stands,
+    robot_door = "robot door", Length, 13000;
+    /// to a thing beside which it stands,
+    robot_thing = "robot thing", Length, 7000;
+    /// to the walls by which it stands.
+    robot_wall = "robot wall", Length, 7000;
+    /// In the middle: within the Area's outline shrunk to this share about its centroid, no wall being near.
+    robot_middle = "robot middle", Share, 400;
+    /// It faces what is this near along its heading.
+    robot_facing = "robot facing", Length, 25000;
+    /// Around it, before, behind and beside it, is what is this near.
+    robot_around = "robot around", Length, 40000;
+    /// This near to a place of the map it is at that.
+    robot_place = "robot place", Length, 3000;
+    /// So far it sees,
+    robot_sight = "robot sight", Length, 40000;
+    /// and so wide: as a wide camera does.
+    robot_field = "robot field", Angle, 12000;
+    /// A way passes what stands this near to it,
+    way_beside = "way beside", Length, 13000;
+    /// and turns at what stands this near to its bend.
+    way_bend = "way bend", Length, 11000;
+}
+
+/// What is wrong with one `limit` or `reach` of a rule text.
+#[derive(Debug, Clone, Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(code(semantics::threshold), help("{help}"))]
+pub struct ThresholdFault {
+    message: String,
+    help: String,
+    #[source_code]
+    text: Source,
+    #[label("здесь")]
+    at: SourceSpan,
+}
+
+impl ThresholdFault {
+    /// Line and character column, both from 1.
+    #[must_use]
+    pub fn position(&self) -> (usize, usize) {
+        self.text.position(self.at.offset())
+    }
+}
+
+/// One `limit` that stands in a text.
+struct Limit<'p> {
+    profile: String,
+    name: String,
+    value: i64,
+    source: &'p Source,
+    at: SourceSpan,
+}
+
+fn limits(program: &Program) -> Vec<Limit<'_>> {
+    let Some(relation) = program.relation("limit") else { return Vec::new() };
+    let limit = |(values, source, at): (Vec<Value>, _, _)| match &values[..] {
+        [Value::Symbol(profile), Value::Symbol(name), Value::Number(value)] => {
+            let (profile, name) = (profile.to_string(), name.to_string());
+            Some(Limit { profile, name, value: *value, source, at })
+        }
+        _ => None,
+    };
+    program.written(relation).filter_map(limit).collect()
+}
+
+/// All that is wrong with the thresholds and reaches of a rule text.
+pub(super) fn faults(program: &Program) -> Vec<ThresholdFault> {
+    let mut faults = Vec::new();
+    let limits = limits(program);
+    for (n, limit) in limits.iter().enumerate() {
+        let Limit { name, value, source, at, profile } = limit;
+        let mut fault = |message, help| {
+            faults.push(ThresholdFault { message, help, text: (*source).clone(), at: *at });
+        };
+        if !["common", "surveyed", "detected"].contains(&profile.as_str()) {
+            let message = format!("нет профиля «{profile}»");
+            fault(message, "бывают common, surveyed и detected".to_owned());
+        }
+        let Some(known) = KNOWN.iter().find(|known| known.name == name) else { continue };
+        let (least, most) = known.unit.range();
+        if !(least..=most).contains(value) {
+            let message = format!("порог «{name}» не может быть {value}");
+            fault(message, format!("это {}", known.unit.words()));
+        }
+        let same = |other: &&Limit<'_>| other.profile == *profile && other.name == *name;
+        if let Some(first) = limits[..n].iter().find(same).filter(|first| first.value != *value) {
+            let (line, _) = first.source.position(first.at.offset());
+            let place = format!("{}:{line}", first.source.name());
+            let message = format!("порог «{name}» назван дважды: {} и {value}", first.value);
+            fault(message, format!("оставьте один: здесь или {place}"));
+        }
+    }
+    let reaches = program.relation("reach").map(|relation| program.written(relation));
+    for (values, source, at) in reaches.into_iter().flatten() {
+        let [Value::Symbol(name), Value::Number(value)] = &values[..] else { continue };
+        let (least, most) = Unit::Length.range();
+        if !(least..=most).contains(value) {
+            let message = format!("предел измерения «{name}» не может быть {value}");
+            let help = format!("это {}", Unit::Length.words());
+            faults.push(ThresholdFault { message, help, text: source.clone(), at });
+        }
+    }
+    faults
+}
+
+/// The facts that a rule text lacks, as a text; empty where it names every threshold, or none at all.
+pub(super) fn lacking(program: &Program) -> String {
+    let limits = limits(program);
+    if limits.is_empty() {
+        return String::new();
+    }
+    let lacks = |known: &&Known| limits.iter().all(|limit| limit.name != known.name);
+    let line =
+        |known: &Known| format!("limit(\"common\", \"{}\", {}).\n", known.name, known.standard);
+    KNOWN.iter().filter(lacks).map(line).collect()
+}
+
+/// The farthest that any profile's thresholds of a reach look.
+pub(super) fn farthest(program: &Program, reach: &str) -> i64 {
+    let limits = limits(program);
+    let of_reach = |name: &str| KNOWN.iter().any(|k| k.name == name && k.reach == Some(reach));
+    let own = limits.iter().filter(|limit| of_reach(&limit.name)).map(|limit| limit.value);
+    own.max().unwrap_or(0)
+}
+
+impl Thresholds {
+    /// As `threshold(name, value)` says; what it does not say is as the table has it. Where rules derive several
+    /// values of one name, the greatest counts.
+    pub(super) fn of(told: impl Iterator<Item = (String, i64)>) -> Self {
+        let mut all: Vec<(String, i64)> = told.collect();
+        all.sort();
+        let mut found = Self::default();
+        all.iter().for_each(|(name, value)| found.set(name, *value));
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::semantics::STANDARD;
+
+    fn program(text: &str) -> Program {
+        Program::parse(&Source::new("правила.dl", text)).expect("it is sound")
+    }
+
+    #[test]
+    fn the_standard_text_names_every_threshold_as_the_table_does() {
+        let program = program(STANDARD);
+        assert_eq!(lacking(&program), "");
+        assert!(faults(&program).is_empty());
+        let limits = limits(&program);
+        for known in KNOWN {
+            let common = limits.iter().find(|l| l.profile == "common" && l.name == known.name);
+            assert_eq!(common.map(|l| l.value), Some(known.standard), "{}", known.name);
+        }
+        let unknown = limits.iter().find(|l| KNOWN.iter().all(|known| known.name != l.name));
+        assert!(unknown.is_none(), "{}", unknown.map_or("", |l| &l.name));
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_told_with_its_place() {
+        let text = r#".decl limit(p: symbol, n: symbol, v: number) .output limit
+.decl reach(n: symbol, v: number) .output reach
+limit("common", "wall gap", -1).
+  limit("common", "inside held", 5000). limit("common", "sector half", 18001).
+limit("surveyed", "next divisor", 0). limit("survyed", "next most", 1).
+limit("common", "floor gap", 1). limit("common", "floor gap", 2). limit("detected", "floor gap", 3).
+limit("common", "own", -5).
+reach("edge", 10000000)."#;
+        let told: String = faults(&program(text))
+            .iter()
+            .map(|f| {
+                let (line, column) = f.position();
+                format!("{line}:{column} {f}; {}\n", f.help)
+            })
+            .collect();
+        expect_test::expect![[r#"
+            3:1 порог «wall gap» не может быть -1; это длина в десятых долях миллиметра, от 0 до 1000000 (100 м)
+            4:3 порог «inside held» не может быть 5000; это доля в тысячных, от 0 до 1000
+            4:41 порог «sector half» не может быть 18001; это угол в сотых долях градуса, от 0 до 18000
+            5:1 порог «next divisor» не может быть 0; это число раз, от 1 до 1000
+            5:39 нет профиля «survyed»; бывают common, surveyed и detected
+            6:34 порог «floor gap» назван дважды: 1 и 2; оставьте один: здесь или правила.dl:6
+            8:1 предел измерения «edge» не может быть 10000000; это длина в десятых долях миллиметра, от 0 до 1000000 (100 м)
+        "#]]
+        .assert_eq(&told);
+    }
+}

@@ -1,0 +1,393 @@
+//! Thresholds and meanings stand in the rule text: what is changed there changes the relation and what is answered.
+
+use orthoframe::engine::{Engine, Rules};
+use orthoframe::facts::{Value, WhyNot};
+use orthoframe::language::question::Memory;
+use orthoframe::map::{Entity, Format, Profile, World};
+use orthoframe::semantics::{
+    MEASURED, RelationError, RelationRules, Relations, STANDARD, Spot, derive, measured_table,
+};
+use orthoframe::units::{Deg, Frame, Point, Pose, Source};
+
+use crate::files::project;
+
+/// ```text
+/// 400 +--П-----------------------+      П Картина-1, 1,50 m above the floor
+///     | К2                       |
+///     |          C1     С1       +      К1 20 cm from the south wall, К2 40 cm from two walls,
+///     |    к                     = Д    C1 Стол-1, its edge 40 cm from the middle, С1 Стул-1 70 cm from the door
+///     |          К1              +      and from the table, к Коробка-1, 10 cm above the floor
+///   0 +--------------------------+
+///     0                         600
+/// ```
+const HOME: &str = r#"
+format = 1
+[type]
+object = [
+  { name = "Стол", traits = ["support"] }, { name = "Стул", traits = ["seat"] }, { name = "Шкаф", traits = ["container"] },
+  { name = "Картина" }, { name = "Коробка", traits = ["portable"] },
+]
+[orthoframe]
+floor-a = { name = "Пол А", height = 270, points = [[0, 0], [600, 0], [600, 150], [600, 250], [600, 400], [0, 400]], side.C = { permeability = "conditional" } }
+floor-b = { name = "Пол Б", height = 270, points = [[0, 0], [600, 0], [600, 400], [0, 400], [0, 250], [0, 150]], side.E = { permeability = "conditional" } }
+cube = { name = "Куб", rect = [60, 60], height = 90 }
+top = { name = "Плита", rect = [80, 60], height = 75 }
+seat = { name = "Сиденье", rect = [40, 40], height = 45 }
+canvas = { name = "Холст", rect = [50, 3], height = 40 }
+small = { name = "Ящичек", rect = [20, 20], height = 15 }
+[object]
+chest = { name = "Комод", type = "Шкаф", items = [{ id = "A", orthoframe = "cube" }] }
+table = { name = "Стол", type = "Стол", items = [{ id = "A", orthoframe = "top" }] }
+chair = { name = "Стул", type = "Стул", items = [{ id = "A", orthoframe = "seat" }] }
+picture = { name = "Картина", type = "Картина", items = [{ id = "A", orthoframe = "canvas" }] }
+box = { name = "Коробка", type = "Коробка", items = [{ id = "A", orthoframe = "small" }] }
+[door.ab]
+name = "Дверь-1"
+kind = "hinged"
+width = 100
+height = 200
+leaves = [{ hinge = "left", share = 1, thickness = 4, max_open = 90 }]
+state = "open"
+[area.a]
+name = "Кухня"
+items = [{ id = "A", orthoframe = "floor-a" }]
+doors = [{ side = "C", door = "ab", opens = "inside" }]
+replicas = [
+  { name = "Комод-1", object = "chest", at = [300, 20] },
+  { name = "Комод-2", object = "chest", at = [40, 300] },
+  { name = "Картина-1", object = "picture", at = [200, 395, 150] },
+  { name = "Стул-1", object = "chair", at = [490, 180] },
+  { name = "Стол-1", object = "table", at = [340, 170] },
+  { name = "Коробка-1", object = "box", at = [150, 200, 10] },
+]
+[area.b]
+name = "Спальня"
+items = [{ id = "A", orthoframe = "floor-b" }]
+doors = [{ side = "E", door = "ab", opens = "outside" }]
+[map.flat]
+name = "Квартира"
+items = [{ area = "a" }, { area = "b", at = [600, 0] }]
+links = [{ from = "a.C", to = "b.E" }]
+"#;
+
+fn home() -> World {
+    World::parse(&Source::new("дом.toml", HOME), Format::Toml)
+        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+}
+
+/// The standard text with one piece replaced, which must stand in it once.
+fn changed(from: &str, to: &str) -> String {
+    assert_eq!(STANDARD.matches(from).count(), 1, "{from}");
+    STANDARD.replace(from, to)
+}
+
+/// A rules directory with a text of its own and another beside it.
+fn rules_dir(text: &str, own: &str) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("relations.dl"), text).unwrap();
+    if !own.is_empty() {
+        std::fs::write(dir.path().join("свои.dl"), own).unwrap();
+    }
+    dir
+}
+
+fn engine(text: &str, own: &str) -> Engine {
+    let dir = rules_dir(text, own);
+    Engine::in_memory(home(), Some(dir.path()))
+        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+}
+
+fn told(relations: &Relations, name: &str) -> Vec<String> {
+    let tuples = relations.tuples(name).unwrap();
+    let text =
+        |tuple: &Vec<Value>| tuple.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    tuples.iter().map(text).collect()
+}
+
+fn answer(engine: &Engine, question: &str) -> String {
+    match engine.ask(question, &mut Memory::default()).unwrap() {
+        Ok(answer) => answer.text,
+        Err(doubt) => format!("{doubt:?}"),
+    }
+}
+
+/// A threshold or a rule, what it is changed to, the relation that changes, a question about it, and one of its tuples
+/// that the change takes away or brings.
+const CASES: [(&str, &str, &str, &str, &[&str]); 9] = [
+    (
+        r#"limit("common",   "wall gap",          3000)"#,
+        r#"limit("common",   "wall gap",          1000)"#,
+        "AT_WALL",
+        "Что стоит у стены на кухне?",
+        &["Комод-1", "Кухня"],
+    ),
+    (
+        r#"limit("common",   "corner gap",        5000)"#,
+        r#"limit("common",   "corner gap",        3900)"#,
+        "IN_CORNER",
+        "Что стоит в углу кухни?",
+        &["Комод-2", "Кухня"],
+    ),
+    (
+        r#"limit("common",   "corner turn",       3000)"#,
+        r#"limit("common",   "corner turn",       9000)"#,
+        "IN_CORNER",
+        "Что стоит в углу кухни?",
+        &["Комод-2", "Кухня"],
+    ),
+    (
+        r#"limit("common",   "hanging gap",        800)"#,
+        r#"limit("common",   "hanging gap",        100)"#,
+        "ON_WALL",
+        "Что висит на стене на кухне?",
+        &["Картина-1", "Кухня"],
+    ),
+    (
+        r#"limit("common",   "door gap",         10000)"#,
+        r#"limit("common",   "door gap",          6900)"#,
+        "AT_DOOR",
+        "Что стоит рядом с Дверью-1?",
+        &["Стул-1", "Дверь-1"],
+    ),
+    (
+        r#"limit("common",   "middle share",       250)"#,
+        r#"limit("common",   "middle share",        90)"#,
+        "IN_MIDDLE_OF",
+        "Что стоит посередине кухни?",
+        &["Стол-1", "Кухня"],
+    ),
+    (
+        r#"limit("common",   "floor gap",          800)"#,
+        r#"limit("common",   "floor gap",         1000)"#,
+        "STANDS_ON_FLOOR",
+        "Что лежит на полу на кухне?",
+        &["Коробка-1", "Кухня"],
+    ),
+    // Farther than measuring looks of itself.
+    (
+        r#"limit("common",   "furniture gap",     6000)"#,
+        r#"limit("common",   "furniture gap",    14000)"#,
+        "STANDS_AT",
+        "Какие стулья стоят у стола?",
+        &["Стул-1", "Стол-1"],
+    ),
+    (
+        r#"furnishes(K) :- kind_trait(K, "seat")."#,
+        "",
+        "IS_FURNITURE",
+        "Сколько мебели на кухне?",
+        &["Стул-1"],
+    ),
+];
+
+#[test]
+fn a_changed_threshold_changes_the_relation_and_the_answer() {
+    let standard = engine(STANDARD, "");
+    for (from, to, relation, question, tuple) in CASES {
+        let other = engine(&changed(from, to), "");
+        let (before, after) = (standard.relations().unwrap(), other.relations().unwrap());
+        assert_ne!(told(before, relation), told(after, relation), "{to}");
+        assert_ne!(answer(&standard, question), answer(&other, question), "{to}");
+        // What came or went is explained on either side.
+        let (with, without) = match before.holds(relation, tuple) {
+            true => (before, after),
+            false => (after, before),
+        };
+        assert!(with.holds(relation, tuple) && !without.holds(relation, tuple), "{to}");
+        assert!(with.why(relation, tuple).unwrap().is_some(), "{to}");
+        let why_not = without.why_not(relation, tuple).unwrap();
+        assert!(matches!(why_not, WhyNot::Nearest(_)), "{to}: {why_not:?}");
+    }
+}
+
+#[test]
+fn a_reach_grows_with_the_threshold_that_needs_it() {
+    for (from, to, relation, tuple) in [
+        (
+            r#"limit("common",   "wall gap",          3000)"#,
+            r#"limit("common",   "wall gap",         20000)"#,
+            "AT_WALL",
+            ["Стол-1", "Кухня"],
+        ),
+        (
+            r#"limit("common",   "door gap",         10000)"#,
+            r#"limit("common",   "door gap",         30000)"#,
+            "AT_DOOR",
+            ["Комод-1", "Дверь-1"],
+        ),
+        (
+            r#"limit("common",   "close distance",   13000)"#,
+            r#"limit("common",   "close distance",   30000)"#,
+            "CLOSE_TO",
+            ["Комод-1", "Комод-2"],
+        ),
+    ] {
+        let rules = RelationRules::parse(&[Source::new("мои.dl", changed(from, to))]).unwrap();
+        let relations = derive(&home(), &rules, Profile::Surveyed).unwrap();
+        assert!(relations.holds(relation, &tuple), "{to}");
+    }
+}
+
+#[test]
+fn a_report_takes_its_thresholds_from_the_rules() {
+    let at = |engine: &Engine, x: f64, y: f64| {
+        let map = *engine.world().unwrap().maps.keys().next().unwrap();
+        let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
+        engine.locate(map, pose, false).unwrap().terms.spot
+    };
+    let standard = engine(STANDARD, "");
+    type Is = fn(&Spot) -> bool;
+    let cases: [(&str, &str, (f64, f64), Is); 5] = [
+        ("robot door\",       13000", "robot door\",       3000", (550.0, 120.0), |spot| {
+            matches!(spot, Spot::AtDoor { .. })
+        }),
+        ("robot doorway\",     1500", "robot doorway\",     500", (590.0, 200.0), |spot| {
+            matches!(spot, Spot::InDoorway(_))
+        }),
+        ("robot thing\",       7000", "robot thing\",       100", (440.0, 140.0), |spot| {
+            matches!(spot, Spot::NextTo { .. })
+        }),
+        ("robot wall\",        7000", "robot wall\",       1000", (60.0, 150.0), |spot| {
+            *spot == Spot::AlongWall
+        }),
+        ("robot middle\",       400", "robot middle\",       10", (240.0, 200.0), |spot| {
+            *spot == Spot::InMiddle
+        }),
+    ];
+    for (from, to, (x, y), is) in cases {
+        let other = engine(&changed(from, to), "");
+        assert!(is(&at(&standard, x, y)), "{from}: {:?}", at(&standard, x, y));
+        assert!(!is(&at(&other, x, y)), "{to}: {:?}", at(&other, x, y));
+    }
+}
+
+#[test]
+fn a_text_that_lacks_thresholds_and_sections_gets_those_of_the_program() {
+    let (before, rest) = STANDARD.split_once("// ═══ У стены, у двери, посередине").unwrap();
+    let (_, after) = rest.split_once("// ═══").unwrap();
+    // As it stood before it told of walls.
+    let older: String = format!(
+        "{before}// ═══{after}.decl stands_on_floor(x: Thing, r: Area)\n\
+         stands_on_floor(X, R) :- standing_in(X, R, H, _), threshold(\"floor gap\", T), H <= T, H >= -T.\n"
+    )
+    .replace("СТОИТ_НА_ПОЛУ", "stands_on_floor")
+    .lines()
+    .filter(|line| {
+        let names = ["\"wall gap\"", "\"door gap\"", "\"close distance\""];
+        !line.starts_with("limit(") || names.iter().all(|name| !line.contains(name))
+    })
+    .map(|line| format!("{line}\n"))
+    .collect();
+    assert!(!older.contains("AT_WALL") && !older.contains("limit(\"common\",   \"wall gap\""));
+    let (older, standard) = (engine(&older, ""), engine(STANDARD, ""));
+    let names = standard.relations().unwrap().counts();
+    for name in names {
+        let [one, other] = [&older, &standard].map(|e| told(e.relations().unwrap(), &name.name_en));
+        assert_eq!(one, other, "{}", name.name_en);
+    }
+    for (_, _, _, question, _) in CASES {
+        assert_eq!(answer(&older, question), answer(&standard, question));
+    }
+}
+
+#[test]
+fn a_threshold_that_cannot_be_is_refused_with_its_place() {
+    let dir = rules_dir(
+        STANDARD,
+        "limit(\"detected\", \"wall gap\", 900).\nlimit(\"surveyed\", \"close distance\", -100).\n  limit(\"common\", \"wall gap\", 2000).\n",
+    );
+    let Err(orthoframe::engine::Error::Relations(RelationError::Thresholds { faults })) =
+        Rules::read(Some(dir.path()))
+    else {
+        panic!("two of the three thresholds cannot be meant")
+    };
+    let told: Vec<String> = faults
+        .iter()
+        .map(|fault| {
+            let (line, column) = fault.position();
+            format!("{line}:{column} {fault}")
+        })
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "2:1 порог «close distance» не может быть -100",
+            "3:3 порог «wall gap» назван дважды: 3000 и 2000"
+        ]
+    );
+}
+
+#[test]
+fn a_rule_of_the_users_own_gets_pairs_in_both_orders() {
+    let own = |body: &str| {
+        format!(".decl МОЁ(x: Thing) = MINE\n.output МОЁ\nМОЁ(X) :- {body}, D < 12000.\n")
+    };
+    let standard = engine(STANDARD, "");
+    for (one, other) in [
+        ("distance(X, \"Стол-1\", D)", "distance(\"Стол-1\", X, D)"),
+        ("beside(X, \"Стол-1\", D, _, _)", "beside(\"Стол-1\", X, D, _, _)"),
+    ] {
+        // Far enough to find something on both sides of the table's id.
+        let text = changed("reach(\"beside\",    6000)", "reach(\"beside\",   13000)");
+        let engines = [one, other].map(|body| engine(&text, &own(body)));
+        let [a, b] = engines.each_ref().map(|engine| engine.relations().unwrap());
+        assert_eq!(told(a, "MINE"), told(b, "MINE"), "{one}");
+        assert!(told(a, "MINE").len() > 1, "{one}: {:?}", told(a, "MINE"));
+        // The program's own relations stay what they are.
+        for name in standard.relations().unwrap().counts() {
+            let name = name.name_en;
+            assert_eq!(told(a, &name), told(standard.relations().unwrap(), &name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_rule_uses_what_is_measured_on_demand_without_declaring_it() {
+    let own = ".decl ГДЕ(x: Thing, r: Area, across: number, angle: number) = WHERE\n.output ГДЕ\nГДЕ(X, R, A, T) :- at(X, R, A, _, _, T).\n";
+    let rules = RelationRules::with(&Source::new("свои.dl", own)).unwrap();
+    let mut world = home();
+    let mut relations = derive(&world, &rules, Profile::Surveyed).unwrap();
+    assert!(told(&relations, "WHERE").contains(&"Комод-1, Кухня, 30000, 0".to_owned()));
+    // A move is followed to the same facts as measuring anew gives.
+    let Entity::Replica(chair) = world.find("Стул-1")[0] else { panic!("it is a thing") };
+    world.replicas.get_mut(&chair).unwrap().frame = Frame::new(10.0, 30.0, 0.0, Deg::of(90.0));
+    assert!(relations.update(&world, chair).unwrap());
+    let anew = derive(&world, &rules, Profile::Surveyed).unwrap();
+    assert!(told(&relations, "WHERE").contains(&"Стул-1, Кухня, 1000, 9000".to_owned()));
+    let of_walls = ["at", "edge_distance", "opening_distance", "middle_distance"];
+    for name in anew.counts().iter().map(|c| c.name_en.as_str()).chain(of_walls) {
+        assert_eq!(told(&relations, name), told(&anew, name), "{name}");
+    }
+}
+
+#[test]
+fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
+    let rules = RelationRules::standard();
+    let program = rules.program();
+    let declared: Vec<String> = program
+        .relations()
+        .filter(|(_, info)| info.input.is_some())
+        .map(|(_, info)| {
+            let columns: Vec<String> =
+                info.columns.iter().map(|c| format!("{}: {}", c.name, c.type_name)).collect();
+            format!(".decl {0}({1})\n.input {0}\n", info.name, columns.join(", "))
+        })
+        .collect();
+    let always = MEASURED.iter().filter(|measured| !measured.on_demand);
+    let mut table: Vec<String> = always.map(|measured| measured.declaration()).collect();
+    let mut declared = declared;
+    declared.sort();
+    table.sort();
+    assert_eq!(declared, table);
+
+    let guide = project("docs/relations.md");
+    let text = std::fs::read_to_string(&guide).unwrap();
+    let (before, rest) = text.split_once("<!-- measured -->\n").expect("the table has its place");
+    let (_, after) = rest.split_once("<!-- /measured -->").expect("the table has an end");
+    let right = format!("{before}<!-- measured -->\n{}<!-- /measured -->{after}", measured_table());
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        std::fs::write(&guide, &right).unwrap();
+    } else {
+        assert_eq!(text, right, "UPDATE_EXPECT=1 writes the table anew");
+    }
+}
