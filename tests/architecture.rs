@@ -157,7 +157,7 @@ fn each_package_has_its_own_folder() {
         ("sled", &["store"]),
         ("datafrog", &["facts"]),
         ("clap", &["cli", "main"]),
-        ("serde_json", &["cli", "engine", "exchange"]),
+        ("serde_json", &["cli", "engine", "exchange", "robot"]),
         ("encoding_rs", &["exchange"]),
         ("rusqlite", &["exchange"]),
         ("png", &["exchange"]),
