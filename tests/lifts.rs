@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use orthoframe::Engine;
-use orthoframe::engine::Method;
+use orthoframe::engine::{Method, no_way_in_words};
 use orthoframe::geometry::*;
 use orthoframe::language::Language;
 use orthoframe::language::report::Detail;
@@ -160,11 +160,15 @@ fn a_lift_opens_its_doors_where_it_is_called() {
 fn without_a_lift_there_is_no_way_and_stairs_are_none() {
     let mut house = house();
     let lifts = std::mem::take(&mut house.world.domain.lifts);
-    let other = |world: &World| {
+    let other = |world: &World, told: [&str; 2]| {
         let no = way(world, p(100., 100.), p(200., 100.)).expect_err("no lift");
         assert!(matches!(no.why, NoRoute::OtherMap { .. }), "{no:?}");
+        for (language, told) in [Language::Russian, Language::English].into_iter().zip(told) {
+            let words = no_way_in_words(world, &no.why, language);
+            assert!(words.contains(told), "{words}");
+        }
     };
-    other(&house.world);
+    other(&house.world, ["куда не ведёт ни лифт, ни лестница", "neither lift nor stairs lead"]);
     house.world.domain.lifts = lifts;
     let stairs = TypeEntry {
         id: TypeId(900),
@@ -176,7 +180,7 @@ fn without_a_lift_there_is_no_way_and_stairs_are_none() {
     for (_, stops) in &house.world.domain.lifts.clone() {
         house.world.areas.get_mut(&stops[0].area).unwrap().area_type = Some(TypeId(900));
     }
-    other(&house.world);
+    other(&house.world, ["куда ведёт только лестница", "only stairs lead"]);
 }
 
 fn blank_type() -> TypeEntry {

@@ -5,7 +5,7 @@
 use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::{Case, Gender, Language, Number, enumerate};
-use crate::map::{DoorStatus, Entity, World};
+use crate::map::{DoorStatus, Entity, LiftStop, World};
 use crate::units::{AreaId, DoorId, ReplicaId};
 
 use super::lexicon::named;
@@ -26,11 +26,45 @@ pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> Strin
         NoRoute::NoFloor => "the robot does not fit near the start or the goal".to_owned(),
         NoRoute::OtherMap { area } => {
             let room = named(world, Entity::Area(*area));
-            match russian {
-                true => format!("{} находится на другой карте", room.phrase().name()),
-                false => format!("{} is on another map", room.english()),
-            }
+            let name = if russian { room.phrase().name().to_owned() } else { room.english() };
+            let (ru, en) = match storey_is_reached(world, *area) {
+                By::Lift => ("находится на другой карте", "is on another map"),
+                By::Stairs => (
+                    "находится на другом этаже, куда ведёт только лестница, а по ней роботу не проехать",
+                    "is on another storey, to which only stairs lead, and the robot cannot climb them",
+                ),
+                By::Nothing => (
+                    "находится на другой карте, куда не ведёт ни лифт, ни лестница",
+                    "is on another map, to which neither lift nor stairs lead",
+                ),
+            };
+            format!("{name} {}", language.pick(ru, en))
         }
+    }
+}
+
+/// What leads to a storey from others.
+enum By {
+    /// A lift, whether or not from where the robot is.
+    Lift,
+    Stairs,
+    Nothing,
+}
+
+fn storey_is_reached(world: &World, area: AreaId) -> By {
+    let map_of = |area| world.placement(area).map(|(map, _)| map);
+    let here = map_of(area);
+    let stops_here = world.domain.lifts.iter().map(|(_, stops)| stops).filter(|stops| {
+        let mut maps = stops.iter().map(|stop| map_of(stop.area));
+        maps.any(|map| map == here)
+    });
+    let is_stairs =
+        |stops: &&Vec<LiftStop>| stops.iter().any(|stop| world.area_has_trait(stop.area, "stairs"));
+    let (stairs, lifts): (Vec<_>, Vec<_>) = stops_here.partition(is_stairs);
+    match (lifts.is_empty(), stairs.is_empty()) {
+        (false, _) => By::Lift,
+        (true, false) => By::Stairs,
+        (true, true) => By::Nothing,
     }
 }
 

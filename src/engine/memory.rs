@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use crate::geometry::FloorPlan;
 use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
-use crate::semantics::Relations;
 use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
@@ -76,7 +75,8 @@ impl State {
         if carried.len() < 2 {
             return Ok(BTreeMap::new());
         }
-        let relations = self.relations_of(world)?;
+        let relations = self.followed(world)?;
+        let relations = relations.relations();
         let mut carriers = BTreeMap::new();
         for (&carrier, holder) in carried {
             let along = relations.goes_with(carrier);
@@ -143,14 +143,6 @@ impl State {
             floors.insert(map, floor);
         }
         Ok(floors)
-    }
-
-    /// The relations of the world as it is now; those of the map where nothing differs.
-    pub(super) fn relations_now(&self, now: &Now) -> Result<Option<Relations>, Error> {
-        if *self.world()? == now.world {
-            return Ok(None);
-        }
-        self.relations_of(&now.world).map(Some)
     }
 }
 

@@ -6,12 +6,12 @@
 //! Invariant: the map of the store is never changed by this; what is carried stands in no relation to anything.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::geometry::FloorPlan;
 use crate::language::question::Mind;
 use crate::map::World;
-use crate::semantics::{Relations, derive};
+use crate::semantics::Followed;
 use crate::units::{MapId, ReplicaId};
 
 use super::{Error, State};
@@ -22,7 +22,7 @@ pub(super) struct Present {
     /// With what is carried, so that it can be spoken of.
     pub(super) world: World,
     /// Of all that is not carried.
-    pub(super) relations: Relations,
+    pub(super) relations: Followed,
     /// Who has what was taken off the map; an empty name for the robot itself.
     pub(super) holders: BTreeMap<ReplicaId, String>,
     /// Of what was taken off the map, what lies on or in another such thing, with that thing.
@@ -85,7 +85,7 @@ impl State {
         if gone.is_empty() && world == *surveyed {
             return Ok(None);
         }
-        let relations = self.relations_of(&world)?;
+        let relations = self.followed(&world)?;
         world.replicas.extend(gone.into_iter().map(|replica| (replica.id, replica)));
         Ok(Some(Present {
             world,
@@ -99,11 +99,10 @@ impl State {
 
     /// The relations of a world that differs from the map in what a robot can do or see: those of the map, followed
     /// where they can be, else derived anew.
-    pub(super) fn relations_of(&self, world: &World) -> Result<Relations, Error> {
-        let mut relations = self.relations()?.clone();
-        if relations.follow_world(self.world()?, world)? {
-            return Ok(relations);
-        }
-        Ok(derive(world, &self.rules.relations, world.domain.profile)?)
+    pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
+        let (surveyed, relations) = (self.shared_world()?, self.shared_relations()?);
+        let mut followed = Followed::new(Arc::clone(surveyed), Arc::clone(relations));
+        followed.of(world)?;
+        Ok(followed)
     }
 }

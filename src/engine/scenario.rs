@@ -56,8 +56,8 @@ impl State {
             Err(failure) => return Ok(TaskAnswer::not_begun(&now, failure)),
         };
         let (mut belief, _) = self.belief_of(&now)?;
-        let relations = self.relations_now(&now)?;
-        let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
+        let followed = self.followed(&now.world)?;
+        let relations = followed.relations();
         let wanted = scenario.problem.stated_goals().filter_map(|wanted| {
             let is_search = name_key(wanted.predicate()) == name_key(predicate::FOUND);
             thing(self.world().ok()?, wanted.args().first().filter(|_| is_search)?)
@@ -118,7 +118,8 @@ impl State {
             return Err(RuleFaults(faults).into());
         }
         let goals = if goal.is_empty() { Vec::new() } else { vec![goal] };
-        let errand = Errand { domain: &scenario.domain, belief, goals, tidies: false };
+        let domain = &scenario.domain;
+        let errand = Errand { domain, belief, relations: followed, goals, tidies: false };
         self.drive(errand, &now, vehicle, tell, stop)
     }
 }

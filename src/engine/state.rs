@@ -116,9 +116,11 @@ impl State {
     /// # Errors
     /// [`RequestError::NoMap`].
     pub fn world(&self) -> Result<&World, Error> {
-        self.world
-            .as_deref()
-            .ok_or_else(|| RequestError::NoMap { store: self.place.clone() }.into())
+        self.shared_world().map(|world| &**world)
+    }
+
+    pub(super) fn shared_world(&self) -> Result<&Arc<World>, Error> {
+        self.world.as_ref().ok_or_else(|| RequestError::NoMap { store: self.place.clone() }.into())
     }
 
     #[must_use]
@@ -131,6 +133,10 @@ impl State {
     /// # Errors
     /// There is no map, or a rule of the user's own outgrows the memory.
     pub fn relations(&self) -> Result<&Relations, Error> {
+        self.shared_relations().map(|relations| &**relations)
+    }
+
+    pub(super) fn shared_relations(&self) -> Result<&Arc<Relations>, Error> {
         let world = self.world()?;
         if let Some(relations) = self.relations.get() {
             return Ok(relations);

@@ -47,7 +47,7 @@ impl<'e> Surroundings<'e> {
 
     pub(super) fn relations(&self) -> Result<&'e Relations, Error> {
         match self.now {
-            Some(now) => Ok(&now.relations),
+            Some(now) => Ok(now.relations.relations()),
             None => self.engine.relations(),
         }
     }

@@ -153,9 +153,12 @@ impl State {
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
         Ok(match self.present()? {
-            Some(now) => {
-                Asker { world: &now.world, relations: &now.relations, mind: now.mind(), senses }
-            }
+            Some(now) => Asker {
+                world: &now.world,
+                relations: now.relations.relations(),
+                mind: now.mind(),
+                senses,
+            },
             None => {
                 let (world, relations) = (self.world()?, self.relations()?);
                 Asker { world, relations, mind: self.mind()?, senses }
@@ -207,7 +210,7 @@ impl RobotSenses<'_> {
 
     fn relations(&self) -> Option<&Relations> {
         match self.engine.present() {
-            Ok(Some(now)) => Some(&now.relations),
+            Ok(Some(now)) => Some(now.relations.relations()),
             _ => self.engine.relations().ok(),
         }
     }

@@ -17,7 +17,7 @@ use crate::robot::{
     Belief, Directive, Ending, Event, Failure, GoalFact, Leg, Mission, MissionError, Moment,
     Person, Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
 };
-use crate::semantics::{Relations, derive, predicate};
+use crate::semantics::{Followed, Relations, predicate};
 use crate::strips::Domain;
 use crate::units::{MapId, Point, Pose, ReplicaId, Stop};
 
@@ -122,6 +122,8 @@ pub struct TaskAnswer {
 pub(super) struct Errand<'r> {
     pub(super) domain: &'r Domain,
     pub(super) belief: Belief,
+    /// Of what is believed.
+    pub(super) relations: Followed,
     /// One after another; the facts of one hold together.
     pub(super) goals: Vec<Vec<GoalFact>>,
     /// Whether a thing that cannot be put into its place lets the rest be tidied.
@@ -260,8 +262,8 @@ impl State {
             Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
         };
         let (mut belief, here) = self.belief_of(now)?;
-        let relations = self.relations_now(now)?;
-        let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
+        let followed = self.followed(&now.world)?;
+        let relations = followed.relations();
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
         self.not_shut_in(commands, &goals, relations)?;
         let unsure = self.unsure_of(commands, &goals, now)?;
@@ -290,7 +292,8 @@ impl State {
         let tidies = commands
             .iter()
             .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
-        let errand = Errand { domain: &self.rules.robot, belief, goals, tidies };
+        let domain = &self.rules.robot;
+        let errand = Errand { domain, belief, relations: followed, goals, tidies };
         let mut answer = self.drive(errand, now, vehicle, tell, stop)?;
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
@@ -342,8 +345,11 @@ impl State {
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
         let begun_at = vehicle.time();
-        let Errand { domain, belief, goals, tidies } = errand;
-        let mut mission = Mission::new(belief, domain, &self.rules.relations, Limits::default());
+        let Errand { domain, belief, relations, goals, tidies } = errand;
+        // Reports are of moments between plans; each follows by itself.
+        let mut reported = relations.clone();
+        let (rules, limits) = (&self.rules.relations, Limits::default());
+        let mut mission = Mission::new(belief, domain, relations, rules, limits);
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
@@ -358,7 +364,7 @@ impl State {
             Event::Moved(moment) => tell(&Progress::Moved(moment)),
             Event::Scanned(scan) => tell(&Progress::Scanned(scan)),
             Event::Finished { number, directive, belief, leg } => {
-                let report = self.report(*number, directive, belief, leg);
+                let report = report_of(*number, directive, belief, leg, &mut reported);
                 tell(&Progress::Finished(&report));
                 reports.push(report);
             }
@@ -684,29 +690,28 @@ impl State {
         };
         all.iter().min_by(order).copied()
     }
+}
 
-    fn report(&self, number: usize, directive: &Directive, belief: &Belief, leg: &Leg) -> Report {
-        let say = |relations: &Relations| {
-            describe(&belief.world, relations, belief.map, belief.pose, None).map(|w| w.position)
-        };
-        // Most directives leave the world as the Map has it, and its relations are derived already.
-        let position = match self.relations() {
-            Ok(relations) if self.world.as_deref() == Some(&belief.world) => say(relations),
-            _ => derive(&belief.world, &self.rules.relations, belief.world.domain.profile)
-                .ok()
-                .and_then(|r| say(&r)),
-        };
-        let points = leg.route.as_ref().map(|r| r.points.clone()).unwrap_or_default();
-        Report {
-            number,
-            directive: directive.clone(),
-            map: belief.map,
-            pose: belief.pose,
-            position,
-            length: leg.route.as_ref().map_or(0.0, |r| r.length),
-            points,
-            seconds: leg.seconds,
-        }
+fn report_of(
+    number: usize,
+    directive: &Directive,
+    belief: &Belief,
+    leg: &Leg,
+    relations: &mut Followed,
+) -> Report {
+    let say = |relations: &Relations| {
+        describe(&belief.world, relations, belief.map, belief.pose, None).map(|w| w.position)
+    };
+    let points = leg.route.as_ref().map(|r| r.points.clone()).unwrap_or_default();
+    Report {
+        number,
+        directive: directive.clone(),
+        map: belief.map,
+        pose: belief.pose,
+        position: relations.of(&belief.world).ok().and_then(say),
+        length: leg.route.as_ref().map_or(0.0, |r| r.length),
+        points,
+        seconds: leg.seconds,
     }
 }
 

@@ -55,9 +55,8 @@ impl State {
         let left_behind = if world.replicas == now.world.replicas {
             Vec::new()
         } else {
-            let relations = self.relations_now(&now)?;
-            let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
-            load::carry(&now.world, relations, &read.carriers, &mut world)
+            let relations = self.followed(&now.world)?;
+            load::carry(&now.world, relations.relations(), &read.carriers, &mut world)
         };
         let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
         let left_behind = left_behind.iter().filter_map(name).collect();

@@ -4,7 +4,7 @@ use crate::geometry::{DoorStates, Method, NoRoute, Ride, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
-use crate::semantics::{Join, Lift, RelationError, RelationRules, cargo, derive, lifts};
+use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, cargo, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Stop};
 
@@ -154,7 +154,8 @@ pub enum MissionError {
 pub struct Mission<'r> {
     pub belief: Belief,
     domain: &'r Domain,
-    relations: &'r RelationRules,
+    relations: Followed,
+    rules: &'r RelationRules,
     limits: Limits,
     /// Of the plan in force.
     pub(super) places: Vec<PlanPlace>,
@@ -165,36 +166,37 @@ pub struct Mission<'r> {
 }
 
 impl<'r> Mission<'r> {
+    /// `relations` are of the world that is believed, or of one from which it can be followed.
     #[must_use]
     pub fn new(
         belief: Belief,
         domain: &'r Domain,
-        relations: &'r RelationRules,
+        relations: Followed,
+        rules: &'r RelationRules,
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
         let changes = BTreeMap::new();
-        Self { belief, domain, relations, limits, places, joins, lifts, changes }
+        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes }
     }
 
     /// The plan for a goal from what is believed now.
     ///
     /// # Errors
     /// [`MissionError`].
-    pub fn plan(&self, goal: &[GoalFact]) -> Result<Planned, MissionError> {
+    pub fn plan(&mut self, goal: &[GoalFact]) -> Result<Planned, MissionError> {
         Ok(self.plan_again(goal, None)?.0)
     }
 
     /// The same, with what the plan before had taught.
     fn plan_again(
-        &self,
+        &mut self,
         goal: &[GoalFact],
         learned: Option<&Learned>,
     ) -> Result<(Planned, Option<Learned>), MissionError> {
         let mut problem = Problem::new();
-        let relations =
-            derive(&self.belief.world, self.relations, self.belief.world.domain.profile)?;
-        let (facts, places) = self.belief.initial(&relations);
+        let relations = self.relations.of(&self.belief.world)?;
+        let (facts, places) = self.belief.initial(relations);
         for fact in &without_idle(facts, goal) {
             state(&mut problem, fact);
         }
@@ -211,7 +213,7 @@ impl<'r> Mission<'r> {
             }
             _ => Vec::new(),
         };
-        let (joins, lifts) = (relations.joins(), lifts(&self.belief.world, &relations));
+        let (joins, lifts) = (relations.joins(), lifts(&self.belief.world, relations));
         Ok((Planned { solved, steps, places, joins, lifts, learned_before }, now_learned))
     }
 
@@ -477,7 +479,7 @@ impl<'r> Mission<'r> {
             return Ok(());
         }
         let thing = self.replica(name)?;
-        let with = cargo(&self.belief.world, self.relations, self.belief.scene(), thing);
+        let with = cargo(&self.belief.world, self.rules, self.belief.scene(), thing);
         self.within_reach(thing, reins, leg, |v, watch| v.take(thing, watch))?;
         self.belief.pick_up(thing, &with.unwrap_or_default());
         // The place beside what lay on the floor goes with it; the robot still stands there.

@@ -83,7 +83,8 @@ pub use names::{Subject, Symbols};
 pub use openings::Opening;
 pub use position::{Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
-    Join, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
+    Followed, Join, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
+    derive_from,
 };
 pub use thresholds::{KNOWN as THRESHOLDS, Known as Threshold, ThresholdFault, Thresholds, Unit};
 pub use view::Seen;

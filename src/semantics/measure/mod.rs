@@ -74,6 +74,9 @@ impl Default for Reach {
     }
 }
 
+/// OUTSIDE is derived for all things while there are no more pairs of thing and Area than this.
+const MOST_OUTSIDE: usize = 100_000;
+
 /// Everything measured on the Maps of a world.
 #[derive(Debug, Clone)]
 pub struct Measurements {
@@ -229,6 +232,16 @@ impl Measurements {
     #[must_use]
     pub fn pair_count(&self) -> usize {
         self.pairs().len()
+    }
+
+    /// Whether OUTSIDE is derived of every thing.
+    pub(super) fn asks_of_all(&self) -> bool {
+        self.bodies.len() * self.rooms.len() <= MOST_OUTSIDE
+    }
+
+    /// The Map on which a thing is.
+    pub(super) fn map_of(&self, thing: ReplicaId) -> Option<MapId> {
+        self.bodies.get(&thing).map(|body| body.map)
     }
 
     /// What is measured of a thing by itself.

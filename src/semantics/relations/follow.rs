@@ -1,19 +1,20 @@
-//! From the relations of a surveyed world to those of the world as a robot has left it: things moved or taken away, doors
-//! opened, lamps switched.
+//! From the relations of one world to those of another that a robot made of it: things moved, taken away and put back,
+//! doors opened, lamps switched.
 //!
 //! **Invariant**: afterwards the derived relations are those that [`derive()`](super::derive) gives of the other world.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crate::facts::{FactError, Value};
 use crate::map::{Door, Entity, Replica, World};
 use crate::semantics::feed::{Cell, Feed};
 use crate::semantics::names::Subject;
 use crate::semantics::openings::openings;
-use crate::units::{DoorId, ReplicaId};
+use crate::units::{DoorId, MapId, ReplicaId};
 
 use super::rows::{note, tuple};
-use super::{RelationError, Relations};
+use super::{RelationError, Relations, derive};
 
 /// Beyond so many changed things, deriving all relations anew costs less than following each.
 const MOST_FOLLOWED: usize = 200;
@@ -25,15 +26,60 @@ struct Difference {
     into: BTreeSet<(&'static str, Vec<Value>)>,
 }
 
+/// A world and its relations, which follow it from one state to the next.
+#[derive(Debug, Clone)]
+pub struct Followed {
+    world: Arc<World>,
+    relations: Arc<Relations>,
+    /// Following broke off halfway: next time they are derived anew.
+    is_spoilt: bool,
+}
+
+impl Followed {
+    /// `relations` are those of `world`. Both may be shared: what follows is a copy, made when it is first needed.
+    #[must_use]
+    pub fn new(world: Arc<World>, relations: Arc<Relations>) -> Self {
+        Self { world, relations, is_spoilt: false }
+    }
+
+    /// Those of the world that was followed last.
+    #[must_use]
+    pub fn relations(&self) -> &Relations {
+        &self.relations
+    }
+
+    /// The relations of the world as it now is: followed from those before where they can be, else derived anew.
+    ///
+    /// # Errors
+    /// As [`derive()`].
+    pub fn of(&mut self, now: &World) -> Result<&Relations, RelationError> {
+        if self.is_spoilt || *self.world != *now {
+            let mut follow = || {
+                matches!(
+                    Arc::make_mut(&mut self.relations).follow_world(&self.world, now),
+                    Ok(true)
+                )
+            };
+            if self.is_spoilt || !follow() {
+                self.is_spoilt = true;
+                let relations = derive(now, self.relations.rules(), now.domain.profile)?;
+                (self.relations, self.is_spoilt) = (Arc::new(relations), false);
+            }
+            self.world = Arc::new(now.clone());
+        }
+        Ok(&self.relations)
+    }
+}
+
 impl Relations {
     /// Follows from the world of these relations to one that differs in places, properties and door states of its
-    /// replicas, in replicas that were taken away, and in the states of its doors. `false` where more differs, or so
-    /// much that deriving anew is cheaper; then nothing is changed.
+    /// replicas, in replicas that were taken away or put back, and in the states of its doors. `false` where more differs,
+    /// or so much that deriving anew is cheaper; then nothing is changed.
     ///
     /// # Errors
     /// As [`derive()`](super::derive).
     pub fn follow_world(&mut self, before: &World, after: &World) -> Result<bool, RelationError> {
-        let Some((replicas, doors)) = followed(before, after) else { return Ok(false) };
+        let Some((replicas, doors)) = self.followed(before, after) else { return Ok(false) };
         let mut rows = Difference::default();
         self.openings_and_properties(before, &replicas, &doors, |rel, row| {
             rows.out.insert((rel, row));
@@ -43,9 +89,10 @@ impl Relations {
             let mut put = |rel: &'static str, cells: &[Cell<'_>]| {
                 rows.out.insert((rel, tuple(cells)));
             };
-            // What is gone, or goes later, is in the old world only; the Objects of things are the same in both.
+            // All that is measured by now is in this one, and Objects are the same in both.
+            let world = if after.replicas.contains_key(&id) { after } else { before };
             let feed = Feed {
-                world: before,
+                world,
                 symbols: &self.symbols,
                 measured: &self.measured,
                 openings: &self.openings,
@@ -61,12 +108,11 @@ impl Relations {
                 }
             }
             rows.into.extend(back);
-            if !after.replicas.contains_key(&id) {
-                for &map in before.maps.keys() {
-                    let map = self.symbols.symbol(Subject::Entity(Entity::Map(map)));
-                    let cells = [Cell::Name(self.symbols.replica(id)), Cell::Name(map)];
-                    rows.out.insert(("asked", tuple(&cells)));
-                }
+            for &map in before.maps.keys() {
+                rows.out.insert(self.asked(id, map));
+            }
+            if let Some(map) = self.measured.map_of(id).filter(|_| self.measured.asks_of_all()) {
+                rows.into.insert(self.asked(id, map));
             }
             self.settle(&mut rows)?;
         }
@@ -80,6 +126,48 @@ impl Relations {
         self.live.update()?;
         self.follow();
         Ok(true)
+    }
+
+    /// The row by which OUTSIDE is derived of a thing.
+    fn asked(&self, thing: ReplicaId, map: MapId) -> (&'static str, Vec<Value>) {
+        let map = self.symbols.symbol(Subject::Entity(Entity::Map(map)));
+        ("asked", tuple(&[Cell::Name(self.symbols.replica(thing)), Cell::Name(map)]))
+    }
+
+    /// The replicas and doors that differ; none where something else does, or too much.
+    fn followed(&self, before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
+        if !before.is_same_building(after) {
+            return None;
+        }
+        // What is gone goes first: nothing that is measured afterwards may lie beside it.
+        let gone = before.replicas.keys().filter(|id| !after.replicas.contains_key(id));
+        let mut replicas: Vec<ReplicaId> = gone.copied().collect();
+        for (id, is) in &after.replicas {
+            match before.replicas.get(id) {
+                Some(was) if was == is => continue,
+                // Another name or Object is another thing.
+                Some(was)
+                    if was.name != is.name
+                        || was.object != is.object
+                        || was.move_prob != is.move_prob =>
+                {
+                    return None;
+                }
+                Some(_) => {}
+                // What was there once, and is put back, still has its symbol.
+                None => {
+                    let symbol = self.symbols.known(Subject::Entity(Entity::Replica(*id)))?;
+                    if **symbol != *is.name {
+                        return None;
+                    }
+                }
+            }
+            replicas.push(*id);
+        }
+        let other_state = |(is, was): &(&Door, &Door)| is.state != was.state;
+        let doors = after.doors.values().zip(before.doors.values()).filter(other_state);
+        let doors = doors.map(|(is, _)| is.id).collect();
+        (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
     }
 
     /// Rows of doorways, where a door's state differs, and of the properties of what differs.
@@ -127,29 +215,4 @@ impl Relations {
         }
         fault.map_or(Ok(()), |fault| Err(RelationError::Schema { fault }))
     }
-}
-
-/// The replicas and doors that differ; none where something else does, or too much.
-fn followed(before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
-    if !before.is_same_building(after) {
-        return None;
-    }
-    // What is gone goes first: nothing that is measured afterwards may lie beside it.
-    let gone = before.replicas.keys().filter(|id| !after.replicas.contains_key(id));
-    let mut replicas: Vec<ReplicaId> = gone.copied().collect();
-    for (id, is) in &after.replicas {
-        let was = before.replicas.get(id)?;
-        if was == is {
-            continue;
-        }
-        // Another name or Object is another thing.
-        if was.name != is.name || was.object != is.object || was.move_prob != is.move_prob {
-            return None;
-        }
-        replicas.push(*id);
-    }
-    let other_state = |(is, was): &(&Door, &Door)| is.state != was.state;
-    let doors = after.doors.values().zip(before.doors.values()).filter(other_state);
-    let doors = doors.map(|(is, _)| is.id).collect();
-    (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
 }

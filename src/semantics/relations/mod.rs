@@ -18,12 +18,10 @@ use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
 use super::thresholds::Thresholds;
 
+pub use follow::Followed;
 pub(super) use rows::Rows;
 use rows::{Load, note, tuple};
 pub use rules::{RelationError, RelationRules, STANDARD};
-
-/// OUTSIDE is derived for all things while there are no more pairs of thing and Area than this.
-const MOST_OUTSIDE: usize = 100_000;
 
 /// With more pairs than this, what updates need is prepared beforehand: deriving takes longer than that anyway.
 const MANY_PAIRS: usize = 5_000;
@@ -97,7 +95,7 @@ pub fn derive_from(
     rows.row("profile", &[Cell::Word(profile.name())]);
     feed.ground(&mut rows);
     feed.things(&mut rows);
-    if measured.bodies.len() * measured.rooms.len() <= MOST_OUTSIDE {
+    if measured.asks_of_all() {
         for body in measured.bodies.values() {
             let map = symbols.symbol(Subject::Entity(Entity::Map(body.map)));
             rows.row("asked", &[Cell::Name(symbols.replica(body.id)), Cell::Name(map)]);
