@@ -1,7 +1,7 @@
 //! Holds the drawing of ARCHITECTURE.md true: which folder may use which, and who alone may name what.
 //!
-//! The table under «Folders» in ARCHITECTURE.md is the law; this test reads it and the sources, so that
-//! neither can drift from the other.
+//! The table under «Folders» in ARCHITECTURE.md is the law; this test reads it, the manifests of the folders and the
+//! sources, so that none can drift from the others.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -123,6 +123,26 @@ fn arrows_run_only_as_drawn() {
         }
     }
     assert!(wrong.is_empty(), "arrows that ARCHITECTURE.md does not draw:\n{}", wrong.join("\n"));
+}
+
+/// The folders that a folder's manifest lets it use, tests included; none for a folder of the root package.
+fn arrows_of_manifest(folder: &str) -> Option<BTreeSet<String>> {
+    let text = fs::read_to_string(project("src").join(folder).join("Cargo.toml")).ok()?;
+    let named = text.lines().filter_map(|line| line.strip_prefix("orthoframe-"));
+    Some(named.map(|rest| head(rest)).collect())
+}
+
+#[test]
+fn manifests_name_what_is_drawn_and_no_more() {
+    let allowed = allowed_arrows();
+    let mut wrong = Vec::new();
+    for (folder, may_use) in &allowed {
+        let Some(named) = arrows_of_manifest(folder) else { continue };
+        if named != *may_use {
+            wrong.push(format!("{folder}: the manifest names {named:?}, drawn is {may_use:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
