@@ -11,6 +11,7 @@ use orthoframe::draw::{
 };
 use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
 use orthoframe::exchange::{Level, Options, Report, Room, Survey, Synonyms, assemble, read};
+use orthoframe::geometry::{Openings, STEP_REACH};
 use orthoframe::map::{Format, World};
 use orthoframe::units::{Language, Point, Source};
 
@@ -506,7 +507,11 @@ fn road_graphs_can_be_read() {
     let mut count = 0;
     for (name, world) in worlds {
         for &map in world.maps.keys() {
-            let Ok(system) = CorridorSystem::from_map(&world, map) else { continue };
+            let Ok(system) =
+                CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), map)
+            else {
+                continue;
+            };
             for variant in [Variant::Single, Variant::Double] {
                 let Ok(figure) = figure(&system, variant, &[]) else { continue };
                 count += 1;

@@ -33,6 +33,7 @@ mod map_editing;
 mod maps;
 mod odd_floors;
 mod odd_worlds;
+mod openings;
 mod orders;
 mod partition;
 mod passframes;

@@ -64,20 +64,13 @@ fn apart(a: f64, b: f64) -> f64 {
 fn doorways(engine: &Engine, answer: &RouteAnswer) -> Vec<[Vector; 2]> {
     let route = answer.route.as_ref().unwrap();
     let floor = &engine.floors().unwrap()[&answer.map];
-    let openings = engine.relations().unwrap().openings();
     answer
         .stages
         .windows(2)
         .map(|pair| {
             let doorway = &floor.doorways()[pair[0].leaves_by.unwrap()];
             let middle = doorway.at((doorway.span().0 + doorway.span().1) / 2.0, 0.0);
-            let nearest = openings.iter().min_by(|a, b| {
-                let away = |o: &orthoframe::semantics::Opening| {
-                    (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm()
-                };
-                away(a).total_cmp(&away(b))
-            });
-            let (a, b) = nearest.unwrap().ends;
+            let (a, b) = doorway.side_in(doorway.area()).unwrap().ends;
             let across = Vector::new(b.y - a.y, a.x - b.x).normalize();
             // Where the route crosses the doorway's line between its ends; the line goes on beside the doorway.
             let side = |p: &orthoframe::units::Point| (p - middle).dot(&across);

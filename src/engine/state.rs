@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::geometry::{DoorStates, FloorPlan};
+use crate::geometry::{DoorStates, FloorPlan, Openings};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
 use crate::map::{Entity, World};
@@ -194,25 +194,37 @@ impl State {
         Ok(tuples.into_iter().filter(wanted).map(|t| (label.clone(), t)).collect())
     }
 
-    /// The free floor of every map, computed when first asked for.
+    /// All doors and passages, each once, with what the rules let them join.
     ///
     /// # Errors
-    /// [`RequestError::NoMap`].
+    /// As [`State::relations`].
+    pub fn openings(&self) -> Result<&Openings, Error> {
+        Ok(self.relations()?.openings())
+    }
+
+    /// The free floor of every map, which leads through what the rules let join, computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`State::relations`].
     pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
         let world = self.world()?;
+        if let Some(floors) = self.floors.get() {
+            return Ok(floors);
+        }
+        let openings = self.openings()?;
         Ok(self.floors.get_or_init(|| {
-            let floors = world.maps.keys().map(|&map| (map, self.floor_of(world, map)));
+            let floors = world.maps.keys().map(|&map| (map, self.floor_of(world, openings, map)));
             Arc::new(floors.collect())
         }))
     }
 
     /// The floor of a map, with what the store keeps of it; what had to be built is kept for the next start.
-    fn floor_of(&self, world: &World, map: MapId) -> FloorPlan {
+    fn floor_of(&self, world: &World, openings: &Openings, map: MapId) -> FloorPlan {
         let kind = format!("floor-{}", map.0);
         let kept = self.derived.as_ref().and_then(|derived| derived.get_of_any(&kind));
         let kept = kept.unwrap_or_default();
         let states = DoorStates::new();
-        let (plan, built) = FloorPlan::restore(world, map, &world.robot, &states, &kept);
+        let (plan, built) = FloorPlan::restore(world, openings, map, &world.robot, &states, &kept);
         if let (Some(derived), true) = (&self.derived, built > 0)
             && let Err(error) = derived.put(&kind, &plan.save(world))
         {

@@ -232,12 +232,13 @@ impl RobotSenses<'_> {
                 Some((map, pose)) => around.locate_point(map, pose.at)?,
                 None => return Ok(None),
             },
-            Some(Thing::Opening(n)) => {
-                let opening = &around.relations()?.openings()[n as usize];
-                let Some((map, _)) = around.world()?.placement(opening.area) else {
+            Some(Thing::Opening(id)) => {
+                let openings = around.relations()?.openings();
+                let Some(opening) = openings.opening(id) else { return Ok(None) };
+                let Some(side) = opening.sides.iter().min_by_key(|side| side.area) else {
                     return Ok(None);
                 };
-                around.locate_point(map, nalgebra::center(&opening.ends.0, &opening.ends.1))?
+                around.locate_point(opening.map, side.middle())?
             }
             Some(Thing::Window(_)) => return Ok(None),
         }))

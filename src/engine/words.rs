@@ -42,7 +42,8 @@ impl Surroundings<'_> {
             return Ok(way.say_in(language, detail));
         }
         // A map without corridors, or with ones that the road graph cannot read, is told room by room.
-        let corridors = CorridorSystem::from_map(world, answer.map).ok();
+        let corridors =
+            CorridorSystem::from_map(world, self.relations()?.openings(), answer.map).ok();
         let is_corridor = |area: AreaId| world.area_has_trait(area, "corridor");
         let mut sentences = Vec::new();
         let mut at = 0;

@@ -10,7 +10,6 @@ use crate::facts::{FactError, Value};
 use crate::feed::{Cell, Feed};
 use crate::map::{Door, Entity, Replica, World};
 use crate::names::Subject;
-use crate::openings::openings;
 use crate::units::{DoorId, MapId, ReplicaId};
 
 use super::rows::{note, tuple};
@@ -115,9 +114,6 @@ impl Relations {
                 rows.into.insert(self.asked(id, map));
             }
             self.settle(&mut rows)?;
-        }
-        if !doors.is_empty() {
-            self.openings = openings(after, &self.measured, self.rules.step_cm(), &self.symbols);
         }
         self.openings_and_properties(after, &replicas, &doors, |rel, row| {
             rows.into.insert((rel, row));
