@@ -21,7 +21,7 @@ use crate::semantics::Relations;
 use crate::units::{AreaId, Deg, Point, Vector};
 
 use super::route::{End, RouteAnswer};
-use super::surroundings::Surroundings;
+use super::known::Known;
 use super::{Error, State};
 
 /// A bend that stays this near to the straight way is none, cm.
@@ -49,7 +49,7 @@ impl State {
     }
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// A way in the terms of people. `heading` is how one stands at its beginning, where that is known.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Surroundings<'_> {
         heading: Option<Deg>,
     ) -> Result<Option<Directions>, Error> {
         let Ok(route) = &answer.route else { return Ok(None) };
-        let (world, relations) = (self.world()?, self.relations()?);
+        let (world, relations) = (self.world(), self.relations()?);
         let mut line: &[Point] = &route.points;
         let start = line.first().copied();
         let floor = self.floor(answer.map)?;

@@ -46,6 +46,7 @@ mod goals;
 mod history;
 mod journey;
 pub mod json;
+mod known;
 mod lexicon;
 mod load;
 mod memory;
@@ -54,7 +55,6 @@ mod observe;
 mod opening;
 mod plan;
 mod position;
-mod present;
 mod reading;
 mod route;
 mod rule_files;
@@ -64,7 +64,6 @@ mod sight;
 mod stance;
 mod state;
 mod surprises;
-mod surroundings;
 mod talk;
 mod task;
 mod tidy;
@@ -174,7 +173,9 @@ impl Engine {
     /// There is no map, or its relations cannot be derived.
     pub fn state(&self) -> Result<Arc<State>, Error> {
         // What was seen and done stands in tables of which only the last state is read.
-        self.state.present()?;
+        if self.state.surveyed.is_some() {
+            self.state.around()?;
+        }
         Ok(Arc::clone(&self.state))
     }
 

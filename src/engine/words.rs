@@ -6,7 +6,7 @@ use crate::language::report::Detail;
 use crate::units::{AreaId, Deg};
 
 use super::route::RouteAnswer;
-use super::surroundings::Surroundings;
+use super::known::Known;
 use super::{Error, State};
 
 impl State {
@@ -27,7 +27,7 @@ impl State {
     }
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// As [`State::route_in_words`].
     pub(super) fn route_in_words(
         &self,
@@ -36,7 +36,7 @@ impl Surroundings<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Vec<String>, Error> {
-        let world = self.world()?;
+        let world = self.world();
         let Some(way) = self.directions(answer, heading)? else { return Ok(Vec::new()) };
         if detail == Detail::Region || answer.stages.len() < 2 {
             return Ok(way.say_in(language, detail));

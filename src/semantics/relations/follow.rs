@@ -47,6 +47,12 @@ impl Followed {
         &self.relations
     }
 
+    /// The same, to be kept.
+    #[must_use]
+    pub fn shared(&self) -> Arc<Relations> {
+        Arc::clone(&self.relations)
+    }
+
     /// The relations of the world as it now is: followed from those before where they can be, else derived anew.
     ///
     /// # Errors
