@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::corridor::{CorridorError, CorridorSystem, Variant, directions};
-use orthoframe::geometry::{Openings, STEP_REACH};
-use orthoframe::map::{
+use orthoframe_corridor::{CorridorError, CorridorSystem, Variant, directions};
+use orthoframe_geometry::{Openings, STEP_REACH};
+use orthoframe_map::{
     Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, Profile,
     TypeEntry, TypeLists, World,
 };
-use orthoframe::units::{AreaId, Cm, Deg, DomainId, Frame, MapId, OrFrId, Point, TypeId};
+use orthoframe_units::{AreaId, Cm, Deg, DomainId, Frame, MapId, OrFrId, Point, TypeId};
 
 /// East, north, west, south.
 pub(crate) const WAYS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];

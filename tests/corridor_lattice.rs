@@ -6,12 +6,12 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
-use orthoframe::corridor::{
+use orthoframe_corridor::{
     Command, CorridorSystem, DoubleGraph, JunctionKind, Position, Side, SingleGraph, Turn, VertexIx,
 };
-use orthoframe::geometry::{Openings, STEP_REACH};
-use orthoframe::map::{Permeability, World};
-use orthoframe::units::{MapId, Point, Source};
+use orthoframe_geometry::{Openings, STEP_REACH};
+use orthoframe_map::{Permeability, World};
+use orthoframe_units::{MapId, Point, Source};
 use proptest::prelude::*;
 
 use crate::corridor_floors::{Builder, Gap, WAYS, empty_world, placed};

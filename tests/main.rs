@@ -57,6 +57,7 @@ mod store_faults;
 mod store_world;
 mod storeys;
 mod story;
+mod surface;
 mod talk;
 mod talk_ways;
 mod thresholds;

@@ -1,9 +1,9 @@
 //! Free floor and ways in odd worlds. Every answer is checked against a slow one that knows nothing of offsets,
 //! overlays and meshes: distances to the things themselves, and a fill of a fine raster.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, by_visibility_graph};
 use crate::floors::{Builder, p};

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use orthoframe::engine::Engine;
-use orthoframe::geometry::{Method, Openings, STEP_REACH};
-use orthoframe::language::question::Memory;
-use orthoframe::map::{Entity, Format, World};
-use orthoframe::semantics::STANDARD;
-use orthoframe::semantics::planning::{RobotAt, RobotState, initial};
-use orthoframe::units::{AreaId, Source};
+use orthoframe_geometry::{Method, Openings, STEP_REACH};
+use orthoframe_language::question::Memory;
+use orthoframe_map::{Entity, Format, World};
+use orthoframe_semantics::STANDARD;
+use orthoframe_semantics::planning::{RobotAt, RobotState, initial};
+use orthoframe_units::{AreaId, Source};
 
 use crate::worlds::{rb2, variants};
 
@@ -49,7 +49,7 @@ fn said(engine: &Engine) -> [bool; 4] {
     let way = engine.route("Кухня", "Спальня", Method::Shortest).unwrap();
     let state = RobotState { area: area("Кухня"), at: RobotAt::Elsewhere, holds: None };
     let facts = initial(world, engine.relations().unwrap(), &state).facts;
-    let leads = |argument: &orthoframe::semantics::planning::Argument| argument.name == "Спальня";
+    let leads = |argument: &orthoframe_semantics::planning::Argument| argument.name == "Спальня";
     let planned = facts.iter().any(|fact| {
         fact.arguments.len() == 3 && fact.arguments[1].name == "Кухня" && leads(&fact.arguments[2])
     });

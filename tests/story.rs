@@ -4,14 +4,14 @@ use std::path::Path;
 
 use orthoframe::Engine;
 use orthoframe::engine::{PlanStep, Progress, TaskAnswer, TaskEnding, change_now};
-use orthoframe::geometry::{Scene, doorways, nearest_on_segment};
-use orthoframe::graphplan::{Limits, Outcome, validate};
-use orthoframe::language::Language;
-use orthoframe::map::{DoorState, Entity, Permeability, World};
-use orthoframe::robot::Wanted;
-use orthoframe::robot::{Obstruction, Surprise};
-use orthoframe::strips::Scenario;
-use orthoframe::units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};
+use orthoframe_geometry::{Scene, doorways, nearest_on_segment};
+use orthoframe_graphplan::{Limits, Outcome, validate};
+use orthoframe_language::Language;
+use orthoframe_map::{DoorState, Entity, Permeability, World};
+use orthoframe_robot::Wanted;
+use orthoframe_robot::{Obstruction, Surprise};
+use orthoframe_strips::Scenario;
+use orthoframe_units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};
 
 use crate::files::project;
 use crate::worlds::{mirrored, rb2, rb2_with_fifth_room, renamed, rotated};

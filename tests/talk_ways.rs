@@ -1,12 +1,12 @@
 //! Ways in words: what is told agrees with the route's geometry, in every world and both languages.
 
 use orthoframe::engine::{Engine, Method, RouteAnswer, World};
-use orthoframe::exchange::{Options, read};
-use orthoframe::language::Language;
-use orthoframe::language::directions::{Directions, Passage, Side};
-use orthoframe::language::report::Detail;
-use orthoframe::map::Entity;
-use orthoframe::units::{Deg, Vector};
+use orthoframe_exchange::{Options, read};
+use orthoframe_language::Language;
+use orthoframe_language::directions::{Directions, Passage, Side};
+use orthoframe_language::report::Detail;
+use orthoframe_map::Entity;
+use orthoframe_units::{Deg, Vector};
 
 use crate::files::shared;
 use crate::worlds::{mirrored, rb2, rotated};
@@ -73,7 +73,7 @@ fn doorways(engine: &Engine, answer: &RouteAnswer) -> Vec<[Vector; 2]> {
             let (a, b) = doorway.side_in(doorway.area()).unwrap().ends;
             let across = Vector::new(b.y - a.y, a.x - b.x).normalize();
             // Where the route crosses the doorway's line between its ends; the line goes on beside the doorway.
-            let side = |p: &orthoframe::units::Point| (p - middle).dot(&across);
+            let side = |p: &orthoframe_units::Point| (p - middle).dot(&across);
             let at = route.points.windows(2).find(|w| {
                 let (before, after) = (side(&w[0]), side(&w[1]));
                 let share =
@@ -190,7 +190,7 @@ fn what_is_passed_stands_on_the_hand_that_is_told() {
             let points = &answer.route.as_ref().unwrap().points;
             for (stage, passage) in answer.stages.iter().zip(&way.passages) {
                 for (side, thing) in passage.stretches.iter().flat_map(|s| &s.passed) {
-                    let named = |r: &&orthoframe::map::Replica| {
+                    let named = |r: &&orthoframe_map::Replica| {
                         r.area == stage.area && r.name == thing.phrase().name()
                     };
                     let id = world.replicas.values().find(named).unwrap().id;

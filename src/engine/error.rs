@@ -18,6 +18,7 @@ use crate::units::{capitalized, is_input};
 
 /// Why the engine could not do what it was asked.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -82,6 +83,7 @@ impl From<MissionError> for Error {
 
 /// A request that speaks of what is not there, or not clearly enough.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum RequestError {
     /// A number that a drawing cannot take.
     #[error("{what} = {value}, а нужно от {low} до {high}")]

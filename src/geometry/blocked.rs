@@ -44,6 +44,7 @@ pub enum Barrier {
 
 /// There is no way.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum NoRoute {
     /// Between start and goal stands what is named, in the order of the way.
     #[error("пути нет: {text}")]

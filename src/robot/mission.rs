@@ -138,6 +138,7 @@ impl Surprise {
 
 /// A mission that cannot even be planned.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum MissionError {
     /// The goal or the rules name what neither the Map nor the rules know.
     #[error(transparent)]
