@@ -33,7 +33,8 @@ pub use orthoframe_map::{
 
 /// Free floor, openings and ways.
 pub use orthoframe_geometry::{
-    FloorPlan, FragmentFloor, OpenSide, Opening, Openings, Passframe, Polygon, Region, Route, Target,
+    FloorPlan, FragmentFloor, OpenSide, Opening, Openings, Passframe, Polygon, Region, Route,
+    Target,
 };
 
 /// Relations, and the robot that a task is given to.

@@ -4,12 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
+use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
 use orthoframe_corridor::{CorridorSystem, Variant, figure};
 use orthoframe_draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
     text_width,
 };
-use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
 use orthoframe_exchange::{Level, Options, Report, Room, Survey, Synonyms, assemble, read};
 use orthoframe_geometry::{Openings, STEP_REACH};
 use orthoframe_map::{Format, World};

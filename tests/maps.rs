@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use expect_test::expect_file;
 use miette::Diagnostic;
 use orthoframe_geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe_map::{
-    DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read,
-};
+use orthoframe_map::{DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read};
 use orthoframe_units::{Cm, Source};
 
 use proptest::prelude::*;

@@ -20,8 +20,8 @@ use crate::map::{Entity, World};
 use crate::semantics::Relations;
 use crate::units::{AreaId, Deg, Point, Vector};
 
-use super::route::{End, RouteAnswer};
 use super::known::Known;
+use super::route::{End, RouteAnswer};
 use super::{Error, State};
 
 /// A bend that stays this near to the straight way is none, cm.

@@ -65,7 +65,8 @@ impl Engine {
             Change { reason: reason.unwrap_or_else(|| change.reason.clone()), ..change.clone() };
         let (after, faults, left_behind) = self.with_loads(edited, faults, &carriers)?;
         let edited = self.become_world(after, faults, &change, mode)?;
-        let name = |id: &ReplicaId| self.surveyed.as_ref()?.world.replicas.get(id).map(|r| r.name.clone());
+        let name =
+            |id: &ReplicaId| self.surveyed.as_ref()?.world.replicas.get(id).map(|r| r.name.clone());
         let left_behind = left_behind.iter().filter_map(name).collect();
         Ok(Edited { left_behind, ..edited })
     }
@@ -77,7 +78,11 @@ impl Engine {
         warnings: MapErrors,
         carriers: &BTreeSet<ReplicaId>,
     ) -> Result<(World, MapErrors, Vec<ReplicaId>), Error> {
-        let Some(before) = self.surveyed.as_ref().map(|known| known.world()).filter(|before| before.replicas != after.replicas)
+        let Some(before) = self
+            .surveyed
+            .as_ref()
+            .map(|known| known.world())
+            .filter(|before| before.replicas != after.replicas)
         else {
             return Ok((after, warnings, Vec::new()));
         };

@@ -9,10 +9,10 @@ use crate::map::{Entity, World};
 use crate::units::{Deg, DoorId, MapId, Point};
 
 use super::advice::Advice;
+use super::known::Known;
 use super::lexicon::named;
 use super::opening::opens_in_words;
 use super::route::{End, Located, RouteAnswer};
-use super::known::Known;
 use super::{Error, State};
 
 /// A way from one place to another, over as many maps as it takes.

@@ -160,9 +160,10 @@ impl Known {
         }
         let (openings, world) = (self.openings()?, &self.world);
         // Rules of the user's own may let doors join by what stands about.
-        let basis = self.basis.as_ref().filter(|basis| {
-            basis.openings().is_ok_and(|surveyed| surveyed == openings)
-        });
+        let basis = self
+            .basis
+            .as_ref()
+            .filter(|basis| basis.openings().is_ok_and(|surveyed| surveyed == openings));
         let floors = match basis {
             Some(basis) => {
                 let mut empty_handed = World::clone(world);
@@ -173,7 +174,9 @@ impl Known {
                 floors.values_mut().for_each(|floor| floor.follow(&basis.world, &empty_handed));
                 floors
             }
-            None => world.maps.keys().map(|&map| (map, self.floor_of(world, openings, map))).collect(),
+            None => {
+                world.maps.keys().map(|&map| (map, self.floor_of(world, openings, map))).collect()
+            }
         };
         Ok(self.floors.get_or_init(|| Arc::new(floors)))
     }

@@ -12,9 +12,9 @@ use crate::semantics::lifts;
 use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::Error;
+use super::known::Known;
 use super::lexicon::named;
 use super::route::stages;
-use super::known::Known;
 
 type Floors = BTreeMap<MapId, FloorPlan>;
 

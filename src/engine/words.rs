@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::report::Detail;
 use crate::units::{AreaId, Deg};
 
-use super::route::RouteAnswer;
 use super::known::Known;
+use super::route::RouteAnswer;
 use super::{Error, State};
 
 impl State {
