@@ -3,7 +3,7 @@
 //! One text for two users: the targets of `fuzz_targets/`, which cargo-fuzz drives by coverage, and
 //! `tests/hostile.rs`, which drives the same bodies with a seeded mutator in every test run.
 
-use orthoframe_exchange::{self, OpeningKind, ReadError, Report, Survey, Synonyms};
+use orthoframe_exchange::{self as exchange, OpeningKind, ReadError, Report, Survey, Synonyms};
 use orthoframe_map::{Format, check, read};
 use orthoframe_units::{Point, Source};
 

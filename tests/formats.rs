@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use expect_test::expect_file;
-use orthoframe_exchange::{self, Level, OpeningKind, ReadError, Survey};
+use orthoframe_exchange::{self as exchange, Level, OpeningKind, ReadError, Survey};
 use orthoframe_units::Point;
 
 fn golden() -> PathBuf {

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use orthoframe_exchange::{self, ReadError};
+use orthoframe_exchange::{self as exchange, ReadError};
 use orthoframe_units::Source;
 
 use crate::files::project;

@@ -1,7 +1,7 @@
 //! Building models as real authoring tools write them: one solid in every notation gives one prism; rooms that no wall
 //! parts are joined; stairs lead from storey to storey; every element of the file is in the report.
 
-use orthoframe_exchange::{self, Imported, OpeningKind, Options, Survey, What};
+use orthoframe_exchange::{self as exchange, Imported, OpeningKind, Options, Survey, What};
 use orthoframe_map::{DoorStatus, Permeability};
 use orthoframe_units::{Point, Source};
 

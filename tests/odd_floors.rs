@@ -36,7 +36,7 @@ impl Solids {
             door.map_or(vec![], |door| d.leaves(door).obstacles(plan.door_state(world, door.id)))
         });
         // Shut, a doorway ends the floor on both faces of its wall: nobody stands in it.
-        let is_shut = |d: &&Doorway| {
+        let is_shut = |d: &&Opening| {
             let door = d.door.map(|id| &world.doors[&id]);
             door.is_some_and(|door| {
                 let state = plan.door_state(world, door.id);

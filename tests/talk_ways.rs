@@ -3,7 +3,7 @@
 use orthoframe::engine::{Engine, Method, RouteAnswer, World};
 use orthoframe_exchange::{Options, read};
 use orthoframe_language::Language;
-use orthoframe_language::directions::{Directions, Passage, Side};
+use orthoframe_language::directions::{Directions, RoomPart, Side};
 use orthoframe_language::report::Detail;
 use orthoframe_map::Entity;
 use orthoframe_units::{Deg, Vector};
@@ -131,7 +131,7 @@ fn turns_add_up_to_the_angle_between_the_doors_and_lengths_to_the_route() {
             let doors = doorways(&engine, &answer);
             let context = || format!("{name}: {} – {}: {way:#?}", answer.from, answer.to);
             for (n, pair) in doors.windows(2).enumerate() {
-                let passage: &Passage = &way.passages[n + 1];
+                let passage: &RoomPart = &way.passages[n + 1];
                 let inner = passage.stretches.iter().filter_map(|s| s.angle);
                 let all: f64 = inner.chain(passage.exit.iter().map(|e| e.angle)).sum();
                 let slack = 2.0 + 25.0 * passage.stretches.len() as f64;

@@ -161,7 +161,7 @@ pub(crate) type Outline = Vec<Vec<[f64; 2]>>;
 /// Where the robot's centre may be, over all rooms together.
 pub(crate) fn outlines(plan: &FloorPlan) -> Vec<Outline> {
     // Rooms meet on the lines of their doorways; a hair's breadth welds them.
-    let weld = |d: &orthoframe_geometry::Doorway| {
+    let weld = |d: &orthoframe_geometry::Opening| {
         let (a, b) = d.line();
         let along = (b - a).normalize();
         let across = nalgebra::Vector2::new(-along.y, along.x) * 0.02;

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::Path;
 
 use orthoframe_exchange::{Options, read};
-use orthoframe_facts;
+use orthoframe_facts as facts;
 use orthoframe_map::{Properties, World};
 use orthoframe_semantics::{Profile, RelationRules, Relations, derive};
 use orthoframe_units::Source;

@@ -214,10 +214,9 @@ impl Known {
         self.forms.take();
         self.world = Arc::clone(&after);
         let mut followed = changed.len() <= MOST_FOLLOWED;
-        let mut openings = None;
         if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
             let relations = Arc::make_mut(relations);
-            openings = Some(Arc::clone(relations.openings()));
+            let openings = Arc::clone(relations.openings());
             for &id in changed {
                 // Properties are facts too, which a move does not touch.
                 let only_moved =
@@ -228,7 +227,7 @@ impl Known {
                 followed = followed && only_moved && relations.update(&after, id).unwrap_or(false);
             }
             // Rules of the user's own may let doors join by what stands about.
-            if openings.as_ref() != Some(relations.openings()) {
+            if openings != *relations.openings() {
                 self.floors.take();
             }
         }

@@ -60,6 +60,9 @@ pub enum Error {
     Vehicle(#[from] Box<crate::robot::Failure>),
     #[error(transparent)]
     #[diagnostic(transparent)]
+    Mission(Box<MissionError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
     Request(#[from] RequestError),
 }
 
@@ -77,6 +80,7 @@ impl From<MissionError> for Error {
         match error {
             MissionError::Rules(faults) => Self::Rules(faults),
             MissionError::Relations(error) => Self::Relations(error),
+            error => Self::Mission(Box::new(error)),
         }
     }
 }
@@ -441,6 +445,7 @@ impl Error {
             | Self::Rules(_)
             | Self::Relations(_)
             | Self::Misheard(_)
+            | Self::Mission(_)
             | Self::Corridor(_)
             | Self::CorridorFile(_) => true,
             Self::Datalog(error) => match error.as_ref() {

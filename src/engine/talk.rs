@@ -1,7 +1,5 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use std::sync::Arc;
-
 use crate::geometry::{Barrier, Eye, Method, NoRoute, Ride};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};

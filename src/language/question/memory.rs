@@ -4,7 +4,7 @@
 
 use super::outlive::{Departed, Stamp};
 use super::query::{Query, Thing};
-use super::{Answer, Fact, focus, settle};
+use super::{Answer, Fact, focus, resolution};
 use crate::units::Bilingual;
 use crate::words::Language;
 
