@@ -19,8 +19,8 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use criterion::Criterion;
 use inputs::{Box8, Edge};
-use orthoframe::facts::{Database, Program};
-use orthoframe::units::Source;
+use orthoframe_facts::{Database, Program};
+use orthoframe_units::Source;
 
 /// What evaluates a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

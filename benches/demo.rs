@@ -8,11 +8,11 @@ use std::path::Path;
 use criterion::{Criterion, criterion_group, criterion_main};
 use orthoframe::Engine;
 use orthoframe::engine::{Change, Method, Timestamp, World};
-use orthoframe::geometry::{DoorStates, FloorPlan, Target};
-use orthoframe::graphplan::{Limits, solve};
-use orthoframe::robot::{facts_of_map, state};
-use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::strips::{Scenario, ground};
+use orthoframe_geometry::{DoorStates, FloorPlan, Target};
+use orthoframe_graphplan::{Limits, solve};
+use orthoframe_robot::{facts_of_map, state};
+use orthoframe_semantics::{Profile, RelationRules, derive};
+use orthoframe_strips::{Scenario, ground};
 
 const MAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
 const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/rules/scenarios/medicine-walk.strips");

@@ -27,9 +27,9 @@ use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use generated::{Generated, building, room};
-use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe::map::World;
-use orthoframe::units::{Cm, Deg, Frame, MapId, Point, ReplicaId};
+use orthoframe_geometry::{DoorStates, FloorPlan, Method, Target};
+use orthoframe_map::World;
+use orthoframe_units::{Cm, Deg, Frame, MapId, Point, ReplicaId};
 
 const FLOORS: [&str; 4] = ["room-20", "flat-80", "office-3000", "hospital-40000"];
 const RADIUS: f64 = 20.0;

@@ -10,7 +10,7 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use orthoframe::Engine;
 use orthoframe::engine::{Change, Timestamp};
-use orthoframe::exchange::{Options, read};
+use orthoframe_exchange::{Options, read};
 
 /// Mean radius of the earth, m, as the reader takes it.
 const EARTH: f64 = 6_371_008.8;

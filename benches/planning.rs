@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
-use orthoframe::graphplan::{Limits, Outcome, solve, solve_any, solve_learning, validate};
-use orthoframe::strips::{RuleFaults, Scenario, Task};
-use orthoframe::units::Source;
+use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, solve_learning, validate};
+use orthoframe_strips::{RuleFaults, Scenario, Task};
+use orthoframe_units::Source;
 
 #[path = "planning/families.rs"]
 mod families;

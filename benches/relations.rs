@@ -6,9 +6,9 @@ mod wards;
 
 use std::time::{Duration, Instant};
 
-use orthoframe::map::World;
-use orthoframe::semantics::{Measurements, Profile, RelationRules, derive, derive_from};
-use orthoframe::units::{Deg, Frame, ReplicaId};
+use orthoframe_map::World;
+use orthoframe_semantics::{Measurements, Profile, RelationRules, derive, derive_from};
+use orthoframe_units::{Deg, Frame, ReplicaId};
 
 const WARD: &str = r#"
 format = 1

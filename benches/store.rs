@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use criterion::Criterion;
-use orthoframe::store::{Change, Edits, Key, Store, Timestamp, records::AreaObjects};
-use orthoframe::units::AreaId;
+use orthoframe_store::{Change, Edits, Key, Store, Timestamp, records::AreaObjects};
+use orthoframe_units::AreaId;
 
 const RECORDS: u32 = 100_000;
 const BATCH: usize = 1000;

@@ -10,9 +10,9 @@ use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use orthoframe::Engine;
 use orthoframe::engine::{Memory, World, change_now};
-use orthoframe::language::question::Lexicon;
-use orthoframe::store::Store;
-use orthoframe::units::{Deg, Frame};
+use orthoframe_language::question::Lexicon;
+use orthoframe_store::Store;
+use orthoframe_units::{Deg, Frame};
 
 const WARD: &str = r#"
 format = 1

@@ -1,7 +1,7 @@
 //! Hospitals made of one ward, again and again: the same on every machine.
 
-use orthoframe::map::{Area, Format, MapItem, Replica, World};
-use orthoframe::units::{AreaId, Frame, ReplicaId, Source};
+use orthoframe_map::{Area, Format, MapItem, Replica, World};
+use orthoframe_units::{AreaId, Frame, ReplicaId, Source};
 
 /// The ward of a map file, so many times, each at its frame; things beyond `most` are left out.
 ///

@@ -3,9 +3,9 @@
 //! One text for two users: the targets of `fuzz_targets/`, which cargo-fuzz drives by coverage, and
 //! `tests/hostile.rs`, which drives the same bodies with a seeded mutator in every test run.
 
-use orthoframe::exchange::{self, OpeningKind, ReadError, Report, Survey, Synonyms};
-use orthoframe::map::{Format, check, read};
-use orthoframe::units::{Point, Source};
+use orthoframe_exchange::{self as exchange, OpeningKind, ReadError, Report, Survey, Synonyms};
+use orthoframe_map::{Format, check, read};
+use orthoframe_units::{Point, Source};
 
 /// A reader's name and its body.
 pub(crate) type Body = (&'static str, fn(&[u8]) -> Result<(), String>);

@@ -8,23 +8,49 @@
 #![doc = include_str!("../examples/fetch.rs")]
 //! ```
 //!
-//! The folders and which may use which are drawn in `ARCHITECTURE.md`.
+//! What a program needs of it is told in full by this crate: [`engine`] does the work, and the values that it takes and
+//! gives are named here. The folders below, each a crate of the workspace, may change from one version to the next; the
+//! surface does not change unseen, for it stands in `tests/golden/surface.txt`. `ARCHITECTURE.md` draws the folders.
 
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod engine;
 
-pub use engine::Engine;
-pub use orthoframe_corridor as corridor;
-pub use orthoframe_draw as draw;
-pub use orthoframe_exchange as exchange;
-pub use orthoframe_facts as facts;
-pub use orthoframe_geometry as geometry;
-pub use orthoframe_graphplan as graphplan;
-pub use orthoframe_language as language;
-pub use orthoframe_map as map;
-pub use orthoframe_robot as robot;
-pub use orthoframe_semantics as semantics;
-pub use orthoframe_store as store;
-pub use orthoframe_strips as strips;
-pub use orthoframe_units as units;
+pub use engine::{Dialogue, Engine, Error, State};
+
+/// Lengths, angles, places and ids.
+pub use orthoframe_units::{
+    AreaId, Cm, Deg, DoorId, Frame, Language, MapId, ObjectId, OpeningId, PlaceId, Point, Pose,
+    ReplicaId, Source as SourceText, Stop, TypeId, Vector,
+};
+
+/// The map: what stands in a [`World`].
+pub use orthoframe_map::{
+    Area, Door, DoorKind, DoorState, DoorStatus, EditReading, Entity, Fault, Item, MapErrors,
+    NextIds, Object, Orthoframe, Permeability, Place, Profile, Replica, RobotProfile, World,
+};
+
+/// Free floor, openings and ways.
+pub use orthoframe_geometry::{
+    FloorPlan, FragmentFloor, OpenSide, Opening, Openings, Passframe, Polygon, Region, Route,
+    Target,
+};
+
+/// Relations, and the robot that a task is given to.
+pub use orthoframe_robot::{Simulator, Vehicle};
+pub use orthoframe_semantics::{RelationRules, Relations};
+
+use orthoframe_corridor as corridor;
+use orthoframe_draw as draw;
+use orthoframe_exchange as exchange;
+use orthoframe_facts as facts;
+use orthoframe_geometry as geometry;
+use orthoframe_graphplan as graphplan;
+use orthoframe_language as language;
+use orthoframe_map as map;
+use orthoframe_robot as robot;
+use orthoframe_semantics as semantics;
+use orthoframe_store as store;
+use orthoframe_strips as strips;
+use orthoframe_units as units;

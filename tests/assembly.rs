@@ -1,12 +1,12 @@
 //! The assembler against dirt of every size: whatever rooms, openings and things a survey holds, a world comes of it
 //! that passes every check, and rooms that are only a little out of place all arrive.
 
-use orthoframe::exchange::{
+use orthoframe_exchange::{
     ImportError, Kind, Level, Opening, OpeningKind, Part, Report, Room, Survey, Synonyms, Thing,
     assemble,
 };
-use orthoframe::map::{DoorKind, DoorStatus, Permeability, Properties, check};
-use orthoframe::units::{Cm, Deg, Point, Vector};
+use orthoframe_map::{DoorKind, DoorStatus, Permeability, Properties, check};
+use orthoframe_units::{Cm, Deg, Point, Vector};
 
 use crate::generated_worlds::Dice;
 

@@ -6,13 +6,13 @@ use orthoframe::Engine;
 use orthoframe::engine::{
     Memory, Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words, directive_in_words,
 };
-use orthoframe::geometry::Scene;
-use orthoframe::language::Language;
-use orthoframe::language::command::Command;
-use orthoframe::map::{DoorState, Entity, Format, World, is_on, switch};
-use orthoframe::robot::{Deed, Surprise};
-use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::units::{AreaId, ReplicaId, Source};
+use orthoframe_geometry::Scene;
+use orthoframe_language::Language;
+use orthoframe_language::command::Command;
+use orthoframe_map::{DoorState, Entity, Format, World, is_on, switch};
+use orthoframe_robot::{Deed, Surprise};
+use orthoframe_semantics::{Profile, RelationRules, derive};
+use orthoframe_units::{AreaId, ReplicaId, Source};
 
 use crate::worlds::{mirrored, rb2};
 
@@ -654,7 +654,7 @@ fn spoken_orders_are_understood_as_meant() {
     let goals = |sentence: &str| match engine.perform(sentence, &mut |_| {}) {
         Ok(answer) => {
             let said =
-                |g: &orthoframe::robot::GoalFact| format!("{}({})", g.predicate, g.args.join(", "));
+                |g: &orthoframe_robot::GoalFact| format!("{}({})", g.predicate, g.args.join(", "));
             answer.goal.iter().map(said).collect::<Vec<_>>().join("; ")
         }
         Err(error) => error.to_string(),

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect, expect_file};
-use orthoframe::corridor::{
+use orthoframe_corridor::{
     ArcIx, Command, CorridorError, CorridorSystem, Directions, DoubleArcKind, DoubleGraph,
     SingleGraph, Variant, directions, figure,
 };
-use orthoframe::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
-use orthoframe::units::Source;
+use orthoframe_draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
+use orthoframe_units::Source;
 
 const PAPER: &str = include_str!("../maps/corridor-paper4.toml");
 
@@ -420,15 +420,15 @@ fn a_way_in_words_counts_entrances_along_corridors() {
     let mut world = crate::worlds::rb2();
     for door in world.doors.values_mut() {
         match door.name.as_str() {
-            "Дверь-КY" => door.state = orthoframe::map::DoorState::OPEN,
-            "Дверь-ВZ" => door.state = orthoframe::map::DoorState::CLOSED,
+            "Дверь-КY" => door.state = orthoframe_map::DoorState::OPEN,
+            "Дверь-ВZ" => door.state = orthoframe_map::DoorState::CLOSED,
             _ => {}
         }
     }
     let engine = orthoframe::engine::Engine::in_memory(world, None).unwrap();
     let answer = engine.route("Точка-А", "Точка-К", orthoframe::engine::Method::Shortest).unwrap();
     let words = |language| {
-        let detail = orthoframe::language::report::Detail::Spot;
+        let detail = orthoframe_language::report::Detail::Spot;
         engine.route_in_words(&answer, None, language, detail).unwrap().join("\n")
     };
     expect![[r#"
@@ -436,8 +436,8 @@ fn a_way_in_words_counts_entrances_along_corridors() {
         Встаньте вдоль коридора, чтобы дверь была слева.
         Проезжайте до 1-го входа, дверь прямо.
         Идите прямо до Точки-К."#]]
-    .assert_eq(&words(orthoframe::language::Language::Russian));
-    let english = words(orthoframe::language::Language::English);
+    .assert_eq(&words(orthoframe_language::Language::Russian));
+    let english = words(orthoframe_language::Language::English);
     assert!(english.starts_with("Leave Room V through Passage VK into"), "{english}");
     assert!(english.contains("1st entrance"), "{english}");
 }

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::corridor::{CorridorError, CorridorSystem, Variant, directions};
-use orthoframe::map::{
+use orthoframe_corridor::{CorridorError, CorridorSystem, Variant, directions};
+use orthoframe_geometry::{Openings, STEP_REACH};
+use orthoframe_map::{
     Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, Profile,
     TypeEntry, TypeLists, World,
 };
-use orthoframe::units::{AreaId, Cm, Deg, DomainId, Frame, MapId, OrFrId, Point, TypeId};
+use orthoframe_units::{AreaId, Cm, Deg, DomainId, Frame, MapId, OrFrId, Point, TypeId};
 
 /// East, north, west, south.
 pub(crate) const WAYS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
@@ -201,7 +202,12 @@ fn outline(corners: &[(i32, i32)], doors: &[usize], turned: f64) -> String {
         }
     }
     builder.world.orthoframes.get_mut(&OrFrId(1)).unwrap().base = base;
-    let system = CorridorSystem::from_map(&builder.world, MapId(1)).unwrap();
+    let system = CorridorSystem::from_map(
+        &builder.world,
+        &Openings::of(&builder.world, STEP_REACH),
+        MapId(1),
+    )
+    .unwrap();
     system.check_invariants();
     let name = |v| match system.vertex(v).entrance() {
         Some(entrance) => entrance.room.clone(),
@@ -264,7 +270,7 @@ fn corridors_that_touch_without_a_door_stay_apart_and_floors_too() {
     builder.room("Б", (300, 400), 1, 10);
     let mut world = builder.world;
     let route = |world: &World| {
-        let system = CorridorSystem::from_world(world).unwrap();
+        let system = CorridorSystem::from_world(world, &Openings::of(world, STEP_REACH)).unwrap();
         directions(&system, "А", None, "Б", Variant::Single)
     };
     assert!(matches!(route(&world), Err(CorridorError::Unreachable { .. })));
@@ -281,7 +287,7 @@ fn corridors_that_touch_without_a_door_stay_apart_and_floors_too() {
     let help = miette::Diagnostic::help(&error).unwrap().to_string();
     assert_eq!(help, "«А» – на «Этаж 1», «Б» – на «Этаж 2»: нужен лифт");
     assert!(matches!(
-        CorridorSystem::from_map(&world, MapId(7)),
+        CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), MapId(7)),
         Err(CorridorError::UnknownMap { map: 7 })
     ));
 }

@@ -6,11 +6,12 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
-use orthoframe::corridor::{
+use orthoframe_corridor::{
     Command, CorridorSystem, DoubleGraph, JunctionKind, Position, Side, SingleGraph, Turn, VertexIx,
 };
-use orthoframe::map::{Permeability, World};
-use orthoframe::units::{MapId, Point, Source};
+use orthoframe_geometry::{Openings, STEP_REACH};
+use orthoframe_map::{Permeability, World};
+use orthoframe_units::{MapId, Point, Source};
 use proptest::prelude::*;
 
 use crate::corridor_floors::{Builder, Gap, WAYS, empty_world, placed};
@@ -411,7 +412,7 @@ proptest! {
         apart in any::<bool>(),
     ) {
         let world = as_world(&lattice, turned, wall, apart);
-        let Ok(system) = CorridorSystem::from_map(&world, MapId(1)) else {
+        let Ok(system) = CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), MapId(1)) else {
             prop_assert!(lattice.edges.is_empty());
             return Ok(());
         };

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use orthoframe::facts::{FilesError, Limits, Program, run_files};
-use orthoframe::units::Source;
+use orthoframe_facts::{FilesError, Limits, Program, run_files};
+use orthoframe_units::Source;
 
 #[test]
 fn golden_programs() {

@@ -10,11 +10,11 @@ use orthoframe::engine::{
     Memory, Method, Progress, TaskAnswer, TaskEnding, Timestamp, change_now, opens_in_words,
     surprise_in_words,
 };
-use orthoframe::language::Language;
-use orthoframe::language::question::Said;
-use orthoframe::map::World;
-use orthoframe::semantics::{Profile, RelationRules, Relations, derive};
-use orthoframe::units::{Frame, ReplicaId};
+use orthoframe_language::Language;
+use orthoframe_language::question::Said;
+use orthoframe_map::World;
+use orthoframe_semantics::{Profile, RelationRules, Relations, derive};
+use orthoframe_units::{Frame, ReplicaId};
 
 use crate::files::{project, shared};
 

@@ -7,9 +7,9 @@ use std::process::{Command, Stdio};
 
 use orthoframe::Engine;
 use orthoframe::engine::{Dialogue, Event, Heard, Mode, Outcome, change_now, json};
-use orthoframe::language::Language;
-use orthoframe::map::{Entity, World};
-use orthoframe::units::{Deg, ReplicaId};
+use orthoframe_language::Language;
+use orthoframe_map::{Entity, World};
+use orthoframe_units::{Deg, ReplicaId};
 
 use crate::planning_properties::random::Random;
 use crate::worlds::rb2;
@@ -193,7 +193,7 @@ fn an_id_is_no_thing() {
     let other = engine.world().unwrap().replicas[&replica(&engine, "Книга-5")].clone();
     remove(&mut engine, "Чашка-1");
     edit(&mut engine, |world| {
-        let other = orthoframe::map::Replica {
+        let other = orthoframe_map::Replica {
             id,
             name: "Сумка-7".to_owned(),
             name_en: String::new(),

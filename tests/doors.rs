@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_cases::{build, room, way};
 use crate::floors::{p, two_rooms};
@@ -262,8 +262,8 @@ fn a_door_does_not_open_through_a_thing_and_the_thing_is_named() {
         let local = frame.invert(at);
         let chair = b.put(into, local.x - 10.0, local.y - 10.0, 20.0, 20.0, 0.0, height);
         let stand = Pose { at: doorway.before(1 - doorway.opens_to, 80.0), heading: Deg::ZERO };
-        let mut robot = orthoframe::robot::Simulator::new(b.world.clone(), MapId(1), stand);
-        use orthoframe::robot::{Obstruction, Refusal, Unfinished, Vehicle, Watch};
+        let mut robot = orthoframe_robot::Simulator::new(b.world.clone(), MapId(1), stand);
+        use orthoframe_robot::{Obstruction, Refusal, Unfinished, Vehicle, Watch};
         let opened = robot.set_door(door, DoorState::OPEN, &mut Watch::none());
         if stops {
             let by = Some(Obstruction::Replica(chair));

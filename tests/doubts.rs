@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use miette::Diagnostic;
-use orthoframe::map::{
+use orthoframe_map::{
     Fault, Format, MapError, Object, Replica, World, check, doubts, locate, read,
 };
-use orthoframe::units::{Frame, InEnglish, ReplicaId, Source};
+use orthoframe_units::{Frame, InEnglish, ReplicaId, Source};
 
 use crate::files::{project, shared};
 
@@ -247,11 +247,11 @@ fn a_thing_in_mid_air_is_told_and_one_on_the_floor_is_not() {
             let own = corners.iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords)
                 / corners.len() as f64;
             let at = middle - own;
-            let frame = Frame::new(at.x, at.y, z, orthoframe::units::Deg::ZERO);
+            let frame = Frame::new(at.x, at.y, z, orthoframe_units::Deg::ZERO);
             let thing = Replica { area: room, ..replica(&full, object, frame) };
             world.replicas.insert(thing.id, thing);
             let has = |wanted| world.types.object.has_trait(object.object_type, wanted);
-            let top = |item: &orthoframe::map::Item| {
+            let top = |item: &orthoframe_map::Item| {
                 item.frame.z.get() + world.orthoframe_of(item).height.get()
             };
             let top = object.items.iter().map(top).fold(0.0, f64::max);

@@ -4,15 +4,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
-use orthoframe::corridor::{CorridorSystem, Variant, figure};
-use orthoframe::draw::{
+use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
+use orthoframe_corridor::{CorridorSystem, Variant, figure};
+use orthoframe_draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
     text_width,
 };
-use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
-use orthoframe::exchange::{Level, Options, Report, Room, Survey, Synonyms, assemble, read};
-use orthoframe::map::{Format, World};
-use orthoframe::units::{Language, Point, Source};
+use orthoframe_exchange::{Level, Options, Report, Room, Survey, Synonyms, assemble, read};
+use orthoframe_geometry::{Openings, STEP_REACH};
+use orthoframe_map::{Format, World};
+use orthoframe_units::{Language, Point, Source};
 
 use crate::files::shared;
 use crate::worlds::rb2;
@@ -187,7 +188,7 @@ fn the_same_input_gives_the_same_bytes() {
 #[test]
 fn a_png_has_its_letters_without_any_font_of_the_machine() {
     let picture = |svg: &str| {
-        let png = orthoframe::draw::png(svg, Some(400)).expect("a good drawing");
+        let png = orthoframe_draw::png(svg, Some(400)).expect("a good drawing");
         assert!(png.starts_with(b"\x89PNG"));
         png
     };
@@ -197,8 +198,8 @@ fn a_png_has_its_letters_without_any_font_of_the_machine() {
     let bare: String =
         svg.split("<text ").map(|part| part.split_once("</text>").map_or(part, |p| p.1)).collect();
     assert_ne!(picture(&svg), picture(&bare));
-    assert!(orthoframe::draw::png("not a drawing", None).is_err());
-    assert!(orthoframe::draw::png(&svg, Some(u32::MAX)).is_err());
+    assert!(orthoframe_draw::png("not a drawing", None).is_err());
+    assert!(orthoframe_draw::png(&svg, Some(u32::MAX)).is_err());
 }
 
 /// Where much stands close together, what bears no name bears a number, told below the plan; no letters are too small.
@@ -294,7 +295,7 @@ fn keep(name: &str, svg: &str) {
     let file: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     std::fs::write(dir.join(format!("{file}.svg")), svg).unwrap();
     #[cfg(feature = "pictures")]
-    std::fs::write(dir.join(format!("{file}.png")), orthoframe::draw::png(svg, None).unwrap())
+    std::fs::write(dir.join(format!("{file}.png")), orthoframe_draw::png(svg, None).unwrap())
         .unwrap();
 }
 
@@ -506,11 +507,15 @@ fn road_graphs_can_be_read() {
     let mut count = 0;
     for (name, world) in worlds {
         for &map in world.maps.keys() {
-            let Ok(system) = CorridorSystem::from_map(&world, map) else { continue };
+            let Ok(system) =
+                CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), map)
+            else {
+                continue;
+            };
             for variant in [Variant::Single, Variant::Double] {
                 let Ok(figure) = figure(&system, variant, &[]) else { continue };
                 count += 1;
-                let vertex = |v: orthoframe::corridor::FigureVertex| CorridorVertex {
+                let vertex = |v: orthoframe_corridor::FigureVertex| CorridorVertex {
                     at: v.at,
                     mark: if v.is_junction {
                         CorridorMark::Junction
@@ -521,7 +526,7 @@ fn road_graphs_can_be_read() {
                     name: v.name,
                     name_towards: v.name_towards,
                 };
-                let arc = |a: orthoframe::corridor::FigureArc| CorridorArc {
+                let arc = |a: orthoframe_corridor::FigureArc| CorridorArc {
                     from: a.from,
                     to: a.to,
                     label: a.label,

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use orthoframe::exchange::{geojson, ros, to_geojson, to_grid, to_route_graph};
-use orthoframe::geometry::{DoorStates, FloorPlan};
-use orthoframe::map::{DoorState, World};
-use orthoframe::units::{MapId, Point, Source};
+use orthoframe_exchange::{geojson, ros, to_geojson, to_grid, to_route_graph};
+use orthoframe_geometry::{DoorStates, FloorPlan};
+use orthoframe_map::{DoorState, World};
+use orthoframe_units::{MapId, Point, Source};
 use serde_json::Value;
 
 fn rb2() -> World {
@@ -29,7 +29,7 @@ fn geojson_of_a_floor_reads_back_as_the_same_rooms_and_doors() {
     let text = to_geojson(&world, floors(&world).iter());
     let survey = geojson::read(&Source::new("rb2.geojson", text)).expect("our own file");
     let level = &survey.levels[0];
-    let scene = orthoframe::geometry::Scene::of(&world, *world.maps.keys().next().unwrap());
+    let scene = orthoframe_geometry::Scene::of(&world, *world.maps.keys().next().unwrap());
     let mut ours = BTreeMap::<String, f64>::new();
     for (id, placed) in &scene.areas {
         let name = world.areas[id].name.clone();
@@ -84,7 +84,7 @@ fn a_grid_of_a_floor_comes_apart_into_the_same_rooms() {
         assert!((a - b).abs() < 0.12 * b, "{found:?} {ours:?}");
     }
     for doorway in plan.doorways() {
-        let near = |o: &&orthoframe::exchange::Opening| {
+        let near = |o: &&orthoframe_exchange::Opening| {
             let middle = o.jambs[0] + (o.jambs[1] - o.jambs[0]) / 2.0;
             (middle - doorway.middle()).norm() < 30.0
         };

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::facts::{Because, Database, Derived, Live, Premise, Program, Value, WhyNot};
-use orthoframe::units::Source;
+use orthoframe_facts::{Because, Database, Derived, Live, Premise, Program, Value, WhyNot};
+use orthoframe_units::Source;
 
 use crate::facts_naive::{
     Dice, Facts, Model, Tuple, heights, nearest, random_facts, random_tuple, show,

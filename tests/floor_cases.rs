@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 use crate::routes::{check_invariants, check_route};

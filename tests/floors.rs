@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 /// Grows a world piece by piece; everything lies on Map 1.
 pub(crate) struct Builder {

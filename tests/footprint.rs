@@ -1,10 +1,10 @@
 //! A robot that is no disc: it passes straits along its own heading, and never touches anything on its way.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::robot::{Bump, Refusal, Simulator, Unfinished, Vehicle, Watch};
-use orthoframe::store::{Change, Store, Timestamp};
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_robot::{Bump, Refusal, Simulator, Unfinished, Vehicle, Watch};
+use orthoframe_store::{Change, Store, Timestamp};
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use expect_test::expect_file;
-use orthoframe::exchange::{self, Level, OpeningKind, ReadError, Survey};
-use orthoframe::units::Point;
+use orthoframe_exchange::{self as exchange, Level, OpeningKind, ReadError, Survey};
+use orthoframe_units::Point;
 
 fn golden() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/formats")
@@ -135,7 +135,7 @@ fn read(case: &Path) -> Result<Survey, ReadError> {
     let Some(input) = inputs.last() else { return exchange::geojson::read_folder(case) };
     let mut source = exchange::file_text(input)?;
     let name = input.file_name().expect("a file has a name").to_string_lossy().into_owned();
-    source = orthoframe::units::Source::new(name, source.text());
+    source = orthoframe_units::Source::new(name, source.text());
     match input.extension().and_then(|e| e.to_str()) {
         Some("ifc") => exchange::ifc::read(&source),
         Some("geojson") => exchange::geojson::read(&source),

@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 
 use orthoframe::engine::Engine;
-use orthoframe::exchange::{
+use orthoframe_exchange::{
     Assets, Options, Survey, file_text, read, read_osmag, read_procthor, read_rmf, read_virtualhome,
 };
-use orthoframe::map::World;
-use orthoframe::units::{AreaId, Cm, Point, Source};
+use orthoframe_map::World;
+use orthoframe_units::{AreaId, Cm, Point, Source};
 
 use crate::files::shared;
 use crate::imports::{contains, source};
@@ -22,7 +22,7 @@ pub(crate) fn on_the_map(world: &World, area: AreaId) -> Vec<Vec<Point>> {
 
 /// The rooms of a world by the file's ids, with their corners on their Maps.
 fn rooms_by_source(world: &World) -> BTreeMap<(String, u32), Vec<Vec<Point>>> {
-    let entry = |(&id, area): (&AreaId, &orthoframe::map::Area)| {
+    let entry = |(&id, area): (&AreaId, &orthoframe_map::Area)| {
         let (map, _) = world.placement(id).expect("placed");
         ((source(&area.properties).to_owned(), map.0), on_the_map(world, id))
     };
@@ -48,7 +48,7 @@ fn keeps_the_frame(name: &str, survey: &Survey, world: &World) {
             );
         }
         for spot in &level.spots {
-            let at = |place: &orthoframe::map::Place| {
+            let at = |place: &orthoframe_map::Place| {
                 let (_, frame) = world.placement(place.area).expect("placed");
                 (frame.apply(place.at) - spot.at).norm() < 1e-6
             };
@@ -185,7 +185,7 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
         let map = *world.maps.keys().next().expect("one floor");
         let grid = engine.export_grid(map, 5.0).expect("a grid");
         let sheet =
-            orthoframe::exchange::ros::sheet(&Source::new("again.yaml", &grid.yaml)).expect("ours");
+            orthoframe_exchange::ros::sheet(&Source::new("again.yaml", &grid.yaml)).expect("ours");
         let header =
             grid.pgm.iter().enumerate().filter(|(_, b)| **b == b'\n').nth(2).expect("a head").0 + 1;
         let columns: usize = String::from_utf8_lossy(&grid.pgm[..header])

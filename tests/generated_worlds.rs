@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::map::{
+use orthoframe_map::{
     Area, BaseVector, Case, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     Face, Gender, HingeSide, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, OpensTo,
     Orthoframe, Permeability, Place, Profile, Properties, Replica, RobotProfile, SideRef,
     TypeEntry, TypeKind, TypeLists, World,
 };
-use orthoframe::units::{
+use orthoframe_units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
     TypeId,
 };

@@ -2,10 +2,10 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::{Rules, plan_alone};
-use orthoframe::graphplan::{Limits, Outcome};
-use orthoframe::robot::Wanted;
-use orthoframe::strips::Scenario;
-use orthoframe::units::Source;
+use orthoframe_graphplan::{Limits, Outcome};
+use orthoframe_robot::Wanted;
+use orthoframe_strips::Scenario;
+use orthoframe_units::Source;
 
 use crate::worlds::rb2;
 

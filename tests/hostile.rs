@@ -5,8 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use orthoframe::exchange::{self, ReadError};
-use orthoframe::units::Source;
+use orthoframe_exchange::{self as exchange, ReadError};
+use orthoframe_units::Source;
 
 use crate::files::project;
 use crate::generated_worlds::Dice;

@@ -1,9 +1,9 @@
 //! Building models as real authoring tools write them: one solid in every notation gives one prism; rooms that no wall
 //! parts are joined; stairs lead from storey to storey; every element of the file is in the report.
 
-use orthoframe::exchange::{self, Imported, OpeningKind, Options, Survey, What};
-use orthoframe::map::{DoorStatus, Permeability};
-use orthoframe::units::{Point, Source};
+use orthoframe_exchange::{self as exchange, Imported, OpeningKind, Options, Survey, What};
+use orthoframe_map::{DoorStatus, Permeability};
+use orthoframe_units::{Point, Source};
 
 /// A STEP text in the making; numbers are in the file's unit.
 struct Model {

@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use orthoframe::engine::Engine;
-use orthoframe::exchange::{
+use orthoframe_exchange::{
     Deed, ImportError, Imported, Options, Room, What, file_text, read, read_rmf,
 };
-use orthoframe::map::{DoorState, World, check};
-use orthoframe::units::{AreaId, Cm, MapId, Point};
+use orthoframe_map::{DoorState, World, check};
+use orthoframe_units::{AreaId, Cm, MapId, Point};
 
 use crate::files::shared;
 
@@ -57,7 +57,7 @@ fn by_doors(world: &World) -> Groups<AreaId> {
     groups
 }
 
-pub(crate) fn source(properties: &orthoframe::map::Properties) -> &str {
+pub(crate) fn source(properties: &orthoframe_map::Properties) -> &str {
     properties.get("ИСТОЧНИК").map_or("", String::as_str)
 }
 
@@ -345,7 +345,7 @@ fn a_robot_begins_where_the_file_has_it() {
         let Some(building) = imported(name) else { continue };
         let start = building.world.robot.start.unwrap_or_else(|| panic!("{name}: no start"));
         let (map, pose) =
-            orthoframe::robot::starting_pose(&building.world).expect("it stands on a map");
+            orthoframe_robot::starting_pose(&building.world).expect("it stands on a map");
         let engine = Engine::in_memory(building.world, None).expect("rules are sound");
         let floor = &engine.floors().expect("the map has floors")[&map];
         assert!(floor.locate(pose.at).is_some(), "{name}: {start:?}");

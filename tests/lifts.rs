@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use orthoframe::Engine;
 use orthoframe::engine::{Method, no_way_in_words};
-use orthoframe::geometry::*;
-use orthoframe::language::Language;
-use orthoframe::language::report::Detail;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_language::Language;
+use orthoframe_language::report::Detail;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floors::{Builder, Opening, p, rectangle};
 use crate::routes::check_route;

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
-use orthoframe::map::{NextIds, World, check, edit};
-use orthoframe::semantics::{Profile, derive};
-use orthoframe::units::{Frame, ReplicaId, Source};
+use orthoframe_map::{NextIds, World, check, edit};
+use orthoframe_semantics::{Profile, derive};
+use orthoframe_units::{Frame, ReplicaId, Source};
 
 use crate::files::project;
 
@@ -33,7 +33,7 @@ fn told(outcome: Result<orthoframe::engine::Edited, Error>) -> String {
             edited.differences.iter().map(|d| format!("{d}\n")).chain(warnings).collect()
         }
         Err(Error::Map(faults)) => {
-            let one = |f: &orthoframe::map::Fault| match faults.position(f) {
+            let one = |f: &orthoframe_map::Fault| match faults.position(f) {
                 Some((line, column)) => format!("{line}:{column}: {f}\n"),
                 None => format!("-: {f}\n"),
             };
@@ -94,7 +94,7 @@ fn check_in_step(engine: &Engine, what: &str) {
     let fresh = derive(world, &engine.rules().relations, Profile::Surveyed).unwrap();
     let kept = engine.relations().unwrap();
     for count in fresh.counts() {
-        let sorted = |r: &orthoframe::semantics::Relations| {
+        let sorted = |r: &orthoframe_semantics::Relations| {
             let mut tuples = r.tuples(&count.name).unwrap();
             tuples.sort();
             tuples
@@ -103,7 +103,7 @@ fn check_in_step(engine: &Engine, what: &str) {
     }
     for (map, floor) in engine.floors().unwrap() {
         let anew =
-            orthoframe::geometry::FloorPlan::build(world, *map, &world.robot, &Default::default());
+            orthoframe_geometry::FloorPlan::build(world, *map, &world.robot, &Default::default());
         for fragment in anew.fragments() {
             let area = fragment.area;
             assert_eq!(floor.passframes(area), anew.passframes(area), "{what}: {area:?}");
@@ -212,7 +212,7 @@ fn an_edit_is_a_value_of_the_library_too() {
     let id = engine.world().unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().id;
     let done = engine.edit_world(&change("подвинул"), Mode::Commit, |world| {
         let chair = world.replicas.get_mut(&id).unwrap();
-        chair.frame = Frame { x: chair.frame.x + orthoframe::units::Cm::of(5.0), ..chair.frame };
+        chair.frame = Frame { x: chair.frame.x + orthoframe_units::Cm::of(5.0), ..chair.frame };
     });
     assert_eq!(told(done), "экземпляр «Стул-1»: передвинут на 5 см\n");
     let refused = engine.edit_world(&change("вынес"), Mode::Commit, |world| {

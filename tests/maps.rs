@@ -5,11 +5,9 @@ use std::path::{Path, PathBuf};
 
 use expect_test::expect_file;
 use miette::Diagnostic;
-use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe::map::{
-    DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read,
-};
-use orthoframe::units::{Cm, Source};
+use orthoframe_geometry::{DoorStates, FloorPlan, Method, Target};
+use orthoframe_map::{DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read};
+use orthoframe_units::{Cm, Source};
 
 use proptest::prelude::*;
 

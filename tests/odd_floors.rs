@@ -1,9 +1,9 @@
 //! Free floor and ways in odd worlds. Every answer is checked against a slow one that knows nothing of offsets,
 //! overlays and meshes: distances to the things themselves, and a fill of a fine raster.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, by_visibility_graph};
 use crate::floors::{Builder, p};
@@ -36,7 +36,7 @@ impl Solids {
             door.map_or(vec![], |door| d.leaves(door).obstacles(plan.door_state(world, door.id)))
         });
         // Shut, a doorway ends the floor on both faces of its wall: nobody stands in it.
-        let is_shut = |d: &&Doorway| {
+        let is_shut = |d: &&Opening| {
             let door = d.door.map(|id| &world.doors[&id]);
             door.is_some_and(|door| {
                 let state = plan.door_state(world, door.id);

@@ -1,9 +1,9 @@
 //! Odd worlds for tests of the floor: jigsaws whose pieces share corners or nearly do, rings, rows of rooms,
 //! checkerboards, fans of needles, islands, screens end to end.
 
-use orthoframe::geometry::Polygon;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::Polygon;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::Random;
 use crate::floors::{Builder, Opening, Part, p, rectangle};

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use orthoframe::Engine;
 use orthoframe::engine::{Memory, TaskAnswer, TaskEnding, deeds_in_words};
-use orthoframe::language::Language;
-use orthoframe::language::command::preamble;
-use orthoframe::map::{DoorState, Entity, World};
-use orthoframe::robot::GoalFact;
-use orthoframe::units::Deg;
+use orthoframe_language::Language;
+use orthoframe_language::command::preamble;
+use orthoframe_map::{DoorState, Entity, World};
+use orthoframe_robot::GoalFact;
+use orthoframe_units::Deg;
 
 fn lab() -> World {
     World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml")).unwrap()
@@ -519,7 +519,7 @@ fn all_doors_are_no_lift_doors() {
     let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/two-storeys.toml");
     let engine = Engine::in_memory(World::load(map).unwrap(), None).unwrap();
     let relations = engine.relations().unwrap();
-    let lifts = orthoframe::semantics::lifts(engine.world().unwrap(), relations);
+    let lifts = orthoframe_semantics::lifts(engine.world().unwrap(), relations);
     let of_lift: Vec<_> = lifts.iter().flat_map(|l| &l.doors).filter_map(|j| j.door).collect();
     assert!(!of_lift.is_empty());
     for order in ["Закрой все двери", "Close all doors", "Shut every door"] {

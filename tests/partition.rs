@@ -1,8 +1,8 @@
 //! How few the Passframes are: against the fewest convex pieces that there can be, found the slow ways.
 
-use orthoframe::geometry::*;
-use orthoframe::map::DoorState;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::DoorState;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, p, rectangle};

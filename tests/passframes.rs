@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
@@ -138,7 +138,14 @@ fn kept_floors_are_those_that_building_anew_gives() {
         let states = DoorStates::new();
         let bytes = build(&b.world).save(&b.world);
         let restore = |world: &World, bytes: &[u8]| {
-            FloorPlan::restore(world, MapId(1), &world.robot, &states, bytes)
+            FloorPlan::restore(
+                world,
+                &Openings::of(world, STEP_REACH),
+                MapId(1),
+                &world.robot,
+                &states,
+                bytes,
+            )
         };
         let (same, fresh) = restore(&b.world, &bytes);
         assert_eq!(fresh, 0, "nothing changed");
@@ -197,7 +204,14 @@ fn bytes_that_are_no_floor_are_not_taken_for_one() {
             }
         }
         // It may be read or not; it does not end the program, nor take all memory.
-        let (plan, _) = FloorPlan::restore(&world, MapId(1), &world.robot, &states, &spoiled);
+        let (plan, _) = FloorPlan::restore(
+            &world,
+            &Openings::of(&world, STEP_REACH),
+            MapId(1),
+            &world.robot,
+            &states,
+            &spoiled,
+        );
         assert_eq!(plan.fragments().len(), 2);
     }
 }

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use miette::Diagnostic;
 use orthoframe::engine::plan_alone;
-use orthoframe::graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
-use orthoframe::robot::Wanted;
-use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
-use orthoframe::units::{English, Source};
+use orthoframe_graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
+use orthoframe_robot::Wanted;
+use orthoframe_strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
+use orthoframe_units::{English, Source};
 
 use crate::files::project;
 

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use miette::Diagnostic;
-use orthoframe::graphplan::{Limits, Outcome, solve};
-use orthoframe::robot::{Solved, Wanted, solve as solve_problem, solve_without};
-use orthoframe::strips::{PlanText, RuleFaults, Scenario};
-use orthoframe::units::{English, Language, Source};
+use orthoframe_graphplan::{Limits, Outcome, solve};
+use orthoframe_robot::{Solved, Wanted, solve as solve_problem, solve_without};
+use orthoframe_strips::{PlanText, RuleFaults, Scenario};
+use orthoframe_units::{English, Language, Source};
 
 use crate::planning_properties::Drawn;
 use crate::planning_properties::random::Random;

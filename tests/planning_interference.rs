@@ -3,9 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::graphplan::{Limits, Outcome, solve, solve_any, validate};
-use orthoframe::strips::{PlanText, Scenario};
-use orthoframe::units::Source;
+use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, validate};
+use orthoframe_strips::{PlanText, Scenario};
+use orthoframe_units::Source;
 
 use crate::planning_properties::random::Random;
 

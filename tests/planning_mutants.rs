@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use orthoframe::graphplan::{Limits, Outcome, solve};
-use orthoframe::strips::{Directive, PlanText};
-use orthoframe::units::Source;
+use orthoframe_graphplan::{Limits, Outcome, solve};
+use orthoframe_strips::{Directive, PlanText};
+use orthoframe_units::Source;
 
 use crate::planning_properties::random::Random;
 use crate::planning_properties::{Drawn, Ground, World};

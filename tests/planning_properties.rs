@@ -7,9 +7,9 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write;
 
-use orthoframe::graphplan::{Limits, NoPlanReason, Outcome, solve, solve_any, validate};
-use orthoframe::strips::{PlanText, Said, SaidArgument, Scenario, explain_unreachable};
-use orthoframe::units::Source;
+use orthoframe_graphplan::{Limits, NoPlanReason, Outcome, solve, solve_any, validate};
+use orthoframe_strips::{PlanText, Said, SaidArgument, Scenario, explain_unreachable};
+use orthoframe_units::Source;
 
 #[path = "../benches/planning/random.rs"]
 pub(crate) mod random;

@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::engine::{Engine, Whereabout};
-use orthoframe::exchange::{Options, read};
-use orthoframe::language::Language;
-use orthoframe::language::report::Detail;
-use orthoframe::map::World;
-use orthoframe::semantics::Spot;
-use orthoframe::units::{Deg, MapId, Point, Pose};
+use orthoframe_exchange::{Options, read};
+use orthoframe_language::Language;
+use orthoframe_language::report::Detail;
+use orthoframe_map::World;
+use orthoframe_semantics::Spot;
+use orthoframe_units::{Deg, MapId, Point, Pose};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use proptest::test_runner::{TestCaseError, TestRunner};
 
@@ -169,7 +169,7 @@ fn who_stands_on_a_rug_is_told_so() {
 #[test]
 fn the_shortest_description_that_is_unique_is_taken() {
     let room = |world: World| {
-        let named = |a: &&orthoframe::map::Area| a.name == "Комната-Z";
+        let named = |a: &&orthoframe_map::Area| a.name == "Комната-Z";
         let area = world.areas.values().find(named).unwrap().id;
         let engine = Engine::in_memory(world, None).unwrap();
         let (map, at) = engine.relations().unwrap().area_centre(area).unwrap();

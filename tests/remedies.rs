@@ -1,8 +1,8 @@
 //! What is said to open a way opens it (W5): the change is made as it was said, and the floor built anew.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};

@@ -1,9 +1,9 @@
 //! Open-RMF: what is floor in a drawing, and where its rooms end.
 
 use orthoframe::engine::Engine;
-use orthoframe::exchange::{Survey, read_rmf};
-use orthoframe::map::World;
-use orthoframe::units::{Point, Source};
+use orthoframe_exchange::{Survey, read_rmf};
+use orthoframe_map::World;
+use orthoframe_units::{Point, Source};
 
 use crate::frames::on_the_map;
 use crate::imports::contains;
@@ -46,9 +46,9 @@ lifts: {{}}
 
 fn world_of(source: &Source) -> (World, Survey) {
     let survey = read_rmf(source).unwrap_or_else(|e| panic!("{e:?}"));
-    let synonyms = orthoframe::exchange::Synonyms::built_in();
-    let mut report = orthoframe::exchange::Report::default();
-    let world = orthoframe::exchange::assemble(&survey, &synonyms, &mut report);
+    let synonyms = orthoframe_exchange::Synonyms::built_in();
+    let mut report = orthoframe_exchange::Report::default();
+    let world = orthoframe_exchange::assemble(&survey, &synonyms, &mut report);
     (world.unwrap_or_else(|e| panic!("{e:?}")), survey)
 }
 

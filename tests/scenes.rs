@@ -4,15 +4,15 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use orthoframe::engine::{Engine, change_now};
-use orthoframe::exchange::{
+use orthoframe_exchange::{
     Assets, Imported, Level, OpeningKind, Options, ReadError, Report, Room, SceneFormat, Survey,
     Synonyms, Vocabulary, What, assemble, file_text, read, read_procthor, read_pyrobosim,
     read_thor, read_virtualhome,
 };
-use orthoframe::facts::Value;
-use orthoframe::map::{DoorStatus, Format, Orthoframe, Profile, World};
-use orthoframe::semantics::{RelationRules, derive};
-use orthoframe::units::{Deg, Point, Source};
+use orthoframe_facts::Value;
+use orthoframe_map::{DoorStatus, Format, Orthoframe, Profile, World};
+use orthoframe_semantics::{RelationRules, derive};
+use orthoframe_units::{Deg, Point, Source};
 
 use crate::files::shared;
 

@@ -2,9 +2,9 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::change_now;
-use orthoframe::exchange::{read_sqlite, write_sqlite};
-use orthoframe::map::World;
-use orthoframe::store::{Change, Origin, Store, Table, Timestamp};
+use orthoframe_exchange::{read_sqlite, write_sqlite};
+use orthoframe_map::World;
+use orthoframe_store::{Change, Origin, Store, Table, Timestamp};
 use rusqlite::Connection;
 
 use crate::generated_worlds;
@@ -88,7 +88,7 @@ fn an_edit_in_sql_arrives_and_a_deleted_row_does_not() {
     let mut engine = Engine::open(&dir.path().join("other"), None).expect("a new store");
     engine.import_sqlite(&file, &change_now("operator", "SQL")).expect("a sound map");
     let world = engine.world().expect("a map");
-    let id = orthoframe::units::ReplicaId(u32::try_from(chair.0).expect("an id"));
+    let id = orthoframe_units::ReplicaId(u32::try_from(chair.0).expect("an id"));
     assert_eq!(world.replicas[&id].move_prob, 77);
     assert!(world.places.is_empty());
     // Again: it is the same map, so nothing changes.

@@ -5,9 +5,9 @@ use std::sync::mpsc;
 use std::sync::{Arc, Mutex};
 
 use orthoframe::engine::{Engine, Memory, Method, Mode, State, change_now};
-use orthoframe::map::{Entity, Format};
-use orthoframe::store::Change;
-use orthoframe::units::Source;
+use orthoframe_map::{Entity, Format};
+use orthoframe_store::Change;
+use orthoframe_units::Source;
 
 use crate::generated_worlds::Dice;
 use crate::worlds::rb2;
@@ -99,7 +99,7 @@ fn every_answer_is_right_for_its_revision() {
                             let vase = world.replicas.get_mut(&vase).unwrap();
                             let at = vase.frame.origin();
                             let by = if n % 2 == 0 { 3.0 } else { -3.0 };
-                            vase.frame = orthoframe::units::Frame::new(
+                            vase.frame = orthoframe_units::Frame::new(
                                 at.x + by,
                                 at.y,
                                 vase.frame.z.get(),

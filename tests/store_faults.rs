@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use orthoframe::store::{Change, Edits, Key, Store, StoreError, Timestamp, records::AreaObjects};
+use orthoframe_store::{Change, Edits, Key, Store, StoreError, Timestamp, records::AreaObjects};
 
 use crate::store_world::Dice;
 

@@ -2,9 +2,9 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::{TaskAnswer, TaskEnding, change_now, directive_in_words};
-use orthoframe::language::Language;
-use orthoframe::map::{DoorState, Entity, Format, World};
-use orthoframe::units::{DoorId, Source};
+use orthoframe_language::Language;
+use orthoframe_map::{DoorState, Entity, Format, World};
+use orthoframe_units::{DoorId, Source};
 
 const HOUSE: &str = include_str!("../maps/two-storeys.toml");
 

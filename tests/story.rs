@@ -4,14 +4,14 @@ use std::path::Path;
 
 use orthoframe::Engine;
 use orthoframe::engine::{PlanStep, Progress, TaskAnswer, TaskEnding, change_now};
-use orthoframe::geometry::{Scene, doorways, nearest_on_segment};
-use orthoframe::graphplan::{Limits, Outcome, validate};
-use orthoframe::language::Language;
-use orthoframe::map::{DoorState, Entity, Permeability, World};
-use orthoframe::robot::Wanted;
-use orthoframe::robot::{Obstruction, Surprise};
-use orthoframe::strips::Scenario;
-use orthoframe::units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};
+use orthoframe_geometry::{Openings, STEP_REACH, Scene, nearest_on_segment};
+use orthoframe_graphplan::{Limits, Outcome, validate};
+use orthoframe_language::Language;
+use orthoframe_map::{DoorState, Entity, Permeability, World};
+use orthoframe_robot::Wanted;
+use orthoframe_robot::{Obstruction, Surprise};
+use orthoframe_strips::Scenario;
+use orthoframe_units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};
 
 use crate::files::project;
 use crate::worlds::{mirrored, rb2, rb2_with_fifth_room, renamed, rotated};
@@ -126,7 +126,8 @@ fn edges(world: &World, map: MapId) -> Vec<(Point, Point)> {
             walls.filter(|(_, s)| s.permeability == Permeability::Impermeable).map(|(e, _)| e),
         );
     }
-    for doorway in doorways(world, &scene, map) {
+    let openings = Openings::of(world, STEP_REACH);
+    for doorway in openings.iter().filter(|o| o.map == map && o.is_way()) {
         let Some(door) = doorway.door.map(|id| &world.doors[&id]) else { continue };
         for leaf in doorway.leaves(door).obstacles(door.state) {
             edges.extend(leaf.edges().collect::<Vec<_>>());
@@ -149,7 +150,8 @@ fn samples(points: &[Point]) -> impl Iterator<Item = Point> + '_ {
 /// `world` is as it stood while these ways were driven.
 fn check_ways(how: &str, world: &World, map: MapId, ways: &[&[Point]]) {
     let (edges, scene) = (edges(world, map), Scene::of(world, map));
-    let doorways = doorways(world, &scene, map);
+    let openings = Openings::of(world, STEP_REACH);
+    let doorways: Vec<_> = openings.iter().filter(|o| o.map == map && o.is_way()).collect();
     let radius = world.robot.radius.get() - 0.01;
     for p in ways.iter().flat_map(|points| samples(points)) {
         for &(a, b) in &edges {

@@ -6,14 +6,14 @@ use std::path::PathBuf;
 
 use orthoframe::Engine;
 use orthoframe::engine::{Error, Memory, World, task_in_words};
-use orthoframe::exchange::{Options, read};
-use orthoframe::facts::Value;
-use orthoframe::language::command::Misheard;
-use orthoframe::language::question::Said;
-use orthoframe::language::{Case, NounPhrase, Number, WordHints};
-use orthoframe::map::Entity;
-use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::units::{Source, TypeId};
+use orthoframe_exchange::{Options, read};
+use orthoframe_facts::Value;
+use orthoframe_language::command::Misheard;
+use orthoframe_language::question::Said;
+use orthoframe_language::{Case, NounPhrase, Number, WordHints};
+use orthoframe_map::Entity;
+use orthoframe_semantics::{Profile, RelationRules, derive};
+use orthoframe_units::{Source, TypeId};
 
 use crate::files::{project, shared};
 
@@ -224,7 +224,7 @@ fn templates(engine: &Engine, score: &mut Score) {
     for (word, things) in &by_word {
         let only = if things.len() == 1 { things.first() } else { None };
         let rooms_with: BTreeSet<&String> = things.iter().filter_map(|t| room_of.get(t)).collect();
-        let plural = orthoframe::language::english::plural(word);
+        let plural = orthoframe_language::english::plural(word);
         score.ask(engine, &format!("How many rooms have {plural}?"), &|a| {
             a.number == Some(rooms_with.len() as f64)
         });

@@ -1,12 +1,12 @@
 //! Ways in words: what is told agrees with the route's geometry, in every world and both languages.
 
 use orthoframe::engine::{Engine, Method, RouteAnswer, World};
-use orthoframe::exchange::{Options, read};
-use orthoframe::language::Language;
-use orthoframe::language::directions::{Directions, Passage, Side};
-use orthoframe::language::report::Detail;
-use orthoframe::map::Entity;
-use orthoframe::units::{Deg, Vector};
+use orthoframe_exchange::{Options, read};
+use orthoframe_language::Language;
+use orthoframe_language::directions::{Directions, RoomPart, Side};
+use orthoframe_language::report::Detail;
+use orthoframe_map::Entity;
+use orthoframe_units::{Deg, Vector};
 
 use crate::files::shared;
 use crate::worlds::{mirrored, rb2, rotated};
@@ -64,23 +64,16 @@ fn apart(a: f64, b: f64) -> f64 {
 fn doorways(engine: &Engine, answer: &RouteAnswer) -> Vec<[Vector; 2]> {
     let route = answer.route.as_ref().unwrap();
     let floor = &engine.floors().unwrap()[&answer.map];
-    let openings = engine.relations().unwrap().openings();
     answer
         .stages
         .windows(2)
         .map(|pair| {
             let doorway = &floor.doorways()[pair[0].leaves_by.unwrap()];
             let middle = doorway.at((doorway.span().0 + doorway.span().1) / 2.0, 0.0);
-            let nearest = openings.iter().min_by(|a, b| {
-                let away = |o: &orthoframe::semantics::Opening| {
-                    (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm()
-                };
-                away(a).total_cmp(&away(b))
-            });
-            let (a, b) = nearest.unwrap().ends;
+            let (a, b) = doorway.side_in(doorway.area()).unwrap().ends;
             let across = Vector::new(b.y - a.y, a.x - b.x).normalize();
             // Where the route crosses the doorway's line between its ends; the line goes on beside the doorway.
-            let side = |p: &orthoframe::units::Point| (p - middle).dot(&across);
+            let side = |p: &orthoframe_units::Point| (p - middle).dot(&across);
             let at = route.points.windows(2).find(|w| {
                 let (before, after) = (side(&w[0]), side(&w[1]));
                 let share =
@@ -138,7 +131,7 @@ fn turns_add_up_to_the_angle_between_the_doors_and_lengths_to_the_route() {
             let doors = doorways(&engine, &answer);
             let context = || format!("{name}: {} – {}: {way:#?}", answer.from, answer.to);
             for (n, pair) in doors.windows(2).enumerate() {
-                let passage: &Passage = &way.passages[n + 1];
+                let passage: &RoomPart = &way.passages[n + 1];
                 let inner = passage.stretches.iter().filter_map(|s| s.angle);
                 let all: f64 = inner.chain(passage.exit.iter().map(|e| e.angle)).sum();
                 let slack = 2.0 + 25.0 * passage.stretches.len() as f64;
@@ -197,7 +190,7 @@ fn what_is_passed_stands_on_the_hand_that_is_told() {
             let points = &answer.route.as_ref().unwrap().points;
             for (stage, passage) in answer.stages.iter().zip(&way.passages) {
                 for (side, thing) in passage.stretches.iter().flat_map(|s| &s.passed) {
-                    let named = |r: &&orthoframe::map::Replica| {
+                    let named = |r: &&orthoframe_map::Replica| {
                         r.area == stage.area && r.name == thing.phrase().name()
                     };
                     let id = world.replicas.values().find(named).unwrap().id;

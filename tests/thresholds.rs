@@ -1,13 +1,13 @@
 //! Thresholds and meanings stand in the rule text: what is changed there changes the relation and what is answered.
 
 use orthoframe::engine::{Engine, Rules};
-use orthoframe::facts::{Value, WhyNot};
-use orthoframe::language::question::Memory;
-use orthoframe::map::{Entity, Format, Profile, World};
-use orthoframe::semantics::{
+use orthoframe_facts::{Value, WhyNot};
+use orthoframe_language::question::Memory;
+use orthoframe_map::{Entity, Format, Profile, World};
+use orthoframe_semantics::{
     MEASURED, RelationError, RelationRules, Relations, STANDARD, Spot, derive, measured_table,
 };
-use orthoframe::units::{Deg, Frame, Point, Pose, Source};
+use orthoframe_units::{Deg, Frame, Point, Pose, Source};
 
 use crate::files::project;
 

@@ -1,9 +1,9 @@
 //! Floors on the edge: passages and doors exactly as wide as the robot, a millimetre wider and narrower, at odd angles
 //! and a thousand kilometres away, and what is said of a door's clear width against the ways that there are.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floors::{Builder, Opening, p, rectangle};
 

@@ -2,11 +2,11 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::{Error, Progress, TaskAnswer, TaskEnding, change_now};
-use orthoframe::geometry::Scene;
-use orthoframe::map::{DoorState, Entity, Format, World};
-use orthoframe::robot::{GoalFact, Surprise, facts_of_map};
-use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::units::{AreaId, Frame, Point, ReplicaId, Source};
+use orthoframe_geometry::Scene;
+use orthoframe_map::{DoorState, Entity, Format, World};
+use orthoframe_robot::{GoalFact, Surprise, facts_of_map};
+use orthoframe_semantics::{Profile, RelationRules, derive};
+use orthoframe_units::{AreaId, Frame, Point, ReplicaId, Source};
 
 use crate::files::project;
 use crate::generated_worlds::Dice;
@@ -179,7 +179,7 @@ fn things_of_a_truth_match_by_name_and_not_by_number() {
         .values()
         .map(|thing| {
             let id = ReplicaId(thing.id.0 + shift);
-            (id, orthoframe::map::Replica { id, ..thing.clone() })
+            (id, orthoframe_map::Replica { id, ..thing.clone() })
         })
         .collect();
     for place in other.places.values_mut() {
@@ -197,7 +197,7 @@ fn faults(engine: &Engine, name: &str, text: &str) -> Vec<(String, Option<usize>
     let Err(Error::Map(faults)) = engine.truth(&Source::new(name, text), Format::Toml) else {
         panic!("{text}: it fits")
     };
-    let place = |f: &orthoframe::map::Fault| faults.position(f).map(|(line, _)| line);
+    let place = |f: &orthoframe_map::Fault| faults.position(f).map(|(line, _)| line);
     faults.errors().map(|f| (f.to_string(), place(f))).collect()
 }
 
@@ -277,7 +277,7 @@ fn what_the_map_does_not_have_leaves_other_doors_to_be_tried() {
     let mut truth = world.clone();
     let model = world.replicas[&thing(&world, "Стул-2")].clone();
     let id = ReplicaId(9_000);
-    let new = orthoframe::map::Replica {
+    let new = orthoframe_map::Replica {
         id,
         area,
         name: "Новый стул".to_owned(),

@@ -1,9 +1,9 @@
 //! Free floor and ways in ugly worlds: rooms of several crooked pieces, slivers, boards, frustums, duplicates, rings,
 //! things across walls and far from the origin. Nothing here is square, whole or apart by design.
 
-use orthoframe::geometry::*;
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::*;
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_properties::{Random, by_visibility_graph};
 use crate::floors::{Builder, Opening, Part, p, rectangle};

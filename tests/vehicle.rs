@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use orthoframe::Engine;
 use orthoframe::engine::{Progress, TaskAnswer, TaskEnding, change_now};
-use orthoframe::map::{Entity, World};
-use orthoframe::robot::{
+use orthoframe_map::{Entity, World};
+use orthoframe_robot::{
     Address, Failure, Moment, Patience, RemoteVehicle, Simulator, Vehicle, protocol, serve,
     starting_pose,
 };
-use orthoframe::units::{Language, Stop};
+use orthoframe_units::{Language, Stop};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -164,7 +164,7 @@ fn a_surprise_is_told_through_the_protocol() {
     let mut truth = world(RB2);
     let name = "Дверь-ВZ";
     let door = truth.doors.values_mut().find(|door| door.name == name).unwrap();
-    door.state = orthoframe::map::DoorState::LOCKED;
+    door.state = orthoframe_map::DoorState::LOCKED;
     let within = engine.perform_in(TASK, truth.clone(), &mut |_| {}).unwrap();
     let mut remote = connect(&engine, peer(truth, None, |_, _| Treat::Pass)).unwrap();
     let through = drive(&engine, TASK, &mut remote, &Stop::new(), &mut |_| {});

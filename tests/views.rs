@@ -1,8 +1,8 @@
 //! What is seen from a pose (M12): scans and visible stretches against the obvious slow way.
 
-use orthoframe::geometry::{Face, *};
-use orthoframe::map::*;
-use orthoframe::units::*;
+use orthoframe_geometry::{Face, *};
+use orthoframe_map::*;
+use orthoframe_units::*;
 
 use crate::floor_cases::{build, room};
 use crate::floors::{p, two_rooms};

@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use orthoframe::exchange::{Options, read};
-use orthoframe::geometry::{Barrier, DoorStates, FloorPlan, Method, NoRoute, Route, Target};
-use orthoframe::map::{DoorKind, DoorState, Permeability, World};
-use orthoframe::units::{AreaId, Cm, DoorId, Frame, MapId, Point, Vector};
+use orthoframe_exchange::{Options, read};
+use orthoframe_geometry::{Barrier, DoorStates, FloorPlan, Method, NoRoute, Route, Target};
+use orthoframe_map::{DoorKind, DoorState, Permeability, World};
+use orthoframe_units::{AreaId, Cm, DoorId, Frame, MapId, Point, Vector};
 
 use crate::files::shared;
 use crate::floor_properties::Random;
@@ -61,7 +61,7 @@ fn worlds() -> impl Iterator<Item = (&'static str, World)> {
 
 /// A plan for a robot of some radius, with all doors open.
 fn plan(world: &World, map: MapId, radius: f64) -> FloorPlan {
-    let robot = orthoframe::map::RobotProfile {
+    let robot = orthoframe_map::RobotProfile {
         radius: Cm::of(radius),
         footprint: Vec::new(),
         ..world.robot.clone()
@@ -233,7 +233,7 @@ impl Ground {
                 ground.floors.push((Some(area.id), ring));
                 for side in base {
                     let mounted =
-                        |m: &&orthoframe::map::DoorMount| m.item == part.id && m.side == side.id;
+                        |m: &&orthoframe_map::DoorMount| m.item == part.id && m.side == side.id;
                     names.insert((area.id, part.id.clone(), side.id.clone()), rims.len());
                     rims.push(Rim {
                         area: area.id,
@@ -251,7 +251,7 @@ impl Ground {
         }
         let mut openings: Vec<(usize, usize)> = Vec::new();
         for link in &world.maps[&map].links {
-            let of = |area, s: &orthoframe::map::SideRef| {
+            let of = |area, s: &orthoframe_map::SideRef| {
                 names.get(&(area, s.item.clone(), s.side.clone()))
             };
             if let (Some(&a), Some(&b)) =
@@ -321,7 +321,7 @@ impl Ground {
     }
 
     /// A thing, as far as the robot meets it.
-    fn put(&mut self, world: &World, home: &Frame, level: f64, replica: &orthoframe::map::Replica) {
+    fn put(&mut self, world: &World, home: &Frame, level: f64, replica: &orthoframe_map::Replica) {
         let place = home.compose(&replica.frame);
         for item in &world.objects[&replica.object].items {
             let shape = &world.orthoframes[&item.orthoframe];

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use orthoframe::language::command::{Listener, Misheard, in_time, is_order};
-use orthoframe::language::question::conditional;
-use orthoframe::language::{
+use orthoframe_language::command::{Listener, Misheard, in_time, is_order};
+use orthoframe_language::question::conditional;
+use orthoframe_language::{
     Animacy, Case, FormIndex, Gender, Language, NounPhrase, Number, WordHints,
 };
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::map::{
+use orthoframe_map::{
     Area, BaseVector, Door, DoorKind, DoorLeaf, DoorMount, DoorState, Entity, HingeSide, Item,
     MapItem, MapLink, OpensTo, Orthoframe, Permeability, Place, Replica, SideRef, World, check,
 };
-use orthoframe::units::{
+use orthoframe_units::{
     AreaId, Cm, Deg, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
 };
 

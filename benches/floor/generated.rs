@@ -12,9 +12,9 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe::geometry::{Polygon, Scene};
-use orthoframe::map::{DoorKind, DoorState};
-use orthoframe::units::{AreaId, Deg, DoorId, Frame, MapId, Point};
+use orthoframe_geometry::{Polygon, Scene};
+use orthoframe_map::{DoorKind, DoorState};
+use orthoframe_units::{AreaId, Deg, DoorId, Frame, MapId, Point};
 
 use crate::floors::{Builder, Opening, p, rectangle};
 

@@ -10,9 +10,9 @@ use std::f64::consts::TAU;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
-use orthoframe::geometry::{Scene, convex_hull};
-use orthoframe::map::Permeability;
-use orthoframe::units::{MapId, Point, Vector};
+use orthoframe_geometry::{Scene, convex_hull};
+use orthoframe_map::Permeability;
+use orthoframe_units::{MapId, Point, Vector};
 
 use crate::generated::Generated;
 

@@ -3,9 +3,9 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
-use orthoframe::geometry::{FloorPlan, Region, Scene};
-use orthoframe::map::Permeability;
-use orthoframe::units::{MapId, Point};
+use orthoframe_geometry::{FloorPlan, Region, Scene};
+use orthoframe_map::Permeability;
+use orthoframe_units::{MapId, Point};
 use polyanya::{Coords, Mesh, Triangulation};
 use rerecast::{
     Aabb3d, AreaType, BuildContoursFlags, DetailNavmesh, HeightfieldBuilder, PolygonNavmesh,
@@ -161,7 +161,7 @@ pub(crate) type Outline = Vec<Vec<[f64; 2]>>;
 /// Where the robot's centre may be, over all rooms together.
 pub(crate) fn outlines(plan: &FloorPlan) -> Vec<Outline> {
     // Rooms meet on the lines of their doorways; a hair's breadth welds them.
-    let weld = |d: &orthoframe::geometry::Doorway| {
+    let weld = |d: &orthoframe_geometry::Opening| {
         let (a, b) = d.line();
         let along = (b - a).normalize();
         let across = nalgebra::Vector2::new(-along.y, along.x) * 0.02;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use orthoframe::store::records::AreaObjects;
+use orthoframe_store::records::AreaObjects;
 use rusqlite::{Connection, params};
 
 pub(crate) fn open(directory: &Path) -> Connection {

@@ -1,17 +1,17 @@
 //! What the makers of a world say of it, beside what the rules derive from its geometry.
 //!
-//! The readers of [`orthoframe::exchange`] read no relation between things; here the same files are read a second time,
+//! The readers of [`orthoframe_exchange`] read no relation between things; here the same files are read a second time,
 //! for their relations alone, and the ids that both have in common (the property ИСТОЧНИК) tie the two together.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::path::Path;
 
-use orthoframe::exchange::{Options, read};
-use orthoframe::facts;
-use orthoframe::map::{Properties, World};
-use orthoframe::semantics::{Profile, RelationRules, Relations, derive};
-use orthoframe::units::Source;
+use orthoframe_exchange::{Options, read};
+use orthoframe_facts as facts;
+use orthoframe_map::{Properties, World};
+use orthoframe_semantics::{Profile, RelationRules, Relations, derive};
+use orthoframe_units::Source;
 use serde_json::Value;
 
 /// The property under which an import keeps the file's own id.

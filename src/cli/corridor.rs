@@ -8,7 +8,7 @@ use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, 
 use crate::draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
 };
-use crate::engine::{Error, check_map};
+use crate::engine::{Engine, Error, check_map};
 use crate::units::Source;
 
 use super::args::{Common, CorridorArgs, Lang};
@@ -105,12 +105,15 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
         (Some(file), _) => read(file)?,
         (None, Some(map)) if Path::new(map).is_file() => {
             let (world, _) = check_map(Path::new(map))?;
-            CorridorSystem::from_world(&world).map_err(Error::from)?
+            let engine = Engine::in_memory(world, commands::rules_dir(common).as_deref())?;
+            let openings = engine.relations()?.openings();
+            CorridorSystem::from_world(engine.world()?, openings).map_err(Error::from)?
         }
         (None, map) => {
             let engine = commands::open(common)?;
             let map = engine.map_named(map.as_deref())?;
-            CorridorSystem::from_map(engine.world()?, map).map_err(Error::from)?
+            CorridorSystem::from_map(engine.world()?, engine.relations()?.openings(), map)
+                .map_err(Error::from)?
         }
     };
     if args.metres {

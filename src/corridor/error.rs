@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Why there are no directions.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum CorridorError {
     #[error("неизвестное помещение «{room}»: в коридоры не выходит вход с таким именем")]
     #[diagnostic(code(corridor::unknown_room), help("{hint}"))]

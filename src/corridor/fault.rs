@@ -9,6 +9,7 @@ use crate::units::Source;
 
 /// One fault of a corridor file.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum CorridorFault {
     #[error("текст не читается как TOML: {message}")]
     #[diagnostic(code(corridor::syntax), help("образец: maps/corridor-paper4.toml"))]

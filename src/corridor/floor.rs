@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+use crate::geometry::Openings;
 use crate::map::World;
 use crate::units::{Cm, Deg, MapId, Point};
 
 use super::CorridorError;
 use super::lanes::{Lanes, find, unite};
-use super::plan::{Opening, Plan};
+use super::plan::{Doorstep, Plan};
 use super::system::{
     CorridorSystem, Entrance, Junction, Port, Side, Stretch, Vertex, VertexIx, VertexKind,
 };
@@ -24,9 +25,9 @@ impl CorridorSystem {
     ///
     /// # Errors
     /// [`CorridorError::UnknownMap`], [`CorridorError::NoCorridors`], [`CorridorError::StarJunction`].
-    pub fn from_map(world: &World, map: MapId) -> Result<Self, CorridorError> {
+    pub fn from_map(world: &World, openings: &Openings, map: MapId) -> Result<Self, CorridorError> {
         let found = world.maps.get(&map).ok_or(CorridorError::UnknownMap { map: map.0 })?;
-        let mut system = Self::from_maps(world, &[map], &found.name)?;
+        let mut system = Self::from_maps(world, openings, &[map], &found.name)?;
         system.name_en.clone_from(&found.name_en);
         Ok(system)
     }
@@ -35,22 +36,27 @@ impl CorridorSystem {
     ///
     /// # Errors
     /// [`CorridorError::NoCorridors`], [`CorridorError::StarJunction`].
-    pub fn from_world(world: &World) -> Result<Self, CorridorError> {
+    pub fn from_world(world: &World, openings: &Openings) -> Result<Self, CorridorError> {
         let maps: Vec<MapId> = world.maps.keys().copied().collect();
-        let mut system = Self::from_maps(world, &maps, &world.domain.name)?;
+        let mut system = Self::from_maps(world, openings, &maps, &world.domain.name)?;
         system.name_en.clone_from(&world.domain.name_en);
         Ok(system)
     }
 
-    fn from_maps(world: &World, maps: &[MapId], name: &str) -> Result<Self, CorridorError> {
+    fn from_maps(
+        world: &World,
+        openings: &Openings,
+        maps: &[MapId],
+        name: &str,
+    ) -> Result<Self, CorridorError> {
         let mut parts = Parts::default();
         for map in maps {
-            let plan = Plan::of(world, *map);
+            let plan = Plan::of(world, openings, *map);
             parts.floor.clone_from(&world.maps[map].name);
             let mut floors: Vec<Floor> =
                 plan.shapes.iter().map(|shape| Floor::new(Lanes::of(shape))).collect();
-            for opening in &plan.openings {
-                attach(&mut floors, opening);
+            for entrance in &plan.entrances {
+                attach(&mut floors, entrance);
             }
             for floor in floors {
                 parts.add(floor)?;
@@ -199,32 +205,32 @@ impl Floor {
     }
 
     /// Where a doorway is best reached from: how far it is from there, the segment, the door.
-    fn place(&self, opening: &Opening) -> Option<(f64, usize, Door)> {
-        self.ahead(opening).or_else(|| self.beside(opening)).or_else(|| self.nearby(opening))
+    fn place(&self, entrance: &Doorstep) -> Option<(f64, usize, Door)> {
+        self.ahead(entrance).or_else(|| self.beside(entrance)).or_else(|| self.nearby(entrance))
     }
 
-    fn door(opening: &Opening, t: f64, offset: f64, ahead: bool) -> Door {
+    fn door(entrance: &Doorstep, t: f64, offset: f64, ahead: bool) -> Door {
         let side = match (ahead, offset > 0.0) {
             (true, _) => Side::Ahead,
             (false, true) => Side::Left,
             (false, false) => Side::Right,
         };
-        let (room, room_en) = (opening.room.clone(), opening.room_en.clone());
+        let (room, room_en) = (entrance.room.clone(), entrance.room_en.clone());
         Door { entrance: Entrance { room, room_en, side }, t, offset, ahead }
     }
 
     /// In the end wall of a dead end.
-    fn ahead(&self, opening: &Opening) -> Option<(f64, usize, Door)> {
+    fn ahead(&self, entrance: &Doorstep) -> Option<(f64, usize, Door)> {
         let fits = |(at, segment): (usize, &Segment), end: usize| {
             let lane = &self.lanes.lanes[segment.lane];
             let outward = if end == 0 { -lane.dir } else { lane.dir };
-            let (t, offset) = lane.locate(opening.at);
+            let (t, offset) = lane.locate(entrance.at);
             let away = (t - segment.t[end]).abs();
             let fits = segment.nodes[end].is_none()
-                && opening.inward.dot(&outward) < -0.7
+                && entrance.inward.dot(&outward) < -0.7
                 && offset.abs() <= 0.6 * lane.width
                 && away <= 60.0;
-            let door = Self::door(opening, segment.t[end], offset, true);
+            let door = Self::door(entrance, segment.t[end], offset, true);
             fits.then_some((away + offset.abs(), at, door))
         };
         let all = self.segments.iter().enumerate();
@@ -232,50 +238,57 @@ impl Floor {
     }
 
     /// In a side wall: straight across from the doorway runs the lane.
-    fn beside(&self, opening: &Opening) -> Option<(f64, usize, Door)> {
-        let from = opening.at + opening.inward * 2.0;
-        let free = self.lanes.free_way(from, opening.inward);
+    fn beside(&self, entrance: &Doorstep) -> Option<(f64, usize, Door)> {
+        let from = entrance.at + entrance.inward * 2.0;
+        let free = self.lanes.free_way(from, entrance.inward);
         if !free.is_finite() {
             return None;
         }
         let hit = |(at, lane): (usize, &super::lanes::Lane)| {
-            let turn = opening.inward.perp(&lane.dir);
+            let turn = entrance.inward.perp(&lane.dir);
             if turn.abs() < 0.5 {
                 return None;
             }
             let to = lane.origin - from;
-            let (r, t) = (to.perp(&lane.dir) / turn, to.perp(&opening.inward) / turn);
+            let (r, t) = (to.perp(&lane.dir) / turn, to.perp(&entrance.inward) / turn);
             let holds = r > -3.0 && r <= free + 1.0;
             (holds && t >= lane.reach[0] - 1.0 && t <= lane.reach[1] + 1.0).then_some((r, at, t))
         };
         let lanes = self.lanes.lanes.iter().enumerate();
         let (r, lane, t) = lanes.filter_map(hit).min_by(|a, b| a.0.total_cmp(&b.0))?;
         let segment = self.segment_near(lane, t)?;
-        let (_, offset) = self.lanes.lanes[lane].locate(opening.at);
-        Some((r, segment, self.door_on(segment, opening, lane, t, offset)))
+        let (_, offset) = self.lanes.lanes[lane].locate(entrance.at);
+        Some((r, segment, self.door_on(segment, entrance, lane, t, offset)))
     }
 
     /// Anywhere else: the nearest segment of the shape, when it is not far.
-    fn nearby(&self, opening: &Opening) -> Option<(f64, usize, Door)> {
+    fn nearby(&self, entrance: &Doorstep) -> Option<(f64, usize, Door)> {
         let distance = |(at, segment): (usize, &Segment)| {
             let lane = &self.lanes.lanes[segment.lane];
-            let (t, offset) = lane.locate(opening.at);
+            let (t, offset) = lane.locate(entrance.at);
             let t = t.clamp(segment.t[0], segment.t[1]);
-            let away = (lane.at(t) - opening.at).norm();
-            (away < 2.0 * lane.width).then(|| (away, at, Self::door(opening, t, offset, false)))
+            let away = (lane.at(t) - entrance.at).norm();
+            (away < 2.0 * lane.width).then(|| (away, at, Self::door(entrance, t, offset, false)))
         };
         let all = self.segments.iter().enumerate();
         all.filter_map(distance).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// A door on a segment that may belong to another lane than the one across from the door.
-    fn door_on(&self, segment: usize, opening: &Opening, lane: usize, t: f64, offset: f64) -> Door {
+    fn door_on(
+        &self,
+        segment: usize,
+        entrance: &Doorstep,
+        lane: usize,
+        t: f64,
+        offset: f64,
+    ) -> Door {
         let found = &self.segments[segment];
         if found.lane == lane {
-            return Self::door(opening, t.clamp(found.t[0], found.t[1]), offset, false);
+            return Self::door(entrance, t.clamp(found.t[0], found.t[1]), offset, false);
         }
-        let (t, offset) = self.lanes.lanes[found.lane].locate(opening.at);
-        Self::door(opening, t.clamp(found.t[0], found.t[1]), offset, false)
+        let (t, offset) = self.lanes.lanes[found.lane].locate(entrance.at);
+        Self::door(entrance, t.clamp(found.t[0], found.t[1]), offset, false)
     }
 
     /// The segment of a lane at a parameter; where the lane was cut away, a segment at the next node.
@@ -320,13 +333,13 @@ fn nodes_of(lanes: &Lanes) -> (Vec<Point>, Vec<Vec<(f64, usize)>>) {
 }
 
 /// Puts an entrance on the shape whose lane is nearest.
-fn attach(floors: &mut [Floor], opening: &Opening) {
+fn attach(floors: &mut [Floor], entrance: &Doorstep) {
     let places =
-        floors.iter().enumerate().filter_map(|(at, floor)| Some((at, floor.place(opening)?)));
+        floors.iter().enumerate().filter_map(|(at, floor)| Some((at, floor.place(entrance)?)));
     let inside = |floor: &Floor| {
         let walls = &floor.lanes.walls;
         let on = |w: &super::lanes::Wall| {
-            (opening.at - crate::geometry::nearest_on_segment(opening.at, w.a, w.b)).norm()
+            (entrance.at - crate::geometry::nearest_on_segment(entrance.at, w.a, w.b)).norm()
         };
         walls.iter().map(on).fold(f64::INFINITY, f64::min)
     };

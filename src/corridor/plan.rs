@@ -7,13 +7,13 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
-use crate::geometry::{Polygon, PrismSide, Scene};
-use crate::map::{Area, Map, Permeability, World};
+use crate::geometry::{OpenSide, Opening, Openings, Polygon, Scene};
+use crate::map::{Area, World};
 use crate::units::{AreaId, MapId, Point, Vector};
 
-/// An entrance on the plan.
+/// Where an entrance opens on the plan.
 #[derive(Debug, Clone)]
-pub(super) struct Opening {
+pub(super) struct Doorstep {
     pub(super) room: String,
     pub(super) room_en: String,
     /// Middle of the doorway, on the corridor's wall.
@@ -27,7 +27,7 @@ pub(super) struct Opening {
 pub(super) struct Plan {
     /// Connected shapes of floor: contours, the outer one first.
     pub(super) shapes: Vec<Vec<Vec<Point>>>,
-    pub(super) openings: Vec<Opening>,
+    pub(super) entrances: Vec<Doorstep>,
 }
 
 /// Walls between Areas are at most this thick, in cm.
@@ -35,26 +35,37 @@ const WALL: f64 = 60.0;
 /// Pieces of floor overlap by this much, so that rotated neighbours leave no slit.
 const OVERLAP: f64 = 0.5;
 
-/// A side that can be gone through.
-struct Gate<'a> {
-    area: &'a Area,
-    side: usize,
-    prism: usize,
-    a: Point,
-    b: Point,
-    permeability: Permeability,
-    behind: Option<AreaId>,
-    /// Name of the door or of the side.
-    name: Option<(String, String)>,
+/// An opening seen from one of its sides.
+#[derive(Clone, Copy)]
+struct Mouth<'a> {
+    opening: &'a Opening,
+    side: &'a OpenSide,
 }
 
-impl Gate<'_> {
+impl Mouth<'_> {
     fn middle(&self) -> Point {
-        nalgebra::center(&self.a, &self.b)
+        self.side.middle()
     }
 
     fn inward(&self) -> Vector {
-        left_of(self.a, self.b)
+        left_of(self.side.ends.0, self.side.ends.1)
+    }
+
+    /// The Area that the rules let it join to that of its side.
+    fn behind(&self) -> Option<AreaId> {
+        self.opening.joined_to(self.side.area)
+    }
+
+    /// Name of the door, or else of the side.
+    fn name(&self, world: &World) -> Option<(String, String)> {
+        let door = self.opening.door.and_then(|door| world.doors.get(&door));
+        let door = door.map(|d| (d.name.clone(), d.name_en.clone()));
+        let side = || {
+            let item = world.areas[&self.side.area].item(&self.side.side.item)?;
+            let (_, vector) = world.orthoframe_of(item).side(&self.side.side.side)?;
+            vector.names.first().map(|name| (name.clone(), String::new()))
+        };
+        door.filter(|(name, _)| !name.is_empty()).or_else(side)
     }
 }
 
@@ -70,25 +81,24 @@ pub(super) fn is_corridor(world: &World, area: AreaId) -> bool {
 
 impl Plan {
     /// Reads the corridors of a Map; the Map is of this world.
-    pub(super) fn of(world: &World, map: MapId) -> Self {
+    pub(super) fn of(world: &World, openings: &Openings, map: MapId) -> Self {
         let scene = Scene::of(world, map);
         let corridors: Vec<AreaId> =
             scene.areas.keys().copied().filter(|&id| is_corridor(world, id)).collect();
         if corridors.is_empty() {
             return Self::default();
         }
-        let gates: Vec<Gate<'_>> = scene
-            .areas
-            .keys()
-            .flat_map(|id| gates(world, &world.maps[&map], &scene, &world.areas[id]))
+        let own = openings.iter().filter(|opening| opening.map == map);
+        let mouths: Vec<Mouth<'_>> = own
+            .flat_map(|opening| opening.sides.iter().map(move |side| Mouth { opening, side }))
             .collect();
         let corridor = |id: AreaId| corridors.contains(&id);
         let mut joined = Vec::new();
         let mut floor: Vec<Vec<[f64; 2]>> = Vec::new();
-        for gate in gates.iter().filter(|g| corridor(g.area.id)) {
-            let Some(behind) = gate.behind.filter(|&b| corridor(b)) else { continue };
-            joined.extend([(gate.area.id, behind), (behind, gate.area.id)]);
-            floor.extend(bridge(&scene, gate, behind));
+        for mouth in mouths.iter().filter(|m| corridor(m.side.area)) {
+            let Some(behind) = mouth.behind().filter(|&b| corridor(b)) else { continue };
+            joined.extend([(mouth.side.area, behind), (behind, mouth.side.area)]);
+            floor.extend(bridge(world, &scene, *mouth, behind));
         }
         let mut walls = Vec::new();
         for (at, &a) in corridors.iter().enumerate() {
@@ -104,34 +114,38 @@ impl Plan {
         let contour = |c: Vec<[f64; 2]>| c.into_iter().map(point).collect();
         Self {
             shapes: shapes.into_iter().map(|s| s.into_iter().map(contour).collect()).collect(),
-            openings: openings(world, &gates, corridor),
+            entrances: entrances(world, &mouths, corridor),
         }
     }
 }
 
-/// The entrances: gates of corridors to what is none, and gates of rooms to corridors that are blank there.
-fn openings(world: &World, gates: &[Gate<'_>], corridor: impl Fn(AreaId) -> bool) -> Vec<Opening> {
-    let mut found: Vec<Opening> = Vec::new();
-    for gate in gates.iter().filter(|g| corridor(g.area.id)) {
-        let names = match gate.behind {
+/// The entrances: openings of corridors to what is none, and openings of rooms to corridors that are blank there.
+fn entrances(
+    world: &World,
+    mouths: &[Mouth<'_>],
+    corridor: impl Fn(AreaId) -> bool,
+) -> Vec<Doorstep> {
+    let mut found: Vec<Doorstep> = Vec::new();
+    for mouth in mouths.iter().filter(|m| corridor(m.side.area)) {
+        let names = match mouth.behind() {
             Some(behind) if corridor(behind) => continue,
             Some(behind) => Some(names_of(&world.areas[&behind])),
-            None if gate.permeability == Permeability::Permeable => gate.name.clone(),
-            None => gate.name.clone().or_else(|| Some(("Выход".into(), "Exit".into()))),
+            None if mouth.opening.is_passage() => mouth.name(world),
+            None => mouth.name(world).or_else(|| Some(("Выход".into(), "Exit".into()))),
         };
         if let Some((room, room_en)) = names {
-            found.push(Opening { room, room_en, at: gate.middle(), inward: gate.inward() });
+            found.push(Doorstep { room, room_en, at: mouth.middle(), inward: mouth.inward() });
         }
     }
-    for gate in gates.iter().filter(|g| !corridor(g.area.id)) {
-        if !gate.behind.is_some_and(&corridor) {
+    for mouth in mouths.iter().filter(|m| !corridor(m.side.area)) {
+        if !mouth.behind().is_some_and(&corridor) {
             continue;
         }
-        let (room, room_en) = names_of(gate.area);
-        let at = gate.middle();
-        let known = |o: &Opening| o.room == room && (o.at - at).norm() < WALL + 20.0;
+        let (room, room_en) = names_of(&world.areas[&mouth.side.area]);
+        let at = mouth.middle();
+        let known = |e: &Doorstep| e.room == room && (e.at - at).norm() < WALL + 20.0;
         if !found.iter().any(known) {
-            found.push(Opening { room, room_en, at, inward: -gate.inward() });
+            found.push(Doorstep { room, room_en, at, inward: -mouth.inward() });
         }
     }
     found
@@ -139,69 +153,6 @@ fn openings(world: &World, gates: &[Gate<'_>], corridor: impl Fn(AreaId) -> bool
 
 fn names_of(area: &Area) -> (String, String) {
     (area.name.clone(), area.name_en.clone())
-}
-
-/// The sides of an Area that can be gone through, less those that lie between its own items.
-fn gates<'a>(world: &World, map: &Map, scene: &Scene, area: &'a Area) -> Vec<Gate<'a>> {
-    let mut found = Vec::new();
-    for prism in &scene.areas[&area.id].prisms {
-        let item = &area.items[prism.item].id;
-        for (side, (a, b)) in prism.polygon.edges().enumerate() {
-            let PrismSide { permeability } = &prism.sides[side];
-            let id = &world.orthoframes[&prism.orthoframe].base[side].id;
-            let mount = area.doors.iter().find(|m| m.item == *item && m.side == *id);
-            if mount.is_none() && *permeability == Permeability::Impermeable {
-                continue;
-            }
-            let linked = map.links.iter().find_map(|link| {
-                let here = |area_id, side: &crate::map::SideRef| {
-                    area_id == area.id && side.item == *item && side.side == *id
-                };
-                if here(link.area, &link.side) {
-                    Some(link.to_area)
-                } else {
-                    here(link.to_area, &link.to_side).then_some(link.area)
-                }
-            });
-            let shared = mount.and_then(|mount| {
-                let other =
-                    |o: &&Area| o.id != area.id && o.doors.iter().any(|m| m.door == mount.door);
-                scene.areas.keys().map(|id| &world.areas[id]).find(other).map(|o| o.id)
-            });
-            let behind = linked.or(shared).or_else(|| step_off(scene, a, b));
-            if behind == Some(area.id) {
-                continue;
-            }
-            let door = mount.and_then(|m| world.doors.get(&m.door));
-            let vector = world
-                .orthoframes
-                .get(&prism.orthoframe)
-                .and_then(|f| f.base.get(side))
-                .and_then(|v| v.names.first());
-            let name = door
-                .map(|d| (d.name.clone(), d.name_en.clone()))
-                .filter(|(name, _)| !name.is_empty())
-                .or_else(|| vector.map(|name| (name.clone(), String::new())));
-            found.push(Gate {
-                area,
-                side,
-                prism: prism.item,
-                a,
-                b,
-                permeability: *permeability,
-                behind,
-                name,
-            });
-        }
-    }
-    found
-}
-
-/// The Area behind a side, at most a wall away.
-fn step_off(scene: &Scene, a: Point, b: Point) -> Option<AreaId> {
-    let outward = -left_of(a, b);
-    let middle = nalgebra::center(&a, &b);
-    [2.0, 10.0, 20.0, 35.0, WALL].iter().find_map(|step| scene.area_at(middle + outward * *step))
 }
 
 /// A polygon with every edge moved out a little.
@@ -239,33 +190,37 @@ fn facing(scene: &Scene, area: AreaId, a: Point, b: Point, reach: f64) -> Vec<(f
 }
 
 /// Floor through the wall between two joined corridors, as wide as both are there.
-fn bridge(scene: &Scene, gate: &Gate<'_>, behind: AreaId) -> Option<Vec<[f64; 2]>> {
-    let dir = (gate.b - gate.a) / (gate.b - gate.a).norm().max(1e-9);
-    let outward = -gate.inward();
-    let polygon = &scene.areas[&gate.area.id].prisms[gate.prism].polygon;
-    let t = |p: Point| (p - gate.a).dot(&dir);
-    // The whole wall in which the gate is.
+fn bridge(world: &World, scene: &Scene, mouth: Mouth<'_>, behind: AreaId) -> Option<Vec<[f64; 2]>> {
+    let (start, end) = mouth.side.ends;
+    let dir = (end - start) / (end - start).norm().max(1e-9);
+    let outward = -mouth.inward();
+    let items = &world.areas[&mouth.side.area].items;
+    let item = items.iter().position(|item| item.id == mouth.side.side.item)?;
+    let (side, _) = world.orthoframe_of(&items[item]).side(&mouth.side.side.side)?;
+    let polygon = &scene.areas[&mouth.side.area].prisms[item].polygon;
+    let t = |p: Point| (p - start).dot(&dir);
+    // The whole wall in which the opening is.
     let n = polygon.corners.len();
-    let (mut low, mut high) = (t(gate.a), t(gate.b));
-    let in_line = |p: Point| (p - gate.a).dot(&outward).abs() < 1.0;
+    let (mut low, mut high) = (t(start), t(end));
+    let in_line = |p: Point| (p - start).dot(&outward).abs() < 1.0;
     for step in 1..n {
-        let p = polygon.corners[(gate.side + 1 + step) % n];
+        let p = polygon.corners[(side + 1 + step) % n];
         if !in_line(p) {
             break;
         }
         high = high.max(t(p));
     }
     for step in 1..n {
-        let p = polygon.corners[(gate.side + n - step) % n];
+        let p = polygon.corners[(side + n - step) % n];
         if !in_line(p) {
             break;
         }
         low = low.min(t(p));
     }
-    let edges = facing(scene, behind, gate.a, gate.b, WALL);
+    let edges = facing(scene, behind, start, end, WALL);
     let depth = edges
         .iter()
-        .filter(|(from, to, _)| *from < t(gate.b) && *to > 0.0)
+        .filter(|(from, to, _)| *from < t(end) && *to > 0.0)
         .map(|(.., away)| *away)
         .fold(f64::INFINITY, f64::min);
     if !depth.is_finite() || depth < 0.5 {
@@ -277,7 +232,7 @@ fn bridge(scene: &Scene, gate: &Gate<'_>, behind: AreaId) -> Option<Vec<[f64; 2]
     });
     let (low, high) = (low.max(from), high.min(to));
     let corner = |t: f64, away: f64| {
-        let p = gate.a + dir * t + outward * away;
+        let p = start + dir * t + outward * away;
         [p.x, p.y]
     };
     (low < high).then(|| {

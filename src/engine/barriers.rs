@@ -40,6 +40,8 @@ pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> Strin
             };
             format!("{name} {}", language.pick(ru, en))
         }
+        // A reason that came later tells of itself.
+        other => other.to_string(),
     }
 }
 

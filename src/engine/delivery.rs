@@ -232,7 +232,7 @@ impl State {
             let (map, _) = now.world.placement(now.world.replicas.get(&support)?.area)?;
             let around = self.around().ok()?;
             // With what the robot carries, which stands nowhere now; its shape is the same.
-            let world = around.world().ok()?;
+            let world = around.world();
             spot_on(world, around.floor(map).ok()?.scene(), thing, support, now.pose.at)
         };
         space().is_some_and(|frame| frame.z <= now.world.robot.height)

@@ -12,16 +12,16 @@
 //! Invariant: lengths add up to the route's, but for what small bends add; no landmark is told whose name is borne by
 //! another thing of its room.
 
-use crate::geometry::{Doorway, FloorPlan, PlacedReplica, nearest_on_segment};
-use crate::language::directions::{Directions, Exit, Goal, Passage, Side, Stretch, Turn};
+use crate::geometry::{FloorPlan, Opening, PlacedReplica, nearest_on_segment};
+use crate::language::directions::{Directions, Exit, Goal, RoomPart, Side, Stretch, Turn};
 use crate::language::names::named;
-use crate::language::report::{Named, Opening};
+use crate::language::report::{Named, OpeningKind};
 use crate::map::{Entity, World};
 use crate::semantics::Relations;
 use crate::units::{AreaId, Deg, Point, Vector};
 
+use super::known::Known;
 use super::route::{End, RouteAnswer};
-use super::surroundings::Surroundings;
 use super::{Error, State};
 
 /// A bend that stays this near to the straight way is none, cm.
@@ -49,7 +49,7 @@ impl State {
     }
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// A way in the terms of people. `heading` is how one stands at its beginning, where that is known.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Surroundings<'_> {
         heading: Option<Deg>,
     ) -> Result<Option<Directions>, Error> {
         let Ok(route) = &answer.route else { return Ok(None) };
-        let (world, relations) = (self.world()?, self.relations()?);
+        let (world, relations) = (self.world(), self.relations()?);
         let mut line: &[Point] = &route.points;
         let start = line.first().copied();
         let floor = self.floor(answer.map)?;
@@ -71,7 +71,7 @@ impl Surroundings<'_> {
             Vector::new(cos, sin)
         });
         // The part of the way in each Area, and the doorway by which it is left.
-        let mut pieces: Vec<(Vec<Point>, Option<&Doorway>)> = Vec::new();
+        let mut pieces: Vec<(Vec<Point>, Option<&Opening>)> = Vec::new();
         for (n, stage) in answer.stages.iter().enumerate() {
             let goes_on = n + 1 < answer.stages.len();
             let door = stage.leaves_by.filter(|_| goes_on).map(|d| &guide.floor.doorways()[d]);
@@ -92,7 +92,7 @@ impl Surroundings<'_> {
             let out = door.map(|door| straight.unwrap_or_else(|| way_through(door, stage.area)));
             let exit = door.zip(out).map(|(door, out)| guide.exit(door, last, out));
             let room = named(world, Entity::Area(stage.area));
-            passages.push(Passage { room, stretches, exit });
+            passages.push(RoomPart { room, stretches, exit });
             facing = out;
         }
         let goal = match &answer.end {
@@ -105,13 +105,13 @@ impl Surroundings<'_> {
 }
 
 /// Unit vector out of an Area through one of its doorways.
-fn way_through(door: &Doorway, from: AreaId) -> Vector {
+fn way_through(door: &Opening, from: AreaId) -> Vector {
     if door.areas[0] == from { door.out() } else { -door.out() }
 }
 
 /// Where a line first passes the middle of a doorway on its way out of an Area: how many of its points lie before, and
 /// the point. A line that never does (it begins in the doorway) passes it at its first point.
-fn crossing(door: &Doorway, from: AreaId, line: &[Point]) -> (usize, Point) {
+fn crossing(door: &Opening, from: AreaId, line: &[Point]) -> (usize, Point) {
     let (origin, out) = (door.at(0.0, door.gap / 2.0), way_through(door, from));
     let along = door.at(1.0, door.gap / 2.0) - origin;
     let (right, left) = door.span();
@@ -270,12 +270,12 @@ impl Guide<'_> {
         things.map(|thing| (*thing, named(self.world, Entity::Replica(thing.id)))).collect()
     }
 
-    fn exit(&self, door: &Doorway, last: Option<Vector>, out: Vector) -> Exit {
+    fn exit(&self, door: &Opening, last: Option<Vector>, out: Vector) -> Exit {
         let is_passage = door
             .door
             .and_then(|d| self.world.doors.get(&d))
             .is_none_or(|d| d.kind == crate::map::DoorKind::Passage);
-        let opening = if is_passage { Opening::Passage } else { Opening::Door };
+        let opening = if is_passage { OpeningKind::Passage } else { OpeningKind::Door };
         let name = door.door.map(Entity::Door).filter(|d| !self.world.name(*d).is_empty());
         let angle = last.map_or(0.0, |last| turn(last, out));
         Exit { opening, name: name.map(|d| named(self.world, d)), angle }

@@ -20,7 +20,7 @@ impl State {
     /// How sure the robot is of where a thing is, 0..=1, where that is less than what is told as a fact.
     pub(super) fn doubted(&self, thing: ReplicaId) -> Option<f64> {
         let reader = self.reader.as_ref()?;
-        let replica = self.world.as_ref()?.replicas.get(&thing)?;
+        let replica = self.world().ok()?.replicas.get(&thing)?;
         let belief = reader.belief(replica, SystemTime::now().into()).ok()?;
         let told = self.relations().ok()?.thresholds().belief_told;
         (belief.confidence < told).then_some(belief.confidence)

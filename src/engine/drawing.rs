@@ -4,7 +4,7 @@ use crate::draw::{
     DoorGlyph, FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing,
     ViewLayer, object_svg,
 };
-use crate::geometry::{Doorway, FloorPlan, PlacedArea, Sight};
+use crate::geometry::{FloorPlan, Opening, Sight};
 use crate::map::{Entity, Object, World};
 use crate::units::{AreaId, Language, MapId, PlaceId, Point, Pose, Vector, nearest_name};
 
@@ -159,7 +159,7 @@ impl State {
 }
 
 fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
-    let glyphs = |doorway: &Doorway| {
+    let glyphs = |doorway: &Opening| {
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
         };
@@ -177,14 +177,14 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
             .collect()
     };
     let between = floor.doorways().iter().filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
-    between.chain(&outer_doors(world, floor, only)).flat_map(glyphs).collect()
+    between.chain(outer_doors(floor, only)).flat_map(glyphs).collect()
 }
 
 /// Door leaves as they stand on the floor of the first Area.
 fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
     /// Of a door of which the map does not say how high it is, cm.
     const USUAL: f64 = 200.0;
-    let bodies = |doorway: &Doorway| {
+    let bodies = |doorway: &Opening| {
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
         };
@@ -194,13 +194,13 @@ fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
         let body = |base| LeafBody { base, bottom, top, status: door.state.status };
         doorway.leaves(door).at(door.state).into_iter().map(body).collect()
     };
-    floor.doorways().iter().chain(&outer_doors(world, floor, None)).flat_map(bodies).collect()
+    floor.doorways().iter().chain(outer_doors(floor, None)).flat_map(bodies).collect()
 }
 
 /// The doorways and passages through walls that are no mere lines.
 fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
     const THIN: f64 = 0.5;
-    let mouth = |doorway: &Doorway| {
+    let mouth = |doorway: &Opening| {
         let room = floor.scene().areas.get(&doorway.areas[0])?.prisms.first()?;
         let door = doorway.door.and_then(|id| world.doors.get(&id));
         let height = door.map_or(0.0, |d| d.height.get());
@@ -212,16 +212,14 @@ fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
     floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(mouth).collect()
 }
 
-/// The doors that lead out of the map, each in its only room.
-fn outer_doors(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Doorway> {
+/// The doors that join no two Areas: they lead out of the map.
+fn outer_doors(floor: &FloorPlan, only: Option<AreaId>) -> impl Iterator<Item = &Opening> {
     let joined: std::collections::HashSet<_> =
         floor.doorways().iter().filter_map(|d| d.door).collect();
-    let areas = floor.scene().areas.values().filter(|a| only.is_none_or(|only| only == a.id));
-    let of = |placed: &PlacedArea| {
-        let mounts = world.areas[&placed.id].doors.iter().filter(|m| !joined.contains(&m.door));
-        mounts.filter_map(|m| Doorway::outer(world, placed, m.door)).collect::<Vec<_>>()
-    };
-    areas.flat_map(of).collect()
+    let outer = floor.blind_openings().iter();
+    outer.filter(move |o| {
+        o.door.is_some_and(|door| !joined.contains(&door)) && only.is_none_or(|only| o.is_of(only))
+    })
 }
 
 fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {

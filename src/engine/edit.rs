@@ -9,6 +9,7 @@ use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind,
 use crate::store::{self, Change, Difference, ImportReport, Store, Table};
 use crate::units::{ReplicaId, Source};
 
+use super::known::Known;
 use super::lexicon::form_index;
 use super::{Engine, Error, State, load};
 
@@ -49,7 +50,7 @@ impl Engine {
         mode: Mode,
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let world = self.world.as_deref().unwrap_or(&nothing);
+        let world = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
         let ids = self.next_ids(world)?;
         let index = std::cell::OnceCell::new();
         let names = |name: &str| {
@@ -64,7 +65,8 @@ impl Engine {
             Change { reason: reason.unwrap_or_else(|| change.reason.clone()), ..change.clone() };
         let (after, faults, left_behind) = self.with_loads(edited, faults, &carriers)?;
         let edited = self.become_world(after, faults, &change, mode)?;
-        let name = |id: &ReplicaId| self.world.as_ref()?.replicas.get(id).map(|r| r.name.clone());
+        let name =
+            |id: &ReplicaId| self.surveyed.as_ref()?.world.replicas.get(id).map(|r| r.name.clone());
         let left_behind = left_behind.iter().filter_map(name).collect();
         Ok(Edited { left_behind, ..edited })
     }
@@ -76,7 +78,11 @@ impl Engine {
         warnings: MapErrors,
         carriers: &BTreeSet<ReplicaId>,
     ) -> Result<(World, MapErrors, Vec<ReplicaId>), Error> {
-        let Some(before) = self.world.as_deref().filter(|before| before.replicas != after.replicas)
+        let Some(before) = self
+            .surveyed
+            .as_ref()
+            .map(|known| known.world())
+            .filter(|before| before.replicas != after.replicas)
         else {
             return Ok((after, warnings, Vec::new()));
         };
@@ -103,7 +109,7 @@ impl Engine {
         alter: impl FnOnce(&mut World),
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let before = self.world.as_deref().unwrap_or(&nothing);
+        let before = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
         let mut after = before.clone();
         alter(&mut after);
         let faults = news(before, &after);
@@ -145,7 +151,7 @@ impl Engine {
         mode: Mode,
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let before = self.world.as_deref().unwrap_or(&nothing);
+        let before = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
         let differences = store::compare(before, &after)?;
         if mode == Mode::DryRun {
             return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
@@ -178,19 +184,56 @@ impl Engine {
 impl State {
     /// Takes over another map; what other states share with this one stays as it is for them.
     fn follow(&mut self, after: World) {
-        self.mind.take();
-        self.forms.take();
         let after = Arc::new(after);
-        let Some(before) = self.world.replace(Arc::clone(&after)) else {
+        // What rests on the map as it was would make a copy of what follows it.
+        self.forget_present();
+        let Some(surveyed) = &mut self.surveyed else {
             self.changes = Arc::default();
-            return self.forget_derived();
+            let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
+            self.surveyed = Some(Arc::new(Known::surveyed(rules, after, derived)));
+            return;
         };
+        let before = Arc::clone(&surveyed.world);
         let changed = only_replicas(&before, &after);
         let ids_are_unique = self.reader.is_some();
         Arc::make_mut(&mut self.changes).note(&before, &after, changed.as_deref(), ids_are_unique);
-        let Some(changed) = changed else {
-            return self.forget_derived();
-        };
+        match changed {
+            Some(changed) => Arc::make_mut(surveyed).follow(&before, after, &changed),
+            None => {
+                let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
+                *surveyed = Arc::new(Known::surveyed(rules, after, derived));
+            }
+        }
+    }
+}
+
+impl Known {
+    /// Takes over a map that differs in these replicas alone.
+    fn follow(&mut self, before: &World, after: Arc<World>, changed: &[ReplicaId]) {
+        self.mind.take();
+        self.forms.take();
+        self.world = Arc::clone(&after);
+        let mut followed = changed.len() <= MOST_FOLLOWED;
+        if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
+            let relations = Arc::make_mut(relations);
+            let openings = Arc::clone(relations.openings());
+            for &id in changed {
+                // Properties are facts too, which a move does not touch.
+                let only_moved =
+                    before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(|(b, a)| {
+                        map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
+                    });
+                // A rule that fails now fails again, and is told, when they are derived anew.
+                followed = followed && only_moved && relations.update(&after, id).unwrap_or(false);
+            }
+            // Rules of the user's own may let doors join by what stands about.
+            if openings != *relations.openings() {
+                self.floors.take();
+            }
+        }
+        if !followed {
+            self.relations.take();
+        }
         if let Some(floors) = self.floors.get_mut() {
             // A thing may leave one Map for another: each takes over what it now says of its own.
             for floor in Arc::make_mut(floors).values_mut() {
@@ -206,22 +249,6 @@ impl State {
                     floor.rebuild(&after, &own);
                 }
             }
-        }
-        let mut followed = changed.len() <= MOST_FOLLOWED;
-        if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
-            let relations = Arc::make_mut(relations);
-            for id in changed {
-                // Properties are facts too, which a move does not touch.
-                let only_moved =
-                    before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(|(b, a)| {
-                        map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
-                    });
-                // A rule that fails now fails again, and is told, when they are derived anew.
-                followed = followed && only_moved && relations.update(&after, id).unwrap_or(false);
-            }
-        }
-        if !followed {
-            self.relations.take();
         }
     }
 }

@@ -18,6 +18,7 @@ use crate::units::{capitalized, is_input};
 
 /// Why the engine could not do what it was asked.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -59,6 +60,9 @@ pub enum Error {
     Vehicle(#[from] Box<crate::robot::Failure>),
     #[error(transparent)]
     #[diagnostic(transparent)]
+    Mission(Box<MissionError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
     Request(#[from] RequestError),
 }
 
@@ -76,12 +80,14 @@ impl From<MissionError> for Error {
         match error {
             MissionError::Rules(faults) => Self::Rules(faults),
             MissionError::Relations(error) => Self::Relations(error),
+            error => Self::Mission(Box::new(error)),
         }
     }
 }
 
 /// A request that speaks of what is not there, or not clearly enough.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum RequestError {
     /// A number that a drawing cannot take.
     #[error("{what} = {value}, а нужно от {low} до {high}")]
@@ -439,6 +445,7 @@ impl Error {
             | Self::Rules(_)
             | Self::Relations(_)
             | Self::Misheard(_)
+            | Self::Mission(_)
             | Self::Corridor(_)
             | Self::CorridorFile(_) => true,
             Self::Datalog(error) => match error.as_ref() {

@@ -4,7 +4,7 @@
 //! ```
 //! use orthoframe::Engine;
 //! use orthoframe::engine::TaskEvents;
-//! use orthoframe::map::World;
+//! use orthoframe::World;
 //!
 //! let engine = Engine::in_memory(World::load("maps/rb2.toml").unwrap(), None).unwrap();
 //! let (mut events, mut names) = (TaskEvents::default(), Vec::new());

@@ -8,7 +8,7 @@ use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
 
-use super::deeds::floor_place;
+use super::directive_words::floor_place;
 use super::memory::Now;
 use super::task::{OPERATOR, thing_of};
 use super::{Error, RequestError, State};

@@ -126,9 +126,8 @@ impl Engine {
             Some(world) => self.follow(world),
             None => {
                 let (state, store) = self.next_with_store();
-                state.world = None;
+                state.surveyed = None;
                 state.changes = Arc::default();
-                state.forget_derived();
                 state.stand_on(store);
                 Ok(())
             }

@@ -9,10 +9,10 @@ use crate::map::{Entity, World};
 use crate::units::{Deg, DoorId, MapId, Point};
 
 use super::advice::Advice;
+use super::known::Known;
 use super::lexicon::named;
 use super::opening::opens_in_words;
 use super::route::{End, Located, RouteAnswer};
-use super::surroundings::Surroundings;
 use super::{Error, State};
 
 /// A way from one place to another, over as many maps as it takes.
@@ -55,7 +55,7 @@ impl State {
     }
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// A way between two places that were found, with what they are called.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Surroundings<'_> {
         (to, goal): (&str, Located),
         method: Method,
     ) -> Result<Journey, Error> {
-        let world = self.world()?;
+        let world = self.world();
         let floors = self.floors()?;
         let ends = ((start.map, start.at), (goal.map, goal.target));
         // A door is reached on whichever side is nearer.
@@ -132,7 +132,7 @@ impl Surroundings<'_> {
         map: MapId,
         ends: ((MapId, Point), (MapId, Target)),
     ) -> Option<bool> {
-        let mut world = self.world().ok()?.clone();
+        let mut world = self.world().clone();
         let mut floors = self.floors().ok()?.clone();
         let floor = floors.get_mut(&map)?;
         *floor = floor.remedied(&mut world, remedy);
@@ -151,7 +151,7 @@ impl Surroundings<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Vec<String>, Error> {
-        let world = self.world()?;
+        let world = self.world();
         let mut sentences = Vec::new();
         for (k, leg) in journey.legs.iter().enumerate() {
             let heading = heading.filter(|_| k == 0);

@@ -29,10 +29,10 @@ mod advice;
 mod apart;
 mod barriers;
 mod changes;
-mod deeds;
 mod delivery;
 mod dialogue;
 mod directions;
+mod directive_words;
 mod doubtful;
 mod doubts;
 mod drawing;
@@ -46,6 +46,7 @@ mod goals;
 mod history;
 mod journey;
 pub mod json;
+mod known;
 mod lexicon;
 mod load;
 mod memory;
@@ -54,7 +55,6 @@ mod observe;
 mod opening;
 mod plan;
 mod position;
-mod present;
 mod reading;
 mod route;
 mod rule_files;
@@ -64,7 +64,6 @@ mod sight;
 mod stance;
 mod state;
 mod surprises;
-mod surroundings;
 mod talk;
 mod task;
 mod tidy;
@@ -78,8 +77,8 @@ use std::sync::Arc;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
-pub use deeds::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
+pub use directive_words::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
@@ -174,7 +173,9 @@ impl Engine {
     /// There is no map, or its relations cannot be derived.
     pub fn state(&self) -> Result<Arc<State>, Error> {
         // What was seen and done stands in tables of which only the last state is read.
-        self.state.present()?;
+        if self.state.surveyed.is_some() {
+            self.state.around()?;
+        }
         Ok(Arc::clone(&self.state))
     }
 

@@ -11,7 +11,7 @@ use crate::robot::{Directive, Solved};
 use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
 
-use super::deeds::{deeds_in_words, directive_in_words, name_in};
+use super::directive_words::{deeds_in_words, directive_in_words, name_in};
 use super::surprises::surprise_in_words;
 use super::task::{Progress, TaskAnswer, TaskEnding};
 use super::{Error, State};

@@ -12,9 +12,9 @@ use crate::semantics::lifts;
 use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::Error;
+use super::known::Known;
 use super::lexicon::named;
 use super::route::stages;
-use super::surroundings::Surroundings;
 
 type Floors = BTreeMap<MapId, FloorPlan>;
 
@@ -29,7 +29,7 @@ struct Shut {
     sides: [AreaId; 2],
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// The way that `find` finds once the doors are open that must be opened for it, and these doors in their order; none
     /// where opening doors does not help.
     ///
@@ -39,7 +39,7 @@ impl Surroundings<'_> {
         &self,
         find: impl Fn(&World, &Floors) -> Result<Vec<Leg>, Box<NoWay>>,
     ) -> Result<Option<WayThroughDoors>, Error> {
-        let (world, floors) = (self.world()?, self.floors()?);
+        let (world, floors) = (self.world(), self.floors()?);
         let mut shut = self.openable()?;
         while !shut.is_empty() {
             let Ok(legs) = find(world, &opened(world, floors, &shut)) else { return Ok(None) };
@@ -58,7 +58,7 @@ impl Surroundings<'_> {
 
     /// The doors between rooms that are shut and not locked; those of lifts open by themselves.
     fn openable(&self) -> Result<BTreeSet<DoorId>, Error> {
-        let world = self.world()?;
+        let world = self.world();
         let of_lifts: BTreeSet<DoorId> = lifts(world, self.relations()?)
             .iter()
             .flat_map(|lift| lift.doors.iter().filter_map(|join| join.door))

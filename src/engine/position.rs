@@ -3,9 +3,9 @@
 use crate::geometry::{Blocker, Bounds, FloorPlan, Owner, Scene, nearest_on_segment};
 use crate::language::Language;
 use crate::language::names::english_name;
-use crate::language::report::read::{SaidDoorway, SaidMark, SaidPosition, SaidSpot};
+use crate::language::report::read::{SaidMark, SaidOpening, SaidPosition, SaidSpot};
 use crate::language::report::{
-    Beside, Context, Doorway, Facing, Mark, Named, Opening, Position, Spot,
+    Beside, Context, Facing, Mark, Named, OpeningKind, Position, Spot, ToldOpening,
 };
 use crate::map::{DoorStatus, Entity, Permeability, World};
 use crate::semantics::{self, Relations, Way, Whereabouts, whereabouts};
@@ -154,12 +154,11 @@ impl Telling<'_> {
 
     /// What may tell the Area from its namesakes: the rooms beside it, its doors, what stands in it.
     fn marks(&self) -> Vec<(Mark, SaidMark<Entity>)> {
-        let openings = self.relations.openings().iter();
-        let own = |o: &&semantics::Opening| o.area == self.area || o.leads_to() == Some(self.area);
+        let openings = self.relations.openings().of_area(self.area);
         let (mut marks, mut doors) = (Vec::new(), Vec::new());
         let mut beside = std::collections::BTreeSet::new();
-        for opening in openings.filter(own) {
-            let sides = [Some(opening.area), opening.leads_to()].into_iter().flatten();
+        for opening in openings {
+            let sides = opening.all_areas().into_iter();
             for room in sides.filter(|side| *side != self.area && beside.insert(*side)) {
                 let (room, names) = self.named(Entity::Area(room));
                 marks.push((Mark::Adjoining(room), SaidMark::Adjoining(names)));
@@ -191,8 +190,8 @@ impl Telling<'_> {
     fn said(&self, spot: &semantics::Spot) -> Option<SaidSpot<Entity>> {
         let door = |way: Way| {
             let name = own_name(self.world, self.relations, way);
-            let opening = if way.is_passage { Opening::Passage } else { Opening::Door };
-            SaidDoorway {
+            let opening = if way.is_passage { OpeningKind::Passage } else { OpeningKind::Door };
+            SaidOpening {
                 opening: name.is_none().then_some(opening),
                 name: name.map(|door| self.namesakes(Entity::Door(door))),
                 from: self.namesakes(Entity::Area(way.from)),
@@ -253,11 +252,11 @@ fn own_name(world: &World, relations: &Relations, way: Way) -> Option<DoorId> {
 }
 
 /// A door told by the Areas on its sides, and by its own name where these are joined by several.
-fn doorway(world: &World, relations: &Relations, way: Way) -> Doorway {
+fn doorway(world: &World, relations: &Relations, way: Way) -> ToldOpening {
     let area = |id: AreaId| -> Named { named(world, Entity::Area(id)) };
     let name = own_name(world, relations, way).map(|door| named(world, Entity::Door(door)));
-    Doorway {
-        opening: if way.is_passage { Opening::Passage } else { Opening::Door },
+    ToldOpening {
+        opening: if way.is_passage { OpeningKind::Passage } else { OpeningKind::Door },
         name,
         from: area(way.from),
         to: way.to.map(area),
@@ -343,28 +342,18 @@ pub(super) fn faced(
     Some(nearest.map_or(Faced::Inward, |(_, faced)| faced))
 }
 
-/// A door seen from an Area, or from the first that it leads into where it stands elsewhere.
+/// A door seen from an Area, or from the one that mounts it where it is not of that Area.
 fn way_of(relations: &Relations, door: DoorId, area: AreaId) -> Option<Way> {
-    let own = |o: &&semantics::Opening| o.door == Some(door);
-    let sides = relations.openings().iter().filter(own);
-    let opening = sides.min_by_key(|o| (o.area != area, o.leads_to() != Some(area)))?;
-    Some(seen_from(opening, if opening.leads_to() == Some(area) { area } else { opening.area }))
+    let own = relations.openings().iter().filter(|o| o.door == Some(door));
+    let opening = own.min_by_key(|o| !o.is_of(area))?;
+    Some(Way::through(opening, if opening.is_of(area) { area } else { opening.area() }))
 }
 
-/// An opening as it is seen from one of the Areas that it joins.
-fn seen_from(opening: &semantics::Opening, area: AreaId) -> Way {
-    let behind = opening.leads_to();
-    let to = if opening.area == area { behind } else { Some(opening.area) };
-    let is_passage = opening.permeability == Permeability::Permeable;
-    Way { door: opening.door, is_passage, from: area, to }
-}
-
-/// The opening of an Area whose middle is here, seen from that Area.
+/// The opening of an Area in a side whose middle is here, seen from that Area.
 fn way_through(relations: &Relations, area: AreaId, middle: Point) -> Option<Way> {
-    let near =
-        |o: &&semantics::Opening| (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm() < 1.0;
-    let opening = relations.openings().iter().filter(near).min_by_key(|o| o.area != area)?;
-    Some(seen_from(opening, area))
+    let near = |o: &&semantics::Opening| o.sides.iter().any(|s| (s.middle() - middle).norm() < 1.0);
+    let opening = relations.openings().iter().filter(near).min_by_key(|o| !o.is_of(area))?;
+    Some(Way::through(opening, area))
 }
 
 /// Distance along a ray to a segment.

@@ -4,12 +4,12 @@ use crate::geometry::{Bounds, FloorPlan};
 use crate::language::FormIndex;
 use crate::language::names::hints;
 use crate::language::report::read::{
-    SaidDoorway, SaidFacing, SaidMark, SaidPosition, SaidSpot, read,
+    SaidFacing, SaidMark, SaidOpening, SaidPosition, SaidSpot, read,
 };
-use crate::language::report::{Beside, Opening};
-use crate::map::{Entity, Permeability, World};
+use crate::language::report::{Beside, OpeningKind};
+use crate::map::{Entity, World};
 use crate::semantics::{Claim, Relations, Way, claim_bounds, claim_holds};
-use crate::units::{AreaId, Deg, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
 
 use super::lexicon::named;
 use super::position::{Faced, faced};
@@ -134,9 +134,9 @@ impl Region {
 }
 
 /// Whether a doorway of the map is the one that was said.
-fn is_meant(said: &SaidDoorway<Entity>, way: Way) -> bool {
+fn is_meant(said: &SaidOpening<Entity>, way: Way) -> bool {
     let is_area = |names: &[Entity], area: AreaId| names.contains(&Entity::Area(area));
-    let opening = if way.is_passage { Opening::Passage } else { Opening::Door };
+    let opening = if way.is_passage { OpeningKind::Passage } else { OpeningKind::Door };
     let to = match (&said.to, way.to) {
         (Some(names), Some(area)) => is_area(names, area),
         (None, None) => true,
@@ -187,12 +187,11 @@ pub(super) fn regions(
 
 /// Whether an Area has what a report says to tell it from its namesakes.
 fn bears(relations: &Relations, area: AreaId, mark: &SaidMark<Entity>) -> bool {
-    let of_area = |o: &&crate::semantics::Opening| o.area == area || o.leads_to() == Some(area);
-    let mut openings = relations.openings().iter().filter(of_area);
+    let mut openings = relations.openings().of_area(area);
     match mark {
         SaidMark::Adjoining(names) => openings.any(|o| {
-            let sides = [Some(o.area), o.leads_to()].into_iter().flatten();
-            sides.filter(|side| *side != area).any(|side| names.contains(&Entity::Area(side)))
+            let others = o.all_areas().into_iter().filter(|other| *other != area);
+            others.into_iter().any(|other| names.contains(&Entity::Area(other)))
         }),
         SaidMark::With(names) => {
             let has = |name: &Entity| match name {
@@ -211,17 +210,9 @@ fn claims(
     area: AreaId,
     spot: Option<&SaidSpot<Entity>>,
 ) -> Result<Vec<Claim>, Error> {
-    let ways = |door: &SaidDoorway<Entity>| -> Vec<usize> {
-        let openings = relations.openings().iter().enumerate();
-        let meant = openings.filter(|(_, opening)| {
-            let is_passage = opening.permeability == Permeability::Permeable;
-            let way = |from, to| Way { door: opening.door, is_passage, from, to };
-            let behind = opening.leads_to();
-            let across = behind.map(|b| way(b, Some(opening.area)));
-            let own = way(opening.area, behind);
-            [Some(own), across].into_iter().flatten().any(|w| w.from == area && is_meant(door, w))
-        });
-        meant.map(|(place, _)| place).collect()
+    let ways = |door: &SaidOpening<Entity>| -> Vec<OpeningId> {
+        let openings = relations.openings().of_area(area);
+        openings.filter(|o| is_meant(door, Way::through(o, area))).map(|o| o.id).collect()
     };
     let claim = match spot {
         None => Claim::InArea,

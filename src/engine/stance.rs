@@ -8,7 +8,7 @@ use crate::robot::{Belief, GoalFact};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, Deg, MapId, Point, Vector};
 
-use super::deeds::{
+use super::directive_words::{
     between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
     window_place,
 };

@@ -1,48 +1,38 @@
 //! What is known at a moment: the map at a revision, and all that follows from it.
 //!
-//! A [`State`] never changes once it is shared: any number of threads ask it, while the engine prepares the next. What was
-//! not derived yet is derived when first asked for, by whoever asks first, and what an edit leaves as it was is shared by the
-//! states before and after it.
+//! A [`State`] never changes once it is shared: any number of threads ask it, while the engine prepares the next. The map as
+//! surveyed and the world as it is now are each a [`Known`]; what was not derived yet is derived when first asked for, by
+//! whoever asks first, and what an edit leaves as it was is shared by the states before and after it.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::geometry::{DoorStates, FloorPlan};
+use crate::geometry::{FloorPlan, Openings};
 use crate::language::FormIndex;
-use crate::language::question::Mind;
 use crate::map::{Entity, World};
-use crate::semantics::{Relations, derive};
+use crate::semantics::{Followed, Relations};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{MapId, nearest_name};
 
 use super::changes::Changes;
-use super::lexicon::form_index;
-use super::present::Present;
+use super::known::Known;
 use super::{Error, RequestError, Rules, Value};
-
-/// Under this name the store keeps the relations.
-const RELATIONS: &str = "relations";
 
 /// The knowledge of one building at a moment, and what follows from it: see the head of this file.
 #[derive(Debug)]
 pub struct State {
     pub(super) rules: Arc<Rules>,
-    pub(super) world: Option<Arc<World>>,
+    /// The map as surveyed.
+    pub(super) surveyed: Option<Arc<Known>>,
     /// Of the store's other tables, which know what was seen and done; none for a map in memory.
     pub(super) reader: Option<Reader>,
-    derived: Option<Derived>,
+    pub(super) derived: Option<Derived>,
     /// The store's directory, for what is said where there is no map.
     place: String,
-    pub(super) relations: OnceLock<Arc<Relations>>,
-    pub(super) floors: OnceLock<Arc<BTreeMap<MapId, FloorPlan>>>,
-    /// The nouns of the map, for questions.
-    pub(super) mind: OnceLock<Arc<Mind>>,
-    /// The names of the map in all their forms, for commands.
-    pub(super) forms: OnceLock<Arc<FormIndex<Entity>>>,
     /// What the robot did and where it stands.
     pub(super) memory: OnceLock<RobotMemory>,
     /// The world as it is believed to be now, where that differs from the map.
-    pub(super) present: OnceLock<Option<Box<Present>>>,
+    now: OnceLock<Option<Arc<Known>>>,
     /// What the map and the robot's knowledge went through, for dialogues that began before.
     pub(super) changes: Arc<Changes>,
 }
@@ -50,18 +40,18 @@ pub struct State {
 impl State {
     /// Nothing is derived yet.
     pub(super) fn new(store: Option<&Store>, rules: Arc<Rules>, world: Option<World>) -> Self {
+        let derived = store.map(Store::derived);
+        let surveyed = world.map(|world| {
+            Arc::new(Known::surveyed(Arc::clone(&rules), Arc::new(world), derived.clone()))
+        });
         Self {
             rules,
-            world: world.map(Arc::new),
+            surveyed,
             reader: store.map(Store::reader),
-            derived: store.map(Store::derived),
+            derived,
             place: store.map(|s| s.dir().display().to_string()).unwrap_or_default(),
-            relations: OnceLock::new(),
-            floors: OnceLock::new(),
-            mind: OnceLock::new(),
-            forms: OnceLock::new(),
             memory: OnceLock::new(),
-            present: OnceLock::new(),
+            now: OnceLock::new(),
             changes: Arc::default(),
         }
     }
@@ -70,16 +60,12 @@ impl State {
     pub(super) fn successor(&self) -> Self {
         Self {
             rules: Arc::clone(&self.rules),
-            world: self.world.clone(),
+            surveyed: self.surveyed.clone(),
             reader: self.reader.clone(),
             derived: self.derived.clone(),
             place: self.place.clone(),
-            relations: self.relations.clone(),
-            floors: self.floors.clone(),
-            mind: self.mind.clone(),
-            forms: self.forms.clone(),
             memory: OnceLock::new(),
-            present: OnceLock::new(),
+            now: OnceLock::new(),
             changes: Arc::clone(&self.changes),
         }
     }
@@ -88,21 +74,79 @@ impl State {
     pub(super) fn stand_on(&mut self, store: Option<&Store>) {
         self.reader = store.map(Store::reader);
         self.derived = store.map(Store::derived);
+        if let Some(surveyed) = &mut self.surveyed {
+            Arc::make_mut(surveyed).derived.clone_from(&self.derived);
+        }
         self.forget_present();
+    }
+
+    /// The map as surveyed.
+    ///
+    /// # Errors
+    /// [`RequestError::NoMap`].
+    pub(super) fn surveyed(&self) -> Result<&Arc<Known>, Error> {
+        self.surveyed
+            .as_ref()
+            .ok_or_else(|| RequestError::NoMap { store: self.place.clone() }.into())
+    }
+
+    /// The world as it is believed to be now: the map, with what the robot did and what was seen. Where nothing of that
+    /// differs from the map, the map itself, of which nothing is derived anew. It is made at the moment when it is first
+    /// asked for after a change.
+    ///
+    /// # Errors
+    /// There is no map, or its relations cannot be derived.
+    pub(super) fn around(&self) -> Result<&Known, Error> {
+        let surveyed = self.surveyed()?;
+        if let Some(now) = self.now.get() {
+            return Ok(now.as_ref().unwrap_or(surveyed));
+        }
+        let found = self.find_now(surveyed)?.map(Arc::new);
+        Ok(self.now.get_or_init(|| found).as_ref().unwrap_or(surveyed))
+    }
+
+    fn find_now(&self, surveyed: &Arc<Known>) -> Result<Option<Known>, Error> {
+        let Some(reader) = &self.reader else { return Ok(None) };
+        let memory = self.memory()?;
+        let unmoved = memory.doors.is_empty()
+            && memory.devices.is_empty()
+            && memory.carried.is_empty()
+            && reader.observed()?.is_empty();
+        if unmoved {
+            return Ok(None);
+        }
+        let world = self.believed(memory, std::time::SystemTime::now().into())?;
+        let holders: BTreeMap<_, _> = memory
+            .carried
+            .iter()
+            .filter(|(id, _)| world.replicas.contains_key(id))
+            .map(|(id, holder)| (*id, holder.clone()))
+            .collect();
+        if holders.is_empty() && world == *surveyed.world {
+            return Ok(None);
+        }
+        let carriers = self.carriers(&world, &memory.carried)?;
+        Known::now(surveyed, world, holders, carriers).map(Some)
+    }
+
+    /// The world as it is believed to be now: the map, with what the robot did and what was seen.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn world_now(&self) -> Result<&World, Error> {
+        Ok(self.around()?.world())
+    }
+
+    /// The relations of a world that differs from the map in what a robot can do or see: those of the map, followed
+    /// where they can be, else derived anew.
+    pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
+        self.surveyed()?.followed(world)
     }
 
     pub(super) fn forget_present(&mut self) {
         self.memory.take();
-        self.present.take();
+        self.now.take();
         Arc::make_mut(&mut self.changes).note_deed();
-    }
-
-    pub(super) fn forget_derived(&mut self) {
-        self.relations.take();
-        self.floors.take();
-        self.mind.take();
-        self.forms.take();
-        self.forget_present();
     }
 
     /// The number of the last change of the map; 0 for a map in memory.
@@ -116,11 +160,7 @@ impl State {
     /// # Errors
     /// [`RequestError::NoMap`].
     pub fn world(&self) -> Result<&World, Error> {
-        self.shared_world().map(|world| &**world)
-    }
-
-    pub(super) fn shared_world(&self) -> Result<&Arc<World>, Error> {
-        self.world.as_ref().ok_or_else(|| RequestError::NoMap { store: self.place.clone() }.into())
+        Ok(self.surveyed()?.world())
     }
 
     #[must_use]
@@ -133,39 +173,7 @@ impl State {
     /// # Errors
     /// There is no map, or a rule of the user's own outgrows the memory.
     pub fn relations(&self) -> Result<&Relations, Error> {
-        self.shared_relations().map(|relations| &**relations)
-    }
-
-    pub(super) fn shared_relations(&self) -> Result<&Arc<Relations>, Error> {
-        let world = self.world()?;
-        if let Some(relations) = self.relations.get() {
-            return Ok(relations);
-        }
-        let relations = match self.kept_relations(world) {
-            Some(relations) => relations,
-            None => {
-                let relations = derive(world, &self.rules.relations, world.domain.profile)?;
-                self.keep_relations(&relations);
-                relations
-            }
-        };
-        Ok(self.relations.get_or_init(|| Arc::new(relations)))
-    }
-
-    /// The relations that the store keeps for its map as it stands, under these rules.
-    fn kept_relations(&self, world: &World) -> Option<Relations> {
-        let bytes = self.derived.as_ref()?.get(RELATIONS)?;
-        Relations::restore(world, &self.rules.relations, world.domain.profile, &bytes)
-    }
-
-    /// Keeps relations for the next start. They can be derived again, so that a store that cannot take them does no
-    /// harm.
-    fn keep_relations(&self, relations: &Relations) {
-        let Some(derived) = &self.derived else { return };
-        let Some(bytes) = relations.save() else { return };
-        if let Err(error) = derived.put(RELATIONS, &bytes) {
-            tracing::debug!(%error, "relations are not kept");
-        }
+        self.surveyed()?.relations()
     }
 
     /// Facts with their relations: those of one relation, those about one thing, or both.
@@ -194,37 +202,25 @@ impl State {
         Ok(tuples.into_iter().filter(wanted).map(|t| (label.clone(), t)).collect())
     }
 
-    /// The free floor of every map, computed when first asked for.
+    /// All doors and passages, each once, with what the rules let them join.
     ///
     /// # Errors
-    /// [`RequestError::NoMap`].
-    pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
-        let world = self.world()?;
-        Ok(self.floors.get_or_init(|| {
-            let floors = world.maps.keys().map(|&map| (map, self.floor_of(world, map)));
-            Arc::new(floors.collect())
-        }))
+    /// As [`State::relations`].
+    pub fn openings(&self) -> Result<&Openings, Error> {
+        self.surveyed()?.openings()
     }
 
-    /// The floor of a map, with what the store keeps of it; what had to be built is kept for the next start.
-    fn floor_of(&self, world: &World, map: MapId) -> FloorPlan {
-        let kind = format!("floor-{}", map.0);
-        let kept = self.derived.as_ref().and_then(|derived| derived.get_of_any(&kind));
-        let kept = kept.unwrap_or_default();
-        let states = DoorStates::new();
-        let (plan, built) = FloorPlan::restore(world, map, &world.robot, &states, &kept);
-        if let (Some(derived), true) = (&self.derived, built > 0)
-            && let Err(error) = derived.put(&kind, &plan.save(world))
-        {
-            tracing::debug!(%error, "floors are not kept");
-        }
-        plan
+    /// The free floor of every map, which leads through what the rules let join, computed when first asked for.
+    ///
+    /// # Errors
+    /// As [`State::relations`].
+    pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+        self.surveyed()?.floors()
     }
 
     /// Every name in every form, indexed when first asked for.
     pub(super) fn forms(&self) -> Result<&FormIndex<Entity>, Error> {
-        let world = self.world()?;
-        Ok(self.forms.get_or_init(|| Arc::new(form_index(world))))
+        Ok(self.surveyed()?.forms())
     }
 
     pub(crate) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {

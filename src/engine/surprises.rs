@@ -5,7 +5,7 @@ use crate::map::{Entity, World};
 use crate::robot::{Obstruction, Refusal, Sighting, Surprise};
 
 use super::barriers::no_way_in_words;
-use super::deeds::place_in_words;
+use super::directive_words::place_in_words;
 use super::lexicon::named;
 
 /// What stood in the way, what the vehicle would not do, or what the map does not know.

@@ -1,7 +1,5 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use std::sync::Arc;
-
 use crate::geometry::{Barrier, Eye, Method, NoRoute, Ride};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
@@ -152,24 +150,13 @@ impl State {
     }
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
-        Ok(match self.present()? {
-            Some(now) => Asker {
-                world: &now.world,
-                relations: now.relations.relations(),
-                mind: now.mind(),
-                senses,
-            },
-            None => {
-                let (world, relations) = (self.world()?, self.relations()?);
-                Asker { world, relations, mind: self.mind()?, senses }
-            }
-        })
+        let now = self.around()?;
+        Ok(Asker { world: now.world(), relations: now.relations()?, mind: now.mind(), senses })
     }
 
     /// The nouns of the map, read when first asked for.
     pub(super) fn mind(&self) -> Result<&Mind, Error> {
-        let world = self.world()?;
-        Ok(self.mind.get_or_init(|| Arc::new(Mind::of(world))))
+        Ok(self.surveyed()?.mind())
     }
 
     /// Names that a person may type.
@@ -191,7 +178,7 @@ impl State {
         let stored = self.memory().ok().and_then(|memory| memory.pose);
         match stored {
             Some((map, pose)) => Some((map, pose)),
-            None => starting_pose(self.world.as_deref()?),
+            None => starting_pose(self.world().ok()?),
         }
     }
 }
@@ -202,17 +189,11 @@ struct RobotSenses<'e> {
 
 impl RobotSenses<'_> {
     fn world(&self) -> Option<&World> {
-        match self.engine.present() {
-            Ok(Some(now)) => Some(&now.world),
-            _ => self.engine.world.as_deref(),
-        }
+        self.engine.world_now().ok()
     }
 
     fn relations(&self) -> Option<&Relations> {
-        match self.engine.present() {
-            Ok(Some(now)) => Some(now.relations.relations()),
-            _ => self.engine.relations().ok(),
-        }
+        self.engine.around().ok()?.relations().ok()
     }
 
     /// Where a thing is now, as an end of a way; the robot without one.
@@ -221,7 +202,7 @@ impl RobotSenses<'_> {
         Ok(Some(match thing {
             Some(Thing::Entity(Entity::Door(door))) => {
                 // Where the robot cannot stand before a door, the door's room is as far as it goes.
-                let room = around.world()?.door_areas(door).first().copied();
+                let room = around.world().door_areas(door).first().copied();
                 match (around.locate_entity(Entity::Door(door)), room) {
                     (Err(_), Some(room)) => around.locate_entity(Entity::Area(room))?,
                     (located, _) => located?,
@@ -232,12 +213,13 @@ impl RobotSenses<'_> {
                 Some((map, pose)) => around.locate_point(map, pose.at)?,
                 None => return Ok(None),
             },
-            Some(Thing::Opening(n)) => {
-                let opening = &around.relations()?.openings()[n as usize];
-                let Some((map, _)) = around.world()?.placement(opening.area) else {
+            Some(Thing::Opening(id)) => {
+                let openings = around.relations()?.openings();
+                let Some(opening) = openings.opening(id) else { return Ok(None) };
+                let Some(side) = opening.sides.iter().min_by_key(|side| side.area) else {
                     return Ok(None);
                 };
-                around.locate_point(map, nalgebra::center(&opening.ends.0, &opening.ends.1))?
+                around.locate_point(opening.map, side.middle())?
             }
             Some(Thing::Window(_)) => return Ok(None),
         }))
@@ -258,7 +240,7 @@ impl RobotSenses<'_> {
     /// The shortest way to where a lift or stairs arrive on a storey.
     fn to_storey(&self, from: Option<Thing>, map: MapId) -> Result<Option<Journey>, Error> {
         let around = self.engine.around()?;
-        let (world, Some(start)) = (around.world()?, self.located(from)?) else {
+        let (world, Some(start)) = (around.world(), self.located(from)?) else {
             return Ok(None);
         };
         let stops = world.domain.lifts.iter().flat_map(|(_, stops)| stops);
@@ -342,7 +324,7 @@ impl Senses for RobotSenses<'_> {
             match &leg.route {
                 Ok(route) => length += route.length,
                 Err(no) => {
-                    let world = around.world().map_err(|e| e.to_string())?;
+                    let world = around.world();
                     let why = no_way_in_words(world, no, language);
                     // A door that is shut and no more can be opened.
                     return Err(match only_shut(no) {
@@ -363,7 +345,8 @@ impl Senses for RobotSenses<'_> {
     fn visible(&self) -> Vec<ReplicaId> {
         let Some((map, pose)) = self.engine.robot_pose() else { return Vec::new() };
         let Ok(around) = self.engine.around() else { return Vec::new() };
-        let (Ok(world), Ok(floor)) = (around.world(), around.floor(map)) else { return Vec::new() };
+        let world = around.world();
+        let Ok(floor) = around.floor(map) else { return Vec::new() };
         let stands = floor.scene().area_at(pose.at);
         let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
         let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
@@ -373,11 +356,11 @@ impl Senses for RobotSenses<'_> {
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {
-        self.engine.present().ok()??.holders.get(&thing).cloned()
+        self.engine.around().ok()?.holders.get(&thing).cloned()
     }
 
     fn carrier(&self, thing: ReplicaId) -> Option<ReplicaId> {
-        self.engine.present().ok()??.carriers.get(&thing).copied()
+        self.engine.around().ok()?.carriers.get(&thing).copied()
     }
 
     fn doubted(&self, thing: ReplicaId) -> Option<f64> {
@@ -385,7 +368,7 @@ impl Senses for RobotSenses<'_> {
     }
 
     fn held(&self) -> Vec<ReplicaId> {
-        let Ok(Some(now)) = self.engine.present() else { return Vec::new() };
+        let Ok(now) = self.engine.around() else { return Vec::new() };
         let own = now.holders.iter().filter(|(_, holder)| holder.is_empty());
         own.map(|(id, _)| *id).collect()
     }

@@ -616,7 +616,7 @@ impl State {
     /// Whether a thing or a place is in a room, or on or in another thing; a door is in the rooms that it joins.
     fn is_there(&self, thing: Entity, place: Entity) -> Result<bool, Error> {
         let around = self.around()?;
-        let (world, relations) = (around.world()?, around.relations()?);
+        let (world, relations) = (around.world(), around.relations()?);
         let on_map = |area| world.placement(area).map(|(map, _)| Entity::Map(map));
         let area = match thing {
             Entity::Replica(id) => {

@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::report::Detail;
 use crate::units::{AreaId, Deg};
 
+use super::known::Known;
 use super::route::RouteAnswer;
-use super::surroundings::Surroundings;
 use super::{Error, State};
 
 impl State {
@@ -27,7 +27,7 @@ impl State {
     }
 }
 
-impl Surroundings<'_> {
+impl Known {
     /// As [`State::route_in_words`].
     pub(super) fn route_in_words(
         &self,
@@ -36,13 +36,14 @@ impl Surroundings<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Vec<String>, Error> {
-        let world = self.world()?;
+        let world = self.world();
         let Some(way) = self.directions(answer, heading)? else { return Ok(Vec::new()) };
         if detail == Detail::Region || answer.stages.len() < 2 {
             return Ok(way.say_in(language, detail));
         }
         // A map without corridors, or with ones that the road graph cannot read, is told room by room.
-        let corridors = CorridorSystem::from_map(world, answer.map).ok();
+        let corridors =
+            CorridorSystem::from_map(world, self.relations()?.openings(), answer.map).ok();
         let is_corridor = |area: AreaId| world.area_has_trait(area, "corridor");
         let mut sentences = Vec::new();
         let mut at = 0;

@@ -7,6 +7,7 @@ use crate::units::Source;
 
 /// A foreign file that cannot be read. What can be mended or left out is no error but a [`Remark`](super::Remark).
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum ReadError {
     /// The file system refused.
     #[error("«{path}» не читается: {reason}")]

@@ -14,6 +14,7 @@ use crate::units::nearest_name;
 
 /// A tuple or a relation that does not fit the program.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum FactError {
     /// No declaration has this name.
     #[error("неизвестное отношение «{name}»")]

@@ -26,6 +26,7 @@ use super::word::Word;
 
 /// Why a program has no result.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum EvaluateError {
     /// A rule that always finds something new, or more than memory should hold.
     #[error("отношение «{relation}» больше {limit} строк")]

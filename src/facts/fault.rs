@@ -9,6 +9,7 @@ use crate::units::Source;
 
 /// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum RuleError {
     /// The text is no rule text here.
     #[error("здесь ожидается {expected}, а стоит {found}")]

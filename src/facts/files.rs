@@ -18,6 +18,7 @@ use crate::units::{Source, read_text, write_file_with};
 
 /// Why a program over files has no result.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum FilesError {
     #[error(transparent)]
     #[diagnostic(transparent)]

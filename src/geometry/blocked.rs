@@ -12,11 +12,11 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
-use super::doors::Doorway;
 use super::leaf::opening_of;
 use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
 use super::obstacle::Blocker;
+use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::things;
 use super::search::CellKey;
@@ -44,6 +44,7 @@ pub enum Barrier {
 
 /// There is no way.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum NoRoute {
     /// Between start and goal stands what is named, in the order of the way.
     #[error("пути нет: {text}")]
@@ -397,13 +398,13 @@ fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Option<Barrier> 
 }
 
 /// The things that shut a doorway without a gap.
-fn clutter(plan: &FloorPlan, doorway: &Doorway) -> Barrier {
+fn clutter(plan: &FloorPlan, doorway: &Opening) -> Barrier {
     let around = plan.reach() + 2.0;
     let mouth = doorway.rectangle(-around, doorway.gap + around, 0.0);
     let bounds = mouth.bounds();
     let fragments = doorway.areas.into_iter().filter_map(|area| plan.fragment(area));
     let owners = fragments.flat_map(|f| f.obstacles()).filter(|o| {
-        o.polygon.bounds().meets(&bounds) && super::doors::distance(&o.polygon, &mouth) <= 0.0
+        o.polygon.bounds().meets(&bounds) && super::apart::distance(&o.polygon, &mouth) <= 0.0
     });
     let owners: Vec<Blocker> = owners.map(|o| o.blocker).collect();
     let by = things(plan.scene(), &owners);
@@ -468,7 +469,7 @@ fn enclosure(plan: &FloorPlan, start: Piece, goals: &BTreeSet<Piece>) -> Barrier
         let near = cells.cells().filter(|&c| cells.component(c) == start.1).any(|c| {
             let polygon = cells.polygon(c);
             polygon.bounds().grown(plan.reach() * 1.02).meets(&obstacle.polygon.bounds())
-                && super::doors::distance(&polygon, &obstacle.polygon) <= plan.reach() * 1.02
+                && super::apart::distance(&polygon, &obstacle.polygon) <= plan.reach() * 1.02
         });
         if near {
             by.push(obstacle.blocker);

@@ -5,10 +5,10 @@
 
 use crate::units::{AreaId, Point};
 
-use super::doors::Doorway;
 use super::floor::FragmentFloor;
 use super::mesh::NONE;
 use super::nearest_on_segment;
+use super::opening::Opening;
 use super::passframe::PassframeId;
 use super::plan::FloorPlan;
 use super::route::Route;
@@ -143,7 +143,7 @@ impl FloorPlan {
 }
 
 /// Where, as a share of its length, a leg crosses a doorway's line.
-fn crossing(from: Point, to: Point, doorway: &Doorway) -> Option<f64> {
+fn crossing(from: Point, to: Point, doorway: &Opening) -> Option<f64> {
     let (a, b) = doorway.line();
     let side = |p: Point| (b - a).perp(&(p - a));
     let (before, after) = (side(from), side(to));

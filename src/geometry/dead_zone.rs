@@ -8,7 +8,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::map::Permeability;
 use crate::units::Point;
 
-use super::doors::distance_within;
+use super::apart::distance_within;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes, overlay, positive};
 use super::obstacle::Blocker;

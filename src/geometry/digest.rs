@@ -13,8 +13,8 @@ use crate::map::{DoorMount, Item};
 use crate::units::{AreaId, ObjectId, ReplicaId};
 
 use super::Bounds;
-use super::doors::Doorway;
 use super::floor::Site;
+use super::opening::Opening;
 
 /// Feeds what is written into a hash.
 struct Feed(DefaultHasher);
@@ -90,9 +90,9 @@ pub(super) fn digests(site: &Site<'_>, areas: &[AreaId]) -> Vec<u64> {
     areas.iter().map(digest).collect()
 }
 
-fn doorway_number(site: &Site<'_>, doorway: &Doorway) -> u64 {
+fn doorway_number(site: &Site<'_>, doorway: &Opening) -> u64 {
     let door = doorway.door.map(|id| (site.world.doors.get(&id), site.state(id)));
-    number_of(&(doorway, door))
+    number_of(&(doorway.shape(), door))
 }
 
 /// The Orthoframes of items, and the doors mounted on them.

@@ -128,7 +128,7 @@ fn doorway_faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<
     for (index, doorway, at) in site.doorways_of(floor.area) {
         let beyond =
             Beyond::Doorway { doorway: index, door: doorway.door, area: doorway.areas[1 - at] };
-        let reference = &doorway.sides[at];
+        let reference = &doorway.sides[at].side;
         let own = sides.iter().filter(|s| area.items[s.item].id == reference.item);
         let names = own
             .filter_map(|s| side_of(site, floor, s.item, s.side))

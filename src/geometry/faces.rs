@@ -9,8 +9,8 @@ use nalgebra::{Point3, Vector3};
 use crate::map::World;
 use crate::units::{Point, ReplicaId};
 
-use super::doors::Doorway;
 use super::obstacle::Blocker;
+use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;
 use super::seen::Eye;
@@ -128,7 +128,7 @@ impl FloorPlan {
                 faces.upright(face, (b, a), (room.bottom, room.top), backs);
             }
         }
-        let within = |d: &&Doorway| near.grown(d.width()).contains(d.middle());
+        let within = |d: &&Opening| near.grown(d.width()).contains(d.middle());
         for doorway in self.doorways().iter().filter(within) {
             let Some(door) = doorway.door.and_then(|d| world.doors.get(&d)) else { continue };
             let bottom = self.level_of(doorway);

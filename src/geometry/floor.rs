@@ -26,7 +26,6 @@ use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 use super::buckets::Buckets;
 use super::coverage::Coverage;
 use super::dead_zone::dead_zones;
-use super::doors::Doorway;
 use super::edging::Edging;
 use super::grid::{Contour, Grid, Outlines, Shapes, difference, overlays, smooth};
 use super::mesh::{Mesh, NONE};
@@ -34,6 +33,7 @@ use super::mouth::{Mouths, beyond, not_own};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::on_demand::{Folded, OnDemand};
+use super::opening::Opening;
 use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::{Prism, Scene};
@@ -90,7 +90,7 @@ pub(super) struct Site<'a> {
     pub(super) scene: &'a Scene,
     /// Replicas near any place.
     pub(super) nearby: &'a (dyn Fn(&Bounds) -> Vec<ReplicaId> + Sync),
-    pub(super) doorways: &'a [Doorway],
+    pub(super) doorways: &'a [Opening],
     pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
     pub(super) robot: &'a RobotProfile,
     pub(super) states: &'a DoorStates,
@@ -111,7 +111,7 @@ impl Site<'_> {
     }
 
     /// Whether the robot may try to pass: the door stands open, high enough, and without a step.
-    pub(super) fn is_open(&self, doorway: &Doorway) -> bool {
+    pub(super) fn is_open(&self, doorway: &Opening) -> bool {
         let door_admits = match (doorway.door, doorway.permeability) {
             (None, Permeability::Permeable) => true,
             (None, _) => false,
@@ -135,7 +135,7 @@ impl Site<'_> {
     pub(super) fn doorways_of(
         &self,
         area: AreaId,
-    ) -> impl Iterator<Item = (usize, &Doorway, usize)> {
+    ) -> impl Iterator<Item = (usize, &Opening, usize)> {
         let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
         own.iter().map(|&(doorway, side)| (doorway, &self.doorways[doorway], side))
     }
@@ -255,7 +255,7 @@ impl FragmentFloor {
     /// in cm; for a robot that keeps `reach` from everything.
     pub(super) fn inside<'a>(
         &self,
-        open: impl Iterator<Item = (&'a Doorway, usize)>,
+        open: impl Iterator<Item = (&'a Opening, usize)>,
         further: f64,
         reach: f64,
     ) -> Shapes {
@@ -381,7 +381,7 @@ pub(super) fn contours(grid: &Grid, regions: &[Region]) -> Vec<Contour> {
 }
 
 /// The edges of the centre space that lie on open doorways.
-fn exits(cells: &Mesh, open: &[(usize, &Doorway, usize)]) -> Vec<Exit> {
+fn exits(cells: &Mesh, open: &[(usize, &Opening, usize)]) -> Vec<Exit> {
     const TOUCH: f64 = 0.01;
     let lines: Vec<(Point, Point)> = open.iter().map(|(_, d, _)| d.line()).collect();
     let boxes: Vec<Bounds> = lines.iter().map(|&(u, v)| Bounds::of([u, v]).grown(TOUCH)).collect();

@@ -6,7 +6,7 @@ use crate::map::{DoorKind, World};
 use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
 
 use super::blocked::NoRoute;
-use super::doors::Doorway;
+use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::{Anchor, Target};
 
@@ -82,9 +82,8 @@ impl FloorPlan {
             return goals;
         }
         // A door that leads outside joins no two Areas.
-        let placed = self.scene().areas.get(&area);
-        let outer = placed.and_then(|placed| Doorway::outer(world, placed, door));
-        outer.and_then(|d| self.stand(world, region, &d, 0)).into_iter().collect()
+        let outer = self.blind_openings().iter().find(|o| o.door == Some(door) && o.area() == area);
+        outer.and_then(|o| self.stand(world, region, o, 0)).into_iter().collect()
     }
 
     /// A place before a doorway: straight before its middle, clear of the leaves' way.
@@ -92,7 +91,7 @@ impl FloorPlan {
         &self,
         world: &World,
         region: Option<u32>,
-        doorway: &Doorway,
+        doorway: &Opening,
         side: usize,
     ) -> Option<Goal> {
         let number = self.number(doorway.areas[side])? as u32;
@@ -239,7 +238,7 @@ impl FloorPlan {
         self.fragments_near(&reach)
             .flat_map(|f| f.walls.iter().copied())
             .filter(|&(u, v)| super::Bounds::of([u, v]).meets(&reach))
-            .all(|(u, v)| super::doors::segment_distance(a, stop, u, v) > 0.0)
+            .all(|(u, v)| super::apart::segment_distance(a, stop, u, v) > 0.0)
     }
 }
 

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 use crate::map::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 use crate::units::{Point, Vector};
 
-use super::doors::distance;
+use super::apart::distance;
 use super::{Bounds, Polygon, Prism};
 
 /// A leaf that comes no nearer than this has not struck a thing, cm: coordinates are rounded, and hinges have play.
@@ -240,7 +240,7 @@ impl<'d> Leaves<'d> {
     }
 }
 
-/// The hole in the wall that leaves close; its coordinates are those of [`super::Doorway`].
+/// The hole in the wall that leaves close; its coordinates are those of [`super::Opening`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bay {
     pub(super) origin: Point,

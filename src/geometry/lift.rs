@@ -17,7 +17,7 @@ use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::blocked::NoRoute;
 use super::chain::Passed;
-use super::doors::Doorway;
+use super::opening::Opening;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Route, Target};
 
@@ -234,7 +234,7 @@ impl FloorPlan {
     #[must_use]
     pub fn with_lifts_open(&self, world: &World) -> Cow<'_, Self> {
         let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).collect();
-        let leads_in = |d: &&Doorway| d.areas.iter().any(|area| cabins.contains(area));
+        let leads_in = |d: &&Opening| d.areas.iter().any(|area| cabins.contains(area));
         let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
         let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);
         let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).collect();

@@ -16,14 +16,15 @@
 
 use crate::units::{AreaId, Point, Vector};
 
-use super::doors::{Doorway, distance};
+use super::apart::distance;
 use super::floor::{SLACK, Site};
 use super::grid::{Contour, Grid, difference, intersection};
 use super::obstacle::walls_in;
+use super::opening::Opening;
 use super::storey::{Storey, THIN};
 use super::{Bounds, Polygon};
 
-impl Doorway {
+impl Opening {
     /// The `s` of a line `depth` beyond the doorway's line, seen from an Area (0 or 1).
     fn past(&self, side: usize, depth: f64) -> f64 {
         self.gap / 2.0 + if side == 0 { depth } else { -depth }
@@ -43,7 +44,7 @@ impl Doorway {
 /// What lies so far beyond a doorway's line, in cm, or deeper, until behind the [`stub`].
 pub(super) fn beyond(
     grid: &Grid,
-    doorway: &Doorway,
+    doorway: &Opening,
     side: usize,
     from: f64,
     reach: f64,
@@ -55,7 +56,7 @@ pub(super) fn beyond(
 /// As [`beyond`], from the line on, without the Area's own floor that lies there behind the other Area.
 pub(super) fn not_own(
     grid: &Grid,
-    doorway: &Doorway,
+    doorway: &Opening,
     side: usize,
     reach: f64,
     own: &[Polygon],
@@ -85,7 +86,7 @@ pub(super) struct Mouths<'s> {
 }
 
 struct Stub<'s> {
-    doorway: &'s Doorway,
+    doorway: &'s Opening,
     ahead: Polygon,
     /// From where to where `ahead` reaches, as the doorway's `s`.
     depths: (f64, f64),
@@ -97,7 +98,7 @@ impl<'s> Mouths<'s> {
     pub(super) fn of(
         site: &'s Site<'s>,
         own: AreaId,
-        open: &[(usize, &'s Doorway, usize)],
+        open: &[(usize, &'s Opening, usize)],
         reach: f64,
     ) -> Self {
         let stubs = open.iter().map(|&(_, doorway, side)| Stub::of(site, doorway, side, reach));
@@ -178,7 +179,7 @@ impl<'s> Mouths<'s> {
 }
 
 impl<'s> Stub<'s> {
-    fn of(site: &'s Site<'s>, doorway: &'s Doorway, side: usize, reach: f64) -> Self {
+    fn of(site: &'s Site<'s>, doorway: &'s Opening, side: usize, reach: f64) -> Self {
         let other = doorway.areas[1 - side];
         let depth = doorway.gap / 2.0 + reach + 2.0;
         let depths = (doorway.past(side, 0.0), doorway.past(side, depth));

@@ -6,9 +6,9 @@
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
-use super::doors::Doorway;
 use super::floor::Site;
 use super::leaf::Leaves;
+use super::opening::Opening;
 use super::scene::{PlacedArea, PlacedReplica, Prism};
 use super::storey::{Side, Storey, THIN, sides, strip};
 use super::{Bounds, Polygon};
@@ -165,7 +165,7 @@ fn mounted_side<'a>(
 
 /// The leaves of the Area's doors, and of its neighbours' doors close by.
 pub(super) fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
-    let mut near: Vec<&Doorway> = site.doorways_of(area).map(|(_, d, _)| d).collect();
+    let mut near: Vec<&Opening> = site.doorways_of(area).map(|(_, d, _)| d).collect();
     for (_, doorway, side) in site.doorways_of(area).collect::<Vec<_>>() {
         let zone = Bounds::of([doorway.middle()]).grown(doorway.width() / 2.0 + 3.0 * site.reach());
         for (_, next, _) in site.doorways_of(doorway.areas[1 - side]) {
@@ -212,12 +212,12 @@ pub(super) fn walls(site: &Site<'_>, placed: &PlacedArea) -> Vec<(Point, Point)>
 /// The Area's sides that come into a zone, without its open doorways.
 pub(super) fn walls_in(site: &Site<'_>, placed: &PlacedArea, zone: &Bounds) -> Vec<(Point, Point)> {
     let sides = solid_sides(site, placed, zone).into_iter();
-    let open = |d: &&Doorway| site.is_open(d);
+    let open = |d: &&Opening| site.is_open(d);
     sides.flat_map(|(side, door)| beside(&side, door.map(|d| d.0).filter(open))).collect()
 }
 
 /// What a side leaves beside a doorway in it.
-fn beside(side: &Side, doorway: Option<&Doorway>) -> Vec<(Point, Point)> {
+fn beside(side: &Side, doorway: Option<&Opening>) -> Vec<(Point, Point)> {
     let along = (side.end - side.start).try_normalize(0.0).unwrap_or_else(Vector::zeros);
     let length = (side.end - side.start).norm();
     let pieces = doorway.map_or(vec![(0.0, length)], |d| {
@@ -235,15 +235,16 @@ fn solid_sides<'s>(
     site: &Site<'s>,
     placed: &PlacedArea,
     zone: &Bounds,
-) -> Vec<(Side, Option<(&'s Doorway, usize)>)> {
+) -> Vec<(Side, Option<(&'s Opening, usize)>)> {
     let all: Vec<usize> = (0..placed.prisms.len()).collect();
     let model = &site.world.areas[&placed.id];
     let near = |s: &Side| Bounds::of([s.start, s.end]).grown(0.1).meets(zone);
     let sides = sides(placed, &all).into_iter().filter(near);
     let with_doorway = sides.map(|side| {
         let id = &site.world.orthoframe_of(&model.items[side.item]).base[side.side].id;
-        let is_here = |d: &Doorway, at: usize| {
-            d.sides[at].item == model.items[side.item].id && d.sides[at].side == *id
+        let is_here = |d: &Opening, at: usize| {
+            let own = &d.sides[at].side;
+            own.item == model.items[side.item].id && own.side == *id
         };
         let own = site.by_area.get(&placed.id).map_or(&[][..], Vec::as_slice).iter();
         let mut own = own.map(|&(doorway, at)| (&site.doorways[doorway], at));

@@ -20,11 +20,12 @@ use super::buckets::Buckets;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
-use super::doors::{Doorway, doorways};
 use super::floor::{FragmentFloor, SLACK, Site};
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
 use super::network::{Network, Portal, overlap};
+use super::opening::Opening;
+use super::openings::{Openings, STEP_REACH};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::search::CellKey;
@@ -42,7 +43,10 @@ pub struct FloorPlan {
     states: DoorStates,
     scene: Arc<Scene>,
     index: Arc<ReplicaIndex>,
-    doorways: Arc<Vec<Doorway>>,
+    /// Those that it leads through.
+    doorways: Arc<Vec<Opening>>,
+    /// The other openings of the Map.
+    blind: Arc<Vec<Opening>>,
     /// For each Area its doorways, and which of their two sides it is.
     by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
@@ -59,16 +63,17 @@ pub struct FloorPlan {
 }
 
 impl FloorPlan {
-    /// Builds the floor of every Fragment of a Map. `states` overrides the doors' states in the world.
+    /// Builds the floor of every Fragment of a Map, with its openings as they are measured: see [`Openings::of`]. `states`
+    /// overrides the doors' states in the world.
     ///
     /// # Panics
     /// When the map is not of this world.
     #[must_use]
     pub fn build(world: &World, map: MapId, robot: &RobotProfile, states: &DoorStates) -> Self {
-        Self::restore(world, map, robot, states, &[]).0
+        Self::restore(world, &Openings::of(world, STEP_REACH), map, robot, states, &[]).0
     }
 
-    /// Builds the floor with what [`Self::save`] kept of it: only Fragments that were made from something else than
+    /// Builds the floor, which leads through the `openings` that the rules let join two Areas, with what [`Self::save`] kept of it: only Fragments that were made from something else than
     /// stands in the world now are built anew. Answers how many; bytes of anything else are as good as none.
     ///
     /// # Panics
@@ -76,13 +81,18 @@ impl FloorPlan {
     #[must_use]
     pub fn restore(
         world: &World,
+        openings: &Openings,
         map: MapId,
         robot: &RobotProfile,
         states: &DoorStates,
         kept: &[u8],
     ) -> (Self, usize) {
         let scene = Scene::of(world, map);
-        let doorways = doorways(world, &scene, map);
+        let own = openings.iter().filter(|o| o.map == map).cloned();
+        let (mut doorways, blind): (Vec<_>, Vec<_>) = own.partition(Opening::is_way);
+        let place =
+            |o: &Opening| (o.areas, o.sides.iter().map(|s| s.side.clone()).collect::<Vec<_>>());
+        doorways.sort_by_cached_key(place);
         let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
         for (index, doorway) in doorways.iter().enumerate() {
             for side in [0, 1] {
@@ -95,6 +105,7 @@ impl FloorPlan {
             states: states.clone(),
             index: Arc::new(ReplicaIndex::of(&scene)),
             doorways: Arc::new(doorways),
+            blind: Arc::new(blind),
             by_area: Arc::new(by_area),
             scene: Arc::new(scene),
             fragments: Vec::new(),
@@ -269,7 +280,7 @@ impl FloorPlan {
     }
 
     /// The Areas behind other doorways close to this one.
-    fn next_to(&self, doorway: &Doorway) -> Vec<AreaId> {
+    fn next_to(&self, doorway: &Opening) -> Vec<AreaId> {
         let zone = Bounds::of([doorway.middle()]).grown(
             2.0 * doorway.width() + 3.0 * (self.robot.radius.get() + self.robot.clearance.get()),
         );
@@ -318,14 +329,21 @@ impl FloorPlan {
         &self.scene
     }
 
-    /// All doors and passages between Areas, open or not.
+    /// All openings that the floor leads through, with their doors open or not.
     #[must_use]
-    pub fn doorways(&self) -> &[Doorway] {
+    pub fn doorways(&self) -> &[Opening] {
         &self.doorways
     }
 
+    /// The openings of the Map that join no two Areas by their sides: doors that lead out of it, and those that the rules
+    /// do not let join.
+    #[must_use]
+    pub fn blind_openings(&self) -> &[Opening] {
+        &self.blind
+    }
+
     /// The doorways that a door closes; several only if a door is mounted twice.
-    pub fn doorways_of(&self, door: DoorId) -> impl Iterator<Item = &Doorway> + '_ {
+    pub fn doorways_of(&self, door: DoorId) -> impl Iterator<Item = &Opening> + '_ {
         self.doorways.iter().filter(move |d| d.door == Some(door))
     }
 

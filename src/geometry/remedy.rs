@@ -349,7 +349,7 @@ impl FloorPlan {
                     || other.prisms.iter().all(|q| {
                         placed.prisms.iter().all(|p| {
                             let aside = p.bottom >= q.top || q.bottom >= p.top;
-                            aside || super::doors::distance(&p.polygon, &q.polygon) > 0.0
+                            aside || super::apart::distance(&p.polygon, &q.polygon) > 0.0
                         })
                     })
             })

@@ -197,7 +197,7 @@ impl FloorPlan {
                 .chain(fragment.obstacles().iter().flat_map(|o| o.polygon.edges()));
             for (a, b) in solid.filter(|&(a, b)| super::Bounds::of([a, b]).meets(&reach)) {
                 for leg in points.windows(2) {
-                    least = least.min(super::doors::segment_distance(leg[0], leg[1], a, b));
+                    least = least.min(super::apart::segment_distance(leg[0], leg[1], a, b));
                 }
             }
         }

@@ -108,11 +108,7 @@ impl Scene {
     /// When the map is not of this world.
     #[must_use]
     pub fn of(world: &World, map: MapId) -> Self {
-        let areas: BTreeMap<_, _> = world.maps[&map]
-            .items
-            .iter()
-            .map(|item| (item.area, PlacedArea::new(world, item.area, item.frame)))
-            .collect();
+        let areas = Self::areas_of(world, map);
         let replicas = world
             .replicas
             .values()
@@ -122,6 +118,12 @@ impl Scene {
             })
             .collect();
         Self { map, areas, replicas }
+    }
+
+    /// The Areas of a Map alone, as they stand in it.
+    pub(super) fn areas_of(world: &World, map: MapId) -> BTreeMap<AreaId, PlacedArea> {
+        let items = world.maps[&map].items.iter();
+        items.map(|item| (item.area, PlacedArea::new(world, item.area, item.frame))).collect()
     }
 
     /// The replicas that stand in an Area.

@@ -6,7 +6,7 @@ use crate::map::{DoorStatus, Permeability};
 use crate::units::{AreaId, Point, Vector};
 
 use super::Polygon;
-use super::doors::distance;
+use super::apart::distance;
 use super::floor::Site;
 use super::obstacle::{Blocker, Obstacle};
 use super::scene::{PlacedArea, Prism};

@@ -34,8 +34,8 @@ use std::f64::consts::PI;
 use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
+use super::apart::{distance, segment_distance};
 use super::coverage::{body, meeting, over, shrunk};
-use super::doors::{distance, segment_distance};
 use super::floor::{FragmentFloor, SLACK};
 use super::grid::{Contour, Grid, Shapes};
 use super::mesh::Mesh;

@@ -16,10 +16,10 @@ use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
-use super::doors::Doorway;
 use super::floor::FragmentFloor;
 use super::nearest_on_segment;
 use super::obstacle::Blocker;
+use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;
 
@@ -94,7 +94,7 @@ impl FloorPlan {
     }
 
     /// Height of the floor before a doorway, in the Map's frame, in cm.
-    pub(super) fn level_of(&self, doorway: &Doorway) -> f64 {
+    pub(super) fn level_of(&self, doorway: &Opening) -> f64 {
         let room = self.scene().areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
         room.map_or(0.0, |prism| prism.bottom)
     }
@@ -103,10 +103,10 @@ impl FloorPlan {
     pub(super) fn lintel(
         &self,
         world: &World,
-        doorway: &Doorway,
+        doorway: &Opening,
         side: usize,
     ) -> Option<(SeenFace, (Point, Point))> {
-        let (area, of) = (doorway.areas[side], &doorway.sides[side]);
+        let (area, of) = (doorway.areas[side], &doorway.sides[side].side);
         let items = &world.areas.get(&area)?.items;
         let item = items.iter().position(|i| i.id == of.item)?;
         let (number, _) = world.orthoframe_of(&items[item]).side(&of.side)?;

@@ -7,12 +7,12 @@
 //!
 //! ```
 //! use orthoframe_language::Language;
-//! use orthoframe_language::directions::{Directions, Exit, Goal, Passage, Stretch};
-//! use orthoframe_language::report::{Detail, Named, Opening};
+//! use orthoframe_language::directions::{Directions, Exit, Goal, RoomPart, Stretch};
+//! use orthoframe_language::report::{Detail, Named, OpeningKind};
 //! let stretch = |angle| Stretch { angle, at: None, length: 200.0, passed: vec![] };
-//! let exit = Exit { opening: Opening::Door, name: Some(Named::plain("Дверь-ВZ")), angle: 0.0 };
-//! let first = Passage { room: Named::plain("Комната-В"), stretches: vec![stretch(None)], exit: Some(exit) };
-//! let last = Passage { room: Named::plain("Комната-Z"), stretches: vec![stretch(Some(90.0))], exit: None };
+//! let exit = Exit { opening: OpeningKind::Door, name: Some(Named::plain("Дверь-ВZ")), angle: 0.0 };
+//! let first = RoomPart { room: Named::plain("Комната-В"), stretches: vec![stretch(None)], exit: Some(exit) };
+//! let last = RoomPart { room: Named::plain("Комната-Z"), stretches: vec![stretch(Some(90.0))], exit: None };
 //! let way = Directions { passages: vec![first, last], goal: Goal::Thing(Named::plain("Точка-К")) };
 //! assert_eq!(
 //!     way.say_in(Language::Russian, Detail::Spot).join(" "),
@@ -20,7 +20,7 @@
 //! );
 //! ```
 
-use super::report::{Detail, Named, Opening};
+use super::report::{Detail, Named, OpeningKind};
 use super::words::russian::{self, Preposition};
 use super::words::{Case, Gender, Language, Number, enumerate, length};
 use crate::units::capitalized;
@@ -94,7 +94,7 @@ pub struct Stretch {
 /// How a room is left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exit {
-    pub opening: Opening,
+    pub opening: OpeningKind,
     pub name: Option<Named>,
     /// The turn into the opening, degrees counter-clockwise.
     pub angle: f64,
@@ -102,7 +102,7 @@ pub struct Exit {
 
 /// A way's part in one room.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Passage {
+pub struct RoomPart {
     pub room: Named,
     pub stretches: Vec<Stretch>,
     /// None in the last room.
@@ -124,7 +124,7 @@ pub enum Goal {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directions {
     /// One at least.
-    pub passages: Vec<Passage>,
+    pub passages: Vec<RoomPart>,
     pub goal: Goal,
 }
 
@@ -149,7 +149,7 @@ impl Directions {
     pub fn is_there(&self) -> bool {
         /// cm
         const NO_WAY: f64 = 10.0;
-        let length = |passage: &Passage| passage.stretches.iter().map(|s| s.length).sum::<f64>();
+        let length = |passage: &RoomPart| passage.stretches.iter().map(|s| s.length).sum::<f64>();
         matches!(&self.passages[..], [only] if length(only) < NO_WAY)
     }
 
@@ -249,7 +249,7 @@ impl Directions {
 #[derive(Clone, Copy)]
 struct Told<'a> {
     language: Language,
-    passage: &'a Passage,
+    passage: &'a RoomPart,
     first: bool,
     next: Option<&'a Named>,
     goal: &'a Goal,
@@ -441,8 +441,8 @@ impl Told<'_> {
             true => {
                 let door = match (&exit.name, exit.opening) {
                     (Some(name), _) => name.phrase().case(Case::Accusative),
-                    (None, Opening::Door) => "дверь".to_owned(),
-                    (None, Opening::Passage) => "проход".to_owned(),
+                    (None, OpeningKind::Door) => "дверь".to_owned(),
+                    (None, OpeningKind::Passage) => "проход".to_owned(),
                 };
                 let from = if self.first {
                     format!(" {}", russian::whence(self.passage.room.phrase()))
@@ -510,7 +510,7 @@ mod tests {
     #[test]
     fn three_levels_in_two_languages() {
         let door = |door: &str, angle| {
-            Some(Exit { opening: Opening::Door, name: Some(name(door)), angle })
+            Some(Exit { opening: OpeningKind::Door, name: Some(name(door)), angle })
         };
         let office =
             Named::new("Кабинет директора", &WordHints::default(), Some("director's office"));
@@ -519,17 +519,17 @@ mod tests {
         last.passed = vec![(Side::Left, name("Письменный стол"))];
         let way = Directions {
             passages: vec![
-                Passage {
+                RoomPart {
                     room: name("Комната-В"),
                     stretches: vec![stretch(None, 320.0)],
                     exit: door("Дверь-ВZ", 30.0),
                 },
-                Passage {
+                RoomPart {
                     room: name("Кухня"),
                     stretches: vec![stretch(Some(40.0), 95.0), stretch(Some(-35.0), 55.0)],
                     exit: door("Дверь-ZY", 45.0),
                 },
-                Passage { room: office, stretches: vec![last], exit: None },
+                RoomPart { room: office, stretches: vec![last], exit: None },
             ],
             goal: Goal::Thing(name("Точка-К")),
         };
@@ -548,7 +548,7 @@ mod tests {
 
     #[test]
     fn who_is_there_already_is_told_so() {
-        let here = || Passage { room: name("Кухня"), stretches: vec![], exit: None };
+        let here = || RoomPart { room: name("Кухня"), stretches: vec![], exit: None };
         let at = Directions { passages: vec![here()], goal: Goal::Thing(name("Стол")) };
         check(
             &at,

@@ -40,10 +40,10 @@
 //! - *Commands.* Whether a text orders, and when, is told by its words alone (`command/hints`), and so is how
 //!   it is put into plain orders (`command/spoken`; `ellipsis`: what the clause before has said, `going`,
 //!   `quantity`, `time`); an order under a condition is parted from it (`question/orders`). Then it is settled
-//!   (`question/settle`): orders without a verb and amendments become whole ones (`terse`), descriptions become
+//!   (`question/resolution`): orders without a verb and amendments become whole ones (`terse`), descriptions become
 //!   names by the grammar of questions, and `command` reads verbs, roles and names only. Nothing that was said
 //!   is passed over: a rewriting loses no name, number or value but what is said not to be meant
-//!   (`command/spoken`, `settle::dropped`), a description uses all its words (`settle`, `Noun::idle_count`), a
+//!   (`command/spoken`, `resolution::dropped`), a description uses all its words (`resolution`, `Noun::idle_count`), a
 //!   command takes its arguments out of their roles, and what is left there refuses it (`command/assemble`).
 //!   What stands in its way is laid to words of the text (`command/blame`).
 //! - *Reports and ways.* A position report's context is the shortest under which a reader finds one region; the

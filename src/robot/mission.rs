@@ -138,6 +138,7 @@ impl Surprise {
 
 /// A mission that cannot even be planned.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum MissionError {
     /// The goal or the rules name what neither the Map nor the rules know.
     #[error(transparent)]
@@ -813,16 +814,9 @@ impl<'r> Mission<'r> {
         }
         let unknown = || Surprise::Unknown { name: name.to_owned() };
         let join = self.joins.iter().find(|j| j.opening == name && j.from == from);
-        let areas = join.map(|j| [j.from, j.to]).ok_or_else(unknown)?;
-        let from_here = |at: Point| (at - self.belief.pose.at).norm();
-        let floor = self.belief.floor();
-        let passages = floor
-            .doorways()
-            .iter()
-            .filter(|d| d.door.is_none() && areas.iter().all(|area| d.index_of(*area).is_some()));
-        let doorway = passages
-            .min_by(|a, b| from_here(a.middle()).total_cmp(&from_here(b.middle())))
-            .ok_or_else(unknown)?;
+        let passage = join.and_then(|join| join.id);
+        let mut doorways = self.belief.floor().doorways().iter();
+        let doorway = doorways.find(|d| Some(d.id) == passage).ok_or_else(unknown)?;
         let before = self.belief.world.robot.radius.get() * BEFORE;
         let side = doorway.index_of(side).ok_or_else(unknown)?;
         Ok(Target::Point(doorway.before(side, before)))

@@ -8,14 +8,15 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
 use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
 use crate::geometry::{
-    Bounds, Doorway, LIFT_WAIT, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
+    Bounds, LIFT_WAIT, Leaves, Opening, Openings, Owner, Polygon, Prism, Ride, STEP_REACH, Scene,
+    opening_of,
 };
 use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::semantics::{RelationRules, cargo, shut_around};
@@ -59,7 +60,8 @@ pub struct Simulator {
     /// What people were given, each with what lies on and in it.
     given: Vec<(Replica, Vec<Replica>)>,
     edges: Vec<Edge>,
-    doorways: Vec<Doorway>,
+    /// As they are in truth: measured, whatever any rules say of them.
+    openings: Arc<Openings>,
     trace: Vec<Moment>,
     calls: Vec<String>,
 }
@@ -69,6 +71,7 @@ impl Simulator {
     #[must_use]
     pub fn new(truth: World, map: MapId, pose: Pose) -> Self {
         let profile = truth.robot.clone();
+        let openings = Arc::new(Openings::of(&truth, STEP_REACH));
         let mut simulator = Self {
             truth,
             map,
@@ -79,7 +82,7 @@ impl Simulator {
             aboard: Vec::new(),
             given: Vec::new(),
             edges: Vec::new(),
-            doorways: Vec::new(),
+            openings,
             trace: vec![Moment { time: 0.0, map, pose }],
             calls: Vec::new(),
         };
@@ -187,18 +190,21 @@ impl Simulator {
                 edges.extend(edges_of(&prism.polygon, Obstruction::Replica(replica.id)));
             }
         }
-        let doorways = doorways(&self.truth, &scene, self.map);
-        for doorway in &doorways {
+        for doorway in self.doorways() {
             let Some(door) = doorway.door else { continue };
             for leaf in self.leaves(doorway, door, self.truth.doors[&door].state) {
                 edges.extend(edges_of(&leaf, Obstruction::Door(door)));
             }
         }
         self.edges = edges;
-        self.doorways = doorways;
     }
 
-    fn leaves(&self, doorway: &Doorway, door: DoorId, state: DoorState) -> Vec<Polygon> {
+    /// The openings of the Map on which the robot is through which one can pass.
+    fn doorways(&self) -> impl Iterator<Item = &Opening> {
+        self.openings.iter().filter(|o| o.map == self.map && o.is_through())
+    }
+
+    fn leaves(&self, doorway: &Opening, door: DoorId, state: DoorState) -> Vec<Polygon> {
         doorway.leaves(&self.truth.doors[&door]).obstacles(state)
     }
 
@@ -207,7 +213,7 @@ impl Simulator {
         let openings = (opening_of(model.state), opening_of(state));
         let (at, radius) = (self.pose.at, self.profile.radius.get() - SKIN);
         let scene = Scene::of(&self.truth, self.map);
-        self.doorways.iter().filter(|d| d.door == Some(door)).find_map(|doorway| {
+        self.doorways().filter(|d| d.door == Some(door)).find_map(|doorway| {
             let leaves = doorway.leaves(model);
             let mut ways = leaves.swept(openings).into_iter().chain(leaves.obstacles(state));
             if ways.any(|way| way.contains(at, radius)) {
@@ -224,7 +230,7 @@ impl Simulator {
     /// What stands about a doorway at the height of its leaves: things, and leaves of other doors.
     fn solids_before(
         &self,
-        doorway: &Doorway,
+        doorway: &Opening,
         leaves: &Leaves<'_>,
         scene: &Scene,
     ) -> Vec<(Obstruction, Polygon)> {
@@ -234,7 +240,7 @@ impl Simulator {
             let met = r.prisms.iter().filter(move |p| space.meets(p));
             met.map(move |p| (Obstruction::Replica(r.id), p.polygon.clone()))
         });
-        let others = self.doorways.iter().filter(|d| d.door != doorway.door);
+        let others = self.doorways().filter(|d| d.door != doorway.door);
         let leaves = others.flat_map(|d| {
             let door = d.door.filter(|id| self.truth.doors.contains_key(id));
             let leaves = door.map(|id| (id, self.leaves(d, id, self.truth.doors[&id].state)));

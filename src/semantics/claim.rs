@@ -4,19 +4,18 @@
 //! too. Invariant: what `whereabouts` says of a pose holds there as a claim.
 
 use crate::map::World;
-use crate::units::{AreaId, MapId, Point, ReplicaId};
+use crate::units::{AreaId, MapId, OpeningId, Point, ReplicaId};
 
-use super::openings::Opening;
 use super::position::{Spot, by_walls, in_doorway};
 use super::relations::Relations;
-use crate::geometry::{Bounds, nearest_on_segment};
+use crate::geometry::{Bounds, OpenSide, Opening, nearest_on_segment};
 
-/// Something said of a spot. Openings are named by their places in the list; one of them is meant.
+/// Something said of a spot. One of the openings is meant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Claim {
     InArea,
-    InDoorway(Vec<usize>),
-    AtDoor(Vec<usize>),
+    InDoorway(Vec<OpeningId>),
+    AtDoor(Vec<OpeningId>),
     On(ReplicaId),
     NextTo(ReplicaId),
     InCorner,
@@ -38,8 +37,8 @@ pub fn claim_holds(
     let Some(room) = measured.rooms.get(&area).filter(|room| room.map == map) else {
         return false;
     };
-    let meant = |places: &[usize], holds: &dyn Fn(&Opening) -> bool| {
-        places.iter().filter_map(|place| openings.get(*place)).any(holds)
+    let meant = |places: &[OpeningId], holds: &dyn Fn(&Opening) -> bool| {
+        places.iter().filter_map(|place| openings.opening(*place)).any(holds)
     };
     if let Claim::InDoorway(places) = claim {
         let here = measured.area_at(map, at);
@@ -52,7 +51,8 @@ pub fn claim_holds(
         Claim::InArea => true,
         Claim::InDoorway(_) => false,
         Claim::AtDoor(places) => meant(places, &|o| {
-            (at - nearest_on_segment(at, o.ends.0, o.ends.1)).norm() <= near.robot_door
+            let away = |s: &OpenSide| (at - nearest_on_segment(at, s.ends.0, s.ends.1)).norm();
+            o.sides.iter().any(|side| away(side) <= near.robot_door)
         }),
         Claim::On(thing) => measured
             .bodies

@@ -14,7 +14,7 @@ use crate::units::{Cm, DoorId, ReplicaId, Vector};
 use super::body::{Block, Kind};
 use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
 use super::names::{Subject, Symbols};
-use super::openings::Opening;
+use crate::geometry::Openings;
 
 /// A value of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,7 +82,7 @@ pub(super) struct Feed<'a> {
     pub(super) world: &'a World,
     pub(super) symbols: &'a Symbols,
     pub(super) measured: &'a Measurements,
-    pub(super) openings: &'a [Opening],
+    pub(super) openings: &'a Openings,
 }
 
 impl Feed<'_> {
@@ -131,7 +131,9 @@ impl Feed<'_> {
     fn near_openings(&self, x: &Arc<str>, single: &Single, sink: &mut impl Sink) {
         let mut near: BTreeMap<&String, i64> = BTreeMap::new();
         for &(n, distance) in &single.openings {
-            let known = near.entry(&self.openings[n].name).or_insert(distance);
+            let side = &self.measured.borders.open[n];
+            let Some(opening) = self.openings.of_side(side.area, &side.side) else { continue };
+            let known = near.entry(&opening.name).or_insert(distance);
             *known = distance.min(*known);
         }
         for (name, distance) in near {
@@ -247,25 +249,33 @@ impl Feed<'_> {
 
     pub(super) fn openings(&self, sink: &mut impl Sink) {
         let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
-        for o in self.openings {
+        for o in self.openings.iter() {
             let name = &o.name;
-            let kind = if o.permeability == Permeability::Conditional { "door" } else { "passage" };
-            row!(sink, "opening", name, kind, tenths(o.width), tenths(o.height));
+            let kind = if o.is_passage() { "passage" } else { "door" };
+            let door = o.door.and_then(|door| self.world.doors.get(&door));
             // Of a door that the Map does not describe nothing is known, least of all that it stands open.
             if o.door.is_some() || o.permeability == Permeability::Permeable {
-                row!(sink, "clear_width", name, tenths(o.clear_width));
+                row!(sink, "clear_width", name, tenths(o.free_width(self.world)));
             }
-            row!(sink, "mounts", name, self.symbols.area(o.area));
-            if let Some(other) = o.linked {
-                let (low, high) = (o.area.min(other), o.area.max(other));
-                row!(sink, "links", name, self.symbols.area(low), self.symbols.area(high));
-            }
-            for (side, found) in [("inward", o.inward), ("outward", o.outward)] {
-                if let Some((area, way)) = found {
-                    row!(sink, "step", name, side, self.symbols.area(area), tenths(way));
+            for side in &o.sides {
+                let height = door.map_or(side.height, |door| door.height.get());
+                row!(sink, "opening", name, kind, tenths(side.width()), tenths(height));
+                let area = self.symbols.area(side.area);
+                row!(sink, "mounts", name, area);
+                if side.mount.is_some() {
+                    row!(sink, "mounted", name, area);
+                }
+                if let Some(other) = side.linked {
+                    let (low, high) = (side.area.min(other), side.area.max(other));
+                    row!(sink, "links", name, self.symbols.area(low), self.symbols.area(high));
+                }
+                for (way, found) in [("inward", side.inward), ("outward", side.outward)] {
+                    if let Some((area, length)) = found {
+                        row!(sink, "step", name, way, self.symbols.area(area), tenths(length));
+                    }
                 }
             }
-            if let Some(state) = o.door.map(|d| self.world.doors[&d].state) {
+            if let Some(state) = door.map(|door| door.state) {
                 row!(sink, "door_state", name, status_word(state), state.opening.round() as i64);
             }
         }

@@ -79,6 +79,7 @@ measured! {
         "a side of an Area that can be gone through";
     links(o: Opening = "", x: Area = "", y: Area = "") Told "a link of the Map, the lower id first";
     mounts(o: Opening = "", x: Area = "") Told "in whose side the opening is";
+    mounted(o: Opening = "", x: Area = "") Told "on a side of which Area its door is mounted";
     step(o: Opening = "", side: symbol = "inward or outward", r: Area = "", distance: number = LENGTH) Told
         "the Area met by stepping off the side";
     door_state(o: Opening = "", status: symbol = "open, closed, locked", open: number = "percent") Told "how a door stands";

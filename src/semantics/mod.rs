@@ -74,6 +74,7 @@ mod relations;
 mod thresholds;
 mod view;
 
+pub use crate::geometry::{OpenSide, Opening, Openings};
 pub use crate::map::Profile;
 pub use ask::Extent;
 pub use cargo::{cargo, carried_to, shut_around};
@@ -85,7 +86,6 @@ pub use measure::{
 };
 pub use measured::{MEASURED, Measured, Order, measured_table};
 pub use names::{Subject, Symbols};
-pub use openings::Opening;
 pub use position::{Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
     Followed, Join, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,

@@ -4,18 +4,18 @@
 //! kind there, in the corner, along the wall, in the middle. Where none of these holds, the Area alone is said.
 
 use crate::geometry::contact::Footprint;
-use crate::map::{Permeability, World};
-use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Vector};
+use crate::map::World;
+use crate::units::{AreaId, Deg, DoorId, MapId, OpeningId, Point, Pose, ReplicaId, Vector};
 
 use super::body::Body;
-use super::openings::{Opening, outward_normal};
 use super::relations::Relations;
 use super::thresholds::Thresholds;
-use crate::geometry::{Polygon, nearest_on_segment};
+use crate::geometry::{OpenSide, Opening, Polygon, nearest_on_segment, outward_normal};
 
 /// A door or passage as a report speaks of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Way {
+    pub opening: OpeningId,
     /// None for a passage without a name.
     pub door: Option<DoorId>,
     /// A passage has nothing to open.
@@ -67,14 +67,16 @@ pub fn whereabouts(
     let (measured, openings) = (relations.measurements(), relations.openings());
     let near = relations.thresholds();
     let here = measured.area_at(map, pose.at);
-    let on_map = |o: &&Opening| measured.rooms.get(&o.area).is_some_and(|r| r.map == map);
-    if let Some(opening) =
-        openings.iter().filter(on_map).find(|o| in_doorway(o, pose.at, here, near))
-    {
-        let area = here.unwrap_or(opening.area);
+    let on_map = openings.iter().filter(|o| o.map == map);
+    let sides = on_map.flat_map(|o| o.sides.iter().map(move |side| (o, side)));
+    // The sides of the lower Areas first.
+    let mut sides: Vec<_> = sides.filter(|(_, side)| in_side(side, pose.at, here, near)).collect();
+    sides.sort_by_key(|(opening, side)| (side.area, opening.id));
+    if let Some((opening, side)) = sides.first() {
+        let area = here.unwrap_or(side.area);
         return Some(Whereabouts {
             area,
-            spot: Spot::InDoorway(way(opening, area)),
+            spot: Spot::InDoorway(Way::through(opening, area)),
             heading: pose.heading,
         });
     }
@@ -85,12 +87,16 @@ pub fn whereabouts(
     Some(Whereabouts { area, spot, heading: pose.heading })
 }
 
-/// An opening seen from one of the Areas that it joins.
-fn way(opening: &Opening, from: AreaId) -> Way {
-    let behind = opening.leads_to();
-    let to = if from == opening.area { behind } else { Some(opening.area) };
-    let is_passage = opening.permeability == Permeability::Permeable;
-    Way { door: opening.door, is_passage, from, to }
+impl Way {
+    /// An opening seen from one of the Areas that it is of.
+    #[must_use]
+    pub fn through(opening: &Opening, from: AreaId) -> Self {
+        let to = opening.joined_to(from).or_else(|| {
+            // Of an Area that it does not join, as of one that lies in its mouth, one sees the side of the other.
+            Some(opening.area()).filter(|area| *area != from && opening.side_in(from).is_none())
+        });
+        Self { opening: opening.id, door: opening.door, is_passage: opening.is_passage(), from, to }
+    }
 }
 
 /// Position along a side and out of it: (share of its length, cm to the outside).
@@ -106,9 +112,13 @@ pub(super) fn in_doorway(
     here: Option<AreaId>,
     near: &Thresholds,
 ) -> bool {
-    let Some((share, out)) = along_and_out(opening.ends, p) else { return false };
+    opening.sides.iter().any(|side| in_side(side, p, here, near))
+}
+
+fn in_side(side: &OpenSide, p: Point, here: Option<AreaId>, near: &Thresholds) -> bool {
+    let Some((share, out)) = along_and_out(side.ends, p) else { return false };
     // In the wall's thickness no Area is underfoot.
-    let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.step_distance));
+    let thickness = side.outward.map_or(0.0, |(_, way)| way.min(near.step_distance));
     let within = if here.is_none() {
         -near.robot_doorway..=thickness
     } else {
@@ -118,15 +128,21 @@ pub(super) fn in_doorway(
 }
 
 fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Thresholds) -> Option<Spot> {
-    let leads = |o: &&Opening| o.area == area || o.leads_to() == Some(area);
+    let away = |o: &Opening| {
+        let sides = o.sides.iter().map(|s| (p - nearest_on_segment(p, s.ends.0, s.ends.1)).norm());
+        sides.fold(f64::INFINITY, f64::min)
+    };
     let nearest = openings
         .iter()
-        .filter(leads)
-        .map(|o| ((p - nearest_on_segment(p, o.ends.0, o.ends.1)).norm(), o))
-        // The Area's own side says more than the other's when both are at hand.
-        .min_by(|(d, o), (e, q)| d.total_cmp(e).then((o.area != area).cmp(&(q.area != area))))?;
+        .filter(|o| o.is_of(area))
+        .map(|o| (away(o), o))
+        // What lies in the Area's own side says more than what only leads there.
+        .min_by(|(d, o), (e, q)| {
+            d.total_cmp(e).then(o.side_in(area).is_none().cmp(&q.side_in(area).is_none()))
+        })?;
     let (distance, opening) = nearest;
-    (distance <= near.robot_door).then(|| Spot::AtDoor { way: way(opening, area), distance })
+    (distance <= near.robot_door)
+        .then(|| Spot::AtDoor { way: Way::through(opening, area), distance })
 }
 
 /// The nearest thing that stands on the floor and is the only one of its kind and of its name in the Area.

@@ -9,6 +9,7 @@ use crate::units::is_input;
 
 /// A store that cannot be opened, read or written, or that refuses what it was asked to keep.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum StoreError {
     /// The file system refused.
     #[error("хранилище: не удалось {what} «{path}»: {source}")]

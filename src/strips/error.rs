@@ -24,6 +24,7 @@ impl Place {
 
 /// One thing wrong in a rule file, a scenario or a PDDL file.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum RuleError {
     /// The file system refused.
     #[error("файл «{path}» не читается: {reason}")]

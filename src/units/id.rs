@@ -28,6 +28,8 @@ ids! {
     DomainId,
     /// `Door.ID`
     DoorId,
+    /// A door or passage between Areas: numbered when a building is measured, the same as long as its walls and doors are.
+    OpeningId,
     /// `ID` of one of the …TypeList tables.
     TypeId,
 }

@@ -30,7 +30,9 @@ pub use bilingual::Bilingual;
 pub use english::{English, InEnglish};
 pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file_with};
 pub use frame::{Frame, Point, Pose, Vector};
-pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
+pub use id::{
+    AreaId, DomainId, DoorId, MapId, ObjectId, OpeningId, OrFrId, PlaceId, ReplicaId, TypeId,
+};
 pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};

@@ -10,6 +10,7 @@ use super::Language;
 
 /// Why a number from outside is no length or no angle.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum QuantityError {
     /// NaN or infinite.
     #[error("число должно быть конечным, а не {0}")]

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use orthoframe::engine::RULE_FILES;
-use orthoframe::strips::Scenario;
-use orthoframe::units::Source;
+use orthoframe_strips::Scenario;
+use orthoframe_units::Source;
 use serde_json::Value;
 
 use super::{Place, project, rb2, walk};

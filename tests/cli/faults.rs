@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Stdio;
 
-use orthoframe::store::Store;
+use orthoframe_store::Store;
 use serde_json::Value;
 
 use crate::files::shared;

@@ -1,6 +1,6 @@
 //! The map: checked, imported, edited, drawn, written out; its store.
 
-use orthoframe::map::World;
+use orthoframe_map::World;
 use serde_json::Value;
 
 use super::{Place, project, rb2};
@@ -149,8 +149,8 @@ fn a_store_is_checked_copied_restored_and_asked_of_its_past() {
     assert_eq!(place.json(&["--store", "second", "history"], 0), place.json(&["history"], 0));
     place.run(&["restore", "copy"]).is(2);
     let past = World::parse(
-        &orthoframe::units::Source::new("past", place.run(&["as-of", "1"]).is(0).out),
-        orthoframe::map::Format::Toml,
+        &orthoframe_units::Source::new("past", place.run(&["as-of", "1"]).is(0).out),
+        orthoframe_map::Format::Toml,
     );
     let past = past.unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().frame.x.get();
     assert!((now - past - 10.0).abs() < 1e-9);

@@ -13,8 +13,8 @@ mod words;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use orthoframe::map::World;
-use orthoframe::store::Store;
+use orthoframe_map::World;
+use orthoframe_store::Store;
 use serde_json::Value;
 use tempfile::TempDir;
 

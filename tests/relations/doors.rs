@@ -1,8 +1,8 @@
 //! Doors and passages between Areas, and what is in which Area.
 
 use expect_test::expect;
-use orthoframe::map::World;
-use orthoframe::units::{Deg, Frame};
+use orthoframe_map::World;
+use orthoframe_units::{Deg, Frame};
 
 use super::{derived, list, world};
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use orthoframe::map::{DoorState, DoorStatus, Replica, World};
-use orthoframe::semantics::{Followed, Relations};
+use orthoframe_map::{DoorState, DoorStatus, Replica, World};
+use orthoframe_semantics::{Followed, Relations};
 
 use super::derived;
 use crate::planning_properties::random::Random;

@@ -14,9 +14,9 @@ use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 use expect_test::Expect;
-use orthoframe::map::{Format, World};
-use orthoframe::semantics::{Profile, RelationRules, Relations, derive};
-use orthoframe::units::{Deg, Frame, Source};
+use orthoframe_map::{Format, World};
+use orthoframe_semantics::{Profile, RelationRules, Relations, derive};
+use orthoframe_units::{Deg, Frame, Source};
 
 static RULES: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
 

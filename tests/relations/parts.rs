@@ -1,8 +1,8 @@
 //! Parts, properties, and what a user writes in a rule file of his own.
 
 use expect_test::expect;
-use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::units::Source;
+use orthoframe_semantics::{Profile, RelationRules, derive};
+use orthoframe_units::Source;
 
 use super::{derived, list, room};
 
@@ -92,7 +92,7 @@ limit("surveyed", "close distance", 1000).
 
 #[test]
 fn a_rule_text_that_changes_a_measurement_is_refused() {
-    let text = orthoframe::semantics::STANDARD
+    let text = orthoframe_semantics::STANDARD
         .replace(
             ".decl distance(a: Thing, b: Thing, d: number)",
             ".decl distance(a: Thing, b: Thing)",

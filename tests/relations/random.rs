@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::map::World;
-use orthoframe::semantics::{Measurements, Pair, Profile, Reach, RelationRules, Relations, derive};
-use orthoframe::units::{Deg, Frame, ReplicaId};
+use orthoframe_map::World;
+use orthoframe_semantics::{Measurements, Pair, Profile, Reach, RelationRules, Relations, derive};
+use orthoframe_units::{Deg, Frame, ReplicaId};
 use proptest::prelude::*;
 
 use super::{RULES, derived, room};

@@ -1,7 +1,7 @@
 //! What is next to, near or leaning against what, and on which side of it.
 
 use expect_test::expect;
-use orthoframe::units::Point;
+use orthoframe_units::Point;
 
 use super::{check, derived, room};
 

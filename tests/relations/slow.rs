@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::map::World;
-use orthoframe::semantics::{Profile, Relations, derive};
-use orthoframe::units::{Deg, Frame};
+use orthoframe_map::World;
+use orthoframe_semantics::{Profile, Relations, derive};
+use orthoframe_units::{Deg, Frame};
 use proptest::prelude::*;
 
 use super::{RULES, room};

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use expect_test::expect;
-use orthoframe::map::{Entity, World};
-use orthoframe::semantics::{Profile, Relations, derive};
+use orthoframe_map::{Entity, World};
+use orthoframe_semantics::{Profile, Relations, derive};
 
 use super::{RULES, check, list, room};
 

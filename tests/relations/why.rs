@@ -1,7 +1,7 @@
 //! Why, and why not.
 
 use expect_test::expect;
-use orthoframe::facts::WhyNot;
+use orthoframe_facts::WhyNot;
 
 use super::{derived, room};
 

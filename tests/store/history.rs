@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use orthoframe::map::{DoorKind, DoorState, World};
-use orthoframe::store::{Cell, Change, Key, Store, StoreError, Table, Timestamp, fsck};
-use orthoframe::units::{AreaId, Cm, Deg, Frame, ReplicaId};
+use orthoframe_map::{DoorKind, DoorState, World};
+use orthoframe_store::{Cell, Change, Key, Store, StoreError, Table, Timestamp, fsck};
+use orthoframe_units::{AreaId, Cm, Deg, Frame, ReplicaId};
 
 use super::{change, load, open, scratch};
 use crate::store_world::world;

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use orthoframe::map::World;
-use orthoframe::store::{OpenReport, Severity, Store, StoreError, fsck};
+use orthoframe_map::World;
+use orthoframe_store::{OpenReport, Severity, Store, StoreError, fsck};
 
 use super::{change, load, open, scratch};
 use crate::store_world::{Dice, world};

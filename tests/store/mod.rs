@@ -9,8 +9,8 @@ mod robot;
 
 use std::path::Path;
 
-use orthoframe::map::World;
-use orthoframe::store::{Change, Store, Timestamp};
+use orthoframe_map::World;
+use orthoframe_store::{Change, Store, Timestamp};
 
 fn change(reason: &str) -> Change {
     Change::new("Мастер", Timestamp(1_790_000_000_000), reason)

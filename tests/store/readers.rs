@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use orthoframe::store::{Edits, Key, OpenReport, Store, StoreError, records};
+use orthoframe_store::{Edits, Key, OpenReport, Store, StoreError, records};
 
 use super::{change, load, open, scratch};
 use crate::store_world::world;
@@ -42,7 +42,7 @@ fn many_readers_see_one_revision_each_while_one_writes() {
     write(&mut store);
     let latest = std::sync::Mutex::new(store.reader());
     let is_done = std::sync::atomic::AtomicBool::new(false);
-    let look = |reader: &orthoframe::store::Reader| {
+    let look = |reader: &orthoframe_store::Reader| {
         let all: Vec<records::AreaObjects> = reader.records(&Key::new()).unwrap();
         assert_eq!(all.len(), REPLICAS as usize);
         let own = reader.revision() as f64;

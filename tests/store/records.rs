@@ -1,8 +1,8 @@
 //! A map goes in and comes out: records, keys, ids, Fragments, derived tables.
 
-use orthoframe::map::World;
-use orthoframe::store::{Cell, Counts, Edits, Key, Sheet, StoreError, Table, compare, records};
-use orthoframe::units::{AreaId, Point, ReplicaId};
+use orthoframe_map::World;
+use orthoframe_store::{Cell, Counts, Edits, Key, Sheet, StoreError, Table, compare, records};
+use orthoframe_units::{AreaId, Point, ReplicaId};
 use proptest::prelude::*;
 
 use super::{change, load, open, scratch};

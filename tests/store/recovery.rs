@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use orthoframe::store::{Severity, Store, StoreError, fsck};
-use orthoframe::units::Cm;
+use orthoframe_store::{Severity, Store, StoreError, fsck};
+use orthoframe_units::Cm;
 
 use super::{change, load, open, scratch};
 use crate::store_world::{Dice, world};

@@ -1,8 +1,8 @@
 //! What the robot saw, and where it was left.
 
-use orthoframe::map::Replica;
-use orthoframe::store::{Change, Observation, Seen, Store, StoreError, Timestamp};
-use orthoframe::units::{Deg, Frame, MapId, Point, Pose, ReplicaId};
+use orthoframe_map::Replica;
+use orthoframe_store::{Change, Observation, Seen, Store, StoreError, Timestamp};
+use orthoframe_units::{Deg, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::{change, load, open, scratch};
 use crate::store_world::world;

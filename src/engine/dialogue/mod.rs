@@ -1,7 +1,7 @@
 //! A dialogue: whatever a person says, heard against what was said before.
 //!
 //! ```
-//! use orthoframe::{Engine, map::World};
+//! use orthoframe::{Engine, World};
 //! use orthoframe::engine::Dialogue;
 //! # let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
 //! let mut engine = Engine::in_memory(World::load(map).unwrap(), None)?;

@@ -23,6 +23,7 @@ const MOST_ROWS: usize = 5_000_000;
 
 /// An SQLite file that cannot be written or read.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum SqliteError {
     /// SQLite itself refused.
     #[error("SQLite, «{path}»: {source}")]

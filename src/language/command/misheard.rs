@@ -9,6 +9,7 @@ use crate::words::{Language, alternatives};
 
 /// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
 #[derive(Debug, Clone, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum Misheard {
     /// Nothing but blanks, marks or pictures.
     #[error("задание пусто")]

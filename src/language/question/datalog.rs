@@ -241,7 +241,7 @@ impl Rule<'_, '_> {
 
     fn is_door(&self, noun: &Noun) -> bool {
         let found = self.knowledge.find(noun, true).unwrap_or_default();
-        found.first().is_some_and(|t| self.knowledge.gate(*t).is_some())
+        found.first().is_some_and(|t| self.knowledge.opening(*t).is_some())
     }
 
     /// A term for a description: a constant for a name, else a variable with its atoms.

@@ -265,7 +265,7 @@ impl Knowledge<'_> {
         }
         let place = self.own_place(thing, candidates);
         let here = |t: &&Thing| self.own_place(**t, candidates) == place;
-        if self.gate(thing).is_none()
+        if self.opening(thing).is_none()
             && place.is_some()
             && candidates.iter().filter(here).count() == 1
         {
@@ -282,7 +282,7 @@ impl Knowledge<'_> {
         {
             marks.push(self.value_of(&Property::Colour, value, thing));
         }
-        if let Some(gate) = self.gate(thing) {
+        if let Some(gate) = self.opening(thing) {
             let case = if gate.areas.len() == 1 { Case::Genitive } else { Case::Instrumental };
             let room = |a: &AreaId| self.form(Thing::Entity(Entity::Area(*a)), case);
             let rooms = enumerate(&gate.areas.iter().map(room).collect::<Vec<_>>(), self.language);

@@ -4,7 +4,7 @@
 
 use super::outlive::{Departed, Stamp};
 use super::query::{Query, Thing};
-use super::{Answer, Fact, focus, settle};
+use super::{Answer, Fact, focus, resolution};
 use crate::units::Bilingual;
 use crate::words::Language;
 
@@ -33,9 +33,9 @@ pub struct Memory {
     /// A question that waits for the person to say which thing was meant.
     pub(super) pending: Option<Pending>,
     /// A command that waits for the same.
-    pub(super) waiting: Option<settle::Waiting>,
+    pub(super) waiting: Option<resolution::Waiting>,
     /// The command that was understood last, for «А теперь другую».
-    pub(super) ordered: Option<settle::Ordered>,
+    pub(super) ordered: Option<resolution::Ordered>,
     /// Where the robot was before it was last sent away.
     pub(super) left: Option<Thing>,
     /// The same, where it left the map since.

@@ -5,7 +5,7 @@
 
 use crate::map::Entity;
 use crate::report::Detail;
-use crate::units::{AreaId, ReplicaId};
+use crate::units::{AreaId, OpeningId, ReplicaId};
 
 pub(super) use super::compared::{Closeness, Dimension, Extreme, Quantity, Sized};
 use super::courtesy::Courtesy;
@@ -81,7 +81,7 @@ impl Side {
 pub enum Thing {
     Entity(Entity),
     /// A passage or door without a name of its own: its place among the openings of the relations.
-    Opening(u32),
+    Opening(OpeningId),
     /// A window: its place among the windows of the lexicon.
     Window(u32),
     Robot,

@@ -31,7 +31,7 @@ impl Knowledge<'_> {
     pub(super) fn named(&self, thing: Thing) -> Named {
         match thing {
             Thing::Entity(entity) => named(self.world, entity),
-            Thing::Opening(n) => Named::plain(&self.relations.openings()[n as usize].name),
+            Thing::Opening(n) => Named::plain(&self.symbol(Thing::Opening(n))),
             Thing::Window(n) => {
                 let window = &self.lexicon().windows[n as usize];
                 let area = self.named(Thing::Entity(Entity::Area(window.area)));

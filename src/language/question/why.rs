@@ -87,7 +87,7 @@ impl Knowledge<'_> {
             return Ok(self.why_plain(self.memory.said.as_deref().unwrap_or_default(), &[]));
         };
         let place = self.place(Rel::Between, &[a, b].map(|id| Thing::Entity(Entity::Area(id))));
-        let text = match (self.gates_between(a, b).next(), self.is_russian()) {
+        let text = match (self.openings_between(a, b).next(), self.is_russian()) {
             (Some(gate), true) => format!("{place} – {}", self.name(gate.thing)),
             (Some(gate), false) => format!("{} is {place}", self.name(gate.thing)),
             (None, true) => format!("{place} нет ни двери, ни прохода"),

@@ -1,6 +1,6 @@
 //! A position in English: "in Room V at the door leading from Room V to Room Z".
 
-use super::{Beside, Doorway, Facing, Mark, Named, Opening, Position, Spot};
+use super::{Beside, Facing, Mark, Named, OpeningKind, Position, Spot, ToldOpening};
 use crate::words::PlaceSense::{Inside, Upon};
 
 impl Position {
@@ -51,7 +51,7 @@ impl Named {
     }
 }
 
-impl Doorway {
+impl ToldOpening {
     fn english(&self) -> String {
         let opening = self.opening;
         let noun = match &self.name {
@@ -88,11 +88,11 @@ impl Facing {
     }
 }
 
-fn doorway_in_english(door: &Doorway) -> String {
+fn doorway_in_english(door: &ToldOpening) -> String {
     let opening = match (&door.name, door.opening) {
         (Some(name), opening) => format!("in the doorway of {}", name.english_door(opening)),
-        (None, Opening::Door) => "in the doorway".into(),
-        (None, Opening::Passage) => "in the passage".into(),
+        (None, OpeningKind::Door) => "in the doorway".into(),
+        (None, OpeningKind::Passage) => "in the passage".into(),
     };
     match &door.to {
         Some(to) => format!("{opening} between {} and {}", door.from.english(), to.english()),

@@ -8,9 +8,9 @@
 //!
 //! ```
 //! use orthoframe_language::Language;
-//! use orthoframe_language::report::{Doorway, Named, Position, Spot};
+//! use orthoframe_language::report::{ToldOpening, Named, Position, Spot};
 //! let (here, there) = (Named::plain("Комната-В"), Named::plain("Комната-Z"));
-//! let position = Position::new(here.clone(), [Spot::InMiddle, Spot::AtDoor(Doorway::door(here, there))]);
+//! let position = Position::new(here.clone(), [Spot::InMiddle, Spot::AtDoor(ToldOpening::door(here, there))]);
 //! assert_eq!(
 //!     position.say(Language::Russian),
 //!     "Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z."
@@ -23,7 +23,7 @@ mod named;
 pub mod read;
 mod russian;
 
-pub use named::{Doorway, Named, Opening};
+pub use named::{Named, OpeningKind, ToldOpening};
 
 use super::words::Language;
 
@@ -43,8 +43,8 @@ pub enum Beside {
 /// Something that is true of the robot's spot within its Area.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Spot {
-    InDoorway(Doorway),
-    AtDoor(Doorway),
+    InDoorway(ToldOpening),
+    AtDoor(ToldOpening),
     Object(Beside, Named),
     /// In a corner, with the thing that tells which where there is one.
     InCorner(Option<Named>),
@@ -70,9 +70,9 @@ impl Spot {
 /// What the robot faces.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Facing {
-    Door(Doorway),
+    Door(ToldOpening),
     /// A leaf of a door that stands open.
-    Leaf(Doorway),
+    Leaf(ToldOpening),
     Object(Named),
     /// Some wall, where it was not said that the robot is by one.
     Wall,
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn the_papers_sentence() {
-        let door = Doorway::door(name("Комната-В"), name("Комната-Z"));
+        let door = ToldOpening::door(name("Комната-В"), name("Комната-Z"));
         check(
             &at("Комната-В", Spot::AtDoor(door)),
             &expect![[r#"
@@ -222,13 +222,16 @@ mod tests {
     #[test]
     fn every_kind_of_spot_reads_well() {
         check(
-            &at("Кухня", Spot::AtDoor(Doorway::passage(name("Кухня"), name("Коридор")))),
+            &at("Кухня", Spot::AtDoor(ToldOpening::passage(name("Кухня"), name("Коридор")))),
             &expect![[r#"
             Я нахожусь на Кухне у прохода, ведущего с Кухни в Коридор.
             I am in the kitchen at the passage leading from the kitchen to the corridor."#]],
         );
         check(
-            &at("Комната-В", Spot::InDoorway(Doorway::door(name("Комната-В"), name("Коридор")))),
+            &at(
+                "Комната-В",
+                Spot::InDoorway(ToldOpening::door(name("Комната-В"), name("Коридор"))),
+            ),
             &expect![[r#"
             Я нахожусь в дверном проёме между Комнатой-В и Коридором.
             I am in the doorway between Room-B and the corridor."#]],
@@ -267,9 +270,9 @@ mod tests {
 
     #[test]
     fn a_named_door_is_told_from_its_neighbour() {
-        let door = Doorway {
+        let door = ToldOpening {
             name: Some(name("Ворота")),
-            ..Doorway::door(name("Гараж"), name("Двор"))
+            ..ToldOpening::door(name("Гараж"), name("Двор"))
         };
         let mut position = at("Гараж", Spot::AtDoor(door.clone()));
         check(
@@ -298,7 +301,7 @@ mod tests {
             position.say_in(Language::Russian, Detail::Region),
             "Я нахожусь в Корпусе 1 на 2-м этаже в Палате 3."
         );
-        position.facing = Some(Facing::Door(Doorway::door(name("Палата 3"), name("Коридор"))));
+        position.facing = Some(Facing::Door(ToldOpening::door(name("Палата 3"), name("Коридор"))));
         check(
             &position,
             &expect![[r#"

@@ -48,7 +48,7 @@ impl Named {
     /// The English name of a door or passage: "the gate", "Door 2", but "the door L1_office" where its name does not
     /// say what it is.
     #[must_use]
-    pub fn english_door(&self, opening: Opening) -> String {
+    pub fn english_door(&self, opening: OpeningKind) -> String {
         const OPENINGS: [&str; 10] = [
             "door", "doors", "gate", "gates", "passage", "doorway", "opening", "hatch", "arch",
             "entrance",
@@ -88,13 +88,13 @@ impl Named {
 
 /// What leads from one Area to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Opening {
+pub enum OpeningKind {
     Door,
     /// An opening without a leaf.
     Passage,
 }
 
-impl Opening {
+impl OpeningKind {
     #[must_use]
     pub(crate) fn english(self) -> &'static str {
         match self {
@@ -106,8 +106,8 @@ impl Opening {
 
 /// A door or passage, told by the Areas on its two sides.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Doorway {
-    pub opening: Opening,
+pub struct ToldOpening {
+    pub opening: OpeningKind,
     /// Its own name, where the two Areas do not tell it from another.
     pub name: Option<Named>,
     pub from: Named,
@@ -115,16 +115,16 @@ pub struct Doorway {
     pub to: Option<Named>,
 }
 
-impl Doorway {
+impl ToldOpening {
     /// The only door from one Area to another.
     #[must_use]
     pub fn door(from: Named, to: Named) -> Self {
-        Self { opening: Opening::Door, name: None, from, to: Some(to) }
+        Self { opening: OpeningKind::Door, name: None, from, to: Some(to) }
     }
 
     /// The only passage from one Area to another.
     #[must_use]
     pub fn passage(from: Named, to: Named) -> Self {
-        Self { opening: Opening::Passage, ..Self::door(from, to) }
+        Self { opening: OpeningKind::Passage, ..Self::door(from, to) }
     }
 }

@@ -23,7 +23,7 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::super::words::{FormIndex, Language, word_ranges};
-use super::{Beside, Opening};
+use super::{Beside, OpeningKind};
 
 /// Words of a report that do not read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,9 +34,9 @@ pub struct Unread {
 
 /// A doorway as a report speaks of it. Where a name is borne by several things, all of them stand here.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SaidDoorway<T> {
+pub struct SaidOpening<T> {
     /// None where the door is called by its own name.
-    pub opening: Option<Opening>,
+    pub opening: Option<OpeningKind>,
     pub name: Option<Vec<T>>,
     pub from: Vec<T>,
     /// None: out of the map.
@@ -46,8 +46,8 @@ pub struct SaidDoorway<T> {
 /// The spot that a report tells.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SaidSpot<T> {
-    InDoorway(SaidDoorway<T>),
-    AtDoor(SaidDoorway<T>),
+    InDoorway(SaidOpening<T>),
+    AtDoor(SaidOpening<T>),
     Object(Beside, Vec<T>),
     InCorner(Option<Vec<T>>),
     AlongWall(Option<Vec<T>>),
@@ -57,14 +57,14 @@ pub enum SaidSpot<T> {
 /// What a report says is faced.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SaidFacing<T> {
-    Door(SaidDoorway<T>),
+    Door(SaidOpening<T>),
     Object(Vec<T>),
     Wall,
     /// That by which it is said to be, and another than that.
     OwnWall,
     OtherWall,
     /// A leaf of a door that stands open.
-    Leaf(SaidDoorway<T>),
+    Leaf(SaidOpening<T>),
     /// Free floor.
     Inward,
 }
@@ -277,11 +277,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     }
 
     /// «двери, ведущей из Комнаты-В в Комнату-Z», «Ворот, ведущих из Гаража наружу»
-    fn russian_doorway(&mut self) -> Option<SaidDoorway<T>> {
+    fn russian_doorway(&mut self) -> Option<SaidOpening<T>> {
         let common = self.maybe(|r| {
             let opening = match r.one_of(&["двери"]) {
-                Some(()) => Opening::Door,
-                None => r.one_of(&["прохода", "проходу"]).map(|()| Opening::Passage)?,
+                Some(()) => OpeningKind::Door,
+                None => r.one_of(&["прохода", "проходу"]).map(|()| OpeningKind::Passage)?,
             };
             r.one_of(&LEADING).map(|()| opening)
         });
@@ -294,7 +294,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             }
         };
         let (from, to) = self.russian_way()?;
-        Some(SaidDoorway { opening: common, name, from, to })
+        Some(SaidOpening { opening: common, name, from, to })
     }
 
     /// «из Комнаты-В в Комнату-Z», «из Комнаты-В наружу»
@@ -308,14 +308,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     }
 
     /// «в дверном проёме между Комнатой-В и Коридором», «в проёме Ворот из Гаража наружу»
-    fn russian_in_doorway(&mut self) -> Option<SaidDoorway<T>> {
+    fn russian_in_doorway(&mut self) -> Option<SaidOpening<T>> {
         self.one_of(&["в"])?;
         let mut name = None;
         let opening = if self.maybe(|r| r.all_of("дверном")).is_some() {
             self.one_of(&["проёме", "проеме"])?;
-            Some(Opening::Door)
+            Some(OpeningKind::Door)
         } else if self.one_of(&["проходе"]).is_some() {
-            Some(Opening::Passage)
+            Some(OpeningKind::Passage)
         } else {
             self.one_of(&["проёме", "проеме"])?;
             name = Some(self.name()?);
@@ -329,7 +329,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             }
             None => self.russian_way().filter(|(_, to)| to.is_none())?,
         };
-        Some(SaidDoorway { opening, name, from, to })
+        Some(SaidOpening { opening, name, from, to })
     }
 
     fn russian_facing(&mut self, spot: Option<&SaidSpot<T>>) -> Option<SaidFacing<T>> {
@@ -438,11 +438,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     }
 
     /// "the door leading from Room-B to Room-Z", "the gate leading out of the garage"
-    fn english_doorway(&mut self) -> Option<SaidDoorway<T>> {
+    fn english_doorway(&mut self) -> Option<SaidOpening<T>> {
         let common = self.maybe(|r| {
             let opening = match r.all_of("the door leading") {
-                Some(()) => Opening::Door,
-                None => r.all_of("the passage leading").map(|()| Opening::Passage)?,
+                Some(()) => OpeningKind::Door,
+                None => r.all_of("the passage leading").map(|()| OpeningKind::Passage)?,
             };
             Some(opening)
         });
@@ -462,7 +462,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             self.one_of(&["to"])?;
             (from, Some(self.name()?))
         };
-        Some(SaidDoorway { opening: common, name, from, to })
+        Some(SaidOpening { opening: common, name, from, to })
     }
 
     /// "the gate", "the door L1_office"
@@ -474,16 +474,16 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         })
     }
 
-    fn english_in_doorway(&mut self) -> Option<SaidDoorway<T>> {
+    fn english_in_doorway(&mut self) -> Option<SaidOpening<T>> {
         let mut name = None;
         let opening = if self.all_of("in the doorway of").is_some() {
             name = Some(self.english_door()?);
             None
         } else if self.all_of("in the doorway").is_some() {
-            Some(Opening::Door)
+            Some(OpeningKind::Door)
         } else {
             self.all_of("in the passage")?;
-            Some(Opening::Passage)
+            Some(OpeningKind::Passage)
         };
         let (from, to) = if self.all_of("leading out of").is_some() {
             (self.name()?, None)
@@ -493,7 +493,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             self.one_of(&["and"])?;
             (from, Some(self.name()?))
         };
-        Some(SaidDoorway { opening, name, from, to })
+        Some(SaidOpening { opening, name, from, to })
     }
 
     fn english_facing(&mut self, spot: Option<&SaidSpot<T>>) -> Option<SaidFacing<T>> {

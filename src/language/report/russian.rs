@@ -1,6 +1,6 @@
 //! A position in Russian: «в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z».
 
-use super::{Beside, Doorway, Facing, Mark, Named, Opening, Position, Spot};
+use super::{Beside, Facing, Mark, Named, OpeningKind, Position, Spot, ToldOpening};
 use crate::words::russian::{self, Preposition};
 use crate::words::{Case, Gender, NounPhrase, Number, WordHints};
 
@@ -48,13 +48,13 @@ impl Position {
     }
 }
 
-impl Doorway {
+impl ToldOpening {
     /// «к ней», «к нему», «к ним»
     fn pronoun(&self) -> &'static str {
         match (&self.name, self.opening) {
             (Some(name), _) => pronoun(&name.russian),
-            (None, Opening::Door) => "ней",
-            (None, Opening::Passage) => "нему",
+            (None, OpeningKind::Door) => "ней",
+            (None, OpeningKind::Passage) => "нему",
         }
     }
 
@@ -64,10 +64,10 @@ impl Doorway {
             (Some(name), _) => {
                 (name.russian.case(case), name.russian.gender(), name.russian.number())
             }
-            (None, Opening::Door) => {
+            (None, OpeningKind::Door) => {
                 (common("дверь").case(case), Gender::Feminine, Number::Singular)
             }
-            (None, Opening::Passage) => {
+            (None, OpeningKind::Passage) => {
                 (common("проход").case(case), Gender::Masculine, Number::Singular)
             }
         };
@@ -125,11 +125,11 @@ fn common(noun: &str) -> NounPhrase {
     NounPhrase::parse(noun, &WordHints::default())
 }
 
-fn doorway_in_russian(door: &Doorway) -> String {
+fn doorway_in_russian(door: &ToldOpening) -> String {
     let opening = match (&door.name, door.opening) {
         (Some(name), _) => format!("в проёме {}", name.russian.case(Case::Genitive)),
-        (None, Opening::Door) => "в дверном проёме".into(),
-        (None, Opening::Passage) => "в проходе".into(),
+        (None, OpeningKind::Door) => "в дверном проёме".into(),
+        (None, OpeningKind::Passage) => "в проходе".into(),
     };
     let from = door.from.russian.case(Case::Instrumental);
     match &door.to {

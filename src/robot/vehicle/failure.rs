@@ -7,6 +7,7 @@ use crate::units::{Bilingual, InEnglish, Language, Pose};
 
 /// Why a vehicle is of no more use. What it had done and told before stays known.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum Failure {
     /// There is no way to speak with it.
     #[error("нет связи с роботом «{address}»: {why}")]

@@ -4,13 +4,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::Polygon;
 use crate::geometry::contact::{Footprint, bounds_distance, extent, gap};
-use crate::map::{Permeability, World};
+use crate::geometry::{Polygon, outward_normal};
+use crate::map::{Permeability, SideRef, World};
 use crate::units::{AreaId, Frame, MapId, Point, Vector};
 
 use super::super::body::Body;
-use super::super::openings::joins_own_items;
 use super::rooms::Room;
 use super::{Measurements, cm, hundredths, tenths};
 
@@ -23,9 +22,7 @@ const APART: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Side {
     pub(crate) area: AreaId,
-    /// Places of the item in its Area and of the side in that item's base.
-    pub(crate) item: usize,
-    pub(crate) side: usize,
+    pub(crate) side: SideRef,
     pub(crate) ends: (Point, Point),
     thread: Footprint,
 }
@@ -51,17 +48,16 @@ pub(super) fn borders(
         let (Some(room), Some((_, frame))) = (rooms.get(&area.id), placements.get(&area.id)) else {
             continue;
         };
-        for (item_at, item) in area.items.iter().enumerate() {
+        for item in &area.items {
             let place = frame.compose(&item.frame);
-            for (side_at, vector) in world.orthoframe_of(item).base.iter().enumerate() {
+            for vector in &world.orthoframe_of(item).base {
                 let ends = (place.apply(vector.start), place.apply(vector.end));
                 if joins_own_items(room, ends) {
                     continue;
                 }
                 let side = Side {
                     area: area.id,
-                    item: item_at,
-                    side: side_at,
+                    side: SideRef { item: item.id.clone(), side: vector.id.clone() },
                     ends,
                     thread: thread(ends).unwrap_or_else(|| {
                         Footprint::new(Polygon::new(vec![ends.0, ends.1, ends.0]))
@@ -90,6 +86,17 @@ pub(super) fn borders(
     found
 }
 
+/// An open side between two items of one Area leads nowhere else.
+fn joins_own_items(room: &Room, (a, b): (Point, Point)) -> bool {
+    /// A step this long beyond a border stands on the floor behind it, in cm.
+    const FOOTHOLD: f64 = 0.5;
+    let middle = nalgebra::center(&a, &b);
+    outward_normal(a, b).is_none_or(|n| {
+        let outside = middle + n * FOOTHOLD;
+        room.parts.iter().any(|(f, _, _)| f.contains(outside))
+    })
+}
+
 fn thread((from, to): (Point, Point)) -> Option<Footprint> {
     let along = (to - from).try_normalize(1e-9)?;
     let side = Vector::new(along.y, -along.x) * THREAD;
@@ -115,7 +122,7 @@ impl Measurements {
         near(body, walls.enumerate(), self.reach.edge)
     }
 
-    /// Openings near to a body, by their places among all, with their distances.
+    /// Open sides near to a body, by their places among all, with their distances.
     pub(super) fn near_openings(&self, body: &Body) -> Vec<(usize, i64)> {
         let Some(grid) = self.room_grid.get(&body.map) else { return Vec::new() };
         let mut rooms = Vec::new();

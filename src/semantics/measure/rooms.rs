@@ -25,14 +25,6 @@ impl Measurements {
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
     }
-
-    /// The Areas of a Map whose bounds may meet these, in the order of their ids.
-    pub(crate) fn rooms_near(&self, map: MapId, bounds: &Bounds, found: &mut Vec<AreaId>) {
-        match self.room_grid.get(&map) {
-            Some(grid) => grid.near(bounds, found),
-            None => found.clear(),
-        }
-    }
 }
 
 pub(super) fn rooms(world: &World) -> BTreeMap<AreaId, Room> {

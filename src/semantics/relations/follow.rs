@@ -10,7 +10,6 @@ use crate::facts::{FactError, Value};
 use crate::feed::{Cell, Feed};
 use crate::map::{Door, Entity, Replica, World};
 use crate::names::Subject;
-use crate::openings::openings;
 use crate::units::{DoorId, MapId, ReplicaId};
 
 use super::rows::{note, tuple};
@@ -46,6 +45,12 @@ impl Followed {
     #[must_use]
     pub fn relations(&self) -> &Relations {
         &self.relations
+    }
+
+    /// The same, to be kept.
+    #[must_use]
+    pub fn shared(&self) -> Arc<Relations> {
+        Arc::clone(&self.relations)
     }
 
     /// The relations of the world as it now is: followed from those before where they can be, else derived anew.
@@ -115,9 +120,6 @@ impl Relations {
                 rows.into.insert(self.asked(id, map));
             }
             self.settle(&mut rows)?;
-        }
-        if !doors.is_empty() {
-            self.openings = openings(after, &self.measured, self.rules.step_cm(), &self.symbols);
         }
         self.openings_and_properties(after, &replicas, &doors, |rel, row| {
             rows.into.insert((rel, row));

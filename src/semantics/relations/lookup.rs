@@ -3,11 +3,22 @@
 //!
 //! **Invariant**: after an update it is what looking up anew would give.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::openings::decide;
+use crate::units::AreaId;
+
 use super::Relations;
 
 impl Relations {
     /// Brings what was looked up to the last update.
     pub(super) fn follow(&mut self) {
+        let is_news = self.rules.program().relation("JOINS").is_some_and(|joins| {
+            self.live.added(joins).next().is_some() || self.live.removed(joins).next().is_some()
+        });
+        if is_news {
+            self.decide_openings();
+        }
         let program = self.rules.program();
         let find = |name: &str| program.relation(name);
         let symbols = &self.symbols;
@@ -59,6 +70,18 @@ impl Relations {
                 );
             }
         }
+    }
+
+    /// Tells the openings which Areas the rules let them join.
+    pub(super) fn decide_openings(&mut self) {
+        let mut joins: BTreeMap<String, BTreeSet<[AreaId; 2]>> = BTreeMap::new();
+        for tuple in self.derived().tuples("JOINS").into_iter().flatten() {
+            let areas = [1, 2].map(|column| self.symbols.area_of(tuple.symbol(column)));
+            if let (Some(name), [Some(a), Some(b)]) = (tuple.symbol(0), areas) {
+                joins.entry(name.to_owned()).or_default().insert([a.min(b), a.max(b)]);
+            }
+        }
+        decide(&mut self.openings, &joins);
     }
 
     /// Looks up once what others ask for often.

@@ -7,16 +7,18 @@ mod rows;
 mod rules;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::facts::Live;
 use crate::map::{Entity, Profile, World};
-use crate::units::{AreaId, DoorId, ReplicaId};
+use crate::units::{AreaId, DoorId, OpeningId, ReplicaId};
 
 use super::feed::{Cell, Feed, Sink};
 use super::measure::Measurements;
 use super::names::{Subject, Symbols};
-use super::openings::{Opening, openings};
+use super::openings::openings;
 use super::thresholds::Thresholds;
+use crate::geometry::Openings;
 
 pub use follow::Followed;
 pub(super) use rows::Rows;
@@ -39,6 +41,8 @@ pub struct RelationCount {
 pub struct Join {
     /// Its name in the facts: the door's, or one made for a passage without a name.
     pub opening: String,
+    /// The first of this name; none for one that only rules speak of.
+    pub id: Option<OpeningId>,
     pub door: Option<DoorId>,
     pub from: AreaId,
     pub to: AreaId,
@@ -51,7 +55,7 @@ pub struct Relations {
     profile: Profile,
     symbols: Symbols,
     measured: Measurements,
-    openings: Vec<Opening>,
+    openings: Arc<Openings>,
     live: Live,
     thresholds: Thresholds,
     /// Each thing with the Areas in which it is.
@@ -88,7 +92,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured, rules.step_cm(), &symbols);
+    let openings = openings(world, rules.step_cm(), &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured, openings: &openings };
     let mut database = rules.program().database();
     let mut rows = Load::new(rules.program(), &mut database);
@@ -130,7 +134,7 @@ impl Relations {
         let live = Live::restore(rules.program(), bytes.strip_prefix(&*saved_head(profile))?)?;
         let symbols = Symbols::of(world);
         let measured = Measurements::of_things(world, rules.reach());
-        let openings = openings(world, &measured, rules.step_cm(), &symbols);
+        let openings = openings(world, rules.step_cm(), &symbols);
         Some(Self::new(rules, profile, symbols, measured, openings, live))
     }
 
@@ -139,7 +143,7 @@ impl Relations {
         profile: Profile,
         symbols: Symbols,
         measured: Measurements,
-        openings: Vec<Opening>,
+        openings: Openings,
         live: Live,
     ) -> Self {
         let told = live.derived().tuples("threshold").into_iter().flatten();
@@ -151,7 +155,7 @@ impl Relations {
             profile,
             symbols,
             measured,
-            openings,
+            openings: Arc::new(openings),
             live,
             areas: BTreeSet::new(),
             supports: BTreeMap::new(),
@@ -159,6 +163,7 @@ impl Relations {
             on_floor: BTreeSet::new(),
         };
         relations.index();
+        relations.decide_openings();
         relations
     }
 }

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
+use crate::geometry::Openings;
 use crate::map::{Entity, Profile};
 use crate::measure::Measurements;
 use crate::names::{Subject, Symbols};
-use crate::openings::Opening;
+use crate::openings::by_name;
 use crate::thresholds::Thresholds;
 use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
@@ -213,6 +214,7 @@ impl Relations {
     #[must_use]
     pub fn joins(&self) -> Vec<Join> {
         let Ok(tuples) = self.derived().tuples("JOINS") else { return Vec::new() };
+        let ids = by_name(&self.openings);
         let mut joins: Vec<Join> = tuples
             .filter_map(|t| {
                 let opening = t.symbol(0)?.to_owned();
@@ -221,6 +223,7 @@ impl Relations {
                     _ => None,
                 };
                 Some(Join {
+                    id: ids.get(&*opening).and_then(|ids| ids.first()).copied(),
                     opening,
                     door,
                     from: self.symbols.area_of(t.symbol(1))?,
@@ -242,9 +245,9 @@ impl Relations {
         &self.measured
     }
 
-    /// Doors and passages in the sides of all Areas.
+    /// All doors and passages, each once, with what the rules let them join.
     #[must_use]
-    pub fn openings(&self) -> &[Opening] {
+    pub fn openings(&self) -> &Arc<Openings> {
         &self.openings
     }
 

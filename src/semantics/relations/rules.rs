@@ -18,6 +18,7 @@ const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// Why there are no relations.
 #[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum RelationError {
     /// The file of rules could not be read.
     #[error("не удалось прочесть файл правил «{path}»: {message}")]

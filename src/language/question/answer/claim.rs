@@ -87,7 +87,7 @@ impl Knowledge<'_> {
         if restriction.rel == Rel::To || restriction.rel == Rel::Of {
             let joins = |a: &Thing| {
                 let area = a.area();
-                self.gate(thing).is_some_and(|g| area.is_some_and(|id| g.areas.contains(&id)))
+                self.opening(thing).is_some_and(|g| area.is_some_and(|id| g.areas.contains(&id)))
                     || self.related(restriction.rel, *a).contains(&thing)
             };
             let holds = anchors.iter().copied().find(joins);
@@ -163,7 +163,7 @@ impl Knowledge<'_> {
             && self.lexicon().values.entry(filter.value).property == Property::State
         {
             let mut doors =
-                self.gates().iter().filter(|g| !g.is_passage && g.areas.contains(&area));
+                self.openings().iter().filter(|g| !g.is_passage && g.areas.contains(&area));
             if let (Some(only), None) = (doors.next(), doors.next()) {
                 found = vec![only.thing];
             }
@@ -477,7 +477,7 @@ impl Knowledge<'_> {
     /// «соединена с Комнатой-Z (Дверь-ZY)», "is not connected to the hall"
     fn joined_words(&self, room: Thing, other: Thing, holds: bool) -> String {
         let joins = room.area().zip(other.area()).into_iter();
-        let joins = joins.flat_map(|(a, b)| self.gates_between(a, b));
+        let joins = joins.flat_map(|(a, b)| self.openings_between(a, b));
         let gates: Vec<Thing> = joins.map(|g| g.thing).collect();
         // «(Дверь-КY, закрыта)»: through a closed door no one goes at once.
         let told = |gate: &Thing| {

@@ -235,7 +235,7 @@ impl Knowledge<'_> {
         let detail = |thing: &Thing| -> String {
             let name = self.name(*thing);
             if let (Some(_), Some(here @ Thing::Entity(Entity::Area(_)))) =
-                (self.gate(*thing), from)
+                (self.opening(*thing), from)
             {
                 return self.with_destinations(&[*thing], here).concat();
             }

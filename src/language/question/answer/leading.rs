@@ -53,7 +53,7 @@ impl Knowledge<'_> {
         let Some(anchor) = restriction.anchors.first() else { return String::new() };
         let Ok(areas) = self.find(anchor, true) else { return String::new() };
         let passages: Vec<Thing> = self
-            .gates()
+            .openings()
             .iter()
             .filter(|g| g.is_passage && !found.contains(&g.thing))
             .filter(|g| areas.iter().filter_map(|a| a.area()).any(|a| g.areas.contains(&a)))
@@ -87,7 +87,7 @@ impl Knowledge<'_> {
             })
             .collect();
         let [a, b] = ends[..] else { return String::new() };
-        let open = self.gates_between(a, b).filter(|gate| gate.is_passage);
+        let open = self.openings_between(a, b).filter(|gate| gate.is_passage);
         let passages: Vec<Thing> = open.map(|gate| gate.thing).collect();
         match (passages.len(), self.is_russian()) {
             (0, _) => String::new(),
@@ -104,7 +104,7 @@ impl Knowledge<'_> {
         here: Thing,
     ) -> Vec<(Vec<Thing>, Vec<Thing>)> {
         grouped(openings, |opening| {
-            let areas = self.gate(opening).into_iter().flat_map(|g| &g.areas);
+            let areas = self.opening(opening).into_iter().flat_map(|g| &g.areas);
             areas.map(|a| Thing::Entity(Entity::Area(*a))).filter(|t| *t != here).collect()
         })
     }

@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::map::Entity;
-use crate::question::knowledge::{Knowledge, Limits, Passage};
+use crate::question::knowledge::{Knowledge, Limits, RoomPath};
 use crate::question::query::{Noun, Passing, Rel, Thing};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
@@ -105,7 +105,7 @@ impl Knowledge<'_> {
     }
 
     /// Why a way without shut doors cannot be driven, where things bar it.
-    fn blocked(&self, start: Thing, goal: Thing, way: &Passage) -> Option<String> {
+    fn blocked(&self, start: Thing, goal: Thing, way: &RoomPath) -> Option<String> {
         if way.crossings.iter().any(|c| self.is_shut(c.by)) {
             return None;
         }
@@ -113,7 +113,7 @@ impl Knowledge<'_> {
     }
 
     /// «из Комнаты-В через Проход-ВК в Коридор, затем через Дверь-КY в Комнату-Y; Дверь-КY закрыта»
-    fn told(&self, way: &Passage) -> String {
+    fn told(&self, way: &RoomPath) -> String {
         let area = |id: AreaId| Thing::Entity(Entity::Area(id));
         let start = match self.is_russian() {
             true => self.place(Rel::From, &[area(way.start)]),
@@ -140,7 +140,7 @@ impl Knowledge<'_> {
     }
 
     /// «Дверь-КY закрыта», of every shut door on a way.
-    fn shut_on(&self, way: &Passage) -> Vec<String> {
+    fn shut_on(&self, way: &RoomPath) -> Vec<String> {
         let shut = way.crossings.iter().filter(|c| self.is_shut(c.by));
         let told = shut.filter_map(|c| {
             let (status, _) = *self.statuses(c.by).first()?;
@@ -152,7 +152,7 @@ impl Knowledge<'_> {
     }
 
     /// How many doors, or rooms, a way leads through.
-    fn passed(&self, way: &Passage, asks: Passing) -> Draft {
+    fn passed(&self, way: &RoomPath, asks: Passing) -> Draft {
         let told = self.told(way);
         if asks == Passing::Rooms {
             let rooms: Vec<Thing> =
@@ -172,7 +172,7 @@ impl Knowledge<'_> {
             let number = rooms.len() as f64;
             return Draft::new(Said::Found, text).with(rooms).number(number);
         }
-        let gates = way.crossings.iter().filter_map(|c| self.gate(c.by));
+        let gates = way.crossings.iter().filter_map(|c| self.opening(c.by));
         let (passages, doors): (Vec<_>, Vec<_>) = gates.partition(|g| g.is_passage);
         let things: Vec<Thing> = doors.iter().map(|g| g.thing).collect();
         let counted = match (passages.len(), self.is_russian()) {

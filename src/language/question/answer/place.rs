@@ -263,7 +263,7 @@ impl Knowledge<'_> {
     fn where_area(&self, id: AreaId) -> String {
         let thing = Thing::Entity(Entity::Area(id));
         let name = self.name(thing);
-        let gates = self.gates().iter().filter(|g| g.areas.contains(&id)).map(|g| g.thing);
+        let gates = self.openings().iter().filter(|g| g.areas.contains(&id)).map(|g| g.thing);
         let gates: Vec<Thing> = gates.collect();
         let groups =
             self.by_destination(&gates, thing).into_iter().filter(|(to, _)| !to.is_empty());
@@ -283,7 +283,7 @@ impl Knowledge<'_> {
 
     fn where_gate(&self, thing: Thing) -> String {
         let name = self.name(thing);
-        let Some(gate) = self.gate(thing) else {
+        let Some(gate) = self.opening(thing) else {
             return self.where_object_door(thing);
         };
         let areas: Vec<Thing> =
@@ -346,7 +346,7 @@ impl Knowledge<'_> {
         let mut facts = Vec::new();
         let several = self.world.maps.len() > 1;
         for &thing in &found {
-            let areas: Vec<Thing> = match self.gate(thing) {
+            let areas: Vec<Thing> = match self.opening(thing) {
                 Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
                 None => match thing {
                     Thing::Entity(Entity::Area(id)) => {
@@ -370,7 +370,7 @@ impl Knowledge<'_> {
                 continue;
             };
             facts.extend(self.fact(Rel::In, thing, first));
-            if self.gate(thing).is_none() && thing.area().is_none() {
+            if self.opening(thing).is_none() && thing.area().is_none() {
                 placed.push(thing);
                 rooms.extend(Some(first).filter(|room| !rooms.contains(room)));
                 continue;

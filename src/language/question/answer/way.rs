@@ -27,7 +27,7 @@ impl Knowledge<'_> {
     fn leads_one(&self, thing: Thing) -> Draft {
         let name = self.name(thing);
         let areas: Vec<Thing> = self
-            .gate(thing)
+            .opening(thing)
             .map(|g| g.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect())
             .unwrap_or_default();
         let text = match (&areas[..], self.is_russian()) {
@@ -192,7 +192,7 @@ impl Knowledge<'_> {
         // Between rooms, which may touch, only the way tells how far it is.
         let rooms = start.area().is_some() || to.area().is_some();
         let straight = self.distance(start, to);
-        let areas = |t: Thing| match self.gate(t) {
+        let areas = |t: Thing| match self.opening(t) {
             Some(gate) => gate.areas.clone(),
             None => self.area_of(t).into_iter().collect(),
         };

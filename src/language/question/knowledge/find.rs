@@ -116,7 +116,7 @@ impl Knowledge<'_> {
             }
             // "What is between the kitchen and the bedroom?" asks for doors.
             if noun.head.anything && restriction.rel == Rel::Between && !restriction.negated {
-                found.extend(related.iter().filter(|t| self.gate(**t).is_some()));
+                found.extend(related.iter().filter(|t| self.opening(**t).is_some()));
             }
             let before = found.clone();
             // «стулья у стола»: whatever its kind is at furniture that stands no farther than a step.
@@ -386,7 +386,7 @@ impl Knowledge<'_> {
             });
         };
         if let (Some(a), Some(b)) = (a.area(), b.area()) {
-            let gates: Vec<Thing> = self.gates_between(a, b).map(|g| g.thing).collect();
+            let gates: Vec<Thing> = self.openings_between(a, b).map(|g| g.thing).collect();
             // Between two rooms are their doors, and the rooms that both lead to; where no door joins them, the rooms
             // through which one leads to the other.
             let next = |area: AreaId| -> HashSet<Thing> {

@@ -16,7 +16,7 @@ impl Knowledge<'_> {
             Thing::Entity(Entity::Area(id)) => Some(id),
             Thing::Entity(Entity::Place(id)) => self.world.places.get(&id).map(|p| p.area),
             Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => {
-                self.gate(thing).and_then(|g| g.areas.first().copied())
+                self.opening(thing).and_then(|g| g.areas.first().copied())
             }
             Thing::Window(n) => Some(self.lexicon().windows[n as usize].area),
             Thing::Robot => {
@@ -38,9 +38,10 @@ impl Knowledge<'_> {
                 Some((map, frame.apply(place.at)))
             }
             Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => {
-                let gate = self.gate(thing)?;
+                let gate = self.opening(thing)?;
                 let (map, _) = self.world.placement(*gate.areas.first()?)?;
-                Some((map, nalgebra::center(&gate.ends.0, &gate.ends.1)))
+                let ends = self.ends_of(gate)?;
+                Some((map, nalgebra::center(&ends.0, &ends.1)))
             }
             Thing::Window(n) => {
                 let window = &self.lexicon().windows[n as usize];
@@ -56,7 +57,7 @@ impl Knowledge<'_> {
     pub(in crate::question) fn distance(&self, a: Thing, b: Thing) -> Option<f64> {
         let segment = |t: Thing| match t {
             Thing::Window(n) => Some(self.lexicon().windows[n as usize].ends),
-            _ => self.gate(t).map(|g| g.ends),
+            _ => self.ends_of(self.opening(t)?),
         };
         match (a, b) {
             (Thing::Entity(Entity::Replica(x)), Thing::Entity(Entity::Replica(y))) => {
@@ -115,7 +116,7 @@ impl Knowledge<'_> {
             _ => {
                 let ends = match thing {
                     Thing::Window(n) => self.lexicon().windows[n as usize].ends,
-                    _ => self.gate(thing)?.ends,
+                    _ => self.ends_of(self.opening(thing)?)?,
                 };
                 let width = (ends.1 - ends.0).norm();
                 return matches!(

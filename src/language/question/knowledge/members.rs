@@ -57,10 +57,10 @@ impl Knowledge<'_> {
                 all.map(|d| Thing::Entity(Entity::Door(d.id))).collect()
             }
             Extension::Doors => {
-                self.gates().iter().filter(|g| !g.is_passage).map(|g| g.thing).collect()
+                self.openings().iter().filter(|g| !g.is_passage).map(|g| g.thing).collect()
             }
             Extension::Passages => {
-                self.gates().iter().filter(|g| g.is_passage).map(|g| g.thing).collect()
+                self.openings().iter().filter(|g| g.is_passage).map(|g| g.thing).collect()
             }
             Extension::Windows => {
                 (0..self.lexicon().windows.len()).map(|n| Thing::Window(n as u32)).collect()
@@ -77,7 +77,7 @@ impl Knowledge<'_> {
                 stops.map(|stop| Thing::Entity(Entity::Area(stop.area))).collect()
             }
             Extension::Exits => {
-                self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
+                self.openings().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
             }
             Extension::Floor
             | Extension::Walls

@@ -11,15 +11,15 @@ mod values;
 mod walls;
 
 pub(super) use levels::Level;
-pub(super) use passages::{Limits, Passage};
+pub(super) use passages::{Limits, RoomPath};
 pub(super) use walls::Held;
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};
 use super::{Memory, Senses};
-use crate::map::{DoorKind, Entity, Permeability, World};
+use crate::map::{DoorKind, Entity, World};
 use crate::semantics::{Relations, Subject};
-use crate::units::{AreaId, Point, ReplicaId, TypeId};
+use crate::units::{AreaId, OpeningId, Point, ReplicaId, TypeId};
 use crate::words::Language;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::OnceLock;
@@ -130,16 +130,15 @@ pub enum Frame {
     Viewer,
 }
 
-/// A door or passage with what it joins.
+/// How a question speaks of an opening: by its name in the facts, under which a door may hang in several places.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Gate {
+pub(super) struct KnownOpening {
     pub(super) thing: Thing,
+    pub(super) id: OpeningId,
     pub(super) name: String,
     pub(super) is_passage: bool,
-    /// The Areas that it joins; one for a door that leads out of the map.
+    /// The Areas that it is of; one for a door that leads out of the map.
     pub(super) areas: Vec<AreaId>,
-    pub(super) ends: (Point, Point),
-    pub(super) clear_width: f64,
 }
 
 /// What is looked up once a map: nouns, relations both ways, doors. It belongs to one state of the relations.
@@ -147,7 +146,7 @@ pub(super) struct Gate {
 pub struct Mind {
     pub lexicon: Lexicon,
     pairs: [OnceLock<Pairs>; RELATIONS.len()],
-    gates: OnceLock<Vec<Gate>>,
+    openings: OnceLock<Vec<KnownOpening>>,
     by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
     on_floor: OnceLock<HashSet<ReplicaId>>,
     furniture: OnceLock<Vec<ReplicaId>>,
@@ -160,7 +159,7 @@ impl Mind {
         Self {
             lexicon: Lexicon::of(world),
             pairs: std::array::from_fn(|_| OnceLock::new()),
-            gates: OnceLock::new(),
+            openings: OnceLock::new(),
             by_type: OnceLock::new(),
             on_floor: OnceLock::new(),
             furniture: OnceLock::new(),
@@ -205,12 +204,12 @@ impl Knowledge<'_> {
             Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
             Some(_) => None,
             None => {
-                let gates = self.gates();
-                let gate = gates.binary_search_by(|g| g.name.as_str().cmp(symbol));
-                let gate = gate.ok().map(|n| gates[n].thing);
+                let openings = self.openings();
+                let opening = openings.binary_search_by(|o| o.name.as_str().cmp(symbol));
+                let opening = opening.ok().map(|n| openings[n].thing);
                 let windows = &self.lexicon().windows;
                 let window = || windows.iter().position(|w| !w.name.is_empty() && w.name == symbol);
-                gate.or_else(|| window().map(|n| Thing::Window(n as u32)))
+                opening.or_else(|| window().map(|n| Thing::Window(n as u32)))
             }
         }
     }
@@ -223,44 +222,51 @@ impl Knowledge<'_> {
                 let known = self.relations.symbols().known(Subject::Entity(entity));
                 known.map_or_else(|| self.world.name(entity).to_owned(), ToString::to_string)
             }
-            Thing::Opening(n) => self.relations.openings()[n as usize].name.clone(),
+            Thing::Opening(id) => {
+                self.relations.openings().opening(id).map_or_else(String::new, |o| o.name.clone())
+            }
             Thing::Window(n) => self.lexicon().windows[n as usize].name.clone(),
             Thing::Robot => "РБ-2".to_owned(),
         }
     }
 
     /// Doors and passages of Areas, each once, in the order of their names.
-    pub(super) fn gates(&self) -> &[Gate] {
-        self.mind.gates.get_or_init(|| {
-            let mut gates: BTreeMap<String, Gate> = BTreeMap::new();
-            for (n, opening) in self.relations.openings().iter().enumerate() {
+    pub(super) fn openings(&self) -> &[KnownOpening] {
+        self.mind.openings.get_or_init(|| {
+            let mut known: BTreeMap<&str, KnownOpening> = BTreeMap::new();
+            for opening in self.relations.openings().iter() {
                 let kind = opening.door.and_then(|d| self.world.doors.get(&d)).map(|d| d.kind);
-                let is_passage = kind == Some(DoorKind::Passage)
-                    || (kind.is_none() && opening.permeability == Permeability::Permeable);
                 let thing = match opening.door {
                     Some(door) => Thing::Entity(Entity::Door(door)),
-                    None => Thing::Opening(n as u32),
+                    None => Thing::Opening(opening.id),
                 };
-                let gate = gates.entry(opening.name.clone()).or_insert_with(|| Gate {
+                let noun = known.entry(&opening.name).or_insert_with(|| KnownOpening {
                     thing,
+                    id: opening.id,
                     name: opening.name.clone(),
-                    is_passage,
+                    is_passage: kind.map_or(opening.is_passage(), |kind| kind == DoorKind::Passage),
                     areas: Vec::new(),
-                    ends: opening.ends,
-                    clear_width: opening.clear_width,
                 });
-                for area in [Some(opening.area), opening.leads_to()].into_iter().flatten() {
-                    if !gate.areas.contains(&area) {
-                        gate.areas.push(area);
+                for area in opening.all_areas() {
+                    if !noun.areas.contains(&area) {
+                        noun.areas.push(area);
                     }
                 }
             }
-            gates.into_values().collect()
+            known.into_values().collect()
         })
     }
 
-    pub(super) fn gate(&self, thing: Thing) -> Option<&Gate> {
-        self.gates().iter().find(|g| g.thing == thing)
+    pub(super) fn opening(&self, thing: Thing) -> Option<&KnownOpening> {
+        self.openings().iter().find(|opening| opening.thing == thing)
+    }
+
+    /// The ends of the side in which an opening lies, of the lower Area's where it lies in two.
+    pub(super) fn ends_of(&self, opening: &KnownOpening) -> Option<(Point, Point)> {
+        let side = |o: &crate::semantics::Opening| {
+            o.sides.iter().min_by_key(|side| side.area).map(|side| side.ends)
+        };
+        self.relations.openings().opening(opening.id).and_then(side)
     }
 
     fn by_type(&self) -> &HashMap<Option<TypeId>, Vec<ReplicaId>> {

@@ -2,8 +2,8 @@
 //!
 //! Invariant: a passage has the fewest crossings of all that keep to what is asked, and of those the fewest shut doors.
 
-use super::Gate;
 use super::Knowledge;
+use super::KnownOpening;
 use crate::map::{DoorStatus, Entity};
 use crate::question::query::Thing;
 use crate::units::AreaId;
@@ -18,7 +18,7 @@ pub(in crate::question) struct Crossing {
 
 /// The room in which a passage begins, and its crossings in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::question) struct Passage {
+pub(in crate::question) struct RoomPath {
     pub(in crate::question) start: AreaId,
     pub(in crate::question) crossings: Vec<Crossing>,
 }
@@ -39,19 +39,19 @@ impl Knowledge<'_> {
             let items = self.world.maps.get(&id).into_iter().flat_map(|map| &map.items);
             return items.map(|item| item.area).collect();
         }
-        match self.gate(thing) {
+        match self.opening(thing) {
             Some(gate) => gate.areas.clone(),
             None => self.area_of(thing).into_iter().collect(),
         }
     }
 
     /// The doors and passages that join two Areas.
-    pub(in crate::question) fn gates_between(
+    pub(in crate::question) fn openings_between(
         &self,
         a: AreaId,
         b: AreaId,
-    ) -> impl Iterator<Item = &Gate> {
-        self.gates().iter().filter(move |g| g.areas.contains(&a) && g.areas.contains(&b))
+    ) -> impl Iterator<Item = &KnownOpening> {
+        self.openings().iter().filter(move |g| g.areas.contains(&a) && g.areas.contains(&b))
     }
 
     /// Whether a door is shut.
@@ -60,7 +60,7 @@ impl Knowledge<'_> {
     }
 
     fn crossings(&self, from: AreaId) -> Vec<Crossing> {
-        let gates = self.gates().iter().filter(|g| g.areas.contains(&from));
+        let gates = self.openings().iter().filter(|g| g.areas.contains(&from));
         let beyond = gates.flat_map(|g| {
             let others = g.areas.iter().filter(|a| **a != from);
             others.map(|into| Crossing { by: g.thing, into: *into })
@@ -78,7 +78,7 @@ impl Knowledge<'_> {
         from: &[AreaId],
         to: &[AreaId],
         limits: &Limits,
-    ) -> Option<Passage> {
+    ) -> Option<RoomPath> {
         let area = |area: AreaId| Thing::Entity(crate::map::Entity::Area(area));
         // Number of crossings and of shut doors, room; how it was come to.
         let mut open: BTreeSet<(usize, usize, AreaId)> = BTreeSet::new();
@@ -96,7 +96,7 @@ impl Knowledge<'_> {
                     start = *before;
                 }
                 crossings.reverse();
-                return Some(Passage { start, crossings });
+                return Some(RoomPath { start, crossings });
             }
             if best.get(&at) != Some(&(steps, shut)) {
                 continue;
@@ -126,17 +126,17 @@ impl Knowledge<'_> {
         to: &[AreaId],
         through: &[Thing],
         limits: &Limits,
-    ) -> Option<Passage> {
+    ) -> Option<RoomPath> {
         let Some((next, rest)) = through.split_first() else {
             return self.passage(from, to, limits);
         };
-        let joined = |first: Passage, crossing: Option<Crossing>, last: Passage| {
+        let joined = |first: RoomPath, crossing: Option<Crossing>, last: RoomPath| {
             let mut crossings = first.crossings;
             crossings.extend(crossing);
             crossings.extend(last.crossings);
-            Passage { start: first.start, crossings }
+            RoomPath { start: first.start, crossings }
         };
-        let Some(gate) = self.gate(*next) else {
+        let Some(gate) = self.opening(*next) else {
             let first = self.passage(from, &self.rooms_of(*next), limits)?;
             let here = [first.end()];
             let last = self.passage_through(&here, to, rest, limits)?;
@@ -157,7 +157,7 @@ impl Knowledge<'_> {
     }
 }
 
-impl Passage {
+impl RoomPath {
     /// The room in which it ends.
     pub(in crate::question) fn end(&self) -> AreaId {
         self.crossings.last().map_or(self.start, |last| last.into)

@@ -23,7 +23,7 @@ impl Knowledge<'_> {
             (Rel::Of | Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Area(area))) => {
                 let mut found = self.in_area(area);
                 if rel != Rel::Of {
-                    found.retain(|t| self.gate(*t).is_some());
+                    found.retain(|t| self.opening(*t).is_some());
                 }
                 // "Which rooms lead to the corridor?"
                 if rel == Rel::To {
@@ -37,7 +37,7 @@ impl Knowledge<'_> {
                 all.filter(|t| !inside.contains(t)).collect()
             }
             (Rel::Near | Rel::NextTo, Thing::Entity(Entity::Area(area))) => {
-                let gates = self.gates().iter().filter(|g| g.areas.contains(&area));
+                let gates = self.openings().iter().filter(|g| g.areas.contains(&area));
                 let rooms: BTreeSet<AreaId> =
                     gates.flat_map(|g| &g.areas).copied().filter(|a| *a != area).collect();
                 rooms.into_iter().map(|a| Thing::Entity(Entity::Area(a))).collect()
@@ -46,9 +46,11 @@ impl Knowledge<'_> {
                 Rel::Near | Rel::NextTo | Rel::At,
                 Thing::Entity(Entity::Door(_)) | Thing::Opening(_),
             ) => {
-                let Some(gate) = self.gate(anchor) else { return Vec::new() };
+                let Some(ends) = self.opening(anchor).and_then(|o| self.ends_of(o)) else {
+                    return Vec::new();
+                };
                 let all = self.pairs("AT_DOOR").and_then(|pairs| pairs.backward.get(&anchor));
-                let away = |id| self.relations.distance_to_segment(id, gate.ends);
+                let away = |id| self.relations.distance_to_segment(id, ends);
                 nearest_first(all.into_iter().flatten().copied(), away)
             }
             (Rel::Near | Rel::NextTo | Rel::At | Rel::Under, Thing::Window(n)) => {
@@ -66,7 +68,7 @@ impl Knowledge<'_> {
                 })
             }
             (Rel::Within(reach), _) => {
-                let areas = match self.gate(anchor) {
+                let areas = match self.opening(anchor) {
                     Some(gate) => gate.areas.clone(),
                     None => self.area_of(anchor).into_iter().collect(),
                 };
@@ -132,7 +134,8 @@ impl Knowledge<'_> {
             let door = self.opened_by(*key);
             door == Some(anchor)
                 || anchor.area().is_some_and(|area| {
-                    door.and_then(|door| self.gate(door)).is_some_and(|g| g.areas.contains(&area))
+                    door.and_then(|door| self.opening(door))
+                        .is_some_and(|g| g.areas.contains(&area))
                 })
         };
         all.filter(fits).collect()
@@ -189,7 +192,7 @@ impl Knowledge<'_> {
             return self.tuple(Rel::In, y, x);
         }
         let own = match rel {
-            Rel::Near | Rel::NextTo | Rel::At if self.gate(y).is_some() => Some("AT_DOOR"),
+            Rel::Near | Rel::NextTo | Rel::At if self.opening(y).is_some() => Some("AT_DOOR"),
             Rel::Middle => Some("IN_MIDDLE_OF"),
             _ => None,
         };
@@ -226,7 +229,7 @@ impl Knowledge<'_> {
                 let placed = self.world.placement(id);
                 placed.map(|(map, _)| Thing::Entity(Entity::Map(map))).into_iter().collect()
             }
-            _ => match self.gate(thing) {
+            _ => match self.opening(thing) {
                 Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
                 None => self.by_relation(Rel::Has, thing),
             },
@@ -236,7 +239,7 @@ impl Knowledge<'_> {
     fn in_area(&self, area: AreaId) -> Vec<Thing> {
         let here = Thing::Entity(Entity::Area(area));
         let mut found = self.by_relation(Rel::In, here);
-        found.extend(self.gates().iter().filter(|g| g.areas.contains(&area)).map(|g| g.thing));
+        found.extend(self.openings().iter().filter(|g| g.areas.contains(&area)).map(|g| g.thing));
         let windows = self.lexicon().windows.iter().enumerate();
         found.extend(windows.filter(|(_, w)| w.area == area).map(|(n, _)| Thing::Window(n as u32)));
         let places = self.world.places.values().filter(|p| p.area == area);

@@ -2,7 +2,7 @@
 //!
 //! Invariant: what a thing itself says goes before what its object says.
 
-use super::{Gate, Knowledge};
+use super::{Knowledge, KnownOpening};
 use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::question::query::{Filter, Rel, Thing};
 use crate::question::values::{Property, ValueId};
@@ -87,13 +87,15 @@ impl Knowledge<'_> {
                 // A room is locked where all its doors are.
                 _ => {
                     let open = values.of_door(DoorStatus::Open);
-                    let own = |gate: &Gate| match gate.is_passage {
+                    let own = |gate: &KnownOpening| match gate.is_passage {
                         true => open.is_some_and(|open| values.is(open, wanted)),
                         false => self.has_value(gate.thing, wanted),
                     };
                     let area = thing.area();
-                    let mut gates =
-                        self.gates().iter().filter(|g| area.is_some_and(|a| g.areas.contains(&a)));
+                    let mut gates = self
+                        .openings()
+                        .iter()
+                        .filter(|g| area.is_some_and(|a| g.areas.contains(&a)));
                     let stated = values.entry(wanted).property == Property::State;
                     stated && gates.clone().next().is_some() && gates.all(own)
                 }

@@ -126,10 +126,10 @@ impl Knowledge<'_> {
         let own = &measured.of_thing(thing.replica()?)?.walls;
         let own = own.iter().filter(|(_, away)| *away as f64 / 100.0 <= near.wall_gap);
         let own: Vec<(Point, Point)> = own.filter_map(|(n, _)| walls.get(*n).copied()).collect();
-        let gates = self.gates().iter().filter(|g| g.areas.contains(&area));
+        let gates = self.openings().iter().filter(|g| g.areas.contains(&area));
         let windows = self.lexicon().windows.iter().enumerate().filter(|(_, w)| w.area == area);
         let windows = windows.map(|(n, w)| (Thing::Window(n as u32), w.ends));
-        let openings = gates.map(|g| (g.thing, g.ends)).chain(windows);
+        let openings = gates.filter_map(|g| Some((g.thing, self.ends_of(g)?))).chain(windows);
         let in_own = |ends| own.iter().any(|wall| in_line(*wall, ends, near.wall_line));
         Some(openings.filter(|(_, ends)| in_own(*ends)).map(|(thing, _)| thing).collect())
     }

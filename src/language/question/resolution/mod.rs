@@ -1,4 +1,4 @@
-//! Commands made plain: every description is replaced by the name of the thing that it means.
+//! Reference resolution: every description of a command is replaced by the name of the thing that it means.
 //!
 //! «Принеси красную чашку со стола в кухне» becomes «Принеси Чашку-2», «Закрой все двери» the names of all doors. Where
 //! a thing is said to be narrows what it may be; whither it is to go does not. What the verb can be done to comes

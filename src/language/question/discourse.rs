@@ -1,4 +1,4 @@
-//! Going on from a question for a way: the way back, how long it is, what lies on it.
+//! Discourse: going on from a question for a way: the way back, how long it is, what lies on it.
 //!
 //! Invariant: a question that names anything else than the way, its rooms and doors goes on from nothing here.
 

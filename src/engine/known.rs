@@ -1,0 +1,270 @@
+//! A world with all that follows from it: the map as surveyed, or what is believed to be so now.
+//!
+//! Questions, ways and places are asked of one [`Known`], whichever it is. What follows is derived when first asked for, by
+//! whoever asks first; what a world has in common with the one on which it rests is followed from there.
+//!
+//! **Invariant**: what is carried stands in no relation to anything and on no floor, and can be spoken of all the same.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
+use crate::language::FormIndex;
+use crate::language::question::Mind;
+use crate::map::{Entity, World};
+use crate::semantics::{Followed, Relations, derive};
+use crate::store::Derived;
+use crate::units::{AreaId, MapId, Point, ReplicaId};
+
+use super::lexicon::form_index;
+use super::position::nowhere_on;
+use super::route::{End, Located};
+use super::{Error, RequestError, Rules};
+
+/// Under this name the store keeps the relations.
+const RELATIONS: &str = "relations";
+
+/// A world and what follows from it: see the head of this file.
+#[derive(Debug, Clone)]
+pub(super) struct Known {
+    pub(super) rules: Arc<Rules>,
+    /// With what is carried.
+    pub(super) world: Arc<World>,
+    /// Who has what was taken off the map; an empty name for the robot itself.
+    pub(super) holders: BTreeMap<ReplicaId, String>,
+    /// Of what was taken off the map, what lies on or in another such thing, with that thing.
+    pub(super) carriers: BTreeMap<ReplicaId, ReplicaId>,
+    /// The map as surveyed, of what differs from it.
+    basis: Option<Arc<Self>>,
+    /// Where what follows from the map is kept for the next start.
+    pub(super) derived: Option<Derived>,
+    pub(super) relations: OnceLock<Arc<Relations>>,
+    pub(super) floors: OnceLock<Arc<BTreeMap<MapId, FloorPlan>>>,
+    /// The nouns, for questions.
+    pub(super) mind: OnceLock<Arc<Mind>>,
+    /// The names in all their forms, for commands.
+    pub(super) forms: OnceLock<Arc<FormIndex<Entity>>>,
+}
+
+impl Known {
+    /// A map; nothing is derived yet.
+    pub(super) fn surveyed(rules: Arc<Rules>, world: Arc<World>, derived: Option<Derived>) -> Self {
+        Self {
+            rules,
+            world,
+            holders: BTreeMap::new(),
+            carriers: BTreeMap::new(),
+            basis: None,
+            derived,
+            relations: OnceLock::new(),
+            floors: OnceLock::new(),
+            mind: OnceLock::new(),
+            forms: OnceLock::new(),
+        }
+    }
+
+    /// The same map with what a robot did and saw; of `world` those in `holders` are carried.
+    ///
+    /// # Errors
+    /// A rule of the user's own outgrows the memory.
+    pub(super) fn now(
+        basis: &Arc<Self>,
+        mut world: World,
+        holders: BTreeMap<ReplicaId, String>,
+        carriers: BTreeMap<ReplicaId, ReplicaId>,
+    ) -> Result<Self, Error> {
+        let gone: Vec<_> = holders.keys().filter_map(|id| world.replicas.remove(id)).collect();
+        let relations = basis.followed(&world)?.shared();
+        world.replicas.extend(gone.into_iter().map(|replica| (replica.id, replica)));
+        let known = Self::surveyed(Arc::clone(&basis.rules), Arc::new(world), None);
+        Ok(Self {
+            holders,
+            carriers,
+            basis: Some(Arc::clone(basis)),
+            relations: relations.into(),
+            ..known
+        })
+    }
+
+    pub(super) fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The relations that hold, derived when first asked for.
+    ///
+    /// # Errors
+    /// A rule of the user's own outgrows the memory.
+    pub(super) fn relations(&self) -> Result<&Relations, Error> {
+        self.shared_relations().map(|relations| &**relations)
+    }
+
+    pub(super) fn shared_relations(&self) -> Result<&Arc<Relations>, Error> {
+        if let Some(relations) = self.relations.get() {
+            return Ok(relations);
+        }
+        let relations = match self.kept_relations(&self.world) {
+            Some(relations) => relations,
+            None => {
+                let profile = self.world.domain.profile;
+                let relations = derive(&self.world, &self.rules.relations, profile)?;
+                self.keep_relations(&relations);
+                relations
+            }
+        };
+        Ok(self.relations.get_or_init(|| Arc::new(relations)))
+    }
+
+    /// The relations of a world that differs from this in what a robot can do or see: followed where they can be, else
+    /// derived anew.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
+        let relations = Arc::clone(self.shared_relations()?);
+        let mut followed = Followed::new(Arc::clone(&self.world), relations);
+        followed.of(world)?;
+        Ok(followed)
+    }
+
+    /// The relations that the store keeps for its map as it stands, under these rules.
+    fn kept_relations(&self, world: &World) -> Option<Relations> {
+        let bytes = self.derived.as_ref()?.get(RELATIONS)?;
+        Relations::restore(world, &self.rules.relations, world.domain.profile, &bytes)
+    }
+
+    /// Keeps relations for the next start. They can be derived again, so that a store that cannot take them does no
+    /// harm.
+    fn keep_relations(&self, relations: &Relations) {
+        let Some(derived) = &self.derived else { return };
+        let Some(bytes) = relations.save() else { return };
+        if let Err(error) = derived.put(RELATIONS, &bytes) {
+            tracing::debug!(%error, "relations are not kept");
+        }
+    }
+
+    /// All doors and passages, each once, with what the rules let them join.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn openings(&self) -> Result<&Openings, Error> {
+        Ok(self.relations()?.openings())
+    }
+
+    /// The free floor of every map, which leads through what the rules let join.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+        if let Some(floors) = self.floors.get() {
+            return Ok(floors);
+        }
+        let (openings, world) = (self.openings()?, &self.world);
+        // Rules of the user's own may let doors join by what stands about.
+        let basis = self
+            .basis
+            .as_ref()
+            .filter(|basis| basis.openings().is_ok_and(|surveyed| surveyed == openings));
+        let floors = match basis {
+            Some(basis) => {
+                let mut empty_handed = World::clone(world);
+                for gone in self.holders.keys() {
+                    empty_handed.replicas.remove(gone);
+                }
+                let mut floors = basis.floors()?.clone();
+                floors.values_mut().for_each(|floor| floor.follow(&basis.world, &empty_handed));
+                floors
+            }
+            None => {
+                world.maps.keys().map(|&map| (map, self.floor_of(world, openings, map))).collect()
+            }
+        };
+        Ok(self.floors.get_or_init(|| Arc::new(floors)))
+    }
+
+    /// The floor of a map, with what the store keeps of it; what had to be built is kept for the next start.
+    fn floor_of(&self, world: &World, openings: &Openings, map: MapId) -> FloorPlan {
+        let kind = format!("floor-{}", map.0);
+        let kept = self.derived.as_ref().and_then(|derived| derived.get_of_any(&kind));
+        let kept = kept.unwrap_or_default();
+        let states = DoorStates::new();
+        let (plan, built) = FloorPlan::restore(world, openings, map, &world.robot, &states, &kept);
+        if let (Some(derived), true) = (&self.derived, built > 0)
+            && let Err(error) = derived.put(&kind, &plan.save(world))
+        {
+            tracing::debug!(%error, "floors are not kept");
+        }
+        plan
+    }
+
+    /// The nouns, read when first asked for.
+    pub(super) fn mind(&self) -> &Mind {
+        self.mind.get_or_init(|| Arc::new(Mind::of(&self.world)))
+    }
+
+    /// Every name in every form, indexed when first asked for.
+    pub(super) fn forms(&self) -> &FormIndex<Entity> {
+        self.forms.get_or_init(|| Arc::new(form_index(&self.world)))
+    }
+
+    pub(super) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {
+        Ok(self.floors()?.get(&map).expect("every map of the world has a floor"))
+    }
+
+    /// A point of a Map, as an end of a way.
+    ///
+    /// # Errors
+    /// It lies in no Area.
+    pub(super) fn locate_point(&self, map: MapId, at: Point) -> Result<Located, Error> {
+        let floor = self.floor(map)?;
+        if floor.locate(at).is_none() {
+            return Err(nowhere_on(self.world(), floor, at).into());
+        }
+        Ok(Located { map, at, target: Target::Point(at), end: End::Point })
+    }
+
+    /// Where an entity is, as an end of a way.
+    ///
+    /// # Errors
+    /// It is something where one cannot stand.
+    pub(super) fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
+        let world = self.world();
+        let nowhere =
+            || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
+        let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
+        match entity {
+            Entity::Map(_) => Err(nowhere()),
+            Entity::Place(id) => {
+                let place = &world.places[&id];
+                let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;
+                located(map, frame.apply(place.at), Target::Place(id))
+            }
+            Entity::Area(id) => {
+                let (map, at) = self.middle_of(world, id).ok_or_else(nowhere)?;
+                located(map, at, Target::Area(id))
+            }
+            Entity::Replica(id) => {
+                let (map, _) = world.placement(world.replicas[&id].area).ok_or_else(nowhere)?;
+                let floor = self.floor(map)?;
+                let bounds = floor.scene().replicas.get(&id).ok_or_else(nowhere)?.bounds;
+                let middle = nalgebra::center(&bounds.min, &bounds.max);
+                let target = Target::Replica(id);
+                // In front of the thing, where there is a way to that; else beside it.
+                let standing = floor.route(world, middle, target, Method::Shortest).ok();
+                let at = standing.and_then(|r| r.points.last().copied()).unwrap_or(middle);
+                located(map, at, target)
+            }
+            Entity::Door(door) => {
+                let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
+                let (map, _) = world.placement(area).ok_or_else(nowhere)?;
+                let at = self.floor(map)?.stand_before(world, door, area).ok_or_else(nowhere)?.at;
+                located(map, at, Target::Door { door, area })
+            }
+        }
+    }
+
+    fn middle_of(&self, world: &World, area: AreaId) -> Option<(MapId, Point)> {
+        let (map, _) = world.placement(area)?;
+        let placed = self.floor(map).ok()?.scene().areas.get(&area)?;
+        Some((map, placed.prisms.first()?.polygon.centroid()))
+    }
+}
