@@ -88,8 +88,9 @@ pub fn run_files(
         }
     }
     let derived = program.evaluate_within(&database, limits)?;
-    let mut report =
-        FilesReport { warnings: program.warnings().to_vec(), ..FilesReport::default() };
+    let mut warnings = program.warnings().to_vec();
+    warnings.extend(derived.notes());
+    let mut report = FilesReport { warnings, ..FilesReport::default() };
     for (relation, info) in program.relations() {
         if info.print_size {
             let size = derived.len(relation).expect("the relation is the program's own");
@@ -318,6 +319,7 @@ fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known 
             number.ok().map(|number| loader.number(number))
         }
         Some(Kind::Float) => text.trim().parse().ok().map(|decimal| loader.decimal(decimal)),
+        Some(kind @ Kind::Record(_)) => loader.record(text, kind),
         _ => None,
     };
     value.unwrap_or_else(|| loader.symbol(text))

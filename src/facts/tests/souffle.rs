@@ -12,7 +12,8 @@ use std::time::Duration;
 use orthoframe_facts::{FilesError, Limits, run_files};
 
 /// Tests that need not come out the same, each with the reason.
-const EXCEPTIONS: &[(&str, &str)] = &[];
+const EXCEPTIONS: &[(&str, &str)] =
+    &[("magic_samegen", "360 million pairs where one is asked for: needs evaluation on demand")];
 
 #[derive(Debug, PartialEq)]
 enum Outcome {
@@ -64,7 +65,8 @@ fn suite() -> Option<PathBuf> {
     if let Some(given) = std::env::var_os("SOUFFLE_SUITE") {
         return Some(given.into());
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/souffle/evaluation");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/souffle/evaluation");
     if path.exists() {
         return Some(path);
     }
@@ -76,7 +78,7 @@ fn outcome(case: &Path, name: &str) -> Outcome {
     let out = tempfile::tempdir().expect("a folder for the results");
     let facts = case.join("facts");
     let facts = if facts.exists() { facts } else { case.to_owned() };
-    let limits = Limits { time: Duration::from_secs(60), memory_bytes: 1 << 30 };
+    let limits = Limits { time: Duration::from_secs(20), memory_bytes: 1 << 30 };
     let report = match run_files(&case.join(format!("{name}.dl")), &facts, out.path(), limits) {
         Ok(report) => report,
         Err(FilesError::Program(faults)) => {
@@ -94,7 +96,8 @@ fn outcome(case: &Path, name: &str) -> Outcome {
         let file = expected.file_name().expect("a file has a name").to_owned();
         let (wanted, found) = (lines(&expected), lines(&out.path().join(&file)));
         if wanted != found {
-            let missing: Vec<_> = wanted.iter().filter(|line| !found.contains(line)).take(3).collect();
+            let missing: Vec<_> =
+                wanted.iter().filter(|line| !found.contains(line)).take(3).collect();
             let more: Vec<_> = found.iter().filter(|line| !wanted.contains(line)).take(3).collect();
             let file = file.to_string_lossy();
             return Outcome::Differs(format!("{file}: missing {missing:?}, too many {more:?}"));
