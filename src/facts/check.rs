@@ -30,7 +30,7 @@ pub(super) struct Type {
 }
 
 /// What the declarations say.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Declared {
     pub(super) relations: Vec<RelationInfo>,
     /// For each relation the types of its columns, by position in `types`.
@@ -39,6 +39,8 @@ pub(super) struct Declared {
     pub(super) names: Names,
     pub(super) types: Vec<Type>,
     type_names: HashMap<String, usize>,
+    /// Relations whose rules were put where they are read: they have no tuples of their own.
+    pub(super) unfolded: BTreeSet<RelationId>,
 }
 
 impl Declared {
@@ -116,16 +118,20 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
         }
     }
     for (info, at) in made.relations {
+        declared.columns.push(info.columns.iter().map(|column| primitive(column.kind)).collect());
         declared.relations.push(info);
         declared.places.push(at);
     }
     clauses.extend(made.clauses);
+    let clauses: Vec<Arc<Clause>> = clauses.into_iter().map(Arc::new).collect();
     let strata = strata(&declared, &clauses, faults);
     unused(&declared, &clauses, &facts, &gone, faults);
+    declared.unfolded = gone;
     Program {
         sources: sources.into(),
-        relations: Arc::new(declared.relations),
-        names: Arc::new(declared.names),
+        relations: Arc::new(declared.relations.iter().cloned().map(Arc::new).collect()),
+        names: Arc::new(declared.names.clone()),
+        declared: Arc::new(declared),
         clauses: clauses.into(),
         facts: facts.into(),
         strata: strata.into(),
@@ -135,7 +141,7 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
 }
 
 /// The rules that close a relation declared `eqrel` under equivalence.
-fn equivalence(item: &Item, faults: &mut Found) -> Vec<Rule> {
+pub(super) fn equivalence(item: &Item, faults: &mut Found) -> Vec<Rule> {
     let Item::Relation { names, columns, roles, .. } = item else { return Vec::new() };
     if !roles.contains(&Role::Equivalence) {
         return Vec::new();
@@ -181,15 +187,20 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
         declared.type_names.insert(name.into(), declared.types.len());
         declared.types.push(Type { name: name.into(), kind, below: vec![], parts: vec![] });
     }
-    declare_types(items, &mut declared, faults);
+    declare_more(items, &mut declared, faults);
+    declared
+}
+
+/// Adds types and relations to those that are declared already.
+pub(super) fn declare_more(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    declare_types(items, declared, faults);
     for item in items {
         if let Item::Relation { names, columns, second, roles } = item {
             for name in names {
-                declare_relation(name, columns, second.as_ref(), roles, &mut declared, faults);
+                declare_relation(name, columns, second.as_ref(), roles, declared, faults);
             }
         }
     }
-    declared
 }
 
 /// A type may be named before it is declared: it waits until all its bases are. What is left when nothing more fits
@@ -378,7 +389,11 @@ fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInf
 }
 
 /// Relations in groups that depend on each other, each group after those it reads.
-fn strata(declared: &Declared, clauses: &[Clause], faults: &mut Found) -> Vec<Stratum> {
+pub(super) fn strata(
+    declared: &Declared,
+    clauses: &[Arc<Clause>],
+    faults: &mut Found,
+) -> Vec<Stratum> {
     let mut graph: DiGraph<(), ()> = DiGraph::new();
     let nodes: Vec<NodeIndex> = declared.relations.iter().map(|_| graph.add_node(())).collect();
     let mut edges: BTreeMap<(usize, usize), Option<Span>> = BTreeMap::new();
@@ -460,7 +475,7 @@ fn cycle_text(
 
 fn unused(
     declared: &Declared,
-    clauses: &[Clause],
+    clauses: &[Arc<Clause>],
     facts: &[Fact],
     unfolded: &BTreeSet<RelationId>,
     faults: &mut Found,

@@ -52,6 +52,11 @@ impl Watch {
         self.limits.map_or_else(Limits::default, |(limits, _)| limits)
     }
 
+    /// Ends all loops for a reason of the caller's own.
+    pub(super) fn stop(&self) {
+        self.reached.set(self.reached.get().or(Some(Reached::Time)));
+    }
+
     pub(super) fn reached(&self) -> Option<Reached> {
         self.reached.get()
     }

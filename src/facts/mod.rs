@@ -55,11 +55,14 @@
 
 use orthoframe_units as units;
 
+mod ask;
+mod called;
 mod check;
 mod clause;
 mod database;
 mod decimal;
 mod delta;
+mod demand;
 mod derived;
 mod evaluate;
 mod expression;
@@ -75,11 +78,13 @@ mod kinds;
 mod lex;
 mod limits;
 mod live;
+mod magic;
 mod nearest;
 mod parse;
 mod plan;
 mod program;
 mod proof;
+mod question;
 mod read;
 mod rows;
 mod run;
@@ -91,6 +96,7 @@ mod value;
 mod why_not;
 mod word;
 
+pub use ask::{Answers, AskError, Computed};
 pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
 pub use derived::{Derived, Tuple, Tuples};

@@ -208,14 +208,16 @@ pub(super) struct Fact {
 #[derive(Debug, Clone)]
 pub struct Program {
     pub(super) sources: Arc<[Source]>,
-    pub(super) relations: Arc<Vec<RelationInfo>>,
+    pub(super) relations: Arc<Vec<Arc<RelationInfo>>>,
     pub(super) names: Arc<Names>,
-    pub(super) clauses: Arc<[Clause]>,
+    pub(super) clauses: Arc<[Arc<Clause>]>,
     pub(super) facts: Arc<[Fact]>,
     pub(super) strata: Arc<[Stratum]>,
     /// The constants of the text; a database starts with them.
     pub(super) words: Words,
     pub(super) warnings: Arc<[FileFaults]>,
+    /// What questions about the program's results name.
+    pub(super) declared: Arc<check::Declared>,
 }
 
 impl Program {
@@ -289,7 +291,7 @@ impl Program {
 
     /// All relations, in the order of their declarations.
     pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
-        self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), info))
+        self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), &**info))
     }
 
     /// The facts of a relation that stand in the text, each with its values and where it stands.
@@ -308,7 +310,7 @@ impl Program {
 
     /// The texts of the rules that read a relation, each as often as it has such a rule.
     pub fn readers(&self, relation: RelationId) -> impl Iterator<Item = &Source> {
-        let reads = move |clause: &&Clause| {
+        let reads = move |clause: &&Arc<Clause>| {
             let mut found = false;
             check::reads(&clause.body, false, &mut |of, _, _| found |= of == relation);
             found
@@ -360,7 +362,7 @@ impl Found {
     }
 }
 
-fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
+pub(super) fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
     faults.sort_by_key(|(file, fault)| (*file, fault.span().offset()));
     let mut files: Vec<(u32, FileFaults)> = Vec::new();
     for (file, fault) in faults {
@@ -376,7 +378,7 @@ fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFau
 }
 
 /// Relations by both names.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Names {
     exact: HashMap<String, RelationId>,
     /// By [`name_key`]; none where several relations share the key.

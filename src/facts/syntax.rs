@@ -77,6 +77,20 @@ pub(super) struct Rule {
     pub(super) at: Span,
 }
 
+/// `?- body. order X desc. limit 5`
+#[derive(Debug, Clone)]
+pub(super) struct Question {
+    /// What is asked for, where a head says it.
+    pub(super) exprs: Option<Vec<Expr>>,
+    pub(super) body: Body,
+    /// Names of answer columns, each with whether it descends.
+    pub(super) order: Vec<(Name, bool)>,
+    pub(super) limit: Option<usize>,
+    /// The text that it stands in.
+    pub(super) text: String,
+    pub(super) at: Span,
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Body {
     All(Vec<Self>),
