@@ -34,7 +34,7 @@ pub(super) struct Type {
 }
 
 /// What the declarations say.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Declared {
     pub(super) relations: Vec<RelationInfo>,
     /// For each relation the types of its columns, by position in `types`.
@@ -47,10 +47,12 @@ pub(super) struct Declared {
     structures: Vec<Structure>,
     /// For each branch's name its structure.
     branches: HashMap<String, u32>,
+    /// Relations whose rules were put where they are read: they have no tuples of their own.
+    pub(super) unfolded: BTreeSet<RelationId>,
 }
 
 /// A type of records or branches; fields by the positions of their types.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct Structure {
     name: String,
     branches: Vec<(String, Vec<usize>)>,
@@ -113,6 +115,12 @@ impl Declared {
                 (!of.is_record).then(|| (record::tag(at), of.branches[at].1.as_slice()))
             }
         }
+    }
+
+    /// A type of a kind.
+    fn type_of(&self, kind: Kind) -> usize {
+        let of_kind = || self.types.iter().position(|of| of.kind == kind);
+        primitive(kind).or_else(of_kind).unwrap_or(0)
     }
 
     /// A kind as messages name it.
@@ -183,18 +191,24 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
         }
     }
     for (info, at) in made.relations {
+        declared
+            .columns
+            .push(info.columns.iter().map(|column| declared.type_of(column.kind)).collect());
         declared.relations.push(info);
         declared.places.push(at);
     }
     clauses.extend(made.clauses);
+    let clauses: Vec<Arc<Clause>> = clauses.into_iter().map(Arc::new).collect();
     let strata = strata(&declared, &clauses, &subsumptions, faults);
-    let hidden = gone.into_iter().chain(dominated.into_keys()).collect();
+    let hidden = gone.iter().copied().chain(dominated.into_keys()).collect();
     unused(&declared, &clauses, &subsumptions, &facts, &hidden, faults);
     hints(items, faults);
+    declared.unfolded = gone;
     Program {
         sources: sources.into(),
-        relations: Arc::new(declared.relations),
-        names: Arc::new(declared.names),
+        relations: Arc::new(declared.relations.iter().cloned().map(Arc::new).collect()),
+        names: Arc::new(declared.names.clone()),
+        declared: Arc::new(declared),
         clauses: clauses.into(),
         facts: facts.into(),
         strata: strata.into(),
@@ -206,7 +220,7 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
 }
 
 /// The rules that close a relation declared `eqrel` under equivalence.
-fn equivalence(item: &Item, faults: &mut Found) -> Vec<Rule> {
+pub(super) fn equivalence(item: &Item, faults: &mut Found) -> Vec<Rule> {
     let Item::Relation { names, columns, roles, .. } = item else { return Vec::new() };
     if !roles.contains(&Role::Equivalence) {
         return Vec::new();
@@ -253,17 +267,22 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
         declared.types.push(Type { name: name.into(), kind, below: vec![], parts: vec![] });
     }
     declare_structures(items, &mut declared, faults);
-    declare_types(items, &mut declared, faults);
+    declare_more(items, &mut declared, faults);
     declare_fields(items, &mut declared, faults);
+    declared
+}
+
+/// Adds types and relations to those that are declared already.
+pub(super) fn declare_more(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    declare_types(items, declared, faults);
     for item in items {
         if let Item::Relation { names, columns, second, roles, domains } = item {
             for name in names {
-                declare_relation(name, columns, second.as_ref(), roles, &mut declared, faults);
-                choose(name, domains, &mut declared, faults);
+                declare_relation(name, columns, second.as_ref(), roles, declared, faults);
+                choose(name, domains, declared, faults);
             }
         }
     }
-    declared
 }
 
 /// The names of records and of branched types, so that their fields may be of them.
@@ -342,6 +361,7 @@ fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
     let mut limits = Ceilings::default();
     for item in items {
         let Item::Pragma { name, value, at } = item else { continue };
+        limits.on_demand |= name == "magic-transform";
         let Ok(number) = value.trim().parse::<u64>() else {
             if is_limit(name) {
                 let (expected, found) = ("целое число в кавычках".to_owned(), format!("«{value}»"));
@@ -368,7 +388,9 @@ fn hints(items: &[Item], faults: &mut Found) {
     for item in items {
         let (what, at) = match item {
             Item::Hint { what, at } => (what.clone(), *at),
-            Item::Pragma { name, at, .. } if !is_limit(name) => (format!(".pragma «{name}»"), *at),
+            Item::Pragma { name, at, .. } if !is_limit(name) && name != "magic-transform" => {
+                (format!(".pragma «{name}»"), *at)
+            }
             _ => continue,
         };
         faults.push(at, RuleError::Hint { what, at: at.into() });
@@ -565,9 +587,9 @@ fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInf
 }
 
 /// Relations in groups that depend on each other, each group after those it reads.
-fn strata(
+pub(super) fn strata(
     declared: &Declared,
-    clauses: &[Clause],
+    clauses: &[Arc<Clause>],
     subsumptions: &[Subsumption],
     faults: &mut Found,
 ) -> Vec<Stratum> {
@@ -666,7 +688,7 @@ fn cycle_text(
 
 fn unused(
     declared: &Declared,
-    clauses: &[Clause],
+    clauses: &[Arc<Clause>],
     subsumptions: &[Subsumption],
     facts: &[Fact],
     unfolded: &BTreeSet<RelationId>,

@@ -60,6 +60,83 @@ pub(super) fn clauses(
     clauses
 }
 
+/// The clauses of a question, one for each choice of its disjunctions, and the kinds of what is asked for. Without
+/// `exprs` it asks for all variables of the body's own level whose names do not start with `_`.
+pub(super) fn asking(
+    question: &syntax::Question,
+    declared: &Declared,
+    words: &mut Words,
+    made: &mut Made,
+    faults: &mut Found,
+) -> (Vec<Clause>, Vec<(String, Kind)>) {
+    let Some(choices) = choices(&question.body, true) else {
+        let (what, limit, at) = ("вариантов у вопроса", MAX_CHOICES, question.at.into());
+        faults.push(question.at, RuleError::TooLarge { what, limit, at });
+        return (Vec::new(), Vec::new());
+    };
+    let exprs = question.exprs.clone().unwrap_or_else(|| {
+        let mut names = Vec::new();
+        choices.iter().flatten().for_each(|premise| names_in(premise, &mut names));
+        let mut asked: Vec<syntax::Expr> = Vec::new();
+        for name in names {
+            let is_known = |expr: &syntax::Expr| {
+                matches!(expr, syntax::Expr::Variable(known) if known.text == name.text)
+            };
+            if !name.text.starts_with('_') && !asked.iter().any(is_known) {
+                asked.push(syntax::Expr::Variable(name.clone()));
+            }
+        }
+        asked
+    });
+    let is_too_wide = exprs.len() > super::check::MAX_COLUMNS;
+    if is_too_wide || choices.iter().any(|choice| choice.len() > MAX_PREMISES) {
+        let (what, limit) = match is_too_wide {
+            true => ("столбцов ответа", super::check::MAX_COLUMNS),
+            false => ("посылок у вопроса", MAX_PREMISES),
+        };
+        faults.push(question.at, RuleError::TooLarge { what, limit, at: question.at.into() });
+        return (Vec::new(), Vec::new());
+    }
+    // Numbered behind all relations that parts of the rules and of the question become.
+    let head = RelationId(u32::MAX);
+    let (mut clauses, mut kinds) = (Vec::new(), None::<Vec<Kind>>);
+    for choice in &choices {
+        let mut builder = Builder {
+            declared,
+            words,
+            faults,
+            made,
+            variables: Vec::new(),
+            is_sound: true,
+            excused: Vec::new(),
+            in_atoms: HashSet::new(),
+        };
+        let Some((clause, found)) = builder.asking(head, &exprs, choice, question.at) else {
+            continue;
+        };
+        let known = kinds.get_or_insert_with(|| found.clone());
+        for ((expr, one), other) in exprs.iter().zip(known.iter()).zip(&found) {
+            if one != other {
+                let (expected, found) = (declared.kind_text(*one), declared.kind_text(*other));
+                let (what, at) = (expr_name(expr, &question.text), expr.at());
+                faults.push(at, RuleError::Types { what, expected, found, at: at.into() });
+            }
+        }
+        clauses.push(clause);
+    }
+    let kinds = kinds.unwrap_or_else(|| vec![Kind::Symbol; exprs.len()]);
+    let named = exprs.iter().map(|expr| expr_name(expr, &question.text)).zip(kinds);
+    (clauses, named.collect())
+}
+
+/// A variable's name, else the expression as it is written.
+fn expr_name(expr: &syntax::Expr, text: &str) -> String {
+    match expr {
+        syntax::Expr::Variable(name) => name.text.clone(),
+        other => text.get(other.at().range()).unwrap_or_default().trim().to_owned(),
+    }
+}
+
 /// Relations, with their places, and clauses that stand for parts of rules; numbered behind the declared ones.
 #[derive(Debug, Default)]
 pub(super) struct Made {
@@ -164,6 +241,33 @@ impl Builder<'_> {
             kind: variable.kind.unwrap_or(Kind::Symbol),
         });
         Some(Clause { head: relation, args, body, variables: variables.collect(), at })
+    }
+
+    /// The clause of a question: what is asked for are its arguments.
+    fn asking(
+        &mut self,
+        head: RelationId,
+        exprs: &[syntax::Expr],
+        premises: &[Premise<'_>],
+        at: Span,
+    ) -> Option<(Clause, Vec<Kind>)> {
+        let mut scope = Scope::new();
+        self.enter(premises, exprs, None, &mut scope);
+        self.find_kinds(premises, None, &scope);
+        let mut body = self.literals(premises, &scope);
+        let (mut args, mut kinds) = (Vec::new(), Vec::new());
+        for expr in exprs {
+            let kind = self.kind_of(expr, &scope);
+            args.push(self.expr(expr, kind, &scope, &mut body)?);
+            kinds.push(kind.unwrap_or(Kind::Symbol));
+        }
+        self.check_bound(&body, &args);
+        let variables = self.variables.iter().map(|variable| Variable {
+            name: variable.name.clone(),
+            kind: variable.kind.unwrap_or(Kind::Symbol),
+        });
+        let variables = variables.collect();
+        self.is_sound.then_some((Clause { head, args, body, variables, at }, kinds))
     }
 
     pub(super) fn fault(&mut self, at: Span, fault: RuleError) {

@@ -58,7 +58,7 @@ impl RelationKey for &str {
 /// The relations of a program, shared by its databases and results.
 #[derive(Debug, Clone)]
 pub struct Schema {
-    pub(super) relations: Arc<Vec<RelationInfo>>,
+    pub(super) relations: Arc<Vec<Arc<RelationInfo>>>,
     pub(super) names: Arc<Names>,
 }
 

@@ -177,7 +177,7 @@ impl Derived {
 
     /// All relations with their ids, in the order of their declarations.
     pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
-        self.schema.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), info))
+        self.schema.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), &**info))
     }
 }
 

@@ -125,7 +125,7 @@ impl Program {
 /// A program under way.
 pub(super) struct Evaluation<'a> {
     program: &'a Program,
-    pub(super) finished: Finished,
+    pub(super) finished: Finished<'a>,
     /// Facts of the text and the database, by relation.
     given: Vec<SharedRows>,
     /// Where numbers came out otherwise than Soufflé's would, the first for each rule.
@@ -151,6 +151,15 @@ impl<'a> Evaluation<'a> {
         let given = given(program, database, relations);
         let watch = Rc::new(Watch::new(limits));
         let finished = Finished::new(database.words.share(), vec![None; given.len()], watch);
+        Self { program, finished, given, notes: Vec::new() }
+    }
+
+    /// To evaluate strata over what is finished.
+    pub(super) fn over(
+        program: &'a Program,
+        finished: Finished<'a>,
+        given: Vec<SharedRows>,
+    ) -> Self {
         Self { program, finished, given, notes: Vec::new() }
     }
 
@@ -182,7 +191,7 @@ impl<'a> Evaluation<'a> {
 
     pub(super) fn stratum(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
         let program = self.program;
-        let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &program.clauses[*n]).collect();
+        let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &*program.clauses[*n]).collect();
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
         let is_recursive = clauses.iter().any(|clause| own_atoms(clause, &is_own).next().is_some());
         if is_recursive || !stratum.subsumptions.is_empty() {
@@ -455,7 +464,7 @@ fn choosing<'a>(sink: &'a mut dyn Sink, chosen: Option<&'a mut Chosen>) -> Maybe
 }
 
 /// The facts of the text and the database; none of relations that are not asked for.
-fn given(program: &Program, database: &Database, of: &[RelationId]) -> Vec<SharedRows> {
+pub(super) fn given(program: &Program, database: &Database, of: &[RelationId]) -> Vec<SharedRows> {
     let mut by_relation: HashMap<RelationId, Vec<&[Word]>> = HashMap::new();
     for fact in program.facts.iter() {
         by_relation.entry(fact.relation).or_default().push(&fact.words);

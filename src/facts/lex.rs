@@ -172,6 +172,8 @@ fn blank(text: &str) -> IResult<&str, ()> {
 
 fn raw_word(text: &str) -> IResult<&str, Raw<'_>> {
     alt((
+        // Before names, which may start with «?» too.
+        tag("?-").map(|_| Raw::Sign("?-")),
         name.map(Raw::Name),
         digits.map(Raw::Number),
         char('"').map(|_| Raw::Text),

@@ -17,6 +17,8 @@ pub(super) struct Ceilings {
     pub(super) seconds: Option<u64>,
     pub(super) megabytes: Option<u64>,
     pub(super) rows: Option<u64>,
+    /// `.pragma "magic-transform" "*"`: what is put out is derived on demand.
+    pub(super) on_demand: bool,
 }
 
 impl Limits {
@@ -72,6 +74,11 @@ impl Watch {
 
     pub(super) fn limits(&self) -> Limits {
         self.limits.map_or_else(Limits::default, |(limits, _)| limits)
+    }
+
+    /// Ends all loops for a reason of the caller's own.
+    pub(super) fn stop(&self) {
+        self.reached.set(self.reached.get().or(Some(Reached::Time)));
     }
 
     pub(super) fn reached(&self) -> Option<Reached> {

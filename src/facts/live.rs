@@ -138,6 +138,7 @@ impl Live {
         }
         // Input tuples may have brought new words.
         self.derived.kept.words = self.database.words.share();
+        self.derived.kept.take_shelf();
         let told = self.told();
         let mut update = Update {
             program: &self.program,

@@ -55,12 +55,15 @@
 
 use orthoframe_units as units;
 
+mod ask;
+mod called;
 mod check;
 mod clause;
 mod component;
 mod database;
 mod decimal;
 mod delta;
+mod demand;
 mod derived;
 mod evaluate;
 mod expression;
@@ -76,6 +79,7 @@ mod kinds;
 mod lex;
 mod limits;
 mod live;
+mod magic;
 mod nearest;
 mod parse;
 mod pattern;
@@ -83,6 +87,7 @@ mod plan;
 mod preprocess;
 mod program;
 mod proof;
+mod question;
 mod read;
 mod record;
 mod regular;
@@ -99,6 +104,7 @@ mod why_not;
 mod witness;
 mod word;
 
+pub use ask::{Answers, AskError, Computed};
 pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
 pub use derived::{Derived, Tuple, Tuples};

@@ -29,8 +29,18 @@ const MAX_NESTED: usize = 16;
 /// All items of a text; what could not be read is in `faults`.
 pub(super) fn items(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
     let words = preprocess::expand(lex::words(text, file, faults), file, faults);
+    items_of(&words, text.len(), file, faults)
+}
+
+/// All items of these words of a text that ends there.
+pub(super) fn items_of(
+    words: &[Token],
+    end: usize,
+    file: u32,
+    faults: &mut Vec<RuleError>,
+) -> Vec<Item> {
     let furthest = RefCell::new(Furthest::default());
-    let mut input = Input { rest: &words, length: words.len(), furthest: &furthest };
+    let mut input = Input { rest: words, length: words.len(), furthest: &furthest };
     let mut items = Vec::new();
     while !input.rest.is_empty() {
         *furthest.borrow_mut() = Furthest::default();
@@ -41,7 +51,7 @@ pub(super) fn items(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<I
             }
             Err(_) => {
                 let failure = furthest.borrow();
-                faults.push(failure.describe(&words, file, text.len()));
+                faults.push(failure.describe(words, file, end));
                 input.rest = match input.rest.first().map(|token| &token.word) {
                     Some(Word::Directive("comp")) => behind_braces(input.rest),
                     _ => None,

@@ -241,9 +241,9 @@ pub(super) struct Fact {
 #[derive(Debug, Clone)]
 pub struct Program {
     pub(super) sources: Arc<[Source]>,
-    pub(super) relations: Arc<Vec<RelationInfo>>,
+    pub(super) relations: Arc<Vec<Arc<RelationInfo>>>,
     pub(super) names: Arc<Names>,
-    pub(super) clauses: Arc<[Clause]>,
+    pub(super) clauses: Arc<[Arc<Clause>]>,
     pub(super) facts: Arc<[Fact]>,
     pub(super) strata: Arc<[Stratum]>,
     /// For each `A <= B` a clause whose head is the tuple that goes and the one that stays.
@@ -253,6 +253,8 @@ pub struct Program {
     /// The constants of the text; a database starts with them.
     pub(super) words: Words,
     pub(super) warnings: Arc<[FileFaults]>,
+    /// What questions about the program's results name.
+    pub(super) declared: Arc<check::Declared>,
 }
 
 impl Program {
@@ -327,7 +329,22 @@ impl Program {
 
     /// All relations, in the order of their declarations.
     pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
-        self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), info))
+        self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), &**info))
+    }
+
+    /// Whether the text asks for its results to be derived on demand: `.pragma "magic-transform" "*"`.
+    pub(super) fn asks_for_demand(&self) -> bool {
+        self.limits.on_demand
+    }
+
+    /// Whether what is derived depends on the order in which it is: then nothing can be derived in part.
+    pub(super) fn depends_on_order(&self) -> bool {
+        !self.subsumptions.is_empty()
+            || self.clauses.iter().any(|clause| clause.counts_on())
+            || self
+                .relations
+                .iter()
+                .any(|info| info.limit_size.is_some() || !info.choices.is_empty())
     }
 
     /// The facts of a relation that stand in the text, each with its values and where it stands.
@@ -346,7 +363,7 @@ impl Program {
 
     /// The texts of the rules that read a relation, each as often as it has such a rule.
     pub fn readers(&self, relation: RelationId) -> impl Iterator<Item = &Source> {
-        let reads = move |clause: &&Clause| {
+        let reads = move |clause: &&Arc<Clause>| {
             let mut found = false;
             check::reads(&clause.body, false, &mut |of, _, _| found |= of == relation);
             found
@@ -414,7 +431,7 @@ pub(super) fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> 
 }
 
 /// Relations by both names.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Names {
     exact: HashMap<String, RelationId>,
     /// By [`name_key`]; none where several relations share the key.

@@ -72,6 +72,27 @@ pub(super) enum Item {
     Rule(Rule),
 }
 
+impl Item {
+    /// Its place, or that of the first name in it.
+    pub(super) fn at(&self) -> Span {
+        match self {
+            Self::Type { name, .. } | Self::Structure { name, .. } | Self::Override(name) => {
+                name.at
+            }
+            Self::Include { at, .. }
+            | Self::Instance { at, .. }
+            | Self::Subsumption { at, .. }
+            | Self::Hint { at, .. }
+            | Self::Pragma { at, .. } => *at,
+            Self::Relation { names, .. } | Self::Directive { relations: names, .. } => {
+                names.first().map(|name| name.at).unwrap_or_default()
+            }
+            Self::Component(component) => component.head.name.at,
+            Self::Rule(rule) => rule.at,
+        }
+    }
+}
+
 /// A component's name with its parameters, or with the types that stand for them.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Type {
@@ -111,6 +132,20 @@ pub(super) enum Role {
 pub(super) struct Rule {
     pub(super) heads: Vec<Atom>,
     pub(super) body: Body,
+    pub(super) at: Span,
+}
+
+/// `?- body. order X desc. limit 5`
+#[derive(Debug, Clone)]
+pub(super) struct Question {
+    /// What is asked for, where a head says it.
+    pub(super) exprs: Option<Vec<Expr>>,
+    pub(super) body: Body,
+    /// Names of answer columns, each with whether it descends.
+    pub(super) order: Vec<(Name, bool)>,
+    pub(super) limit: Option<usize>,
+    /// The text that it stands in.
+    pub(super) text: String,
     pub(super) at: Span,
 }
 

@@ -12,8 +12,7 @@ use std::time::Duration;
 use orthoframe_facts::{FilesError, Limits, run_files};
 
 /// Tests that need not come out the same, each with the reason.
-const EXCEPTIONS: &[(&str, &str)] =
-    &[("magic_samegen", "360 million pairs where one is asked for: needs evaluation on demand")];
+const EXCEPTIONS: &[(&str, &str)] = &[];
 
 #[derive(Debug, PartialEq)]
 enum Outcome {
