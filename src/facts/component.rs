@@ -35,7 +35,7 @@ pub(super) fn expand(items: Vec<Item>, faults: &mut Found) -> Vec<Item> {
     let mut out = Vec::new();
     for item in &items {
         match item {
-            Item::Component(component) => making.check(component),
+            Item::Component(component) => making.check(component, &scope),
             Item::Instance { name, of, at } => {
                 out.extend(making.instance(name, of, *at, &Binding::new(), &scope, 0));
             }
@@ -82,17 +82,52 @@ struct Making<'a> {
 
 impl Making<'_> {
     /// What is wrong with a component whether it is made or not.
-    fn check(&mut self, component: &Component) {
-        let mut seen = HashSet::new();
+    fn check<'a>(&mut self, component: &'a Component, scope: &Scope<'a>) {
+        let mut parameters = HashSet::new();
         for name in &component.head.args {
-            if !seen.insert(&name.text) {
+            if !parameters.insert(name.text.as_str()) {
                 let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
                 self.faults.push(name.at, fault);
             }
         }
-        for inner in components(&component.items) {
-            self.check(inner);
+        let scope = Scope { known: components(&component.items), outer: Some(scope) };
+        let made = component.items.iter().filter_map(|item| match item {
+            Item::Instance { of, .. } => Some(of),
+            _ => None,
+        });
+        for of in component.bases.iter().chain(made) {
+            if parameters.contains(of.name.text.as_str()) {
+                continue;
+            }
+            if let Some(other) = self.named(of, &scope) {
+                let (expected, found) = (other.head.args.len(), of.args.len());
+                if expected != found {
+                    let (name, at) = (of.name.text.clone(), of.name.at);
+                    self.faults.push(at, RuleError::Arity { name, expected, found, at: at.into() });
+                }
+                if returns(other, component, &scope, &mut Vec::new()) {
+                    let what =
+                        format!("компонент «{}» внутри самого себя", component.head.name.text);
+                    let help = "разорвите круг: компонент не наследует себя и не создаёт себя";
+                    let at = of.name.at;
+                    self.faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
+                }
+            }
         }
+        for inner in components(&component.items) {
+            self.check(inner, &scope);
+        }
+    }
+
+    /// The component of a name; a fault where there is none.
+    fn named<'a>(&mut self, of: &Type, scope: &Scope<'a>) -> Option<&'a Component> {
+        let found = scope.find(&of.name.text);
+        if found.is_none() {
+            let (name, at) = (of.name.text.clone(), of.name.at);
+            let nearest = nearest_name(&name, scope.names().into_iter()).map(str::to_owned);
+            self.faults.push(at, RuleError::UnknownComponent { name, nearest, at: at.into() });
+        }
+        found
     }
 
     /// The items of a component, with the instance's name before the names that it declares.
@@ -112,7 +147,7 @@ impl Making<'_> {
         }
         let mut content = Vec::new();
         self.collect(of, binding, scope, &HashSet::new(), depth, &mut content);
-        self.items += content.len();
+        self.items += 1 + content.len();
         // A relation and a type may have one name.
         let mut own: HashSet<(Means, String)> = HashSet::new();
         for item in &content {
@@ -231,6 +266,28 @@ impl Making<'_> {
             self.faults.push(name.at, RuleError::Unsupported { what, help, at: name.at.into() });
         }
     }
+}
+
+/// Whether a component leads to another by what it inherits or makes.
+fn returns<'a>(
+    from: &'a Component,
+    to: &Component,
+    scope: &Scope<'a>,
+    seen: &mut Vec<&'a Component>,
+) -> bool {
+    if std::ptr::eq(from, to) {
+        return true;
+    }
+    if seen.iter().any(|known| std::ptr::eq(*known, from)) {
+        return false;
+    }
+    seen.push(from);
+    let made = from.items.iter().filter_map(|item| match item {
+        Item::Instance { of, .. } => Some(of),
+        _ => None,
+    });
+    let mut next = from.bases.iter().chain(made).filter_map(|of| scope.find(&of.name.text));
+    next.any(|next| returns(next, to, scope, seen))
 }
 
 /// What a name is one of.

@@ -44,17 +44,31 @@ impl Builder<'_> {
             }
         }
         // Each round settles at least one variable, or nothing changes any more.
+        // A whole number alone may be of any kind of number: it settles what nothing else does.
+        let compares = || {
+            premises.iter().filter_map(|premise| match premise {
+                Premise::Compare { left, right, .. } => Some((*left, *right)),
+                _ => None,
+            })
+        };
         loop {
             let mut changed = false;
-            for premise in premises {
-                if let Premise::Compare { left, right, .. } = premise {
+            for (left, right) in compares() {
+                if !self.is_weak(left, right, scope) {
                     changed |= self.compare_kinds(left, right, scope);
                 }
             }
-            if !changed {
+            let mut weak = compares();
+            if !changed && !weak.any(|(left, right)| self.compare_kinds(left, right, scope)) {
                 break;
             }
         }
+    }
+
+    /// Whether all that a comparison tells of kinds is that of a whole number.
+    fn is_weak(&self, left: &syntax::Expr, right: &syntax::Expr, scope: &Scope) -> bool {
+        is_whole(left) && self.kind_of(right, scope).is_none()
+            || is_whole(right) && self.kind_of(left, scope).is_none()
     }
 
     /// What stands in a column of a type, or in a record's field.
@@ -184,6 +198,7 @@ impl Builder<'_> {
                 self.note_kinds(arg, self.declared.types[*of].kind, &mut within);
             }
         }
+        let mut takes_weak = false;
         loop {
             let before = within.len();
             for (left, right) in &compares {
@@ -193,12 +208,18 @@ impl Builder<'_> {
                     true => of_right.or(of_left),
                     false => of_left.or(of_right),
                 };
-                let Some(kind) = kind else { continue };
+                let is_weak =
+                    is_whole(left) && of_right.is_none() || is_whole(right) && of_left.is_none();
+                let Some(kind) = kind.filter(|_| takes_weak || !is_weak) else { continue };
                 self.note_kinds(left, kind, &mut within);
                 self.note_kinds(right, kind, &mut within);
+                if takes_weak && within.len() > before {
+                    break;
+                }
             }
-            if within.len() == before {
-                return within;
+            match within.len() == before {
+                true if takes_weak => return within,
+                done => takes_weak = done,
             }
         }
     }
@@ -208,6 +229,9 @@ impl Builder<'_> {
         match expr {
             syntax::Expr::Variable(name) => {
                 within.entry(name.text.clone()).or_insert(kind);
+            }
+            syntax::Expr::Call { functor, args, .. } if functor.is_arithmetic() => {
+                args.iter().for_each(|arg| self.note_kinds(arg, kind, within));
             }
             syntax::Expr::Record { args, branch, .. } => {
                 let Kind::Record(shape) = kind else { return };

@@ -396,6 +396,7 @@ impl<'a> Draft<'a> {
         let target = aggregate.target;
         self.plan.steps.push(Step::Aggregate {
             function,
+            kind: aggregate.kind,
             value: value.clone(),
             register: target,
             is_known: self.bound[target as usize],

@@ -8,10 +8,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::called::Called;
+use super::decimal;
 use super::index::{Index, IndexColumn};
 use super::kept::{KeptIndex, column_word};
 use super::limits::Watch;
-use super::program::{Bounds, Compare, Expr};
+use super::program::{Bounds, Compare, Expr, Kind};
 use super::rows::RowSet;
 use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
@@ -99,6 +100,8 @@ pub(super) enum Step {
     /// The steps behind, up to `end`, find what is counted and end with `Reached`; the run goes on at `end`.
     Aggregate {
         function: Aggregation,
+        /// Of the value.
+        kind: Kind,
         value: Option<Expr>,
         register: u32,
         /// The register has a value already, which the aggregate's must equal.
@@ -185,13 +188,16 @@ impl Count {
     }
 
     /// No value for the extremes and the mean of nothing, or for a sum beyond `i64`.
-    pub(super) fn value(&self, function: Aggregation) -> Option<i64> {
+    pub(super) fn value(&self, function: Aggregation, kind: Kind) -> Option<i64> {
         match function {
             Aggregation::Count => Some(self.count),
             Aggregation::Sum => i64::try_from(self.sum).ok(),
             Aggregation::Min => self.least,
             Aggregation::Max => self.most,
-            // Rounded towards zero: numbers are integers here.
+            Aggregation::Mean if kind == Kind::Float => {
+                decimal::rounded(self.sum, self.count.into())
+            }
+            // Rounded towards zero, as whole numbers are divided.
             Aggregation::Mean => i64::try_from(self.sum.checked_div(self.count.into())?).ok(),
         }
     }
@@ -226,8 +232,9 @@ impl<'a> Machine<'a, '_> {
                 };
                 !has_row && self.run(at + 1)
             }
-            Step::Aggregate { function, value, register, is_known, end } => {
-                let Some(number) = self.aggregate(*function, value.as_ref(), at + 1, *end) else {
+            Step::Aggregate { function, kind, value, register, is_known, end } => {
+                let Some(number) = self.aggregate((*function, *kind), value.as_ref(), at + 1, *end)
+                else {
                     return false;
                 };
                 let word = self.words.number(number);
@@ -522,7 +529,7 @@ impl<'a> Machine<'a, '_> {
     /// None where the aggregate has no value.
     fn aggregate(
         &mut self,
-        function: Aggregation,
+        (function, kind): (Aggregation, Kind),
         value: Option<&Expr>,
         first: usize,
         end: usize,
@@ -552,7 +559,7 @@ impl<'a> Machine<'a, '_> {
             spare: Vec::new(),
         };
         inner.run(first);
-        count.value(function)
+        count.value(function, kind)
     }
 }
 
