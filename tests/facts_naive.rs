@@ -100,6 +100,41 @@ impl Model {
         Self { relations, rules }
     }
 
+    /// A question as a rule for `q`: premises of all groups, negation and aggregates among them.
+    pub(crate) fn random_question(&self, dice: &mut Dice) -> Rule {
+        let last = self.relations.iter().map(|r| r.2).max().unwrap_or(0);
+        let columns = dice.roll(4);
+        random_rule("q", columns, last + 1, &self.relations, dice)
+    }
+
+    /// The model with a question as one more relation.
+    pub(crate) fn with_question(&self, question: &Rule) -> Self {
+        let mut model = self.clone();
+        let last = self.relations.iter().map(|r| r.2).max().unwrap_or(0);
+        model.relations.push(("q".to_owned(), question.head.args.len(), last + 1));
+        model.rules.push(question.clone());
+        model
+    }
+
+    /// The relations of groups up to one, and of those behind it, without directives: the latter may be a question's.
+    pub(crate) fn split(&self, group: usize) -> (Self, String) {
+        let group_of = |name: &str| {
+            self.relations.iter().find(|r| r.0 == name).map_or(0, |relation| relation.2)
+        };
+        let mut lower = self.clone();
+        lower.relations.retain(|relation| relation.2 <= group);
+        lower.rules.retain(|rule| group_of(&rule.head.relation) <= group);
+        let mut rest = String::new();
+        for (name, columns, _) in self.relations.iter().filter(|relation| relation.2 > group) {
+            let columns: Vec<String> = (0..*columns).map(|n| format!("c{n}: number")).collect();
+            let _ = writeln!(rest, ".decl {name}({})", columns.join(", "));
+        }
+        for rule in self.rules.iter().filter(|rule| group_of(&rule.head.relation) > group) {
+            let _ = writeln!(rest, "{rule}.");
+        }
+        (lower, rest)
+    }
+
     pub(crate) fn input_names(&self) -> Vec<(String, usize)> {
         let inputs = self.relations.iter().filter(|(_, _, group)| *group == 0);
         inputs.map(|(name, columns, _)| (name.clone(), *columns)).collect()
@@ -299,7 +334,7 @@ impl Rule {
     }
 
     /// Atoms are looked up in `facts`, negations and aggregates in `finished`.
-    fn consequences(&self, facts: &Facts, finished: &Facts) -> Vec<(String, Tuple)> {
+    pub(crate) fn consequences(&self, facts: &Facts, finished: &Facts) -> Vec<(String, Tuple)> {
         let mut found = Vec::new();
         let local: Vec<usize> = self
             .body
@@ -435,10 +470,16 @@ impl Display for Model {
             writeln!(f, ".decl {name}({}) .{role} {name}", columns.join(", "))?;
         }
         for rule in &self.rules {
-            let body: Vec<String> = rule.body.iter().map(ToString::to_string).collect();
-            writeln!(f, "{} :- {}.", rule.head, body.join(", "))?;
+            writeln!(f, "{rule}.")?;
         }
         Ok(())
+    }
+}
+
+impl Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let body: Vec<String> = self.body.iter().map(ToString::to_string).collect();
+        write!(f, "{} :- {}", self.head, body.join(", "))
     }
 }
 

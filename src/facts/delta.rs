@@ -67,7 +67,7 @@ impl Deltas {
         for (number, clause) in program.clauses.iter().enumerate() {
             for (first, literal) in clause.body.iter().enumerate() {
                 let mut put_before = |atom: &Atom, touch: Touch, shared: Option<&[VariableId]>| {
-                    let mut clause = clause.clone();
+                    let mut clause = Clause::clone(clause);
                     clause.body.push(Literal::Atom(shared_part(atom, shared)));
                     let first = clause.body.len() - 1;
                     triggers.push(Trigger {
@@ -83,7 +83,7 @@ impl Deltas {
                         number,
                         touch: Touch::Positive,
                         relation: atom.relation,
-                        clause: clause.clone(),
+                        clause: Clause::clone(clause),
                         first,
                     }),
                     Literal::Not(atom) => put_before(atom, Touch::Negated, None),

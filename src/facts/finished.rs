@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::index::Index;
 use super::limits::Watch;
+use super::magic::Outside;
 use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
 use super::program::{Expr, RelationId};
 use super::rows::{RowSet, SharedRows};
@@ -13,7 +14,9 @@ use super::run::{Goal, Source, Step, run};
 use super::word::{Word, Words};
 
 /// Finished relations, and what is known and built about them.
-pub(super) struct Finished {
+pub(super) struct Finished<'a> {
+    /// Where relations are read that are not held here.
+    pub(super) outside: Option<&'a dyn Outside>,
     pub(super) words: Words,
     pub(super) rows: Vec<Option<SharedRows>>,
     pub(super) indexes: HashMap<(RelationId, Vec<Expr>), Index>,
@@ -21,9 +24,15 @@ pub(super) struct Finished {
     distinct: RefCell<HashMap<(RelationId, usize), f64>>,
 }
 
-impl Finished {
+impl Finished<'_> {
     pub(super) fn new(words: Words, rows: Vec<Option<SharedRows>>, watch: Rc<Watch>) -> Self {
-        Self { words, rows, indexes: HashMap::new(), watch, distinct: RefCell::default() }
+        let indexes = HashMap::new();
+        Self { outside: None, words, rows, indexes, watch, distinct: RefCell::default() }
+    }
+
+    /// Where a relation is read that is not held here.
+    fn outside(&self, relation: RelationId) -> Option<&'_ dyn Outside> {
+        self.outside.filter(|outside| outside.has(relation))
     }
 
     /// Memory held by relations and indexes, near enough.
@@ -44,6 +53,10 @@ impl Finished {
                 places.push(None);
                 continue;
             };
+            if self.outside(*relation).is_some() {
+                places.push(None);
+                continue;
+            }
             let rows =
                 self.rows[relation.index()].as_deref().expect("strata come after those they read");
             let entry = self.indexes.entry((*relation, key.clone()));
@@ -68,8 +81,23 @@ impl Finished {
         registers: &mut [Word],
         goal: &mut dyn Goal,
     ) -> bool {
+        let outside = |request: &Request| match request {
+            Request::Whole(relation) | Request::Index { relation, .. } => {
+                self.outside.filter(|outside| outside.has(*relation))
+            }
+            Request::Growing { .. } => None,
+        };
+        let indexes: Vec<_> = plan
+            .requests
+            .iter()
+            .map(|request| outside(request).and_then(|outside| outside.index(request)))
+            .collect();
         let mut sources = Vec::with_capacity(plan.requests.len());
-        for (request, parts) in plan.requests.iter().zip(growing) {
+        for ((request, parts), index) in plan.requests.iter().zip(growing).zip(&indexes) {
+            if let Some(outside) = outside(request) {
+                sources.push(outside.source(request, index.as_ref()));
+                continue;
+            }
             sources.push(match request {
                 Request::Whole(relation) => {
                     let rows = self.rows[relation.index()].as_deref();
@@ -87,13 +115,27 @@ impl Finished {
     }
 }
 
-impl Statistics for Finished {
+impl Statistics for Finished<'_> {
+    fn computes_keys(&self) -> bool {
+        self.outside.is_none()
+    }
+
+    fn fan_out(&self, relation: RelationId, columns: &[usize]) -> Option<f64> {
+        self.outside(relation).and_then(|outside| outside.fan_out(relation, columns))
+    }
+
     fn size(&self, relation: RelationId) -> f64 {
+        if let Some(outside) = self.outside(relation) {
+            return outside.size(relation);
+        }
         // A relation that is still growing may become large.
         self.rows[relation.index()].as_ref().map_or(1e6, |rows| rows.len().max(1) as f64)
     }
 
     fn distinct(&self, relation: RelationId, column: usize) -> f64 {
+        if let Some(outside) = self.outside(relation) {
+            return outside.distinct(relation, column);
+        }
         if self.rows[relation.index()].is_none() {
             return 1e3;
         }

@@ -5,7 +5,7 @@
 //! holds the rows of before and after together; [`View`] says which of the two a plan reads.
 
 use std::collections::{HashMap, HashSet};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::finished::distinct;
 use super::index::Index;
@@ -93,9 +93,28 @@ impl KeptIndex {
 pub(super) struct Kept {
     pub(super) words: Words,
     rows: Vec<Box<dyn Stored>>,
-    indexes: Vec<Vec<KeptIndex>>,
+    indexes: Vec<Vec<Arc<KeptIndex>>>,
+    /// Indexes that questions asked for; the next update takes them over.
+    shelf: Shelf,
     edits: Vec<Edit>,
     distinct: Vec<Vec<OnceLock<f64>>>,
+}
+
+/// Indexes by relation, made while others read.
+#[derive(Debug, Default)]
+struct Shelf(Mutex<Vec<(RelationId, Arc<KeptIndex>)>>);
+
+impl Shelf {
+    /// A thread that ended amid a question has put nothing half done here.
+    fn all(&self) -> MutexGuard<'_, Vec<(RelationId, Arc<KeptIndex>)>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Clone for Shelf {
+    fn clone(&self) -> Self {
+        Self(Mutex::new(self.all().clone()))
+    }
 }
 
 impl Clone for Box<dyn Stored> {
@@ -108,11 +127,17 @@ impl Kept {
     pub(super) fn new(words: Words, rows: Vec<SharedRows>, columns: &[usize]) -> Self {
         Self {
             words,
+            shelf: Shelf::default(),
             indexes: rows.iter().map(|_| Vec::new()).collect(),
             edits: rows.iter().map(|_| Edit::default()).collect(),
             distinct: columns.iter().map(|columns| vec![OnceLock::new(); *columns]).collect(),
             rows: rows.into_iter().map(|rows| rows.stored()).collect(),
         }
+    }
+
+    /// Number of relations.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
     }
 
     pub(super) fn rows(&self, relation: RelationId) -> &dyn Stored {
@@ -140,9 +165,45 @@ impl Kept {
         let indexes = &mut self.indexes[relation.index()];
         Some(indexes.iter().position(|known| known.key == key).unwrap_or_else(|| {
             let rows = &*self.rows[relation.index()];
-            indexes.push(KeptIndex::new(rows, key, &mut self.words));
+            indexes.push(Arc::new(KeptIndex::new(rows, key, &mut self.words)));
             indexes.len() - 1
         }))
+    }
+
+    /// The index by these columns, made where there is none yet; none where rows stand in the order of the key.
+    pub(super) fn shared_index(
+        &self,
+        relation: RelationId,
+        key: &[Expr],
+    ) -> Option<Arc<KeptIndex>> {
+        if is_natural(key) {
+            return None;
+        }
+        if let Some(known) = self.indexes[relation.index()].iter().find(|known| known.key == key) {
+            return Some(Arc::clone(known));
+        }
+        let mut shelf = self.shelf.all();
+        let known = shelf.iter().find(|(of, known)| *of == relation && known.key == key);
+        if let Some((_, known)) = known {
+            return Some(Arc::clone(known));
+        }
+        // Columns are not computed, so that no new word comes about.
+        debug_assert!(key.iter().all(|part| matches!(part, Expr::Variable(_))));
+        let rows = &*self.rows[relation.index()];
+        let index = Arc::new(KeptIndex::new(rows, key, &mut Words::default()));
+        shelf.push((relation, Arc::clone(&index)));
+        Some(index)
+    }
+
+    /// Before an update: what questions asked for follows the edits from now on.
+    pub(super) fn take_shelf(&mut self) {
+        let shelf = std::mem::take(&mut *self.shelf.all());
+        for (relation, index) in shelf {
+            let indexes = &mut self.indexes[relation.index()];
+            if indexes.iter().all(|known| known.key != index.key) {
+                indexes.push(index);
+            }
+        }
     }
 
     /// The first rows whose key columns have these words.
@@ -160,10 +221,10 @@ impl Kept {
         slots.into_iter().take(limit).map(|slot| source.rows.row(slot).to_vec()).collect()
     }
 
-    fn source<'a>(
+    pub(super) fn source<'a>(
         &'a self,
         relation: RelationId,
-        index: Option<&'a KeptIndex>,
+        index: Option<&'a Arc<KeptIndex>>,
         columns: Option<&'a [Expr]>,
         view: View,
     ) -> KeptSource<'a> {
@@ -227,7 +288,9 @@ impl Kept {
         let slot = self.rows[at].insert(row).expect("it was not found");
         self.edits[at].added.insert(slot);
         if slot as usize >= self.rows[at].base().len() {
-            self.indexes[at].iter_mut().for_each(|i| i.insert(row, slot, &mut self.words));
+            self.indexes[at]
+                .iter_mut()
+                .for_each(|i| Arc::make_mut(i).insert(row, slot, &mut self.words));
         }
         true
     }
@@ -248,7 +311,9 @@ impl Kept {
         let row = self.rows[at].row(slot).to_vec();
         self.rows[at].remove(&row);
         if slot as usize >= self.rows[at].base().len() {
-            self.indexes[at].iter_mut().for_each(|i| i.remove(&row, slot, &mut self.words));
+            self.indexes[at]
+                .iter_mut()
+                .for_each(|i| Arc::make_mut(i).remove(&row, slot, &mut self.words));
         }
     }
 

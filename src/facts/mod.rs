@@ -55,11 +55,15 @@
 
 use orthoframe_units as units;
 
+mod ask;
+mod called;
 mod check;
 mod clause;
+mod component;
 mod database;
 mod decimal;
 mod delta;
+mod demand;
 mod derived;
 mod evaluate;
 mod expression;
@@ -75,22 +79,32 @@ mod kinds;
 mod lex;
 mod limits;
 mod live;
+mod magic;
 mod nearest;
 mod parse;
+mod pattern;
 mod plan;
+mod preprocess;
 mod program;
 mod proof;
+mod question;
 mod read;
+mod record;
+mod regular;
 mod rows;
 mod run;
 mod saved;
 mod seen;
 mod stored;
+mod subsume;
 mod syntax;
+mod unify;
 mod value;
 mod why_not;
+mod witness;
 mod word;
 
+pub use ask::{Answers, AskError, Computed};
 pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
 pub use derived::{Derived, Tuple, Tuples};

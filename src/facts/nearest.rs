@@ -225,7 +225,7 @@ impl Explainer {
         };
         let mut registers = search.registers.clone();
         self.finished.run(&plan, View::After, &[], &mut registers, &mut each);
-        match count.value(aggregate.function) {
+        match count.value(aggregate.function, aggregate.kind) {
             Some(number) => {
                 search.registers[aggregate.target as usize] = self.finished.words.number(number);
                 Judged::Holds

@@ -66,6 +66,15 @@ pub(super) trait Statistics {
     fn share(&self, _: RelationId, _: usize, _: &dyn Fn(Word, &Words) -> bool) -> f64 {
         UNKNOWN_SHARE
     }
+    /// Whether indexes may be ordered by what is computed from rows.
+    fn computes_keys(&self) -> bool {
+        true
+    }
+    /// Rows for one look-up with these columns known, where that is not a matter of sizes; infinite where the relation
+    /// cannot be asked so.
+    fn fan_out(&self, _: RelationId, _: &[usize]) -> Option<f64> {
+        None
+    }
 }
 
 /// What is taken for the share of rows that pass a comparison of which nothing is known.
@@ -87,7 +96,13 @@ pub(super) struct Task<'a> {
     pub(super) wanted: &'a [VariableId],
 }
 
+/// The plan for a task whose relations can all be asked as it comes.
 pub(super) fn plan(task: &Task<'_>, statistics: &dyn Statistics) -> Plan {
+    plan_with_cost(task, statistics).0
+}
+
+/// With it how many partial results there will be, roughly; infinite where some relation cannot be asked in any order.
+pub(super) fn plan_with_cost(task: &Task<'_>, statistics: &dyn Statistics) -> (Plan, f64) {
     let body = &task.clause.body;
     let atoms: Vec<usize> =
         (0..body.len()).filter(|n| matches!(body[*n], Literal::Atom(_))).collect();
@@ -104,10 +119,10 @@ pub(super) fn plan(task: &Task<'_>, statistics: &dyn Statistics) -> Plan {
         draft
     });
     let best = plans.min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let Draft { mut plan, .. } = best.expect("there is at least one way to start");
+    let Draft { mut plan, cost, .. } = best.expect("there is at least one way to start");
     plan.steps.push(Step::Reached);
     mark_once(&mut plan.steps, task.wanted);
-    plan
+    (plan, cost)
 }
 
 /// How often each variable is read: by the goal, and by each literal.
@@ -317,6 +332,10 @@ impl<'a> Draft<'a> {
                 values.push(value);
             }
         }
+        let columns: Vec<usize> = key.iter().filter_map(plain_column).collect();
+        if let Some(known) = self.statistics.fan_out(atom.relation, &columns) {
+            self.cost += if known.is_finite() { 0.0 } else { f64::INFINITY };
+        }
         let source = self.request_index(atom.relation, key, Vec::new()).0;
         self.plan.steps.push(Step::Absent { source, key: values });
         self.solutions *= 0.5;
@@ -377,6 +396,7 @@ impl<'a> Draft<'a> {
         let target = aggregate.target;
         self.plan.steps.push(Step::Aggregate {
             function,
+            kind: aggregate.kind,
             value: value.clone(),
             register: target,
             is_known: self.bound[target as usize],
@@ -423,7 +443,7 @@ impl<'a> Draft<'a> {
                     .extend(term_value(*term).map(|value| (Expr::Variable(column as u32), value))),
             }
         }
-        if version == Version::Finished {
+        if version == Version::Finished && self.statistics.computes_keys() {
             for other in open {
                 let Literal::Compare(compare) = &body[*other] else { continue };
                 if compare.op == Comparison::Equal
@@ -447,6 +467,11 @@ impl<'a> Draft<'a> {
         }
         if version == Version::Recent {
             fan_out /= 10.0;
+        }
+        let columns: Vec<usize> =
+            key.iter().filter_map(|(column, _)| plain_column(column)).collect();
+        if let Some(known) = self.statistics.fan_out(atom.relation, &columns) {
+            fan_out = known;
         }
         Some(Access { key, taken, atom, fan_out })
     }

@@ -9,6 +9,7 @@ use std::collections::{HashMap, VecDeque};
 use std::fmt;
 
 use super::database::{FactError, RelationKey};
+use super::demand::Demand;
 use super::derived::{Derived, values};
 use super::kept::{Kept, View};
 use super::plan::{Plan, Task, Version, plan};
@@ -197,11 +198,27 @@ impl Explainer {
         Ok(self.prove(relation, row.into()))
     }
 
+    pub(super) fn over(program: &Program, kept: Kept, given: Vec<Option<Box<dyn Stored>>>) -> Self {
+        Self { program: program.clone(), finished: kept, given, asked: HashMap::new() }
+    }
+
+    /// A proof of what was found on demand.
+    pub(super) fn prove_on(
+        &mut self,
+        demand: &Demand<'_>,
+        relation: RelationId,
+        row: Box<[Word]>,
+    ) -> Proof {
+        let mut cone = self.cone(relation, row, Some(demand));
+        cone.give_heights();
+        self.proof(&cone)
+    }
+
     pub(super) fn prove(&mut self, relation: RelationId, row: Box<[Word]>) -> Option<Proof> {
         if !self.holds(relation, &row) {
             return None;
         }
-        let mut cone = self.cone(relation, row);
+        let mut cone = self.cone(relation, row, None);
         cone.give_heights();
         Some(self.proof(&cone))
     }
@@ -214,7 +231,8 @@ impl Explainer {
         let schema = super::Schema::of(&self.program);
         let relation = relation.find(&schema)?;
         let words = &mut self.finished.words;
-        let row = schema.encode(relation, tuple, |value| words.of(value))?;
+        let row = schema
+            .encode(relation, tuple, |value, kind| words.of(value, kind).unwrap_or(NO_WORD))?;
         Ok((relation, row))
     }
 
@@ -223,7 +241,12 @@ impl Explainer {
     }
 
     /// Every tuple and rule instance that could take part in a proof.
-    fn cone(&mut self, relation: RelationId, row: Box<[Word]>) -> Cone {
+    fn cone(
+        &mut self,
+        relation: RelationId,
+        row: Box<[Word]>,
+        demand: Option<&Demand<'_>>,
+    ) -> Cone {
         let mut cone = Cone::default();
         cone.node(relation, row);
         let mut next = 0;
@@ -231,14 +254,18 @@ impl Explainer {
             let (relation, row) = (cone.nodes[next].relation, cone.nodes[next].row.clone());
             let is_told = match &self.given[relation.index()] {
                 Some(given) => given.find(&row).is_some(),
-                None => self.finished.rows(relation).find(&row).is_some(),
+                None if relation.index() < self.finished.len() => {
+                    self.finished.rows(relation).find(&row).is_some()
+                }
+                // What is computed is told by who computes it.
+                None => demand.is_some_and(|demand| demand.is_ground(relation)),
             };
             if is_told {
                 cone.nodes[next].height = Some(0);
             } else {
                 for clause in 0..self.program.clauses.len() {
                     if self.program.clauses[clause].head == relation {
-                        self.instances(clause, next, &row, &mut cone);
+                        self.instances(clause, next, &row, &mut cone, demand);
                     }
                 }
             }
@@ -248,8 +275,15 @@ impl Explainer {
     }
 
     /// Adds the instances of a clause that prove the tuple.
-    fn instances(&mut self, clause: usize, proves: usize, row: &[Word], cone: &mut Cone) {
-        self.ask(clause);
+    fn instances(
+        &mut self,
+        clause: usize,
+        proves: usize,
+        row: &[Word],
+        cone: &mut Cone,
+        demand: Option<&Demand<'_>>,
+    ) {
+        self.prepare(clause, demand);
         let asked = &self.asked[&clause];
         let mut registers = vec![NO_WORD; asked.clause.variables.len()];
         for (v, word) in asked.head.iter().zip(row) {
@@ -260,7 +294,14 @@ impl Explainer {
             found.push(registers.into());
             true
         };
-        self.finished.run(&asked.plan, View::After, &[], &mut registers, &mut keep);
+        match demand {
+            Some(demand) => {
+                demand.run(&asked.plan, &mut registers, &mut self.finished.words, &mut keep);
+            }
+            None => {
+                self.finished.run(&asked.plan, View::After, &[], &mut registers, &mut keep);
+            }
+        }
         for registers in found {
             let premises: Vec<usize> = asked.clause.body[..asked.own]
                 .iter()
@@ -278,6 +319,11 @@ impl Explainer {
 
     /// Prepares a clause to be run backwards.
     pub(super) fn ask(&mut self, clause: usize) -> &Asked {
+        self.prepare(clause, None);
+        &self.asked[&clause]
+    }
+
+    fn prepare(&mut self, clause: usize, demand: Option<&Demand<'_>>) {
         if !self.asked.contains_key(&clause) {
             let columns = &self.program.info(self.program.clauses[clause].head).columns;
             let (clause_turned, head, own) = turned(&self.program.clauses[clause], columns);
@@ -291,11 +337,15 @@ impl Explainer {
                 bound: &head,
                 wanted: &wanted,
             };
-            let plan = plan(&task, &self.finished);
-            self.finished.provide(&plan);
+            let plan = match demand {
+                Some(demand) => plan(&task, demand),
+                None => plan(&task, &self.finished),
+            };
+            if demand.is_none() {
+                self.finished.provide(&plan);
+            }
             self.asked.insert(clause, Asked { clause: clause_turned, head, plan, own });
         }
-        &self.asked[&clause]
     }
 
     pub(super) fn asked(&self, clause: usize) -> &Asked {
@@ -535,7 +585,7 @@ pub(super) fn premise(
         }
         Literal::Range(range) => {
             let word = registers[range.target as usize];
-            let value = (word != NO_WORD).then(|| words.value(word, Kind::Number));
+            let value = (word != NO_WORD).then(|| words.value(word, range.kind));
             Premise::Counted { text: excerpt(range.at), value }
         }
         Literal::Aggregate(aggregate) => {

@@ -5,11 +5,14 @@
 
 use std::collections::HashSet;
 use std::ops::Range;
+use std::sync::Arc;
 
+use super::called::Called;
+use super::decimal;
 use super::index::{Index, IndexColumn};
 use super::kept::{KeptIndex, column_word};
 use super::limits::Watch;
-use super::program::{Bounds, Compare, Expr};
+use super::program::{Bounds, Compare, Expr, Kind};
 use super::rows::RowSet;
 use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
@@ -22,13 +25,15 @@ pub(super) enum Source<'a> {
     /// Parts of one relation, each in the order of the scan's key.
     Rows(Vec<&'a dyn RowSet>),
     Kept(Kept<'a>),
+    /// Rows that are found when they are asked for.
+    Called(Called<'a>),
 }
 
 /// A relation that is kept in step with its input.
 pub(super) struct Kept<'a> {
     pub(super) rows: &'a dyn Stored,
     /// None where the rows stand in the order of the key.
-    pub(super) index: Option<&'a KeptIndex>,
+    pub(super) index: Option<&'a Arc<KeptIndex>>,
     /// What a scan's slots mean; none where they are the relation's columns.
     pub(super) columns: Option<&'a [Expr]>,
     pub(super) hidden: Option<&'a HashSet<Slot>>,
@@ -95,6 +100,8 @@ pub(super) enum Step {
     /// The steps behind, up to `end`, find what is counted and end with `Reached`; the run goes on at `end`.
     Aggregate {
         function: Aggregation,
+        /// Of the value.
+        kind: Kind,
         value: Option<Expr>,
         register: u32,
         /// The register has a value already, which the aggregate's must equal.
@@ -181,13 +188,16 @@ impl Count {
     }
 
     /// No value for the extremes and the mean of nothing, or for a sum beyond `i64`.
-    pub(super) fn value(&self, function: Aggregation) -> Option<i64> {
+    pub(super) fn value(&self, function: Aggregation, kind: Kind) -> Option<i64> {
         match function {
             Aggregation::Count => Some(self.count),
             Aggregation::Sum => i64::try_from(self.sum).ok(),
             Aggregation::Min => self.least,
             Aggregation::Max => self.most,
-            // Rounded towards zero: numbers are integers here.
+            Aggregation::Mean if kind == Kind::Float => {
+                decimal::rounded(self.sum, self.count.into())
+            }
+            // Rounded towards zero, as whole numbers are divided.
             Aggregation::Mean => i64::try_from(self.sum.checked_div(self.count.into())?).ok(),
         }
     }
@@ -210,14 +220,21 @@ impl<'a> Machine<'a, '_> {
             }
             Step::Absent { source, key } => {
                 let has_row = match key.as_slice() {
-                    [one] => self.compute(one).map(|word| self.has_row(*source, &[word])),
-                    many => self.key(many).map(|key| self.has_row(*source, key.words())),
+                    [one] => match self.compute(one) {
+                        Some(word) => self.has_row(*source, &[word]),
+                        // A key without a value is in no relation.
+                        None => false,
+                    },
+                    many => match self.key(many) {
+                        Some(key) => self.has_row(*source, key.words()),
+                        None => false,
+                    },
                 };
-                // A key without a value is in no relation.
-                !has_row.unwrap_or(false) && self.run(at + 1)
+                !has_row && self.run(at + 1)
             }
-            Step::Aggregate { function, value, register, is_known, end } => {
-                let Some(number) = self.aggregate(*function, value.as_ref(), at + 1, *end) else {
+            Step::Aggregate { function, kind, value, register, is_known, end } => {
+                let Some(number) = self.aggregate((*function, *kind), value.as_ref(), at + 1, *end)
+                else {
                     return false;
                 };
                 let word = self.words.number(number);
@@ -276,11 +293,12 @@ impl<'a> Machine<'a, '_> {
         Some(key)
     }
 
-    fn has_row(&self, source: usize, key: &[Word]) -> bool {
+    fn has_row(&mut self, source: usize, key: &[Word]) -> bool {
         match &self.sources[source] {
             Source::Index(index) => !index.range(key).is_empty(),
             Source::Rows(parts) => parts.iter().any(|rows| !rows.range(key).is_empty()),
             Source::Kept(kept) => kept.count(key) > 0,
+            Source::Called(called) => called.rows(key, self.words).len > 0,
         }
     }
 
@@ -295,6 +313,7 @@ impl<'a> Machine<'a, '_> {
                 Source::Index(index) => self.scan_index(scan, index, index.range(&[word]), next),
                 Source::Rows(parts) => self.scan_rows(scan, parts, &[word], next),
                 Source::Kept(kept) => self.scan_kept(scan, kept, &[word], next),
+                Source::Called(called) => self.scan_called(scan, called, &[word], next),
             };
         }
         let Some(key) = self.key(&scan.key) else { return false };
@@ -302,6 +321,7 @@ impl<'a> Machine<'a, '_> {
             Source::Index(index) => self.scan_index(scan, index, index.range(key.words()), next),
             Source::Rows(parts) => self.scan_rows(scan, parts, key.words(), next),
             Source::Kept(kept) => self.scan_kept(scan, kept, key.words(), next),
+            Source::Called(called) => self.scan_called(scan, called, key.words(), next),
         }
     }
 
@@ -440,6 +460,45 @@ impl<'a> Machine<'a, '_> {
         found
     }
 
+    fn scan_called(
+        &mut self,
+        scan: &'a Scan,
+        called: &Called<'_>,
+        key: &[Word],
+        next: usize,
+    ) -> bool {
+        let rows = called.rows(key, self.words);
+        let mut passing = Vec::new();
+        for filter in &scan.filters {
+            let Some(word) = self.compute(&filter.value) else { return false };
+            passing.push((filter, word));
+        }
+        let mut found = false;
+        for row in rows.iter() {
+            let passes = passing.iter().all(|(filter, word)| {
+                let known = called.word(row, filter.column, self.words);
+                known != NO_WORD
+                    && value::holds(filter.op, filter.is_number, known, *word, self.words)
+            });
+            if !passes {
+                continue;
+            }
+            for (column, register) in &scan.loads {
+                self.registers[*register as usize] = called.word(row, *column, self.words);
+            }
+            let same = scan.same.iter().all(|(column, v)| {
+                self.registers[*v as usize] == called.word(row, *column, self.words)
+            });
+            if same && self.run(next) {
+                found = true;
+                if scan.once {
+                    break;
+                }
+            }
+        }
+        found
+    }
+
     fn visit(&mut self, scan: &'a Scan, index: &Index, at: usize, next: usize) -> bool {
         for (column, register) in &scan.loads {
             self.registers[*register as usize] = index.at(*column).words[at];
@@ -463,13 +522,14 @@ impl<'a> Machine<'a, '_> {
                 parts.iter().map(|rows| rows.range(key.words()).len() as i64).sum()
             }
             Source::Kept(kept) => kept.count(key.words()) as i64,
+            Source::Called(called) => called.rows(key.words(), self.words).len as i64,
         })
     }
 
     /// None where the aggregate has no value.
     fn aggregate(
         &mut self,
-        function: Aggregation,
+        (function, kind): (Aggregation, Kind),
         value: Option<&Expr>,
         first: usize,
         end: usize,
@@ -499,7 +559,7 @@ impl<'a> Machine<'a, '_> {
             spare: Vec::new(),
         };
         inner.run(first);
-        count.value(function)
+        count.value(function, kind)
     }
 }
 
@@ -564,7 +624,8 @@ fn choose(
 }
 
 fn is_order(op: Comparison) -> bool {
-    !matches!(op, Comparison::Contains | Comparison::NotContains)
+    use Comparison::{Contains, Matches, NotContains, NotMatches};
+    !matches!(op, Contains | NotContains | Matches | NotMatches)
 }
 
 /// Without branches, so that a filter that half of the rows pass is as fast as any.

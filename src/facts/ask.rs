@@ -1,0 +1,330 @@
+//! Questions answered on demand, over a result or over input facts alone.
+//!
+//! ```
+//! use orthoframe_facts::Program;
+//! use orthoframe_units::Source;
+//!
+//! let rules = Source::new("ways.dl", r#"
+//!     .decl edge(a: symbol, b: symbol) .decl path(a: symbol, b: symbol) .output path
+//!     edge("a", "b"). edge("b", "c"). edge("x", "y").
+//!     path(A, B) :- edge(A, B).
+//!     path(A, C) :- path(A, B), edge(B, C)."#);
+//! let program = Program::parse(&rules)?;
+//! let answers = program.ask(&program.database(), &Source::new("?", r#"?- path("a", X).order X desc"#))?;
+//! assert_eq!(answers.rows(), [["c".into()], ["b".into()]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A relation that somebody computes when asked is a [`Computed`]: it stands among the premises of a question and of the
+//! question's rules like any other.
+
+use std::cmp::Ordering;
+use std::rc::Rc;
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use super::called::Lookup;
+use super::database::Database;
+use super::demand::Demand;
+use super::derived::{Derived, values};
+use super::evaluate::{EvaluateError, given};
+use super::fault::Faults;
+use super::kept::Kept;
+use super::limits::{Limits, Watch};
+use super::program::{Column, Program, RelationId};
+use super::proof::{Explainer, Proof};
+use super::question::Question;
+use super::rows::heap;
+use super::stored::Stored;
+use super::word::{Value, Word, Words};
+use crate::units::Source;
+
+/// Why a question has no answers.
+#[derive(Debug, Clone, Error, Diagnostic)]
+pub enum AskError {
+    /// It reads well and means nothing, or does not read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Faults(#[from] Faults),
+    /// A limit was reached.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Evaluate(#[from] EvaluateError),
+    /// A computed relation was to be asked for what it cannot tell.
+    #[error("{place}отношение «{relation}» вычисляется, когда известны {needs}")]
+    #[diagnostic(
+        code(facts::not_known),
+        help("свяжите эти столбцы другими посылками или назовите их значения")
+    )]
+    Blocked { relation: String, needs: String, place: String },
+    /// Rules that need rules that need rules …
+    #[error("«{relation}» зависит от слишком длинной цепочки отношений")]
+    #[diagnostic(code(facts::too_deep), help("выведите часть цепочки заранее"))]
+    TooDeep { relation: String },
+}
+
+/// A relation that is computed when asked.
+///
+/// What it tells must not change while a question is answered.
+pub trait Computed {
+    /// Its `.decl`, over types of the program.
+    fn declaration(&self) -> &Source;
+
+    /// The ways in which it can be asked: the columns that must be known, as bits from the first column on, with how
+    /// many rows there will be, roughly.
+    fn ways(&self) -> &[(u32, f64)];
+
+    /// Tells the rows that have these values in the columns that are known, at least those of one of the ways.
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value]));
+}
+
+/// The answers to a question: distinct rows in the order asked for.
+pub struct Answers<'a> {
+    question: Question,
+    kept: std::borrow::Cow<'a, Kept>,
+    is_stored: Vec<bool>,
+    computed: Vec<(RelationId, &'a dyn Computed)>,
+    given: Vec<Option<Box<dyn Stored>>>,
+    words: Words,
+    limits: Limits,
+    rows: Vec<Vec<Value>>,
+    found: Vec<Box<[Word]>>,
+}
+
+impl std::fmt::Debug for Answers<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(&self.rows).finish()
+    }
+}
+
+impl Derived {
+    /// Answers a question about this result: `?- on(X, "стол"), weight(X, W).order W desc.limit 3`.
+    ///
+    /// # Errors
+    /// [`AskError`].
+    pub fn ask(&self, question: &Source) -> Result<Answers<'_>, AskError> {
+        self.ask_with(question, &[], Limits::default())
+    }
+
+    /// As [`Self::ask`], with relations that are computed, within limits.
+    ///
+    /// # Errors
+    /// [`AskError`].
+    pub fn ask_with<'a>(
+        &'a self,
+        question: &Source,
+        computed: &[&'a dyn Computed],
+        limits: Limits,
+    ) -> Result<Answers<'a>, AskError> {
+        let kept = std::borrow::Cow::Borrowed(&self.kept);
+        let is_stored = vec![true; self.program.relations.len()];
+        let mut answers = Answers::new(&self.program, kept, is_stored, question, computed, limits)?;
+        answers.given.clone_from(&self.given);
+        answers.answer()?;
+        Ok(answers)
+    }
+}
+
+impl Program {
+    /// Answers a question about a database, deriving only what it needs.
+    ///
+    /// # Errors
+    /// [`AskError`].
+    pub fn ask(
+        &self,
+        database: &Database,
+        question: &Source,
+    ) -> Result<Answers<'static>, AskError> {
+        self.ask_with(database, question, &[], Limits::default())
+    }
+
+    /// As [`Self::ask`], with relations that are computed, within limits.
+    ///
+    /// # Errors
+    /// [`AskError`].
+    pub fn ask_with<'a>(
+        &self,
+        database: &Database,
+        question: &Source,
+        computed: &[&'a dyn Computed],
+        limits: Limits,
+    ) -> Result<Answers<'a>, AskError> {
+        if self.depends_on_order() {
+            let derived = self.evaluate_within(database, limits).map_err(AskError::from)?;
+            let is_stored = vec![true; self.relations.len()];
+            let kept = std::borrow::Cow::Owned(derived.kept);
+            let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
+            answers.given = derived.given;
+            answers.answer()?;
+            return Ok(answers);
+        }
+        let all: Vec<RelationId> = self.relations().map(|(relation, _)| relation).collect();
+        let columns: Vec<usize> = self.relations().map(|(_, info)| info.columns.len()).collect();
+        let given = given(self, database, &all);
+        let kept = Kept::new(database.words.share(), given, &columns);
+        let mut is_stored = vec![true; columns.len()];
+        self.clauses.iter().for_each(|clause| is_stored[clause.head.index()] = false);
+        let told = all.iter().map(|of| Some(kept.rows(*of).boxed_clone())).collect();
+        let kept = std::borrow::Cow::Owned(kept);
+        let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
+        answers.given = told;
+        answers.answer()?;
+        Ok(answers)
+    }
+}
+
+impl Program {
+    /// These relations alone, deriving only what they need of others; all others stay as they are told.
+    pub(super) fn evaluate_on_demand(
+        &self,
+        database: &Database,
+        relations: &[RelationId],
+        limits: Limits,
+    ) -> Result<Derived, AskError> {
+        let limits = limits.within(self.limits);
+        if self.depends_on_order() {
+            return Ok(self.evaluate_within(database, limits)?);
+        }
+        let all: Vec<RelationId> = self.relations().map(|(relation, _)| relation).collect();
+        let columns: Vec<usize> = self.relations().map(|(_, info)| info.columns.len()).collect();
+        let told = given(self, database, &all);
+        let mut rows = told.clone();
+        let kept = Kept::new(database.words.share(), told.clone(), &columns);
+        let mut is_derived = vec![false; columns.len()];
+        self.clauses.iter().for_each(|clause| is_derived[clause.head.index()] = true);
+        let is_stored = |relation: RelationId| !is_derived[relation.index()];
+        let watch = Rc::new(Watch::new(limits));
+        let demand = Demand::new(self, &kept, columns.len(), &is_stored, &[], watch);
+        let mut words = database.words.share();
+        for relation in relations.iter().filter(|of| is_derived[of.index()]) {
+            let found = demand.rows(*relation, 0, &[], &mut words);
+            if let Some(error) = failure(&demand, *relation) {
+                return Err(error);
+            }
+            let mut sorted = heap(columns[relation.index()]);
+            found.iter().for_each(|row| sorted.push(row));
+            rows[relation.index()] = sorted.sort();
+        }
+        drop(demand);
+        words.settle();
+        Ok(Derived::new(self, words, rows, told))
+    }
+}
+
+impl<'a> Answers<'a> {
+    fn new(
+        program: &Program,
+        kept: std::borrow::Cow<'a, Kept>,
+        is_stored: Vec<bool>,
+        source: &Source,
+        computed: &[&'a dyn Computed],
+        limits: Limits,
+    ) -> Result<Self, AskError> {
+        let mut words = kept.words.share();
+        // What the question does not name need not be declared.
+        let named = |by: &&&'a dyn Computed| {
+            names(by.declaration().text()).any(|name| source.text().contains(name))
+        };
+        let computed: Vec<&'a dyn Computed> = computed.iter().filter(named).copied().collect();
+        let more: Vec<&Source> = computed.iter().map(|by| by.declaration()).collect();
+        let question = program.question(source, &more, &mut words)?;
+        let relation = |n: usize| RelationId((question.known + n) as u32);
+        let computed = computed.iter().enumerate().map(|(n, by)| (relation(n), *by)).collect();
+        Ok(Self {
+            question,
+            kept,
+            is_stored,
+            computed,
+            given: Vec::new(),
+            words,
+            limits,
+            rows: Vec::new(),
+            found: Vec::new(),
+        })
+    }
+
+    fn demand(&self) -> Demand<'_> {
+        let is_stored = |relation: RelationId| self.is_stored[relation.index()];
+        let watch = Rc::new(Watch::new(self.limits));
+        let (program, known) = (&self.question.program, self.question.known);
+        Demand::new(program, &self.kept, known, &is_stored, &self.computed, watch)
+    }
+
+    fn answer(&mut self) -> Result<(), AskError> {
+        let mut words = std::mem::take(&mut self.words);
+        let answer = self.question.answer;
+        let (found, error) = {
+            let demand = self.demand();
+            let found = demand.rows(answer, 0, &[], &mut words);
+            (found, failure(&demand, answer))
+        };
+        self.words = words;
+        if let Some(error) = error {
+            return Err(error);
+        }
+        let info = self.question.program.info(answer);
+        let mut rows: Vec<(Vec<Value>, Box<[Word]>)> =
+            found.iter().map(|row| (values(&self.words, info, row), row.into())).collect();
+        let order = &self.question.order;
+        let compare = |a: &[Value], b: &[Value]| {
+            let asked = order.iter().map(|(column, descends)| {
+                let order = a[*column].cmp(&b[*column]);
+                if *descends { order.reverse() } else { order }
+            });
+            asked.fold(Ordering::Equal, Ordering::then).then_with(|| a.cmp(b))
+        };
+        rows.sort_unstable_by(|a, b| compare(&a.0, &b.0));
+        rows.truncate(self.question.limit.unwrap_or(usize::MAX));
+        (self.rows, self.found) = rows.into_iter().unzip();
+        Ok(())
+    }
+
+    /// The columns of the answer: the question's variables, or what its head says.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.question.program.info(self.question.answer).columns
+    }
+
+    /// The answers. A question without variables has one, without columns, where it holds, and none where it does not.
+    #[must_use]
+    pub fn rows(&self) -> &[Vec<Value>] {
+        &self.rows
+    }
+
+    /// Why an answer is one: a proof of least height, whose first step is the question itself. None for no such answer.
+    ///
+    /// # Errors
+    /// [`AskError`] when a limit is reached.
+    pub fn why(&self, answer: usize) -> Result<Option<Proof>, AskError> {
+        let Some(row) = self.found.get(answer) else { return Ok(None) };
+        let mut kept = Kept::clone(&self.kept);
+        kept.words = self.words.clone();
+        let demand = self.demand();
+        let mut given = self.given.clone();
+        given.resize_with(self.question.program.relations.len(), || None);
+        let mut explainer = Explainer::over(&self.question.program, kept, given);
+        let proof = explainer.prove_on(&demand, self.question.answer, row.clone());
+        match failure(&demand, self.question.answer) {
+            Some(error) => Err(error),
+            None => Ok(Some(proof)),
+        }
+    }
+}
+
+/// Why a call is not complete, if it is not.
+fn failure(demand: &Demand<'_>, relation: RelationId) -> Option<AskError> {
+    let fault = || {
+        let number = demand.clauses_of(relation).first()?;
+        let clause = &demand.program.clauses[*number];
+        demand.program.check_limits(clause, &demand.watch).err().map(AskError::from)
+    };
+    demand.error().or_else(fault)
+}
+
+/// The names that declarations declare: behind `.decl`, and behind the equals sign of a second name.
+fn names(declarations: &str) -> impl Iterator<Item = &str> {
+    let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+    let behind = declarations.split(".decl").skip(1).chain(declarations.split('=').skip(1));
+    behind.filter_map(move |text| text.trim_start().split(|c| !is_of_name(c)).next())
+}

@@ -1,0 +1,214 @@
+//! Questions on demand against full evaluation and against trying everything, on random programs.
+
+#[path = "../../../tests/facts_naive.rs"]
+#[allow(dead_code, reason = "its other users need the rest")]
+mod facts_naive;
+
+use std::collections::BTreeSet;
+
+use facts_naive::{Dice, Facts, Model, Rule, Tuple, random_facts};
+use orthoframe_facts::{Answers, AskError, Because, Database, Live, Program, Value};
+use orthoframe_units::Source;
+
+/// The seeds of a test: `count` from 0, or as many from the number that `ORTHO_SEED` says, for a longer search.
+fn seeds(count: u64) -> std::ops::Range<u64> {
+    let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
+    let from = number("ORTHO_SEED").unwrap_or(0);
+    from..from + number("ORTHO_SEEDS").unwrap_or(count)
+}
+
+fn parse(model: &Model) -> Program {
+    Program::parse(&Source::new("random.dl", model.to_string()))
+        .unwrap_or_else(|faults| panic!("{model}\n{faults}"))
+}
+
+fn values(tuple: &Tuple) -> Vec<Value> {
+    tuple.iter().copied().map(Value::Number).collect()
+}
+
+fn database(program: &Program, facts: &Facts) -> Database {
+    let mut database = program.database();
+    for (name, tuples) in facts {
+        for tuple in tuples {
+            database.insert(name.as_str(), &values(tuple)).expect("random facts fit");
+        }
+    }
+    database
+}
+
+/// What full evaluation finds, the question being a rule of the program.
+fn expected(model: &Model, question: &Rule, facts: &Facts) -> Vec<Vec<Value>> {
+    let whole = parse(&model.with_question(question));
+    let derived = whole.evaluate(&database(&whole, facts)).expect("random programs are finite");
+    derived.sorted("q").expect("it is declared")
+}
+
+fn rows(answers: Result<Answers<'_>, AskError>, told: &str) -> Vec<Vec<Value>> {
+    match answers {
+        Ok(answers) => answers.rows().to_vec(),
+        Err(error) => panic!("{told}\n{error}"),
+    }
+}
+
+#[test]
+fn answers_are_what_full_evaluation_finds() {
+    for seed in seeds(2000) {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let facts = random_facts(&model, &mut dice);
+        let program = parse(&model);
+        let database = database(&program, &facts);
+        let derived = program.evaluate(&database).expect("random programs are finite");
+        let rule = model.random_question(&mut dice);
+        let question = Source::new("?", format!("?- {rule}."));
+        let expected = expected(&model, &rule, &facts);
+        let told = format!("seed {seed}: {rule}\n{model}");
+        assert_eq!(rows(program.ask(&database, &question), &told), expected, "{told}");
+        assert_eq!(rows(derived.ask(&question), &told), expected, "{told}");
+    }
+}
+
+#[test]
+fn answers_are_what_trying_everything_finds() {
+    for seed in seeds(150) {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let facts = random_facts(&model, &mut dice);
+        let finished = model.evaluate(&facts);
+        let program = parse(&model);
+        let rule = model.random_question(&mut dice);
+        let found: BTreeSet<Tuple> =
+            rule.consequences(&finished, &finished).into_iter().map(|(_, tuple)| tuple).collect();
+        let expected: Vec<Vec<Value>> = found.iter().map(values).collect();
+        let question = Source::new("?", format!("?- {rule}."));
+        let told = format!("seed {seed}: {rule}\n{model}");
+        let answers = program.ask(&database(&program, &facts), &question);
+        assert_eq!(rows(answers, &told), expected, "{told}");
+    }
+}
+
+/// The relations of the upper groups are the question's own.
+#[test]
+fn a_question_may_bring_rules_of_its_own() {
+    for seed in seeds(1000) {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let facts = random_facts(&model, &mut dice);
+        let rule = model.random_question(&mut dice);
+        let last = model.relations.iter().map(|r| r.2).max().unwrap_or(0);
+        let (lower, rest) = model.split(dice.roll(last + 1));
+        let program = parse(&lower);
+        let database = database(&program, &facts);
+        let question = Source::new("?", format!("{rest}?- {rule}"));
+        let expected = expected(&model, &rule, &facts);
+        let answers = program.ask(&database, &question);
+        let answers =
+            answers.unwrap_or_else(|error| panic!("seed {seed}: {error}\n{lower}\n{rest}"));
+        assert_eq!(answers.rows(), expected, "seed {seed}: {rule}\n{model}");
+        let derived = program.evaluate(&database).expect("random programs are finite");
+        let answers = derived.ask(&question).expect("it was sound before");
+        assert_eq!(answers.rows(), expected, "seed {seed}: {rule}\n{model}");
+    }
+}
+
+#[test]
+fn proofs_of_answers_are_as_low_as_those_of_full_evaluation() {
+    for seed in seeds(200) {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let facts = random_facts(&model, &mut dice);
+        let rule = model.random_question(&mut dice);
+        let (program, whole) = (parse(&model), parse(&model.with_question(&rule)));
+        let database = database(&program, &facts);
+        let question = Source::new("?", format!("?- {rule}."));
+        let derived = program.evaluate(&database).expect("random programs are finite");
+        let on_demand = program.ask(&database, &question).expect("it is sound");
+        let over_result = derived.ask(&question).expect("it is sound");
+        let full = whole.evaluate(&self::database(&whole, &facts)).expect("it is finite");
+        for (n, row) in on_demand.rows().iter().enumerate().take(6) {
+            let expected = full.why("q", row).unwrap().expect("the answer holds");
+            for answers in [&on_demand, &over_result] {
+                let proof = answers.why(n).expect("no limit").expect("there is such an answer");
+                assert_eq!(proof.steps[0].fact.values, *row);
+                assert!(matches!(proof.steps[0].because, Because::Rule { .. }), "{proof}");
+                assert_eq!(
+                    proof.steps[0].height, expected.steps[0].height,
+                    "seed {seed}: {rule}\n{model}\n{proof}\n{expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn questions_follow_edits() {
+    for seed in seeds(80) {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let mut facts = random_facts(&model, &mut dice);
+        let program = parse(&model);
+        let mut live = Live::new(program.clone(), database(&program, &facts)).unwrap();
+        let questions: Vec<Rule> = (0..3).map(|_| model.random_question(&mut dice)).collect();
+        let inputs = model.input_names();
+        for _ in 0..6 {
+            for rule in &questions {
+                let question = Source::new("?", format!("?- {rule}"));
+                let answers = live.derived().ask(&question).expect("it is sound");
+                let expected = expected(&model, rule, &facts);
+                assert_eq!(answers.rows(), expected, "seed {seed}: {rule}\n{model}");
+            }
+            let (name, columns) = &inputs[dice.roll(inputs.len())];
+            let tuple = facts_naive::random_tuple(*columns, &mut dice);
+            let known = facts.get_mut(name).expect("inputs are there");
+            if known.remove(&tuple) {
+                live.remove(name.as_str(), &values(&tuple)).unwrap();
+            } else {
+                live.insert(name.as_str(), &values(&tuple)).unwrap();
+                known.insert(tuple);
+            }
+            live.update().expect("random programs are finite");
+        }
+    }
+}
+
+/// Large enough that calls are answered one by one at first and all at once in the end, in all kinds of premises.
+#[test]
+fn many_calls_are_answered_as_few_are() {
+    let rules = "
+        .decl edge(a: number, b: number) .input edge
+        .decl node(a: number) .output node
+        .decl path(a: number, b: number) .output path
+        .decl far(a: number, b: number) .output far
+        .decl reach(a: number, n: number) .output reach
+        .decl dead(a: number) .output dead
+        node(A), node(B) :- edge(A, B).
+        path(A, B) :- edge(A, B).
+        path(A, C) :- path(A, B), edge(B, C).
+        far(A, C) :- edge(A, B), path(B, C), !edge(A, C).
+        reach(A, N) :- node(A), N = count : { path(A, _) }.
+        dead(A) :- node(A), !path(A, _).";
+    let program = Program::parse(&Source::new("r.dl", rules)).unwrap();
+    let mut facts = program.database();
+    let mut dice = Dice::new(5);
+    for _ in 0..500 {
+        let (a, b) = (dice.roll(300) as i64, dice.roll(300) as i64);
+        facts.insert("edge", &[a.into(), b.into()]).unwrap();
+    }
+    let derived = program.evaluate(&facts).unwrap();
+    for (body, relation) in [
+        ("node(A), path(A, C)", "path"),
+        ("node(A), node(C), path(A, C)", "path"),
+        ("node(C), path(A, C)", "path"),
+        ("node(A), far(A, C)", "far"),
+        ("node(C), far(A, C)", "far"),
+        ("node(A), reach(A, C)", "reach"),
+        ("node(A), C = count : { path(A, _) }", "reach"),
+        ("path(A, C)", "path"),
+    ] {
+        let question = Source::new("?", format!("q(A, C) :- {body}"));
+        let expected = derived.sorted(relation).unwrap();
+        assert_eq!(rows(program.ask(&facts, &question), body), expected, "{body}");
+    }
+    let dead = Source::new("?", "?- node(A), !path(A, _)");
+    assert_eq!(rows(program.ask(&facts, &dead), "dead"), derived.sorted("dead").unwrap());
+}

@@ -1,0 +1,432 @@
+//! The language beyond plain rules, each part by small programs: what is derived, and what is refused.
+
+use expect_test::{Expect, expect};
+use orthoframe_facts::{Live, Program, Value};
+use orthoframe_units::Source;
+
+/// The tuples of all `.output` relations, or the faults with their lines.
+fn check(text: &str, expected: &Expect) {
+    expected.assert_eq(&shown(text));
+}
+
+fn shown(text: &str) -> String {
+    let program = match Program::parse(&Source::new("t.dl", text)) {
+        Ok(program) => program,
+        Err(faults) => {
+            let placed = faults.files.iter().flat_map(|file| file.placed());
+            return placed.map(|(line, _, fault)| format!("{line}: {fault}\n")).collect();
+        }
+    };
+    let derived = program.evaluate(&program.database()).unwrap();
+    let mut shown = String::new();
+    for (id, info) in program.relations().filter(|(_, info)| !info.outputs.is_empty()) {
+        for tuple in derived.sorted(id).unwrap() {
+            let values: Vec<String> = tuple.iter().map(ToString::to_string).collect();
+            shown += &format!("{}({})\n", info.name, values.join(", "));
+        }
+    }
+    shown
+}
+
+#[test]
+fn a_component_has_what_its_bases_have_under_its_own_name() {
+    check(
+        r#"
+        .comp Graph<N> {
+            .type Edge = [from: N, to: N]
+            .decl edge(a: N, b: N)
+            .decl path(a: N, b: N) overridable
+            .decl taken(e: Edge) .output taken
+            path(A, B) :- edge(A, B).
+            path(A, C) :- path(A, B), edge(B, C).
+            taken([A, B]) :- edge(A, B).
+        }
+        .comp Both<N> : Graph<N> { edge(A, B) :- edge(B, A). .output path }
+        .comp Short<N> : Graph<N> { .override path path(A, B) :- edge(A, B). .output path }
+        .comp Two<G> { .init one = G<number> .init other = G<number> other.edge(X, Y) :- one.edge(Y, X). }
+        .init all = Two<Both>
+        all.one.edge(1, 2).
+        .init short = Short<symbol>
+        short.edge("a", "b"). short.edge("b", "c")."#,
+        &expect![[r#"
+            all.one.path(1, 1)
+            all.one.path(1, 2)
+            all.one.path(2, 1)
+            all.one.path(2, 2)
+            all.one.taken([1, 2])
+            all.one.taken([2, 1])
+            all.other.path(1, 1)
+            all.other.path(1, 2)
+            all.other.path(2, 1)
+            all.other.path(2, 2)
+            all.other.taken([1, 2])
+            all.other.taken([2, 1])
+            short.path(a, b)
+            short.path(b, c)
+            short.taken([a, b])
+            short.taken([b, c])
+        "#]],
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_component_is_said_where_it_stands() {
+    check(
+        ".comp A { .decl r(x: number) r(1). }
+.comp B : C { }
+.comp D<T> : A { .override r .override s }
+.init d = D<number>
+.init e = D
+.init f = Nothing
+.comp G { .init g = G }
+.comp H : I {} .comp I : H {}
+",
+        &expect![[r#"
+            2: неизвестный компонент «C»
+            3: не поддерживается: .override r: отношение не объявлено overridable
+            3: не поддерживается: .override s: у наследуемых компонентов нет такого отношения
+            5: у «D» аргументов 1, а дано 0
+            6: неизвестный компонент «Nothing»
+            7: не поддерживается: компонент «G» внутри самого себя
+            8: не поддерживается: компонент «H» внутри самого себя
+            8: не поддерживается: компонент «I» внутри самого себя
+        "#]],
+    );
+}
+
+#[test]
+fn records_are_built_and_taken_apart() {
+    check(
+        r#"
+        .type List = [head: number, tail: List]
+        .decl list(l: List, length: number) .output list
+        .decl n(x: number) n(1). n(2).
+        list(nil, 0).
+        list([X, L], N + 1) :- list(L, N), n(X), N < 2.
+        .decl second(x: number) .output second
+        second(B) :- list([_, [B, _]], _).
+        .decl starts(x: number, y: number) .output starts
+        starts(X, Y) :- list(L, 2), L = [X, T], T = [Y, nil], X != Y.
+        .decl any(n: number) .output any
+        any(N) :- N = count : { list([_, _], _) }.
+        .decl none() .output none
+        none() :- list(L, _), L = nil, !list([7, L], _)."#,
+        &expect![[r#"
+            list([1, [1, nil]], 2)
+            list([1, [2, nil]], 2)
+            list([1, nil], 1)
+            list([2, [1, nil]], 2)
+            list([2, [2, nil]], 2)
+            list([2, nil], 1)
+            list(nil, 0)
+            second(1)
+            second(2)
+            starts(1, 2)
+            starts(2, 1)
+            any(6)
+            none()
+        "#]],
+    );
+}
+
+#[test]
+fn branches_are_told_apart() {
+    check(
+        r#"
+        .type Expr = Number { n: number } | Add { a: Expr, b: Expr } | Neg { a: Expr } | Zero {}
+        .decl expr(e: Expr) .decl value(e: Expr, v: number) .output value
+        expr($Add($Number(2), $Neg($Zero()))). expr($Neg($Number(5))).
+        expr(A) :- expr($Neg(A)).
+        expr(A), expr(B) :- expr($Add(A, B)).
+        value($Zero, 0) :- expr($Zero).
+        value(E, N) :- expr(E), E = $Number(N).
+        value(E, -N) :- expr(E), E = $Neg(A), value(A, N).
+        value($Add(A, B), N + M) :- expr($Add(A, B)), value(A, N), value(B, M)."#,
+        &expect![[r#"
+            value($Add($Number(2), $Neg($Zero)), 2)
+            value($Neg($Number(5)), -5)
+            value($Neg($Zero), 0)
+            value($Number(2), 2)
+            value($Number(5), 5)
+            value($Zero, 0)
+        "#]],
+    );
+}
+
+#[test]
+fn records_that_fit_no_type_are_refused() {
+    check(
+        ".type P = [x: number, y: symbol]
+.type T = Leaf {} | Node { l: T, r: T }
+.decl p(a: P) .output p
+.decl t(a: T) .output t
+p([1]).
+p([1, 2]).
+p($Leaf).
+t([1, 2]).
+t($Tree).
+t($Node($Leaf)).
+p(X) :- p(X), X < X.
+t(X) :- X = [1, 2].
+.type U = Leaf {}
+",
+        &expect![[r#"
+            5: у «P» аргументов 2, а дано 1
+            6: «2»: нужен тип symbol, а здесь number
+            7: «$Leaf»: нужен тип P, а здесь U
+            8: «[…]»: нужен тип T, а здесь […]
+            9: у записи здесь нет известного типа: $Tree
+            10: у «$Node» аргументов 2, а дано 1
+            11: не поддерживается: < между значениями типа P
+            12: «[…]»: нужен тип T, а здесь […]
+            13: «Leaf» объявлено дважды
+        "#]],
+    );
+}
+
+#[test]
+fn of_a_choice_domain_one_tuple_stays_for_each_key() {
+    let text = r#"
+        .decl edge(a: number, b: number)
+        edge(1, 2). edge(1, 3). edge(2, 4). edge(3, 4). edge(4, 1).
+        .decl tree(child: number, parent: number) choice-domain child
+        .output tree
+        tree(1, 0).
+        tree(C, P) :- tree(P, _), edge(P, C).
+        .decl match(a: number, b: number) choice-domain a, b .output match
+        match(A, B) :- edge(A, B)."#;
+    check(
+        text,
+        &expect![[r#"
+            tree(1, 0)
+            tree(2, 1)
+            tree(3, 1)
+            tree(4, 2)
+            match(1, 2)
+            match(2, 4)
+            match(4, 1)
+        "#]],
+    );
+}
+
+#[test]
+fn subsumption_keeps_the_best_and_ends_where_all_would_not() {
+    check(
+        r#"
+        .decl edge(a: symbol, b: symbol, n: number)
+        edge("a", "b", 1). edge("b", "c", 1). edge("c", "a", 1). edge("a", "c", 5).
+        .decl far(a: symbol, n: number) .output far
+        far("a", 0).
+        far(B, N + M) :- far(A, N), edge(A, B, M).
+        far(A, N) <= far(A, M) :- M < N.
+        .decl widest(a: symbol) .output widest
+        widest(A) :- far(A, N), N = max M : far(_, M)."#,
+        &expect![[r#"
+            far(a, 0)
+            far(b, 1)
+            far(c, 2)
+            widest(c)
+        "#]],
+    );
+}
+
+#[test]
+fn witnesses_of_an_extreme_are_found() {
+    check(
+        r#"
+        .decl mark(who: symbol, class: symbol, n: number)
+        mark("A", "x", 3). mark("B", "x", 5). mark("C", "x", 5). mark("D", "y", 1).
+        .decl class(c: symbol) class("x"). class("y").
+        .decl best(who: symbol, n: number) .output best
+        best(W, N) :- N = max M : { mark(W, _, M) }.
+        .decl worst(c: symbol, who: symbol, n: number) .output worst
+        worst(C, W, N) :- class(C), N = min M : { mark(W, C, M) }.
+        .decl own(n: number) .output own
+        own(N) :- N = min M + N : { mark("A", _, M), mark("D", _, N) }.
+"#,
+        &expect![[r#"
+            best(B, 5)
+            best(C, 5)
+            worst(x, A, 3)
+            worst(y, D, 1)
+            own(4)
+        "#]],
+    );
+    check(
+        ".decl mark(who: symbol, n: number) .input mark
+.decl sums(who: symbol, n: number) .output sums
+sums(W, N) :- N = sum M : { mark(W, M) }.",
+        &expect![[r#"
+            3: переменная «W» ничем не связана
+            3: переменная «N» ничем не связана
+        "#]],
+    );
+}
+
+#[test]
+fn unsigned_numbers_go_round_and_ranges_are_of_their_type() {
+    check(
+        r#"
+        .decl u(x: unsigned) .output u
+        u(0 - 1). u(bnot(0u)). u(4294967295 + 2). u(1 bshl 33). u(to_unsigned(-3)). u(7 / 2). u(2u ^ 33u).
+        .decl r(x: unsigned) .output r
+        r(X) :- X = range(5, 2).
+        .decl f(x: float) .output f
+        f(X) :- X = range(0.5, 2).
+        f(X) :- X = range(1, 0, -0.25).
+        .decl n(x: number) .output n
+        n(autoinc()) :- u(_).
+        n(2 ^ -1 + 100). n(to_number(to_unsigned(-5)))."#,
+        &expect![[r#"
+            u(0)
+            u(1)
+            u(2)
+            u(3)
+            u(4294967293)
+            u(4294967295)
+            r(3)
+            r(4)
+            r(5)
+            f(0.25)
+            f(0.5)
+            f(0.75)
+            f(1)
+            f(1.5)
+            n(-5)
+            n(0)
+            n(100)
+        "#]],
+    );
+}
+
+#[test]
+fn the_preprocessor_puts_words_for_names() {
+    check(
+        "#define LIMIT 3
+#define ABOVE(x, y) x > (y)
+#ifdef LIMIT
+.decl n(x: number) .output n
+#else
+nonsense
+#endif
+n(0).
+n(X + 1) :- n(X), X < LIMIT.
+.decl big(x: number) .output big
+big(X) :- n(X), ABOVE(X, LIMIT - 2).
+#define LONG(x) \\
+  n(x)
+big(-X) :- LONG(X), X < 0 + LIMIT, X > 1.
+#undef LIMIT
+#ifndef LIMIT
+n(100).
+#endif
+#define A B
+#define B A
+",
+        &expect![[r#"
+            n(0)
+            n(1)
+            n(2)
+            n(3)
+            n(100)
+            big(-2)
+            big(2)
+            big(3)
+            big(100)
+        "#]],
+    );
+}
+
+#[test]
+fn foreign_code_is_refused_with_a_reason() {
+    check(
+        ".functor f(x: number): number
+.decl a(x: number) .output a
+a(@f(1)).
+.lattice L {}
+a(X) :- a(X), match(\"(a)\\\\1\", \"aa\").
+.plan 0:(1,2)
+",
+        &expect![[r#"
+            1: не поддерживается: .functor
+            3: не поддерживается: функция из .functor
+            4: не поддерживается: .lattice
+        "#]],
+    );
+}
+
+/// A proof goes through records, components and what was chosen.
+#[test]
+fn why_holds_for_records_components_and_choices() {
+    let text = r#"
+        .type Pair = [a: symbol, b: symbol]
+        .comp C { .decl at(p: Pair) .decl on(a: symbol, b: symbol) choice-domain a
+                  on(A, B) :- at([A, B]), match("cup.*", A). }
+        .init c = C
+        c.at(["cup", "table"]). c.at(["cup", "floor"]).
+        .output c.on"#;
+    let program = Program::parse(&Source::new("t.dl", text)).unwrap();
+    let derived = program.evaluate(&program.database()).unwrap();
+    let tuples = derived.sorted("c.on").unwrap();
+    assert_eq!(tuples.len(), 1);
+    let proof = derived.why("c.on", &tuples[0]).unwrap().expect("the tuple holds");
+    assert_eq!(proof.steps.len(), 2, "{proof:?}");
+    let pair = Value::Record("[cup, table]".into());
+    assert_eq!(derived.contains("c.at", std::slice::from_ref(&pair)), Ok(true));
+    assert!(derived.why("c.at", &[pair]).unwrap().is_some());
+}
+
+/// Records and choices under edits: as from scratch.
+#[test]
+fn edits_are_followed_through_records_choices_and_subsumption() {
+    let text = r#"
+        .type Step = [a: number, b: number]
+        .decl edge(e: Step) .input edge
+        .decl far(a: number, n: number) .output far
+        far(0, 0).
+        far(B, N + 1) :- far(A, N), edge([A, B]).
+        far(A, N) <= far(A, M) :- M < N.
+        .decl from(b: number, a: number) choice-domain b .output from
+        from(B, A) :- edge([A, B])."#;
+    let program = Program::parse(&Source::new("t.dl", text)).unwrap();
+    let mut live = Live::new(program.clone(), program.database()).unwrap();
+    let edge = |a: u32, b: u32| [Value::Record(format!("[{a}, {b}]").into())];
+    let mut state = 7_u32;
+    for _ in 0..60 {
+        for _ in 0..3 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let (a, b) = (state >> 20 & 7, state >> 25 & 7);
+            if state >> 30 == 0 {
+                live.remove("edge", &edge(a, b)).unwrap();
+            } else {
+                live.insert("edge", &edge(a, b)).unwrap();
+            }
+        }
+        live.update().unwrap();
+        let fresh = program.evaluate(live.database()).unwrap();
+        assert_eq!(live.derived().sorted("far"), fresh.sorted("far"));
+        assert_eq!(live.derived().len("from"), fresh.len("from"));
+    }
+}
+
+/// Lists as long as memory allows are written and read without recursion.
+#[test]
+fn a_long_list_is_written_and_read() {
+    let text = r#"
+        .type List = [n: number, rest: List]
+        .decl list(l: List, n: number) .output list
+        list(nil, 0).
+        list([N, L], N + 1) :- list(L, N), N < 20000."#;
+    let program = Program::parse(&Source::new("t.dl", text)).unwrap();
+    let derived = program.evaluate(&program.database()).unwrap();
+    let longest = derived
+        .tuples("list")
+        .unwrap()
+        .find(|tuple| tuple.number(1) == Some(20000))
+        .unwrap()
+        .values();
+    assert_eq!(derived.contains("list", &longest), Ok(true));
+    let mut database = program.database();
+    assert_eq!(database.insert("list", &longest), Ok(true));
+    assert!(database.insert("list", &[Value::Record("[1, [2".into()), 1.into()]).is_err());
+}
