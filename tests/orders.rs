@@ -294,6 +294,10 @@ fn a_number_or_value_that_nothing_has_is_no_small_word() {
         "Open the lab door 3",
         "Bring a battery of acid",
         "Put the battery on the 2 desks",
+        "Bring all batteries except the purple one",
+        "Bring Battery 1 except the blue one",
+        "Go to the office, not entering the lab",
+        "Go to the office, not opening the office door",
     ] {
         assert!(lab.understand(order).is_err(), "{order}: {:?}", lab.understand(order));
     }
@@ -305,13 +309,95 @@ fn a_number_or_value_that_nothing_has_is_no_small_word() {
         "Принеси зонт Марии",
         "Положи зонт на кровать 2",
         "Включи торшер 8",
+        "Принеси все чашки 2",
+        "Принеси каждую книгу 4",
+        "Принеси 4 книгу",
+        "Включи 2 лампу",
+        "Принеси обе книги",
+        "Закрой обе двери",
+        "Закрой все 2 двери",
+        "Принеси все три чашки",
+        "Принеси все чашки, кроме фиолетовой",
+        "Поезжай в Комнату-Y, не заезжая в Комнату-Z",
+        "Поезжай в Комнату-Y, не открывая Дверь-ZY",
     ] {
         assert!(flat.understand(order).is_err(), "{order}: {:?}", flat.understand(order));
     }
     // What its name says is no number too many.
-    for order in ["Принеси красную чашку 2", "Принеси книгу 4", "Подъедь к шкафу 2"]
-    {
+    for order in [
+        "Принеси красную чашку 2",
+        "Принеси книгу 4",
+        "Подъедь к шкафу 2",
+        "Принеси обе чашки",
+        "Принеси 4 книги",
+        "Принеси чашки 1 и 2",
+        "Закрой все три двери",
+        "Поезжай в Комнату-Y, не в Комнату-Z",
+    ] {
         assert!(flat.understand(order).is_ok(), "{order}: {:?}", flat.understand(order).err());
+    }
+}
+
+/// Whatever two things an order names, it does something to both, or is refused: the map's own names in every pair and in
+/// every manner of bidding.
+#[test]
+fn of_two_things_that_are_named_none_is_passed_over() {
+    const ENGLISH: [&str; 8] = [
+        "Bring {a} {b}",
+        "Bring me {a} {b}",
+        "Bring us the {a} the {b}",
+        "Give me {a}, {b}",
+        "Fetch me please {a} {b}",
+        "Take {a} and {b}",
+        "Find {a} {b} for me",
+        "Bring me {a} and {b}",
+    ];
+    const RUSSIAN: [&str; 6] = [
+        "Принеси {a} {b}",
+        "Принеси мне {a} {b}",
+        "Дай нам, пожалуйста, {a}, {b}",
+        "Возьми {a} и {b}",
+        "{a} {b} принеси мне",
+        "Найди мне {a} {b}",
+    ];
+    let (mut both, mut passed_over) = (0, String::new());
+    for (world, bids) in [(lab(), &ENGLISH[..]), (crate::worlds::rb2(), &RUSSIAN[..])] {
+        let engine = Engine::in_memory(world.clone(), None).unwrap();
+        let portable: Vec<_> =
+            world.replicas.values().filter(|r| world.has_trait(r.id, "portable")).collect();
+        let mut roll = dice(7);
+        for _ in 0..12 {
+            let (a, b) = (portable[roll(portable.len())], portable[roll(portable.len())]);
+            if a.id == b.id {
+                continue;
+            }
+            for bid in bids {
+                let order = bid.replace("{a}", &a.name).replace("{b}", &b.name);
+                let Ok(commands) = engine.understand(&order) else { continue };
+                let said = format!("{commands:?}");
+                let done = |id| said.contains(&format!("{:?}", Entity::Replica(id)));
+                match done(a.id) && done(b.id) {
+                    true => both += 1,
+                    false => writeln!(passed_over, "{order}\n    {said}").unwrap(),
+                }
+            }
+        }
+    }
+    assert!(passed_over.is_empty(), "{passed_over}");
+    assert!(both > 20, "{both}");
+}
+
+/// What is cleared and stays is cleared of what is on it; what can be carried is put away itself.
+#[test]
+fn a_table_is_cleared_and_a_cup_is_put_away() {
+    let engine = Engine::in_memory(lab(), None).unwrap();
+    for (order, wanted) in [
+        ("Clear the desk", "Tidy(Some(Replica"),
+        ("Clear up the lab", "Tidy(Some(Area"),
+        ("Clear away Battery 1", "PutBack("),
+    ] {
+        let said = format!("{:?}", engine.understand(order).unwrap());
+        assert!(said.contains(wanted), "{order}: {said}");
     }
 }
 

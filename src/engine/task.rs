@@ -540,8 +540,16 @@ impl State {
         let last = settled.last.iter().copied().filter_map(entity).collect();
         let nearest = |all: &[Entity]| self.nearest(all);
         let meant = settled.meant.iter().copied().filter_map(entity).collect();
-        let listener =
-            Listener::new(self.forms()?).remembering(last).knowing(meant).choosing(&nearest);
+        let world = self.world()?;
+        let fixed = |entity: &Entity| match entity {
+            Entity::Replica(id) => !world.has_trait(*id, "portable"),
+            _ => true,
+        };
+        let listener = Listener::new(self.forms()?)
+            .remembering(last)
+            .knowing(meant)
+            .choosing(&nearest)
+            .clearing(&fixed);
         let windows: Vec<(Entity, Option<u32>)> =
             settled.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
         let settled = settled.text;

@@ -285,17 +285,25 @@ impl Vault {
         let log = Log::read(&*disk, dir)?;
         let had_trees = shelf.exists();
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
-        let unopened = StoreError::Tables { what: "нет".to_owned() };
         let mut report = OpenReport::default();
-        let brought = match Self::find(&files, || Err(unopened)) {
-            Ok(found) => found.brought,
-            Err(why) => {
-                let found = Self::find(&files, || shelf.look())?;
-                report.read_from_tables = Some(match why {
-                    StoreError::BothCorrupt { journal, .. } => journal,
-                    other => other.to_string(),
-                });
-                found.brought
+        // Where `head` tells how far the journal must reach, the trees need not be asked; else they are who knows.
+        let by_files = match known.mark().is_some() || !had_trees {
+            true => {
+                Some(Self::find(&files, || Err(StoreError::Tables { what: "нет".to_owned() })))
+            }
+            false => None,
+        };
+        let brought = match by_files {
+            Some(Ok(found)) => found.brought,
+            not_told => {
+                let Found { brought, trees } = Self::find(&files, || shelf.look())?;
+                report.read_from_tables = match not_told {
+                    Some(Err(StoreError::BothCorrupt { journal, .. })) => Some(journal),
+                    Some(Err(other)) => Some(other.to_string()),
+                    _ if trees.is_ok() => journal_fault(&*disk, dir, &log, brought.state.lsn)?,
+                    _ => None,
+                };
+                brought
             }
         };
         if report.read_from_tables.is_none() && log.fault.is_none() {

@@ -64,9 +64,20 @@ struct Tally {
     refused: usize,
 }
 
-/// One loss, with sled there or gone as well: everything or nothing, read-only too, and `fsck` says the same.
-fn suffer(original: &Path, file: &Path, loss: Loss, sled_too: bool, map: &World) -> Tally {
-    let what = format!("{} {loss:?}, sled gone: {sled_too}", file.display());
+/// What else a store has lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Also {
+    Nothing,
+    Sled,
+    /// How far the journal must reach is then known from sled alone.
+    Head,
+    /// It is there and tells nothing.
+    HeadEmptied,
+}
+
+/// One loss, and perhaps another: everything or nothing, read-only too, and `fsck` says the same.
+fn suffer(original: &Path, file: &Path, loss: Loss, also: Also, map: &World) -> Tally {
+    let what = format!("{} {loss:?}, also: {also:?}", file.display());
     let dir = scratch();
     copy(original, dir.path());
     let lost = dir.path().join(file);
@@ -81,8 +92,11 @@ fn suffer(original: &Path, file: &Path, loss: Loss, sled_too: bool, map: &World)
                 .unwrap();
         }
     }
-    if sled_too {
-        std::fs::remove_dir_all(dir.path().join("sled")).unwrap();
+    match also {
+        Also::Nothing => (),
+        Also::Sled => std::fs::remove_dir_all(dir.path().join("sled")).unwrap(),
+        Also::Head => std::fs::remove_file(dir.path().join("head")).unwrap(),
+        Also::HeadEmptied => std::fs::write(dir.path().join("head"), b"").unwrap(),
     }
     let mut before = Vec::new();
     files(dir.path(), &mut before);
@@ -119,7 +133,7 @@ fn suffer(original: &Path, file: &Path, loss: Loss, sled_too: bool, map: &World)
         let calm = OpenReport { lsn: report.lsn, records: report.records, ..OpenReport::default() };
         assert_eq!(report, calm, "{what}");
     } else {
-        assert!(sled_too, "{what}: one loss is mended");
+        assert_eq!(also, Also::Sled, "{what}: what sled still has is mended");
     }
     Tally { opened: usize::from(written), refused: usize::from(!written) }
 }
@@ -150,9 +164,13 @@ fn no_loss_of_a_file_gives_an_older_map() {
     }
     let mut total = Tally { opened: 0, refused: 0 };
     for (file, loss) in losses {
-        let is_sleds = file.starts_with("sled");
-        for sled_too in [false, true].into_iter().filter(|too| !(*too && is_sleds)) {
-            let tally = suffer(original.path(), &file, loss, sled_too, &map);
+        let beside = match file.starts_with("sled") {
+            true => &[Also::Nothing, Also::Head, Also::HeadEmptied][..],
+            false if file == Path::new("head") => &[Also::Nothing, Also::Sled],
+            false => &[Also::Nothing, Also::Sled, Also::Head, Also::HeadEmptied],
+        };
+        for also in beside {
+            let tally = suffer(original.path(), &file, loss, *also, &map);
             total.opened += tally.opened;
             total.refused += tally.refused;
         }

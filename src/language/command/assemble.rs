@@ -307,8 +307,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             // «Выйди в коридор»; "leave the book on the table"
             Verb::Leave if roles.to.is_some() && !named => Verb::GoTo,
             Verb::Leave if placed && named => Verb::Put,
-            // What is put away without a place goes to where it is kept.
-            Verb::Clear if roles.to.is_none() && named => Verb::PutBack,
+            // What is put away without a place goes to where it is kept; what stays is cleared of what is on it.
+            Verb::Clear if roles.to.is_none() && named => {
+                let fixed = |thing: &T| self.listener.fixed.is_some_and(|fixed| fixed(thing));
+                if roles.objects.iter().all(fixed) { Verb::Tidy } else { Verb::PutBack }
+            }
             verb => verb,
         };
         // "Take me to the kitchen": a person is nothing to be carried.

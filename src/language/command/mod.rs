@@ -205,10 +205,14 @@ pub struct Listener<'i, T> {
     last: Vec<T>,
     meant: Vec<T>,
     any: Option<&'i Any<'i, T>>,
+    fixed: Option<&'i Fixed<'i, T>>,
 }
 
 /// Of several things any of which will do, the one to take: the nearest, say.
 pub type Any<'a, T> = dyn Fn(&[T]) -> Option<T> + 'a;
+
+/// Whether a thing cannot be carried.
+pub type Fixed<'a, T> = dyn Fn(&T) -> bool + 'a;
 
 impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     /// Characters of the longest command that is read.
@@ -216,7 +220,7 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: Vec::new(), meant: Vec::new(), any: None }
+        Self { index, last: Vec::new(), meant: Vec::new(), any: None, fixed: None }
     }
 
     /// What "them" means when the sentence itself has named nothing; «её» is the last of it.
@@ -236,6 +240,12 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     #[must_use]
     pub fn choosing(self, any: &'i Any<'i, T>) -> Self {
         Self { any: Some(any), ..self }
+    }
+
+    /// "Clear the table" puts away what is on it, "clear the cup" the cup.
+    #[must_use]
+    pub fn clearing(self, fixed: &'i Fixed<'i, T>) -> Self {
+        Self { fixed: Some(fixed), ..self }
     }
 
     /// The commands of a sentence, in the order in which they are to be done; at least one.

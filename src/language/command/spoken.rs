@@ -257,6 +257,10 @@ fn excluded(said: &Said) -> Option<String> {
     let taken = said.phrase(at, &BUT_NOT)?;
     let end = said.clause_end(at + taken);
     let told = at + taken..end;
+    // «не заезжая в кухню», "not entering the kitchen" forbids; it leaves nothing out.
+    if said.keys.get(told.start).is_some_and(|key| is_gerund(key)) {
+        return None;
+    }
     // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant.
     let goes = said.verb_from(0).is_some_and(|(.., verb)| verb == Verb::GoTo);
     if goes || matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
@@ -282,6 +286,16 @@ fn excluded(said: &Said) -> Option<String> {
     let mut text = said.text.clone();
     text.replace_range(from..said.words[end - 1].end, &format!(" {except} {}", said.of(&told)));
     Some(text)
+}
+
+/// «заезжая», «не глядя», «закрыв», "entering": by its ending, where a thing left out would stand.
+fn is_gerund(key: &str) -> bool {
+    const ENDS: [&str; 8] = ["я", "ясь", "ав", "ив", "ев", "ыв", "вши", "вшись"];
+    let long = key.chars().count() > 4;
+    match Language::of(key) {
+        Language::Russian => long && ENDS.iter().any(|end| key.ends_with(end)),
+        Language::English => long && key.ends_with("ing"),
+    }
 }
 
 /// What a state is called, and the orders that bring it about.

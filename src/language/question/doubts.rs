@@ -88,26 +88,21 @@ impl Doubt {
 }
 
 impl super::Unanswered {
-    /// "No, the map has nothing called that": of what is like no name, there is none. A word that `known` does not say to
-    /// be one is denied nothing: there may be such a thing under another name.
-    pub(super) fn denied(self, known: impl Fn(&str) -> bool) -> Self {
+    /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
+    /// word that `known` does not say to be one, that is told as well.
+    pub(super) fn not_denied(self, known: impl Fn(&str) -> bool) -> Self {
         let Doubt::Unknown { reference, near } = &self.doubt else { return self };
-        if !near.is_empty() {
+        if !near.is_empty() || known(reference) {
             return self;
         }
-        let text = if known(reference) {
-            let no = self.language.pick("нет, ", "no, ");
-            format!("{no}{}", super::lexicon::lower_first(&self.text))
-        } else {
-            let word = tidy(reference);
-            match self.language {
-                Language::Russian => format!(
-                    "слова «{word}» я не знаю: под таким названием на карте ничего нет, а есть ли это под другим, не скажу"
-                ),
-                Language::English => format!(
-                    "I do not know the word \"{word}\": nothing on the map is called so, and whether it is there under another name I cannot tell"
-                ),
-            }
+        let word = tidy(reference);
+        let text = match self.language {
+            Language::Russian => format!(
+                "слова «{word}» я не знаю: под таким названием на карте ничего нет, а есть ли это под другим, не скажу"
+            ),
+            Language::English => format!(
+                "I do not know the word \"{word}\": nothing on the map is called so, and whether it is there under another name I cannot tell"
+            ),
         };
         Self { text: speech::sentence(&text), ..self }
     }

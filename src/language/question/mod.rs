@@ -323,7 +323,7 @@ impl Asker<'_> {
                 };
                 let unanswered = self.knowledge(language, memory).unanswered(doubt);
                 Err(match self.asks_whether_there_is(text) {
-                    true => unanswered.denied(|word| self.is_word(word)),
+                    true => unanswered.not_denied(|word| self.is_word(word)),
                     false => unanswered,
                 })
             }

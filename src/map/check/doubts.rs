@@ -14,7 +14,8 @@ use miette::Diagnostic;
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
 use crate::{
-    Area, Mark, Permeability, Properties, Replica, TypeKind, World, is_dark, is_on, is_open,
+    Area, Mark, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark, is_on,
+    is_open,
 };
 
 use super::group::{Body, bodies_of, is_hollow};
@@ -25,9 +26,15 @@ use super::plane::{
 };
 use super::{OVERLAP, Short, at};
 
-/// A thing may sink so far into what bears it, or be so far from what it stands on or hangs on, cm: the widest that a
-/// profile allows.
+/// A thing may be so far from the floor, the ceiling, the wall or the thing that holds it, cm.
 const STANDING: f64 = 8.0;
+/// It may sink so far into the thing that bears it, or be so far above it, cm: R1's gap for what lies on something.
+fn resting(profile: Profile) -> f64 {
+    match profile {
+        Profile::Surveyed => 2.0,
+        Profile::Detected => 8.0,
+    }
+}
 /// How far two things may reach into one another sidewards, cm, before it is no slip of the tape.
 const DEPTH: f64 = 1.0;
 /// What leans on a thing comes so near to it, cm; likewise what is within a container (R1).
@@ -231,6 +238,7 @@ impl Doubter<'_> {
 
     /// Solids of two things in one place.
     fn overlaps(&mut self, things: &[Thing<'_>]) {
+        let rest = resting(self.world.domain.profile);
         let (owners, boxes) = solids(things);
         let mut found: BTreeMap<(usize, usize), Point> = BTreeMap::new();
         near_pairs(&boxes, 0.0, |i, j| {
@@ -238,7 +246,7 @@ impl Doubter<'_> {
             let pair = (a.min(b), a.max(b));
             if a != b
                 && !found.contains_key(&pair)
-                && let Some(p) = clash((&things[a], m), (&things[b], n))
+                && let Some(p) = clash((&things[a], m), (&things[b], n), rest)
             {
                 found.insert(pair, p);
             }
@@ -260,6 +268,7 @@ impl Doubter<'_> {
         let world = self.world;
         let rooms = bodies_of(world, &area.items);
         let walls = walls(world, area);
+        let rest = resting(world.domain.profile);
         let (owners, boxes) = solids(things);
         let mut is_held = vec![false; things.len()];
         for (no, thing) in things.iter().enumerate() {
@@ -274,7 +283,7 @@ impl Doubter<'_> {
                     if is_held[a] || !touch(&body.polygon, &other.polygon, BESIDE) {
                         continue;
                     }
-                    if stands(&things[a], body, other)
+                    if stands(&things[a], body, other, rest)
                         && intersection(&body.polygon, &other.polygon).area > OVERLAP
                     {
                         is_held[a] = true;
@@ -521,7 +530,11 @@ fn solids(things: &[Thing<'_>]) -> (Vec<(usize, usize)>, Vec<Bounds>) {
 }
 
 /// Where two solids are in one another, unless one stands on the other, lies in it, or lets it through.
-fn clash((one, m): (&Thing<'_>, usize), (other, n): (&Thing<'_>, usize)) -> Option<Point> {
+fn clash(
+    (one, m): (&Thing<'_>, usize),
+    (other, n): (&Thing<'_>, usize),
+    rest: f64,
+) -> Option<Point> {
     let (a, b) = (&one.bodies[m], &other.bodies[n]);
     // People sit in what bears them.
     if one.is_person
@@ -533,7 +546,7 @@ fn clash((one, m): (&Thing<'_>, usize), (other, n): (&Thing<'_>, usize)) -> Opti
         return None;
     }
     let stands =
-        |upper: &Body, lower: &Body| upper.top > lower.top && lower.top - upper.bottom <= STANDING;
+        |upper: &Body, lower: &Body| upper.top > lower.top && lower.top - upper.bottom <= rest;
     if stands(a, b) || stands(b, a) {
         return None;
     }
@@ -557,10 +570,10 @@ fn is_within(inner: &Body, outer: &Body) -> bool {
 
 /// Whether a thing stands with one of its solids on or in a solid below. Any of its lowest will do: a bench may stand on
 /// a step and on the floor.
-fn stands(thing: &Thing<'_>, body: &Body, other: &Body) -> bool {
+fn stands(thing: &Thing<'_>, body: &Body, other: &Body, rest: f64) -> bool {
     body.bottom <= thing.bottom() + STANDING
-        && body.bottom <= other.top + STANDING
-        && body.bottom >= other.bottom - STANDING
+        && body.bottom <= other.top + rest
+        && body.bottom >= other.bottom - rest
 }
 
 /// Whether a solid hangs from one above it.

@@ -156,10 +156,11 @@ impl Sentence<'_> {
         })
     }
 
-    /// Whether the word before is "I" or "you".
+    /// Whether the word before says who does it: "I" or "you", and not "me" in "bring me the milk".
     pub(super) fn follows_person(&self, at: u32) -> bool {
-        let before = self.tokens.iter().rev().find(|t| t.to <= at).map(|t| t.kind);
-        matches!(before, Some(Tok::Mark(Mark::Me | Mark::You)))
+        let Some(before) = self.tokens.iter().rev().find(|t| t.to <= at) else { return false };
+        let key = self.keys[before.from as usize].as_str();
+        matches!(before.kind, Tok::Mark(Mark::Me | Mark::You)) && !["me", "us"].contains(&key)
     }
 
     /// "the smaller wardrobe": a comparative right before its noun.

@@ -16,7 +16,7 @@ use crate::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thi
 use crate::question::values::ValueId;
 use crate::semantics::lifts;
 use crate::units::{AreaId, DoorId};
-use crate::words::{Language, Number};
+use crate::words::{Case, Language, Number, Readings};
 
 /// The thing that is taken of several that were named, and the words that named them.
 pub(super) type Chosen = (Thing, Range<usize>);
@@ -139,7 +139,8 @@ impl Settler<'_, '_> {
         }
         let able: Vec<Thing> =
             found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
-        if !able.is_empty() {
+        let none_can = able.is_empty();
+        if !none_can {
             found = able;
         } else if matches!(sort, Sort::Switch | Sort::Door | Sort::Carry | Sort::Put) {
             // None of them can be: that is said of one, and not asked which.
@@ -156,11 +157,36 @@ impl Settler<'_, '_> {
         if noun.quantity != Quantity::Exactly {
             return Err((Doubt::not_understood(&noun.text), at));
         }
-        if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()) {
+        self.excepts_something(noun, &within, &phrase.words)?;
+        // «Принеси все чашки 2» orders neither all of them nor one.
+        let numeric = |key: &String| !key.is_empty() && key.chars().all(char::is_numeric);
+        let last = phrase.words.end.checked_sub(1).and_then(|last| self.sentence.keys.get(last));
+        let ends_in_number = last.is_some_and(numeric);
+        let of_things = matches!(sort, Sort::Carry | Sort::Put | Sort::Switch | Sort::Door);
+        // "Turn off Lamp 77; bring Battery 1": a number before a mark counts nothing behind it.
+        let cut_off = (phrase.words.start + 1..phrase.words.end)
+            .find(|&n| self.is_parted(n) && self.sentence.keys.get(n - 1).is_some_and(numeric));
+        if let Some(n) = cut_off {
+            return Err((Doubt::not_understood(self.sentence.said(&(n - 1..n))), at));
+        }
+        if noun.all && of_things && ends_in_number {
+            return Err((Doubt::not_understood(self.sentence.said(&phrase.words)), at));
+        }
+        let both = self.is_both(&phrase.words).then_some(2);
+        if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()).or(both) {
             let wanted = usize::try_from(wanted).unwrap_or(usize::MAX);
+            if both.is_none() && self.is_a_number_of_one(phrase, wanted) {
+                return Err((Doubt::not_understood(&noun.text), at));
+            }
+            if none_can && !found.is_empty() {
+                return Ok(Some(found));
+            }
+            // "Both cups", «все три чашки»: there are so many and no more, or it is not known which are meant.
+            let these = both.is_some() || noun.all;
             return match found.len() {
                 0 => Ok(None),
                 few if few < wanted => Err((Doubt::TooFew { found }, at)),
+                more if these && more > wanted => Err((self.knowledge.ambiguous(noun, &found), at)),
                 _ => Ok(Some(self.nearest_of(&found, wanted))),
             };
         }
@@ -200,6 +226,56 @@ impl Settler<'_, '_> {
             }
         }
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// What is left out must be something, and be left out of several: "all cups except the purple one" where none is
+    /// purple, "Cup 1 except the blue one".
+    fn excepts_something(
+        &self,
+        noun: &Noun,
+        within: &[Restriction],
+        words: &Range<usize>,
+    ) -> Result<(), (Doubt, Range<usize>)> {
+        let at = || self.bytes(words);
+        for except in &noun.except {
+            let mut out = except.clone();
+            if out.head.anything {
+                out.head = noun.head.clone();
+            }
+            let found = |noun: &Noun, within: &[Restriction]| {
+                self.candidates(noun, within).map_err(|doubt| (doubt, at()))
+            };
+            let left_out = found(&out, &[])?;
+            let all = found(&Noun { except: Vec::new(), ..noun.clone() }, within)?;
+            let several = noun.plural || noun.all || noun.count.is_some();
+            if !several && !all.iter().any(|thing| left_out.contains(thing)) {
+                return Err((Doubt::not_understood(&except.text), at()));
+            }
+            if left_out.is_empty() {
+                return Err((self.knowledge.none_such(&out), at()));
+            }
+        }
+        Ok(())
+    }
+
+    /// «обе чашки», "both cups"
+    fn is_both(&self, words: &Range<usize>) -> bool {
+        const BOTH: [&str; 9] =
+            ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"];
+        let keys = self.sentence.keys.get(words.start.saturating_sub(1)..words.end);
+        keys.unwrap_or_default().iter().any(|key| BOTH.contains(&key.as_str()))
+    }
+
+    /// «4 книгу»: a singular that no number but one stands before is no count of several.
+    fn is_a_number_of_one(&self, phrase: &Phrase, count: usize) -> bool {
+        let ends_in_one = count % 10 == 1 && count % 100 != 11;
+        let counted = |r: &Readings| {
+            r.has_case(Case::Genitive) || Case::ALL.iter().any(|case| r.has(Number::Plural, *case))
+        };
+        self.sentence.language == Language::Russian
+            && !ends_in_one
+            && !phrase.cases.is_empty()
+            && !phrase.cases.iter().any(counted)
     }
 
     /// «Закрой все двери»: a lift sees to its own, unless they alone are meant.
