@@ -348,6 +348,15 @@ pub(super) struct PlanArgs {
     /// A plan soon, not proven to be the shortest
     #[arg(long)]
     pub any: bool,
+    /// A plan at once, better ones as they come, and what is proven of the fewest steps, until the two meet
+    #[arg(long, conflicts_with_all = ["any", "check", "facts"])]
+    pub anytime: bool,
+    /// The shortest plan by GraphPlan as published, and nothing else
+    #[arg(long, conflicts_with_all = ["any", "anytime", "check", "facts"])]
+    pub plain: bool,
+    /// With --anytime: end after so much effort, in millions of variables set by the solver and what takes as long
+    #[arg(long, value_name = "MILLIONS", requires = "anytime")]
+    pub effort: Option<u64>,
     /// Withdraw an assumption and plan anew; ?x stands for any object; may be given several times
     #[arg(long, value_name = "FACT")]
     pub without: Vec<String>,
@@ -367,7 +376,12 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
 
 impl PlanArgs {
     pub(super) fn wanted(&self) -> Wanted {
-        if self.any { Wanted::Any } else { Wanted::Shortest }
+        match self {
+            Self { any: true, .. } => Wanted::Any,
+            Self { anytime: true, .. } => Wanted::Anytime,
+            Self { plain: true, .. } => Wanted::Plain,
+            _ => Wanted::Shortest,
+        }
     }
 
     pub(super) fn limits(&self) -> Limits {
@@ -375,7 +389,8 @@ impl PlanArgs {
         let all = Limits::default();
         let memory_bytes =
             self.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20));
-        Limits { deadline, memory_bytes, ..all }
+        let effort = self.effort.map(|millions| millions.saturating_mul(1_000_000));
+        Limits { deadline, memory_bytes, effort, ..all }
     }
 }
 

@@ -39,6 +39,13 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     let (language, limits) = (common.lang.language(), args.limits());
     let limits =
         Limits { tell: Some(interim(common.lang)), stop: Some(stopped_by_signals()), ..limits };
+    let limits = match (args.anytime, common.json) {
+        (false, _) => limits,
+        (true, false) => Limits { tell_bound: Some(bound(common.lang)), ..limits },
+        (true, true) => {
+            Limits { tell: Some(stream_plan), tell_bound: Some(stream_bound), ..limits }
+        }
+    };
     let english = |name: &str| names(name, Language::English);
     let name = |name: &str| names(name, language);
     let (solved, warnings, told) = if args.without.is_empty() {
@@ -79,9 +86,10 @@ fn remedies(solved: &Solved, args: &PlanArgs) -> Vec<&'static str> {
     let more = match known.limit {
         Limit::Time => Some("--time-limit"),
         Limit::Memory => Some("--memory-limit"),
+        Limit::Effort => Some("--effort"),
         Limit::Steps | Limit::Stopped => None,
     };
-    (!args.any).then_some("--any").into_iter().chain(more).collect()
+    (!args.any && !args.anytime).then_some("--any").into_iter().chain(more).collect()
 }
 
 fn with_help(mut view: Value, solved: &Solved, args: &PlanArgs) -> Value {
@@ -99,6 +107,7 @@ fn help(solved: &Solved, args: &PlanArgs, language: Language) -> String {
                 "--any (план скоро, без доказательства, что он кратчайший)",
                 "--any (a plan soon, not proven to be the shortest)",
             ),
+            "--effort" => language.pick("больше усилий (--effort)", "more effort (--effort)"),
             "--time-limit" => {
                 language.pick("больше времени (--time-limit)", "more time (--time-limit)")
             }
@@ -125,6 +134,25 @@ fn interim(lang: Lang) -> fn(&Plan) {
             note(&format!("A plan is found: {size}; a shorter one is sought."));
         },
     }
+}
+
+/// With `--anytime`, every higher bound is told of.
+fn bound(lang: Lang) -> fn(usize) {
+    match lang {
+        Lang::Ru => |least| note(&format!("Доказано: шагов нужно не меньше {least}.")),
+        Lang::En => |least| note(&format!("Proven: at least {least} steps are needed.")),
+    }
+}
+
+/// With `--anytime --json`, a line for every plan with fewer steps and every higher bound; the answer is the last line.
+/// Who no longer listens is told nothing; that is found when the answer is to be told.
+fn stream_plan(plan: &Plan) {
+    let (steps, actions) = (plan.steps.len(), plan.action_count());
+    let _ = say(&json!({"event": "plan", "parallel_steps": steps, "actions": actions}).to_string());
+}
+
+fn stream_bound(at_least: usize) {
+    let _ = say(&json!({"event": "bound", "at_least_steps": at_least}).to_string());
 }
 
 /// Who knows the map of a scenario: the store that was named; else the map that the scenario names; else the default

@@ -65,6 +65,7 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
                 Limit::Memory => "memory",
                 Limit::Steps => "steps",
                 Limit::Stopped => "stopped",
+                Limit::Effort => "effort",
             });
             view["at_least_steps"] = json!(known.at_least);
             view["at_most_steps"] = json!(known.plan.as_ref().map(|plan| plan.steps.len()));

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::samples::{Named, Random, random_errand, random_task, random_task_with_objects, wishes};
 use super::*;
+use crate::proof::{Turn, search};
 use crate::strips::Operator;
 
 /// Facts as bits.
@@ -389,7 +390,7 @@ fn what_no_shortest_plan_needs_is_left_out() {
             1 => random_task_with_objects(seed),
             _ => random_errand(seed),
         };
-        let reduced = needed::Reduced::of(&task, &Limits::default()).unwrap();
+        let reduced = crate::proof::needed::Reduced::of(&task, &Limits::default()).unwrap();
         reduced.task.check_invariants();
         let fewest = fewest_steps(&task);
         assert_eq!(fewest_steps(&reduced.task), fewest, "seed {seed}");
@@ -400,7 +401,7 @@ fn what_no_shortest_plan_needs_is_left_out() {
         {
             assert_eq!(least_cost(&reduced.task, steps), least_cost(&task, steps), "seed {seed}");
         }
-        match solve_large(&task, &Limits::default()) {
+        match crate::proof::solve_large(&task, &Limits::default()) {
             Ok(Outcome::Plan(plan)) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
                 assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
@@ -430,7 +431,7 @@ fn what_is_only_passed_through_is_left_out() {
         lies
     });
     let task = named.task(&[places[3], first, hand], &[last]);
-    let reduced = needed::Reduced::of(&task, &Limits::default()).unwrap();
+    let reduced = crate::proof::needed::Reduced::of(&task, &Limits::default()).unwrap();
     assert_eq!(fewest_steps(&reduced.task), Some(4));
     // From the start to the cup and on: between places 0, 3 and 5 alone, and none of the ways back to the start.
     let left: Vec<String> = reduced.task.facts.iter().map(|f| f.predicate.to_string()).collect();

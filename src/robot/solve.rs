@@ -94,6 +94,10 @@ impl Reason {
                         "поиск прерван раньше, чем нашёлся план",
                         "the search was stopped before a plan was found",
                     ),
+                    Limit::Effort => language.pick(
+                        "отведённые усилия потрачены раньше, чем нашёлся план",
+                        "the effort allowed was spent before a plan was found",
+                    ),
                 };
                 match at_least {
                     0 => ended.to_owned(),
@@ -111,6 +115,9 @@ impl Reason {
                         language.pick("наибольшее число шагов", "the greatest number of steps")
                     }
                     Limit::Stopped => language.pick("поиск прерван", "the search was stopped"),
+                    Limit::Effort => {
+                        language.pick("отведённые усилия потрачены", "the effort allowed was spent")
+                    }
                 };
                 language.pick(
                     format!("{ended} раньше, чем нашёлся план короче или стало ясно, что его нет; шагов нужно от {at_least} до {most}"),
@@ -165,6 +172,10 @@ pub enum Wanted {
     Shortest,
     /// Any, soon.
     Any,
+    /// One at once, better ones as they come, and what is proven of the fewest steps, until the two meet.
+    Anytime,
+    /// The shortest by the paper's algorithm, and nothing else.
+    Plain,
 }
 
 /// Grounds a problem and finds a plan, or why there is none.
@@ -182,6 +193,8 @@ pub fn solve(
             let outcome = match wanted {
                 Wanted::Shortest => graphplan::solve(&task, limits),
                 Wanted::Any => graphplan::solve_any(&task, limits),
+                Wanted::Anytime => graphplan::solve_anytime(&task, limits),
+                Wanted::Plain => graphplan::solve_plainly(&task, limits),
             };
             (task, outcome)
         }
@@ -257,7 +270,7 @@ pub fn solve_without(
         return Err(RuleFaults(faults));
     }
     let (before, after, learned_before) = match wanted {
-        Wanted::Any => {
+        Wanted::Any | Wanted::Anytime | Wanted::Plain => {
             let before = solve(domain, problem, limits, wanted)?;
             (before, solve(domain, &without, limits, wanted)?, false)
         }
@@ -295,7 +308,7 @@ fn told(
     wanted: Wanted,
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
-    let is_shortest = wanted == Wanted::Shortest;
+    let is_shortest = wanted != Wanted::Any;
     let assumptions = outcome.plan().map_or_else(Vec::new, |plan| {
         plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
     });

@@ -5,19 +5,19 @@ use std::cell::Cell;
 use batsat::callbacks::Callbacks;
 use batsat::{Lit, SolverInterface, lbool};
 
-use super::Limits;
+use crate::Limits;
 
 /// A variable or its negation.
-pub(super) type Literal = Lit;
+pub(crate) type Literal = Lit;
 
-pub(super) enum Answer {
+pub(crate) enum Answer {
     Satisfiable,
     Unsatisfiable,
     /// The conflicts allowed were used up, or the time.
     Open,
 }
 
-pub(super) struct Solver {
+pub(crate) struct Solver {
     inner: batsat::Solver<Effort>,
     literals: usize,
     clause: Vec<Lit>,
@@ -48,7 +48,7 @@ impl Callbacks for Effort {
 }
 
 impl Solver {
-    pub(super) fn new(limits: &Limits) -> Self {
+    pub(crate) fn new(limits: &Limits) -> Self {
         let effort = Effort {
             conflicts: Cell::new(0),
             allowed: 0,
@@ -62,24 +62,24 @@ impl Solver {
         }
     }
 
-    pub(super) fn new_variable(&mut self) -> Literal {
+    pub(crate) fn new_variable(&mut self) -> Literal {
         // Left to itself the solver tries "false" first and later its last choice: few actions by nature.
         Lit::new(self.inner.new_var(lbool::UNDEF, true), true)
     }
 
     /// A variable that is only ever assumed; the solver never tries values for it.
-    pub(super) fn new_switch(&mut self) -> Literal {
+    pub(crate) fn new_switch(&mut self) -> Literal {
         Lit::new(self.inner.new_var(lbool::UNDEF, false), true)
     }
 
-    pub(super) fn add_clause(&mut self, literals: &[Literal]) {
+    pub(crate) fn add_clause(&mut self, literals: &[Literal]) {
         self.literals += literals.len() + 2;
         self.clause.clear();
         self.clause.extend_from_slice(literals);
         self.inner.add_clause_reuse(&mut self.clause);
     }
 
-    pub(super) fn solve(&mut self, assumptions: &[Literal], conflicts: u64) -> Answer {
+    pub(crate) fn solve(&mut self, assumptions: &[Literal], conflicts: u64) -> Answer {
         let effort = self.inner.cb_mut();
         effort.allowed = effort.conflicts.get() + conflicts;
         match self.inner.solve_limited(assumptions) {
@@ -90,25 +90,25 @@ impl Solver {
     }
 
     /// A literal's value in the model found last.
-    pub(super) fn value(&self, literal: Literal) -> bool {
+    pub(crate) fn value(&self, literal: Literal) -> bool {
         self.inner.value_lit(literal) == lbool::TRUE
     }
 
     /// The assumptions that took part in the last refutation.
-    pub(super) fn blamed(&self) -> Vec<Literal> {
+    pub(crate) fn blamed(&self) -> Vec<Literal> {
         self.inner.unsat_core().iter().map(|&literal| !literal).collect()
     }
 
     /// Variables set so far, over and over.
-    pub(super) fn effort(&self) -> u64 {
+    pub(crate) fn effort(&self) -> u64 {
         self.inner.num_propagations()
     }
 
-    pub(super) fn conflicts(&self) -> u64 {
+    pub(crate) fn conflicts(&self) -> u64 {
         self.inner.cb().conflicts.get()
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         // Literals with their watches, and variables with theirs.
         self.literals * 12 + self.inner.num_vars() as usize * 100
     }

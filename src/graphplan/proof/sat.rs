@@ -6,14 +6,14 @@
 use super::counting::Counter;
 use super::first_use::FirstUse;
 use super::graph::{ActionId, PlanningGraph};
-use super::plan::Plan;
 use super::serial::Serial;
 use super::solver::{Answer, Literal, Solver};
 use super::transition::{Transition, Variables, add_mutexes};
-use super::{Limit, Limits};
+use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
-pub(super) struct Encoding<'a> {
+pub(crate) struct Encoding<'a> {
     task: &'a Task,
     solver: Solver,
     /// Per level, the variable of each fact that may hold there.
@@ -43,7 +43,7 @@ pub(super) struct Encoding<'a> {
 const BEFORE_COUNTING: u64 = 1 << 11;
 
 /// What the solver found out about a number of steps.
-pub(super) enum Verdict {
+pub(crate) enum Verdict {
     Plan(Plan),
     /// No plan of this many steps.
     None,
@@ -53,7 +53,7 @@ pub(super) enum Verdict {
 
 impl<'a> Encoding<'a> {
     /// `shorter_refuted` promises that plans are looked for of a length only once every shorter one is refuted.
-    pub(super) fn new(task: &'a Task, shorter_refuted: bool, limits: &Limits) -> Self {
+    pub(crate) fn new(task: &'a Task, shorter_refuted: bool, limits: &Limits) -> Self {
         let serial = if shorter_refuted { Serial::of(task, limits) } else { None };
         Self {
             task,
@@ -121,7 +121,7 @@ impl<'a> Encoding<'a> {
     }
 
     /// Looks for a plan as long as the graph, with so many conflicts at most.
-    pub(super) fn extract(
+    pub(crate) fn extract(
         &mut self,
         graph: &PlanningGraph,
         conflicts: u64,
@@ -131,7 +131,7 @@ impl<'a> Encoding<'a> {
     }
 
     /// The same, under further assumptions.
-    pub(super) fn extract_within(
+    pub(crate) fn extract_within(
         &mut self,
         graph: &PlanningGraph,
         assumptions: &[Literal],
@@ -157,7 +157,7 @@ impl<'a> Encoding<'a> {
     }
 
     /// Adds the levels that the graph has and the formula has not.
-    pub(super) fn reach(&mut self, graph: &PlanningGraph, limits: &Limits) -> Result<(), Limit> {
+    pub(crate) fn reach(&mut self, graph: &PlanningGraph, limits: &Limits) -> Result<(), Limit> {
         while self.facts.len() <= graph.top() {
             self.add_level(graph);
             limits.check(self.bytes() + graph.bytes())?;
@@ -166,7 +166,7 @@ impl<'a> Encoding<'a> {
     }
 
     /// The variable of an operator in a step, if it may be carried out there to any purpose.
-    pub(super) fn operator(
+    pub(crate) fn operator(
         &self,
         graph: &PlanningGraph,
         step: usize,
@@ -176,21 +176,21 @@ impl<'a> Encoding<'a> {
         self.operators[step][id.index()].filter(|_| serves)
     }
 
-    pub(super) fn solver(&mut self) -> &mut Solver {
+    pub(crate) fn solver(&mut self) -> &mut Solver {
         &mut self.solver
     }
 
     /// Conflicts met so far.
-    pub(super) fn conflicts(&self) -> u64 {
+    pub(crate) fn conflicts(&self) -> u64 {
         self.solver.conflicts()
     }
 
     /// Variables set so far, over and over.
-    pub(super) fn effort(&self) -> u64 {
+    pub(crate) fn effort(&self) -> u64 {
         self.solver.effort()
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.solver.bytes()
     }
 

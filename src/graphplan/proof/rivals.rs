@@ -3,14 +3,14 @@
 //! The backward search asks of every action that it tries whether one chosen before excludes it. Whoever needs, adds
 //! or deletes a fact (if only for a moment) is kept as a row of bits; an action's rivals are the union of a few of them.
 
-use super::bits;
 use super::graph::{ActionId, PlanningGraph};
+use crate::bits;
 
 /// More than this is not kept, and found anew each time.
 const MOST_BYTES: usize = 1 << 26;
 
 #[derive(Default)]
-pub(super) struct Rivals {
+pub(crate) struct Rivals {
     words: usize,
     /// Per fact, the actions that need it, add it and delete it.
     needing: Vec<u64>,
@@ -22,12 +22,12 @@ pub(super) struct Rivals {
 }
 
 impl Rivals {
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.bytes
     }
 
     /// The first of the others that excludes an action in the step that starts at `level`.
-    pub(super) fn first_of(
+    pub(crate) fn first_of(
         &mut self,
         graph: &PlanningGraph,
         level: usize,
@@ -108,9 +108,9 @@ impl Rivals {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Limits;
-    use super::super::samples::random_task;
     use super::*;
+    use crate::Limits;
+    use crate::samples::random_task;
 
     #[test]
     fn rows_say_the_same_as_the_graph() {

@@ -8,8 +8,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::bits::{has, members, put, unite, words};
 use super::relaxed::{State, holds};
+use crate::bits::{has, members, put, unite, words};
 use crate::strips::{FactId, Operator, Task};
 
 /// More facts than these make the sets too large.
@@ -18,9 +18,9 @@ const MOST_FACTS: usize = 1 << 13;
 const MOST_GOALS: usize = 512;
 
 /// Landmarks attained so far, as bits.
-pub(super) type Attained = Box<[u64]>;
+pub(crate) type Attained = Box<[u64]>;
 
-pub(super) struct Landmarks {
+pub(crate) struct Landmarks {
     facts: Vec<FactId>,
     is_goal: Vec<bool>,
     /// Which landmarks must have been attained before one counts.
@@ -35,14 +35,14 @@ pub(super) struct Landmarks {
 
 impl Landmarks {
     /// None when there are too many facts, or the goal is out of reach.
-    pub(super) fn of(task: &Task) -> Option<Self> {
+    pub(crate) fn of(task: &Task) -> Option<Self> {
         let mut initial = vec![0; words(task.facts.len())].into_boxed_slice();
         task.init.iter().for_each(|fact| put(&mut initial, fact.index()));
         Self::from(task, &initial)
     }
 
     /// The landmarks of what is still to be done after some state; none as above.
-    pub(super) fn from(task: &Task, state: &State) -> Option<Self> {
+    pub(crate) fn from(task: &Task, state: &State) -> Option<Self> {
         if task.facts.len() > MOST_FACTS {
             return None;
         }
@@ -87,7 +87,7 @@ impl Landmarks {
     }
 
     /// The goals, none before another that it would be undone for.
-    pub(super) fn goals_in_order(&self) -> &[FactId] {
+    pub(crate) fn goals_in_order(&self) -> &[FactId] {
         &self.in_order
     }
 
@@ -133,7 +133,7 @@ impl Landmarks {
     }
 
     /// What counts as attained at first.
-    pub(super) fn initially(&self, state: &State) -> Attained {
+    pub(crate) fn initially(&self, state: &State) -> Attained {
         let mut attained = vec![0; words(self.facts.len())].into_boxed_slice();
         for (n, &fact) in self.facts.iter().enumerate() {
             if holds(state, fact) && self.before[n].is_empty() {
@@ -144,7 +144,7 @@ impl Landmarks {
     }
 
     /// What counts as attained once a state is come to.
-    pub(super) fn advance(&self, attained: &Attained, state: &State) -> Attained {
+    pub(crate) fn advance(&self, attained: &Attained, state: &State) -> Attained {
         let mut next = attained.clone();
         for (n, &fact) in self.facts.iter().enumerate() {
             let counts = !has(attained, n)
@@ -159,7 +159,7 @@ impl Landmarks {
 
     /// Facts whose coming about would count next, as bits: landmarks not attained with nothing before them open, and
     /// those lost that are needed once more.
-    pub(super) fn next(&self, attained: &Attained, state: &State) -> Box<[u64]> {
+    pub(crate) fn next(&self, attained: &Attained, state: &State) -> Box<[u64]> {
         let mut next = vec![0; state.len()].into_boxed_slice();
         for (n, &fact) in self.facts.iter().enumerate() {
             let open = || self.before[n].iter().all(|&before| has(attained, before as usize));
@@ -171,7 +171,7 @@ impl Landmarks {
     }
 
     /// How many landmarks are ahead: not attained, or lost and needed once more, be it only for another that was lost.
-    pub(super) fn ahead(&self, attained: &Attained, state: &State) -> u32 {
+    pub(crate) fn ahead(&self, attained: &Attained, state: &State) -> u32 {
         let mut ahead = vec![0; attained.len()].into_boxed_slice();
         let mut open: Vec<u32> = Vec::new();
         for (n, &fact) in self.facts.iter().enumerate() {
@@ -362,8 +362,8 @@ impl Sets {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bits::take;
     use super::*;
+    use crate::bits::take;
     use crate::strips::Scenario;
     use crate::units::Source;
 

@@ -9,11 +9,11 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, VecDeque};
 
 use super::graph::PlanningGraph;
-use super::plan::Plan;
 use super::sat::{Encoding, Verdict};
 use super::solver::{Literal, Solver};
-use super::{Limit, Limits};
+use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
 /// A counter with more clauses than this costs more than it saves.
 const MOST_CLAUSES: usize = 1 << 19;
@@ -36,7 +36,7 @@ fn weight_of(task: &Task, plan: &Plan) -> u64 {
 }
 
 /// A plan of as many steps that costs no more, as little as so many conflicts of the solver allow.
-pub(super) fn fewest(
+pub(crate) fn fewest(
     task: &Task,
     graph: &PlanningGraph,
     encoding: &mut Encoding<'_>,
@@ -70,7 +70,7 @@ fn improve(
         else {
             return Ok(());
         };
-        super::any::drop_needless(task, &mut better.steps);
+        crate::portfolio::any::drop_needless(task, &mut better.steps);
         if weight_of(task, &better) >= best {
             return Ok(());
         }

@@ -9,14 +9,14 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
-use super::bits;
 use super::landmarks::{Attained, Landmarks};
 use super::relaxed::{Relaxed, State, holds};
-use super::{Limit, Limits};
+use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
 /// What the search came to.
-pub(super) enum Searched {
+pub(crate) enum Searched {
     Path(Vec<OperatorId>),
     /// Every state that can be reached was seen.
     Exhausted,
@@ -25,7 +25,7 @@ pub(super) enum Searched {
 }
 
 /// Looks at so many states at most.
-pub(super) fn search(
+pub(crate) fn search(
     task: &Task,
     relaxed: &mut Relaxed<'_>,
     landmarks: Option<&Landmarks>,
@@ -283,10 +283,10 @@ impl Applicable {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::random_task;
-    use super::super::tests::fewest_steps;
-    use super::super::{Plan, validate};
     use super::*;
+    use crate::samples::random_task;
+    use crate::tests::fewest_steps;
+    use crate::{Plan, validate};
 
     #[test]
     fn nothing_is_missed() {

@@ -9,9 +9,9 @@ use super::solver::{Literal, Solver};
 use crate::strips::{FactId, OperatorId, Task};
 
 /// The variables of facts, or of operators, by their numbers; none where it is out of reach.
-pub(super) type Variables = [Option<Literal>];
+pub(crate) type Variables = [Option<Literal>];
 
-pub(super) struct Transition<'a> {
+pub(crate) struct Transition<'a> {
     task: &'a Task,
     /// Operators that need, and that delete, each fact.
     users: Vec<Users>,
@@ -29,7 +29,7 @@ struct Users {
 }
 
 impl<'a> Transition<'a> {
-    pub(super) fn new(task: &'a Task) -> Self {
+    pub(crate) fn new(task: &'a Task) -> Self {
         let mut users = vec![Users::default(); task.facts.len()];
         let mut added_by = vec![Vec::new(); task.facts.len()];
         for id in task.operator_ids() {
@@ -62,7 +62,7 @@ impl<'a> Transition<'a> {
     }
 
     /// Says what a step of these operators makes of the facts before it.
-    pub(super) fn add(
+    pub(crate) fn add(
         &self,
         solver: &mut Solver,
         before: &Variables,
@@ -129,7 +129,7 @@ impl<'a> Transition<'a> {
 
     /// Of the operators done, those that make the wanted facts hold that did not hold before, and the facts that all
     /// this rests on: what they need, and what did hold.
-    pub(super) fn causes(
+    pub(crate) fn causes(
         &self,
         wanted: &[FactId],
         held: impl Fn(FactId) -> bool,
@@ -153,7 +153,7 @@ impl<'a> Transition<'a> {
 }
 
 /// Says which facts exclude each other at a level.
-pub(super) fn add_mutexes(
+pub(crate) fn add_mutexes(
     solver: &mut Solver,
     graph: &PlanningGraph,
     level: usize,

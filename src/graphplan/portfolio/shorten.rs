@@ -6,10 +6,11 @@
 //! whole. On the way it may take more actions for fewer steps, and win them back; what it ends with has no more actions
 //! than it began with, and costs no more.
 
-use super::any::in_parallel;
-use super::plan::Plan;
-use super::{Limits, Outcome, Turn, search_counted};
+use crate::plan::Plan;
+use crate::portfolio::any::in_parallel;
+use crate::proof::{Turn, search_counted};
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limits, Outcome};
 
 /// Steps planned anew at once, one size after the other.
 const WIDTHS: [usize; 5] = [3, 5, 8, 12, 18];
@@ -29,7 +30,7 @@ const EFFORT_AN_OPERATOR: u64 = 32;
 
 /// A plan of fewer steps, or as many with fewer actions, and never of more actions or greater cost than at first, after
 /// at most `limits.shorten` pieces were looked at.
-pub(super) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
     let mut best = plan.clone();
     let first = plan.clone();
     let is_no_dearer = |plan: &Plan| {
@@ -125,9 +126,9 @@ fn needed_by(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
 mod tests {
     use std::cell::RefCell;
 
-    use super::super::samples::{Random, random_errand, random_task};
-    use super::super::{Outcome, solve_any, validate};
     use super::*;
+    use crate::samples::{Random, random_errand, random_task};
+    use crate::{Outcome, solve_any, validate};
 
     thread_local! {
         static TOLD: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };

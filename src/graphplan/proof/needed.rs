@@ -18,15 +18,15 @@
 //! for they exclude `p`; a kept operator that uses one of them is left out as well. So the rest is a plan, with no
 //! more steps and no more actions; parallel steps lose members and stay parallel. The conditions are read off below.
 
-use super::bits;
 use super::detours::{Detours, Uses};
 use super::pairs::ReachedPairs;
-use super::{Limit, Limits};
+use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
 /// A task with fewer operators and facts, and the same fewest steps.
-pub(super) struct Reduced {
-    pub(super) task: Task,
+pub(crate) struct Reduced {
+    pub(crate) task: Task,
     facts: Vec<FactId>,
     operators: Vec<OperatorId>,
 }
@@ -34,7 +34,7 @@ pub(super) struct Reduced {
 impl Reduced {
     /// # Errors
     /// Time or memory is up.
-    pub(super) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
+    pub(crate) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
         let pairs = ReachedPairs::of(task, limits)?;
         let uses = Uses::of(task, &pairs);
         let mut relevance = Relevance::new(task, &pairs, &uses);
@@ -82,11 +82,11 @@ impl Reduced {
         Ok(Self { task: smaller, facts, operators })
     }
 
-    pub(super) fn fact(&self, of_reduced: FactId) -> FactId {
+    pub(crate) fn fact(&self, of_reduced: FactId) -> FactId {
         self.facts[of_reduced.index()]
     }
 
-    pub(super) fn operator(&self, of_reduced: OperatorId) -> OperatorId {
+    pub(crate) fn operator(&self, of_reduced: OperatorId) -> OperatorId {
         self.operators[of_reduced.index()]
     }
 }

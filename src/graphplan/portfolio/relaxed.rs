@@ -5,32 +5,32 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use super::bits;
+use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
 
 /// What holds, as bits.
-pub(super) type State = Box<[u64]>;
+pub(crate) type State = Box<[u64]>;
 
-pub(super) fn holds(state: &State, fact: FactId) -> bool {
+pub(crate) fn holds(state: &State, fact: FactId) -> bool {
     bits::has(state, fact.index())
 }
 
 /// How far a state seems from the goal, and what to try.
-pub(super) struct Estimate {
-    pub(super) distance: u32,
+pub(crate) struct Estimate {
+    pub(crate) distance: u32,
     /// Applicable operators that bring a first fact of the relaxed plan, those of the relaxed plan first.
-    pub(super) helpful: Vec<OperatorId>,
+    pub(crate) helpful: Vec<OperatorId>,
     /// The relaxed plan, in the order of its layers.
-    pub(super) relaxed_plan: Vec<OperatorId>,
+    pub(crate) relaxed_plan: Vec<OperatorId>,
 }
 
 /// The problem without delete effects.
-pub(super) struct Relaxed<'a> {
+pub(crate) struct Relaxed<'a> {
     task: &'a Task,
     /// Operators by a fact that they need, those of fact `f` from `starts[f]` to `starts[f + 1]`.
     needed_by: Vec<u32>,
     starts: Vec<u32>,
-    pub(super) added_by: Vec<Vec<u32>>,
+    pub(crate) added_by: Vec<Vec<u32>>,
     /// What operator `o` adds, from `adds_from[o]` to `adds_from[o + 1]`.
     adds: Vec<FactId>,
     adds_from: Vec<u32>,
@@ -44,13 +44,13 @@ pub(super) struct Relaxed<'a> {
     layer: Vec<u32>,
     bringer: Vec<u32>,
     /// Operators that can be carried out in the state looked at last, ascending.
-    pub(super) applicable: Vec<OperatorId>,
+    pub(crate) applicable: Vec<OperatorId>,
 }
 
 const NOT_YET: u32 = u32::MAX;
 
 impl<'a> Relaxed<'a> {
-    pub(super) fn new(task: &'a Task) -> Self {
+    pub(crate) fn new(task: &'a Task) -> Self {
         let mut by_need = vec![Vec::new(); task.facts.len()];
         let mut added_by = vec![Vec::new(); task.facts.len()];
         for (number, operator) in task.operators.iter().enumerate() {
@@ -93,14 +93,14 @@ impl<'a> Relaxed<'a> {
     }
 
     /// From now on distances are those to these facts.
-    pub(super) fn aim_at(&mut self, goal: &[FactId]) {
+    pub(crate) fn aim_at(&mut self, goal: &[FactId]) {
         self.goal.iter().for_each(|fact| self.is_goal[fact.index()] = false);
         self.goal = goal.to_vec();
         self.goal.iter().for_each(|fact| self.is_goal[fact.index()] = true);
     }
 
     /// None when the goal is out of reach even without delete effects.
-    pub(super) fn estimate(&mut self, state: &State) -> Option<Estimate> {
+    pub(crate) fn estimate(&mut self, state: &State) -> Option<Estimate> {
         self.spread(state).then(|| self.relaxed_plan(state))
     }
 

@@ -5,16 +5,16 @@
 //! that leaves it be: a hand that took something up in the first step is full after it, empty after the second.
 //! The planning graph does not see that, since its no-ops may keep everything.
 
-use super::Limits;
-use super::bits;
 use super::pairs::ReachedPairs;
+use crate::Limits;
+use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
 
 /// Looking at every pair of an operator and a fact, or of operators, takes too long beyond this.
 const MOST_PAIRS: usize = 1 << 21;
 
 /// After exactly so many steps, which facts can hold, and which operators be carried out next.
-pub(super) struct Serial {
+pub(crate) struct Serial {
     /// For each operator the facts that it leaves be and that can hold beside all that it needs; none where it can
     /// never be carried out.
     keeps: Vec<Option<Box<[u64]>>>,
@@ -23,7 +23,7 @@ pub(super) struct Serial {
 
 impl Serial {
     /// None where two operators can be carried out in one step, or there are too many to look at.
-    pub(super) fn of(task: &Task, limits: &Limits) -> Option<Self> {
+    pub(crate) fn of(task: &Task, limits: &Limits) -> Option<Self> {
         let (facts, operators) = (task.facts.len(), task.operators.len());
         if operators * facts.max(operators) > MOST_PAIRS {
             return None;
@@ -43,7 +43,7 @@ impl Serial {
     }
 
     /// Adds a level to the last one.
-    pub(super) fn reach(&mut self, task: &Task) {
+    pub(crate) fn reach(&mut self, task: &Task) {
         let level = self.levels.len() - 1;
         let now = &self.levels[level];
         let mut next = vec![0; now.len()].into_boxed_slice();
@@ -56,12 +56,12 @@ impl Serial {
     }
 
     /// Whether a fact can hold after exactly so many steps.
-    pub(super) fn holds(&self, level: usize, fact: FactId) -> bool {
+    pub(crate) fn holds(&self, level: usize, fact: FactId) -> bool {
         bits::has(&self.levels[level], fact.index())
     }
 
     /// Whether an operator can be carried out after exactly so many steps.
-    pub(super) fn allows(&self, task: &Task, level: usize, id: OperatorId) -> bool {
+    pub(crate) fn allows(&self, task: &Task, level: usize, id: OperatorId) -> bool {
         self.keeps[id.index()].is_some()
             && task.operator(id).preconditions.iter().all(|&need| self.holds(level, need))
     }
@@ -87,11 +87,12 @@ fn kept(task: &Task, pairs: &ReachedPairs, id: OperatorId) -> Box<[u64]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::random_task;
-    use super::super::tests::fewest_steps;
-    use super::super::{Outcome, Turn, search, validate};
     use super::*;
+    use crate::proof::{Turn, search};
+    use crate::samples::random_task;
     use crate::strips::Fact;
+    use crate::tests::fewest_steps;
+    use crate::{Outcome, validate};
 
     /// A random task all of whose operators pass one token on among three places, so that no two go together.
     fn with_token(seed: u64) -> Task {

@@ -7,22 +7,22 @@
 
 use std::collections::VecDeque;
 
-use super::bits;
-use super::{Limit, Limits};
+use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
-pub(super) struct ReachedPairs {
+pub(crate) struct ReachedPairs {
     words: usize,
     /// Row by row; a fact that can hold at all is in its own row.
     rows: Vec<u64>,
     /// Operators that can be carried out, as far as pairs tell.
-    pub(super) applicable: Vec<bool>,
+    pub(crate) applicable: Vec<bool>,
 }
 
 impl ReachedPairs {
     /// # Errors
     /// Time or memory is up.
-    pub(super) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
+    pub(crate) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
         let words = bits::words(task.facts.len());
         limits.check(words * task.facts.len() * 8)?;
         let mut reached = Self {
@@ -67,7 +67,7 @@ impl ReachedPairs {
     }
 
     /// Facts that can hold beside a fact.
-    pub(super) fn row(&self, fact: FactId) -> &[u64] {
+    pub(crate) fn row(&self, fact: FactId) -> &[u64] {
         &self.rows[fact.index() * self.words..][..self.words]
     }
 
@@ -75,7 +75,7 @@ impl ReachedPairs {
         &mut self.rows[fact.index() * self.words..][..self.words]
     }
 
-    pub(super) fn is_exclusive(&self, a: FactId, b: FactId) -> bool {
+    pub(crate) fn is_exclusive(&self, a: FactId, b: FactId) -> bool {
         !bits::has(self.row(a), b.index())
     }
 

@@ -18,20 +18,20 @@ use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 /// What planning a task has taught.
 #[derive(Debug)]
 pub struct Learned {
-    pub(super) task: Task,
-    pub(super) graph: PlanningGraph,
+    pub(crate) task: Task,
+    pub(crate) graph: PlanningGraph,
     /// Sets of facts with the level up to which they are out of reach together.
-    pub(super) no_goods: Vec<(Vec<FactId>, u32)>,
+    pub(crate) no_goods: Vec<(Vec<FactId>, u32)>,
     /// Fewer steps than these will not do.
-    pub(super) fewest_steps: usize,
+    pub(crate) fewest_steps: usize,
     /// What held when the steps counted by `done` were carried out.
-    pub(super) state: Vec<FactId>,
+    pub(crate) state: Vec<FactId>,
     /// Steps carried out since.
-    pub(super) done: usize,
+    pub(crate) done: usize,
 }
 
 /// What holds of a task because it held of one that it is a part of.
-pub(super) struct Inherited<'a> {
+pub(crate) struct Inherited<'a> {
     learned: &'a Learned,
     /// The old fact for each new one.
     old: Vec<FactId>,
@@ -73,7 +73,7 @@ impl Learned {
     }
 
     /// None when the task is not plainly a part of the one that was learned from.
-    pub(super) fn about(&self, task: &Task) -> Option<Inherited<'_>> {
+    pub(crate) fn about(&self, task: &Task) -> Option<Inherited<'_>> {
         let facts: HashMap<Key<'_>, FactId> =
             self.task.fact_ids().map(|id| (key(self.task.fact(id)), id)).collect();
         let old: Vec<FactId> =
@@ -98,12 +98,12 @@ fn key(fact: &Fact) -> Key<'_> {
 
 impl Inherited<'_> {
     /// Fewer steps than these will not do.
-    pub(super) fn fewest_steps(&self) -> usize {
+    pub(crate) fn fewest_steps(&self) -> usize {
         self.learned.fewest_steps.saturating_sub(self.done)
     }
 
     /// Whether two new facts are known to exclude each other at a level.
-    pub(super) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
+    pub(crate) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
         let graph = &self.learned.graph;
         let level = level + self.done;
         (level <= graph.top() || graph.leveled_off_at().is_some())
@@ -111,7 +111,7 @@ impl Inherited<'_> {
     }
 
     /// No-goods of the old task in terms of the new; those about facts that it lacks are left behind.
-    pub(super) fn no_goods(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
+    pub(crate) fn no_goods(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
         self.learned.no_goods.iter().filter_map(|(facts, level)| {
             let level = level.checked_sub(self.done as u32).filter(|&level| level > 0)?;
             let mut facts: Vec<FactId> =

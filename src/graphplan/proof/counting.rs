@@ -22,7 +22,7 @@ const MOST_WORK: usize = 1 << 24;
 const MOST_PAIRS: usize = 1 << 21;
 const MOST_CLAUSES: usize = 1 << 21;
 
-pub(super) struct Counter {
+pub(crate) struct Counter {
     /// Sets of operators, one of each of which every plan carries out.
     landmarks: Vec<Vec<OperatorId>>,
     /// How many of them a step can do.
@@ -35,7 +35,7 @@ pub(super) struct Counter {
 
 impl Counter {
     /// None where counting would not pay. The graph has leveled off: what excludes each other does so for good.
-    pub(super) fn new(task: &Task, graph: &PlanningGraph) -> Option<Self> {
+    pub(crate) fn new(task: &Task, graph: &PlanningGraph) -> Option<Self> {
         let landmarks = disjoint_landmarks(task, MOST_WORK);
         let cliques = cliques(graph, &landmarks)?;
         let mut best: Option<(usize, Vec<usize>)> = None;
@@ -72,7 +72,7 @@ impl Counter {
     }
 
     /// Adds the levels that the formula has and the count has not; `operators` are the variables of each step.
-    pub(super) fn reach(&mut self, solver: &mut Solver, operators: &[Vec<Option<Literal>>]) {
+    pub(crate) fn reach(&mut self, solver: &mut Solver, operators: &[Vec<Option<Literal>>]) {
         while self.undone.len() <= operators.len() {
             let undone: Vec<Literal> =
                 self.landmarks.iter().map(|_| solver.new_variable()).collect();
@@ -105,7 +105,7 @@ impl Counter {
     }
 
     /// Under `horizon`, no more is left at any level than can be done before `length` steps are over.
-    pub(super) fn bound(&self, solver: &mut Solver, horizon: Literal, length: usize) {
+    pub(crate) fn bound(&self, solver: &mut Solver, horizon: Literal, length: usize) {
         for (level, left) in self.left[..=length].iter().enumerate() {
             if let Some(&too_many) = left.get(self.at_once * (length - level)) {
                 solver.add_clause(&[!horizon, !too_many]);

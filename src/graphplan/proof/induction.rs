@@ -11,13 +11,13 @@
 //! not together make it do, this comes to an end.
 
 use super::graph::{ActionId, PlanningGraph};
-use super::plan::Plan;
 use super::solver::{Answer, Literal, Solver};
 use super::transition::{Transition, add_mutexes};
-use super::{Limit, Limits};
+use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
-pub(super) enum Proof {
+pub(crate) enum Proof {
     /// A plan, maybe longer than need be.
     Plan(Plan),
     /// No plan, because of these goals.
@@ -26,7 +26,7 @@ pub(super) enum Proof {
     Open,
 }
 
-pub(super) struct Induction<'a> {
+pub(crate) struct Induction<'a> {
     task: &'a Task,
     limits: &'a Limits,
     solver: Solver,
@@ -74,7 +74,7 @@ enum Reply {
 
 impl<'a> Induction<'a> {
     /// The graph has leveled off: what excludes each other does so for good.
-    pub(super) fn new(task: &'a Task, graph: &PlanningGraph, limits: &'a Limits) -> Self {
+    pub(crate) fn new(task: &'a Task, graph: &PlanningGraph, limits: &'a Limits) -> Self {
         let mut solver = Solver::new(limits);
         let top = graph.top();
         let mut facts = || -> Vec<Option<Literal>> {
@@ -121,21 +121,21 @@ impl<'a> Induction<'a> {
     }
 
     /// Every plan has more steps than this.
-    pub(super) fn refuted(&self) -> usize {
+    pub(crate) fn refuted(&self) -> usize {
         self.levels.len().saturating_sub(2)
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.solver.bytes()
     }
 
     /// What the solver spent so far.
-    pub(super) fn effort(&self) -> u64 {
+    pub(crate) fn effort(&self) -> u64 {
         self.solver.effort()
     }
 
     /// Goes on until there is an answer or so much effort was spent in all.
-    pub(super) fn go_on(&mut self, effort: u64) -> Result<Proof, Limit> {
+    pub(crate) fn go_on(&mut self, effort: u64) -> Result<Proof, Limit> {
         loop {
             let top = self.levels.len() - 1;
             if self.pushed == top {
@@ -344,10 +344,10 @@ fn is_within(set: &[FactId], others: &[FactId]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::random_task;
-    use super::super::tests::fewest_steps;
-    use super::super::validate;
     use super::*;
+    use crate::samples::random_task;
+    use crate::tests::fewest_steps;
+    use crate::validate;
 
     fn is_solvable(task: &Task, effort: u64) -> bool {
         let limits = Limits::default();

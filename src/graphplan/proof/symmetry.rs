@@ -11,20 +11,20 @@ use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 
 /// For each fact, the object of it that may be exchanged, and the fact's image for the first of its kin.
 #[derive(Debug)]
-pub(super) struct Symmetry {
+pub(crate) struct Symmetry {
     roles: Vec<Option<Role>>,
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Role {
+pub(crate) struct Role {
     /// Which interchangeable object the fact is about.
-    pub(super) object: u32,
+    pub(crate) object: u32,
     /// The same fact about the first object of the class.
-    pub(super) image: FactId,
+    pub(crate) image: FactId,
 }
 
 impl Symmetry {
-    pub(super) fn of(task: &Task) -> Self {
+    pub(crate) fn of(task: &Task) -> Self {
         let index = Index::new(task);
         let mut roles = vec![None; task.facts.len()];
         let mut taken: HashSet<&Arc<str>> = HashSet::new();
@@ -55,14 +55,14 @@ impl Symmetry {
         Self { roles }
     }
 
-    pub(super) fn role(&self, fact: FactId) -> Option<Role> {
+    pub(crate) fn role(&self, fact: FactId) -> Option<Role> {
         self.roles[fact.index()]
     }
 }
 
 /// For each class of objects that neither initial state nor goal nor costs tell apart, for each object in the order of
 /// names, the operators that it takes part in.
-pub(super) fn users_of_alike(task: &Task) -> Vec<Vec<Vec<OperatorId>>> {
+pub(crate) fn users_of_alike(task: &Task) -> Vec<Vec<Vec<OperatorId>>> {
     let index = Index::new(task);
     let users = |object: &Arc<str>| -> Vec<OperatorId> {
         let numbers = index.operators_of.get(object).into_iter().flatten();

@@ -10,7 +10,7 @@ use super::solver::{Literal, Solver};
 use super::symmetry::users_of_alike;
 use crate::strips::{OperatorId, Task};
 
-pub(super) struct FirstUse {
+pub(crate) struct FirstUse {
     /// For each class and each object of it, what it takes part in.
     users: Vec<Vec<Vec<OperatorId>>>,
     /// For each class and each object but the last, "it was used before this level".
@@ -18,12 +18,12 @@ pub(super) struct FirstUse {
 }
 
 impl FirstUse {
-    pub(super) fn of(task: &Task) -> Self {
+    pub(crate) fn of(task: &Task) -> Self {
         Self { users: users_of_alike(task), used: Vec::new() }
     }
 
     /// Adds a step, the variables of whose operators are given.
-    pub(super) fn add_step(&mut self, solver: &mut Solver, step: &[Option<Literal>]) {
+    pub(crate) fn add_step(&mut self, solver: &mut Solver, step: &[Option<Literal>]) {
         let mut used = Vec::new();
         for (class, objects) in self.users.iter().enumerate() {
             let mut used_of_class = Vec::new();

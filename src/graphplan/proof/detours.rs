@@ -15,7 +15,7 @@ use super::pairs::ReachedPairs;
 use crate::strips::{FactId, OperatorId, Task};
 
 /// Looks for such facts, and keeps what it found.
-pub(super) struct Detours<'a> {
+pub(crate) struct Detours<'a> {
     task: &'a Task,
     pairs: &'a ReachedPairs,
     uses: &'a Uses,
@@ -30,17 +30,17 @@ pub(super) struct Detours<'a> {
 }
 
 /// By whom each fact is added, needed, deleted and renewed, of those who can be carried out; what holds at first, and in the end.
-pub(super) struct Uses {
-    pub(super) added_by: Vec<Vec<OperatorId>>,
-    pub(super) needed_by: Vec<Vec<OperatorId>>,
-    pub(super) deleted_by: Vec<Vec<OperatorId>>,
+pub(crate) struct Uses {
+    pub(crate) added_by: Vec<Vec<OperatorId>>,
+    pub(crate) needed_by: Vec<Vec<OperatorId>>,
+    pub(crate) deleted_by: Vec<Vec<OperatorId>>,
     renewed_by: Vec<Vec<OperatorId>>,
-    pub(super) initially: Vec<bool>,
-    pub(super) is_goal: Vec<bool>,
+    pub(crate) initially: Vec<bool>,
+    pub(crate) is_goal: Vec<bool>,
 }
 
 impl Uses {
-    pub(super) fn of(task: &Task, pairs: &ReachedPairs) -> Self {
+    pub(crate) fn of(task: &Task, pairs: &ReachedPairs) -> Self {
         let count = task.facts.len();
         let nobody = || vec![Vec::new(); count];
         let (mut added_by, mut needed_by, mut deleted_by, mut renewed_by) =
@@ -63,7 +63,7 @@ impl Uses {
 }
 
 impl<'a> Detours<'a> {
-    pub(super) fn new(task: &'a Task, pairs: &'a ReachedPairs, uses: &'a Uses) -> Self {
+    pub(crate) fn new(task: &'a Task, pairs: &'a ReachedPairs, uses: &'a Uses) -> Self {
         let mut turns: HashMap<_, Vec<OperatorId>> = HashMap::new();
         for id in task.operator_ids().filter(|id| pairs.applicable[id.index()]) {
             let operator = task.operator(id);
@@ -89,7 +89,7 @@ impl<'a> Detours<'a> {
     }
 
     /// Whether an operator leaves a detour of which no kept operator makes any use.
-    pub(super) fn leaves_one(&mut self, id: OperatorId, kept: &[bool]) -> bool {
+    pub(crate) fn leaves_one(&mut self, id: OperatorId, kept: &[bool]) -> bool {
         let operator = self.task.operator(id);
         operator.preconditions.iter().filter(|f| operator.del_effects.contains(f)).any(|&f| {
             self.uses.needed_by[f.index()].iter().all(|by| !kept[by.index()]) && self.is_detour(f)
@@ -97,7 +97,7 @@ impl<'a> Detours<'a> {
     }
 
     /// Whether an operator adds what must hold already, by what it needs.
-    pub(super) fn adds_nothing(&mut self, id: OperatorId, fact: FactId) -> bool {
+    pub(crate) fn adds_nothing(&mut self, id: OperatorId, fact: FactId) -> bool {
         let operator = self.task.operator(id);
         !operator.del_effects.contains(&fact) && self.holds_before(id, fact)
     }

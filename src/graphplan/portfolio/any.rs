@@ -11,16 +11,16 @@ use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
 use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
-use super::bits;
 use super::landmarks::{Attained, Landmarks};
 use super::novelty::{self, Searched};
-use super::plan::Plan;
 use super::relaxed::{Estimate, Relaxed, State, holds};
-use super::{Limit, Limits};
+use crate::bits;
+use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
 
 /// What forward search came to.
-pub(super) enum Found {
+pub(crate) enum Found {
     Plan(Plan),
     /// Every state that can be reached was seen.
     Exhausted,
@@ -30,7 +30,7 @@ pub(super) enum Found {
 
 /// How long to go on where hill climbing is stuck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Effort {
+pub(crate) enum Effort {
     /// Hill climbing, and a little width.
     Least,
     Small,
@@ -45,7 +45,7 @@ const FEWEST_STATES_BY_WIDTH: usize = 10_000;
 const FEW_STATES_BY_WIDTH: usize = 50_000;
 const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
-pub(super) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
+pub(crate) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
     let mut forward = Forward {
         task,
         limits,
@@ -62,6 +62,20 @@ pub(super) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Fou
     let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
     drop_needless(task, &mut steps);
     Ok(Found::Plan(in_parallel(task, steps.into_iter().flatten())))
+}
+
+/// A plan that reaches one goal after the other, in this order, if hill climbing finds the way.
+pub(crate) fn in_order(
+    task: &Task,
+    goals: &[FactId],
+    limits: &Limits,
+) -> Result<Option<Plan>, Limit> {
+    let (relaxed, effort) = (Relaxed::new(task), Effort::Least);
+    let mut forward = Forward { task, limits, relaxed, evaluated: 0, until: u64::MAX, effort };
+    let Some(operators) = forward.climb_in_order(goals)? else { return Ok(None) };
+    let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
+    drop_needless(task, &mut steps);
+    Ok(Some(in_parallel(task, steps.into_iter().flatten())))
 }
 
 struct Forward<'a> {
@@ -532,7 +546,7 @@ impl Seen {
 }
 
 /// Takes out operators that the goal does without, together with those that only served them.
-pub(super) fn drop_needless(task: &Task, steps: &mut [Vec<OperatorId>]) {
+pub(crate) fn drop_needless(task: &Task, steps: &mut [Vec<OperatorId>]) {
     let mut before = vec![false; task.facts.len()];
     task.init.iter().for_each(|fact| before[fact.index()] = true);
     let mut dropped = Vec::new();
@@ -591,7 +605,7 @@ fn carry_out(
 }
 
 /// Each operator in the first step after all that it depends on or interferes with.
-pub(super) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorId>) -> Plan {
+pub(crate) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorId>) -> Plan {
     let mut placed: Vec<(OperatorId, usize)> = Vec::new();
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
     for id in operators {

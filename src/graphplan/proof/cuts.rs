@@ -12,7 +12,7 @@ use crate::strips::{OperatorId, Task};
 
 /// Disjoint sets, one operator of each of which every plan carries out; none when the goal is out of reach, or
 /// holds. Ends early after so much work, in visits of operators' lists.
-pub(super) fn disjoint_landmarks(task: &Task, work: usize) -> Vec<Vec<OperatorId>> {
+pub(crate) fn disjoint_landmarks(task: &Task, work: usize) -> Vec<Vec<OperatorId>> {
     let mut cuts = Cuts::new(task);
     let size: usize =
         task.operators.iter().map(|o| o.preconditions.len() + o.add_effects.len()).sum();

@@ -26,7 +26,7 @@ struct Node {
 
 /// The trie.
 #[derive(Debug)]
-pub(super) struct NoGoods {
+pub(crate) struct NoGoods {
     nodes: Vec<Node>,
     symmetry: Symmetry,
     /// Tokens of objects of which a set says more than one thing.
@@ -39,7 +39,7 @@ pub(super) struct NoGoods {
 type Tokens = Vec<(Token, Vec<FactId>)>;
 
 impl NoGoods {
-    pub(super) fn new(symmetry: Symmetry, fact_count: usize) -> Self {
+    pub(crate) fn new(symmetry: Symmetry, fact_count: usize) -> Self {
         Self {
             nodes: vec![Node::default()],
             symmetry,
@@ -49,7 +49,7 @@ impl NoGoods {
         }
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.nodes.len() * (std::mem::size_of::<Node>() + 64) + self.bytes
     }
 
@@ -83,7 +83,7 @@ impl NoGoods {
     }
 
     /// Records that `facts` cannot all hold at `level`.
-    pub(super) fn insert(&mut self, facts: &[FactId], level: u32) {
+    pub(crate) fn insert(&mut self, facts: &[FactId], level: u32) {
         let mut at = 0;
         for (token, _) in self.tokens(facts) {
             self.nodes[at].highest = self.nodes[at].highest.max(level);
@@ -106,7 +106,7 @@ impl NoGoods {
     }
 
     /// Facts among `facts` that cannot all hold at `level`, sorted.
-    pub(super) fn subset_of(&mut self, facts: &[FactId], level: u32) -> Option<Vec<FactId>> {
+    pub(crate) fn subset_of(&mut self, facts: &[FactId], level: u32) -> Option<Vec<FactId>> {
         if self.nodes[0].highest < level {
             return None;
         }
@@ -151,13 +151,13 @@ impl NoGoods {
     }
 
     /// One of each kind of set that is known to fail, with the highest level at which it does.
-    pub(super) fn all(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
         let sets = self.nodes.iter().filter_map(|node| node.set.as_ref());
         sets.map(|(level, facts)| (facts.to_vec(), *level))
     }
 
     /// One of each kind of set that fails at exactly `level` and, as far as is known, not later.
-    pub(super) fn exactly_at(&self, level: u32) -> Vec<Vec<FactId>> {
+    pub(crate) fn exactly_at(&self, level: u32) -> Vec<Vec<FactId>> {
         let sets = self.nodes.iter().filter_map(|node| node.set.as_ref());
         sets.filter(|(known, _)| *known == level).map(|(_, facts)| facts.to_vec()).collect()
     }

@@ -1,0 +1,231 @@
+//! An answer always: a plan at once, better ones as they come, and a rising bound on the fewest steps, until the two
+//! meet or the effort is used up.
+//!
+//! Rounds with twice the effort of the one before: in each the best plan is shortened piece by piece, and a proof of
+//! the fewest steps is tried anew, which costs no more than as much again in all. The order of the rounds depends on
+//! nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
+
+use super::any::{self, Found};
+use super::shorten::shorten;
+use crate::proof::errands::Errands;
+use crate::proof::{Tried, Working, prove};
+use crate::strips::Task;
+use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, validate};
+
+/// What the first round may take for shortening, and for a proof.
+const FIRST_EFFORT: u64 = 1 << 22;
+
+/// After so many rounds nothing but the proof itself is left to be sought.
+const ROUNDS: u32 = 24;
+
+struct Best<'a> {
+    task: &'a Task,
+    limits: &'a Limits,
+    plan: Option<Plan>,
+    at_least: usize,
+}
+
+impl Best<'_> {
+    /// Keeps a plan if it is one, by the rules' own judgement, and has fewer steps, or as many and fewer actions.
+    fn offer(&mut self, plan: Plan) {
+        let size = |plan: &Plan| (plan.steps.len(), plan.action_count());
+        let is_better = self.plan.as_ref().is_none_or(|best| size(&plan) < size(best));
+        if is_better && validate(self.task, &plan).is_ok() {
+            if self.plan.as_ref().is_none_or(|best| plan.steps.len() < best.steps.len()) {
+                self.limits.tell_of(&plan);
+            }
+            self.plan = Some(plan);
+        }
+    }
+
+    fn raise(&mut self, at_least: usize) {
+        if at_least > self.at_least {
+            self.at_least = at_least;
+            self.limits.tell_of_bound(at_least);
+        }
+    }
+
+    fn is_proven(&self) -> bool {
+        self.plan.as_ref().is_some_and(|plan| plan.steps.len() <= self.at_least)
+    }
+
+    /// One more than the steps of which a plan is known.
+    fn ceiling(&self) -> usize {
+        self.plan
+            .as_ref()
+            .map_or(self.limits.parallel_steps.saturating_add(1), |plan| plan.steps.len())
+    }
+
+    fn end(self, limit: Limit) -> Outcome {
+        match self.plan {
+            Some(plan) if plan.steps.len() <= self.at_least => Outcome::Plan(plan),
+            plan => Outcome::LimitReached(Unfinished { limit, at_least: self.at_least, plan }),
+        }
+    }
+}
+
+/// A plan soon, then better ones, with a proven bound that rises: [`Outcome::Plan`] is proven to have the fewest steps,
+/// [`Outcome::NoPlan`] is proven, and [`Unfinished`] tells what is known in between. [`Limits::tell`] hears of every
+/// plan with fewer steps, [`Limits::tell_bound`] of every higher bound.
+#[must_use]
+pub fn solve_anytime(task: &Task, limits: &Limits) -> Outcome {
+    let mut best = Best { task, limits, plan: None, at_least: 0 };
+    match run(&mut best) {
+        Ok(Some(outcome)) => outcome,
+        Ok(None) => best.end(Limit::Effort),
+        Err(limit) => best.end(limit),
+    }
+}
+
+fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
+    let (task, limits) = (best.task, best.limits);
+    // Forward search may lose its way; then the proof has its turn.
+    let some = Limits { memory_bytes: limits.memory_bytes / 4, ..limits.clone() };
+    match any::search(task, &some, any::Effort::Least) {
+        Ok(Found::Plan(plan)) => best.offer(plan),
+        // The planning graph tells why.
+        Ok(Found::Exhausted) => return Ok(Some(solve(task, limits))),
+        Ok(Found::Open) | Err(Limit::Memory) => {}
+        Err(limit) => return Err(limit),
+    }
+    let working = Working::of(task, limits)?;
+    let errands = Errands::of(working.task());
+    let mut current = None;
+    if let Some(errands) = &errands {
+        best.raise(errands.at_least);
+        if let Some(plan) = any::in_order(working.task(), &errands.goals, &some)? {
+            best.offer(working.own(plan.clone()));
+            current = Some(plan);
+        }
+    }
+    if let Working::Reduced(_) = working
+        && !best.is_proven()
+        && let Ok(Found::Plan(plan)) = any::search(working.task(), &some, any::Effort::Least)
+    {
+        best.offer(working.own(plan.clone()));
+        let steps = plan.steps.len();
+        current = current.filter(|known: &Plan| known.steps.len() <= steps).or(Some(plan));
+    } else if let Working::Whole(_) = working {
+        current = best.plan.clone();
+    }
+    let mut spent = 0_u64;
+    for round in 0..ROUNDS {
+        if best.is_proven() {
+            break;
+        }
+        let effort = FIRST_EFFORT << round;
+        spent = spent.saturating_add(2 * effort);
+        if round > 0 && limits.effort.is_some_and(|most| spent > most) {
+            return Ok(None);
+        }
+        if let Some(plan) = current.take() {
+            let within =
+                Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
+            let shorter = shorten(working.task(), plan, &within);
+            best.offer(working.own(shorter.clone()));
+            current = Some(shorter);
+        }
+        if best.is_proven() {
+            break;
+        }
+        limits.check(0)?;
+        match prove(working.task(), best.ceiling(), effort, limits) {
+            Tried::Plan(plan) => {
+                let plan = working.own(plan);
+                best.raise(plan.steps.len());
+                best.offer(plan);
+            }
+            // In the terms of the whole task, and with its reason.
+            Tried::NoPlan => return Ok(Some(solve(task, limits))),
+            Tried::AtLeast(at_least, limit) => {
+                best.raise(at_least);
+                // Memory may suffice for better plans still.
+                if let Some(limit) = limit.filter(|limit| *limit != Limit::Memory) {
+                    return Err(limit);
+                }
+            }
+        }
+        if best.plan.is_none() {
+            // Each round looks farther for a first plan.
+            let reach = if round < 2 { any::Effort::Small } else { any::Effort::All };
+            match any::search(task, &some, reach) {
+                Ok(Found::Plan(plan)) => {
+                    if let Working::Whole(_) = working {
+                        current = Some(plan.clone());
+                    }
+                    best.offer(plan);
+                }
+                Ok(Found::Exhausted) => return Ok(Some(solve(task, limits))),
+                Ok(Found::Open) | Err(Limit::Memory) => {}
+                Err(limit) => return Err(limit),
+            }
+        }
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::samples::{random_errand, random_task};
+    use crate::tests::fewest_steps;
+
+    thread_local! {
+        static BOUNDS: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
+        static PLANS: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
+    }
+
+    /// Whatever the effort, what is claimed is true, bounds rise, plans get shorter, and with enough effort they meet.
+    #[test]
+    fn bounds_rise_and_plans_get_shorter_until_they_meet() {
+        let limits = |effort| Limits {
+            effort,
+            tell: Some(|plan| PLANS.with_borrow_mut(|told| told.push(plan.steps.len()))),
+            tell_bound: Some(|bound| BOUNDS.with_borrow_mut(|told| told.push(bound))),
+            ..Limits::default()
+        };
+        let (mut proven, mut none) = (0, 0);
+        for seed in 1..=400 {
+            let task = if seed % 2 == 0 { random_task(seed) } else { random_errand(seed) };
+            let fewest = fewest_steps(&task);
+            for effort in [Some(0), None] {
+                let outcome = solve_anytime(&task, &limits(effort));
+                let (plans, bounds) = (PLANS.take(), BOUNDS.take());
+                assert!(
+                    plans.is_sorted_by(|longer, shorter| longer > shorter),
+                    "{seed}: {plans:?}"
+                );
+                assert!(bounds.is_sorted_by(|low, high| low < high), "{seed}: {bounds:?}");
+                assert!(
+                    bounds.last().is_none_or(|&bound| fewest.is_none_or(|f| bound <= f)),
+                    "{seed}"
+                );
+                match outcome {
+                    Outcome::Plan(plan) => {
+                        assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                        assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
+                        assert_eq!(plans.last(), Some(&plan.steps.len()), "seed {seed}");
+                        proven += 1;
+                    }
+                    Outcome::NoPlan { .. } => {
+                        assert_eq!(fewest, None, "seed {seed}");
+                        none += 1;
+                    }
+                    Outcome::LimitReached(known) => {
+                        assert!(effort.is_some(), "seed {seed}: {known:?}");
+                        assert!(
+                            fewest.is_none_or(|fewest| known.at_least <= fewest),
+                            "seed {seed}"
+                        );
+                        if let Some(plan) = known.plan {
+                            assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                        }
+                    }
+                }
+            }
+        }
+        assert!(proven > 100 && none > 50, "{proven} proven, {none} without");
+    }
+}

@@ -1,0 +1,63 @@
+//! Several ways to some plan, one after the other and taking turns, and what makes a plan shorter: for tasks on which
+//! the proof of the fewest steps is out of reach.
+
+pub(crate) mod any;
+mod anytime;
+mod landmarks;
+mod novelty;
+mod relaxed;
+mod shorten;
+
+pub use anytime::solve_anytime;
+
+use crate::proof::{Turn, search};
+use crate::strips::Task;
+use crate::{Limit, Limits, Outcome, Unfinished, solve, with_stack};
+
+/// Finds some plan soon, where the shortest is out of reach. The plan is then shortened piece by piece within
+/// [`Limits::shorten`], but not proven to be the shortest; that there is no plan is proven all the same.
+#[must_use]
+pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
+    /// Turns of the graph's extraction at a level, when forward search is stuck.
+    const FEW_TURNS: u32 = 3;
+    /// A graph that takes more than this part of the memory, or more steps, is left alone.
+    const FEW_OF_MEMORY: usize = 16;
+    const FEW_STEPS: usize = 50;
+    let shortened = |plan| {
+        limits.tell_of(&plan);
+        Outcome::Plan(shorten::shorten(task, plan, limits))
+    };
+    let found = |found| match found {
+        any::Found::Plan(plan) => Some(shortened(plan)),
+        // The planning graph tells why.
+        any::Found::Exhausted => Some(solve(task, limits)),
+        any::Found::Open => None,
+    };
+    let tries = || -> Result<Outcome, Unfinished> {
+        if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
+            return Ok(outcome);
+        }
+        let mut refuted = 0;
+        // Where forward search loses its way, the graph may see at once that there is none, or the solver that there
+        // is one; if it is small.
+        let turn = Turn { turns: Some(FEW_TURNS), goes_on: true, seek: None, ..Turn::default() };
+        let brief = Limits {
+            memory_bytes: limits.memory_bytes / FEW_OF_MEMORY,
+            parallel_steps: limits.parallel_steps.min(FEW_STEPS),
+            ..limits.clone()
+        };
+        match with_stack(|| search(task, &brief, turn, None)) {
+            Ok((Some(Outcome::Plan(plan)), _)) => return Ok(shortened(plan)),
+            Ok((Some(outcome), _)) => return Ok(outcome),
+            Err(unfinished) if matches!(unfinished.limit, Limit::Time | Limit::Stopped) => {
+                return Err(unfinished);
+            }
+            Err(unfinished) => refuted = unfinished.at_least,
+            Ok((None, _)) => {}
+        }
+        let all = any::search(task, limits, any::Effort::All)
+            .map_err(|limit| Unfinished { at_least: refuted, ..limit.into() })?;
+        Ok(found(all).expect("all effort leaves nothing open"))
+    };
+    tries().unwrap_or_else(Outcome::LimitReached)
+}

@@ -1,0 +1,467 @@
+//! The fewest parallel steps, proven quickly: the planning graph with levels kept once, backward extraction with
+//! no-goods generalised by explanation, a satisfiability solver and a proof by induction taking turns.
+//!
+//! The textbook's algorithm stands above, in [`crate::graph`], [`crate::mutex`] and [`crate::extract`]; this folder
+//! answers the same question, and its tests hold it against that and against breadth-first search.
+
+mod counting;
+mod cuts;
+mod detours;
+pub(crate) mod errands;
+mod extract;
+mod fewest;
+mod first_use;
+mod graph;
+mod induction;
+pub(crate) mod needed;
+mod no_good;
+pub(crate) mod pairs;
+mod replan;
+mod rivals;
+mod sat;
+mod serial;
+mod solver;
+mod symmetry;
+mod transition;
+
+pub use replan::Learned;
+
+use crate::portfolio::any;
+use crate::strips::{FactId, Task};
+use crate::{Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, with_stack};
+use extract::{Extraction, Search};
+use graph::PlanningGraph;
+use induction::{Induction, Proof};
+use replan::Inherited;
+use sat::{Encoding, Verdict};
+
+/// Finds a plan with the fewest parallel steps, or proves that there is none.
+///
+/// Equal tasks give equal plans.
+#[must_use]
+pub fn solve(task: &Task, limits: &Limits) -> Outcome {
+    solve_learning(task, None, limits).0
+}
+
+/// As [`solve`], and keeps what was learned on the way, for planning anew after an assumption was withdrawn; what
+/// was learned before serves as far as it is sound. The answer is as good as that of [`solve`], though of several
+/// plans with the fewest steps another may be found.
+#[must_use]
+pub fn solve_learning(
+    task: &Task,
+    learned: Option<&Learned>,
+    limits: &Limits,
+) -> (Outcome, Option<Learned>) {
+    let inherited = learned.and_then(|learned| learned.about(task));
+    if inherited.is_none() && task.facts.len() >= LARGE {
+        return (solve_large(task, limits).unwrap_or_else(Outcome::LimitReached), None);
+    }
+    match with_stack(|| search(task, limits, Turn::default(), inherited.as_ref())) {
+        Ok((outcome, learned)) => {
+            (outcome.expect("turns without end come to an answer"), Some(learned))
+        }
+        Err(unfinished) => (Outcome::LimitReached(unfinished), None),
+    }
+}
+
+/// Of so many facts a task is planned without the operators that no shortest plan needs. What is learned then is about
+/// another task, and is not kept; finding them out again costs less than the whole graph would.
+const LARGE: usize = 1_000;
+
+pub(crate) fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Unfinished> {
+    let reduced = needed::Reduced::of(task, limits)?;
+    let own = |mut plan: Plan| {
+        plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
+        plan
+    };
+    let (outcome, _) = with_stack(|| search(&reduced.task, limits, Turn::default(), None))
+        .map_err(|unfinished| Unfinished { plan: unfinished.plan.map(own), ..unfinished })?;
+    let facts = |facts: Vec<FactId>| facts.into_iter().map(|fact| reduced.fact(fact)).collect();
+    Ok(match outcome.expect("turns without end come to an answer") {
+        Outcome::Plan(plan) => Outcome::Plan(own(plan)),
+        Outcome::NoPlan { leveled_off_at, reason } => {
+            let reason = match reason {
+                NoPlanReason::Unreachable(unreachable) => {
+                    NoPlanReason::Unreachable(facts(unreachable))
+                }
+                NoPlanReason::Exclusive(pairs) => {
+                    let pair = |(a, b)| (reduced.fact(a), reduced.fact(b));
+                    NoPlanReason::Exclusive(pairs.into_iter().map(pair).collect())
+                }
+                NoPlanReason::Together(together) => NoPlanReason::Together(facts(together)),
+            };
+            Outcome::NoPlan { leveled_off_at, reason }
+        }
+        limit @ Outcome::LimitReached(_) => limit,
+    })
+}
+
+/// What a conflict of the solver takes the time of, near enough.
+const CHOICES_A_CONFLICT: u64 = 100;
+
+/// Levels that the solver refutes at no price, one after the other, must not leave the search behind for good.
+const CHOICES_A_LEVEL: u64 = 128;
+
+/// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, and such
+/// a part of what the other ways spent. A choice of the search takes as long as setting so many.
+const EFFORT_A_LEVEL: u64 = 1 << 14;
+const INDUCTION_SHARE: u64 = 4;
+const EFFORT_A_CHOICE: u64 = 4;
+
+/// Choices that the search may take for a level before the solver has its turn, after it decided the last level
+/// with so many: much more while they are few, later no more than twice as many.
+fn patience(spent: u64) -> u64 {
+    (8 * spent.min(1 << 14)).max(2 * spent)
+}
+
+/// What each way of extraction may spend in its first turn at a level.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turn {
+    /// Choices of the backward search.
+    pub(crate) choices: u64,
+    /// Conflicts of the solver.
+    pub(crate) conflicts: u64,
+    /// Turns at one level before giving up, if ever.
+    pub(crate) turns: Option<u32>,
+    /// A level given up is left for one farther on, where more plans lie: the first found need not be the shortest.
+    pub(crate) goes_on: bool,
+    /// Effort in all before giving up, if ever.
+    pub(crate) effort: Option<u64>,
+    /// After so much effort it is time for some plan, if ever, to know how far there is to go: a search that is given
+    /// up then leaves it behind, and at its length nothing is left to be sought.
+    pub(crate) seek: Option<u64>,
+}
+
+impl Default for Turn {
+    fn default() -> Self {
+        Self {
+            choices: 1 << 13,
+            conflicts: 1 << 9,
+            turns: None,
+            goes_on: false,
+            effort: None,
+            seek: Some(1 << 22),
+        }
+    }
+}
+
+/// No outcome when the turns at some level are used up, or the effort in all.
+pub(crate) fn search(
+    task: &Task,
+    limits: &Limits,
+    turn: Turn,
+    inherited: Option<&Inherited<'_>>,
+) -> Result<(Option<Outcome>, Learned), Unfinished> {
+    let mut extractor = Extractor::new(task, limits, turn);
+    let mut graph = PlanningGraph::new(task);
+    match by_levels(&mut graph, &mut extractor, inherited) {
+        Ok(outcome) => {
+            let fewest_steps = graph.top();
+            let no_goods = extractor.search.into_no_goods();
+            let (task, state) = (task.clone(), task.init.clone());
+            Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
+        }
+        Err(limit) => {
+            Err(Unfinished { limit, at_least: extractor.at_least, plan: extractor.known })
+        }
+    }
+}
+
+/// What a search comes to, if it does, and what it took.
+pub(crate) fn search_counted(task: &Task, limits: &Limits, turn: Turn) -> (Option<Outcome>, u64) {
+    let mut extractor = Extractor::new(task, limits, turn);
+    let mut graph = PlanningGraph::new(task);
+    let outcome = by_levels(&mut graph, &mut extractor, None);
+    (outcome.ok().flatten(), extractor.effort(&graph))
+}
+
+/// A task on which one proof after the other is tried, each with more effort: without the operators that no shortest
+/// plan needs, where it is large.
+pub(crate) enum Working<'t> {
+    Whole(&'t Task),
+    Reduced(needed::Reduced),
+}
+
+impl<'t> Working<'t> {
+    pub(crate) fn of(task: &'t Task, limits: &Limits) -> Result<Self, Limit> {
+        if task.facts.len() < LARGE {
+            return Ok(Self::Whole(task));
+        }
+        Ok(Self::Reduced(needed::Reduced::of(task, limits)?))
+    }
+
+    pub(crate) fn task(&self) -> &Task {
+        match self {
+            Self::Whole(task) => task,
+            Self::Reduced(reduced) => &reduced.task,
+        }
+    }
+
+    /// A plan of this task in terms of the whole.
+    pub(crate) fn own(&self, mut plan: Plan) -> Plan {
+        if let Self::Reduced(reduced) = self {
+            plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
+        }
+        plan
+    }
+}
+
+/// What a proof with little effort came to.
+pub(crate) enum Tried {
+    Plan(Plan),
+    NoPlan,
+    /// Proven: no plan has fewer steps. With the limit that ended it, if it was not the effort allowed.
+    AtLeast(usize, Option<Limit>),
+}
+
+/// The fewest steps, as far as so much effort tells; from `ceiling` steps on there is nothing to be found.
+pub(crate) fn prove(task: &Task, ceiling: usize, effort: u64, limits: &Limits) -> Tried {
+    let turn = Turn { effort: Some(effort), seek: None, ..Turn::default() };
+    let steps = limits.parallel_steps.min(ceiling.saturating_sub(1));
+    let limits = Limits { parallel_steps: steps, ..limits.clone() };
+    let search = || -> Result<Tried, Limit> {
+        let mut extractor = Extractor::new(task, &limits, turn);
+        let mut graph = PlanningGraph::new(task);
+        let outcome = by_levels(&mut graph, &mut extractor, None);
+        let at_least = extractor.at_least;
+        Ok(match outcome {
+            Ok(Some(Outcome::Plan(plan))) => Tried::Plan(plan),
+            Ok(Some(_)) => Tried::NoPlan,
+            Ok(None) => Tried::AtLeast(at_least, None),
+            Err(Limit::Steps) if at_least >= ceiling => Tried::AtLeast(ceiling, None),
+            Err(limit) => Tried::AtLeast(at_least, Some(limit)),
+        })
+    };
+    with_stack(search).unwrap_or_else(|limit| Tried::AtLeast(0, Some(limit)))
+}
+
+fn by_levels(
+    graph: &mut PlanningGraph,
+    extractor: &mut Extractor<'_>,
+    inherited: Option<&Inherited<'_>>,
+) -> Result<Option<Outcome>, Limit> {
+    let Extractor { task, limits, turn, .. } = *extractor;
+    if let Some(inherited) = inherited {
+        extractor.search.inherit(inherited.no_goods());
+    }
+    let mut too_few = inherited.map_or(0, Inherited::fewest_steps);
+    // Whether every length so far was refuted, and none only left.
+    let mut are_refuted = true;
+    extractor.at_least = too_few;
+    loop {
+        limits.check(graph.bytes() + extractor.bytes())?;
+        if turn.effort.is_some_and(|most| extractor.effort(graph) > most) {
+            return Ok(None);
+        }
+        if graph.is_possible(&task.goal) {
+            if graph.top() >= too_few {
+                match extractor.extract(graph)? {
+                    Extraction::Plan(mut plan) => {
+                        any::drop_needless(task, &mut plan.steps);
+                        let encoding = &mut extractor.encoding;
+                        let plan = fewest::fewest(task, graph, encoding, plan, limits);
+                        return Ok(Some(Outcome::Plan(plan)));
+                    }
+                    Extraction::None => {}
+                    Extraction::Open if turn.goes_on => {
+                        are_refuted = false;
+                        too_few = graph.top() + graph.top() / 4 + 1;
+                    }
+                    Extraction::Open => return Ok(None),
+                    Extraction::Never(goals) => {
+                        let leveled_off_at =
+                            graph.leveled_off_at().expect("never is said after level-off");
+                        let reason = NoPlanReason::Together(goals);
+                        return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
+                    }
+                }
+            }
+        } else if let Some(leveled_off_at) = graph.leveled_off_at() {
+            let reason = graph.conflict_of(&task.goal);
+            return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
+        }
+        if are_refuted {
+            extractor.at_least = extractor.at_least.max(graph.top() + 1);
+        }
+        if graph.top() >= limits.parallel_steps {
+            return Err(Limit::Steps);
+        }
+        graph.expand(inherited, limits)?;
+    }
+}
+
+/// The ways to look for a plan of a given length, taking turns.
+///
+/// Search is strong where a deep serial chain rules, the solver where many choices interact. Turns are counted in
+/// choices and conflicts, not in seconds: the same task always goes the same way.
+struct Extractor<'a> {
+    task: &'a Task,
+    search: Search<'a>,
+    encoding: Encoding<'a>,
+    limits: &'a Limits,
+    turn: Turn,
+    /// Who decided the level before goes first.
+    solver_leads: bool,
+    /// The choices with which the search decided the level before; none when the solver did.
+    spent: u64,
+    /// The last number of steps that the search refuted.
+    refuted: usize,
+    /// The third way, once the graph has leveled off, and the plan that it came to.
+    induction: Option<Induction<'a>>,
+    known: Option<Plan>,
+    /// Whether forward search was asked for any plan.
+    has_sought: bool,
+    /// Fewer steps than these are refuted.
+    at_least: usize,
+}
+
+/// Forward search gets this part of the memory for it.
+const SEEKING_OF_MEMORY: usize = 4;
+
+impl<'a> Extractor<'a> {
+    fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
+        Self {
+            task,
+            search: Search::new(task, limits.clone()),
+            encoding: Encoding::new(task, !turn.goes_on, limits),
+            limits,
+            turn,
+            solver_leads: false,
+            spent: 0,
+            refuted: 0,
+            induction: None,
+            known: None,
+            has_sought: false,
+            at_least: 0,
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        let induction = self.induction.as_ref().map_or(0, Induction::bytes);
+        self.search.bytes() + self.encoding.bytes() + induction
+    }
+
+    /// What was spent so far, in variables set by the solver and what takes as long.
+    fn effort(&self, graph: &PlanningGraph) -> u64 {
+        let induction = self.induction.as_ref().map_or(0, Induction::effort);
+        let choices = self.search.choices() * EFFORT_A_CHOICE;
+        graph.effort() + choices + self.encoding.effort() + induction
+    }
+
+    /// The fewest steps are no more than those of a plan found soon.
+    fn seek(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
+        let is_time = self.turn.seek.is_some_and(|effort| self.effort(graph) >= effort);
+        if !is_time || std::mem::replace(&mut self.has_sought, true) || self.known.is_some() {
+            return Ok(());
+        }
+        let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
+        let limits = Limits { memory_bytes, ..self.limits.clone() };
+        match any::search(self.task, &limits, any::Effort::Least) {
+            Ok(any::Found::Plan(plan)) => {
+                self.limits.tell_of(&plan);
+                self.known = Some(plan);
+            }
+            Err(limit @ (Limit::Time | Limit::Stopped)) => return Err(limit),
+            Ok(any::Found::Exhausted | any::Found::Open) | Err(_) => {}
+        }
+        Ok(())
+    }
+
+    /// The plan that is known, once every shorter one is refuted.
+    fn known_at(&self, graph: &PlanningGraph) -> Option<Plan> {
+        self.known.clone().filter(|plan| plan.steps.len() == graph.top())
+    }
+
+    fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
+        if self.solver_leads
+            && let Some(extraction) = self.prove(graph)?
+        {
+            return Ok(extraction);
+        }
+        // While the search does well, the next level may take it somewhat longer than the last did.
+        let first = self.turn.choices.max(patience(self.spent));
+        let before = self.search.choices();
+        let mut round = 0;
+        loop {
+            self.seek(graph)?;
+            if let Some(plan) = self.known_at(graph) {
+                return Ok(Extraction::Plan(plan));
+            }
+            if let Some(extraction) = self.induce(graph)? {
+                return Ok(extraction);
+            }
+            // Long before a share could overflow, some limit or the answer ends the turns.
+            let doubled = round.min(30);
+            if self.solver_leads || round > 0 {
+                match self.encoding.extract(graph, self.turn.conflicts << doubled, self.limits)? {
+                    Verdict::Plan(plan) => return Ok(Extraction::Plan(plan)),
+                    Verdict::None => {
+                        self.solver_leads = true;
+                        self.spent = 0;
+                        return Ok(Extraction::None);
+                    }
+                    Verdict::Open => {}
+                }
+            }
+            let extraction = self.search.extract(graph, graph.top(), first << doubled)?;
+            if !matches!(extraction, Extraction::Open) {
+                self.solver_leads = false;
+                self.spent = self.search.choices() - before;
+                self.refuted = graph.top();
+                return Ok(extraction);
+            }
+            round += 1;
+            if self.turn.effort.is_some_and(|most| self.effort(graph) > most) {
+                return Ok(Extraction::Open);
+            }
+            if self.turn.turns.is_some_and(|turns| round >= turns) {
+                return Ok(Extraction::Open);
+            }
+        }
+    }
+
+    /// The solver never proves that no length will do. Once the graph has leveled off, the search gets a share
+    /// of the effort for that, on the first length that it has not refuted itself; what it says of the present
+    /// length is an answer.
+    fn prove(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
+        let beyond = (graph.top() - leveled_off_at) as u64;
+        let share = self.turn.choices * beyond
+            + CHOICES_A_LEVEL * beyond * beyond
+            + CHOICES_A_CONFLICT * self.encoding.conflicts();
+        self.refuted = self.refuted.max(leveled_off_at);
+        while self.refuted < graph.top() && self.search.choices() < share {
+            let allowed = share - self.search.choices();
+            match self.search.extract(graph, self.refuted + 1, allowed)? {
+                Extraction::None => self.refuted += 1,
+                Extraction::Open => return Ok(None),
+                answer => return Ok(Some(answer)),
+            }
+        }
+        Ok((self.refuted == graph.top()).then_some(Extraction::None))
+    }
+
+    /// Neither way may ever come to an end where goals fit by pairs and not together. Once the graph has leveled off, a
+    /// proof by induction gets a share of the effort, until it comes to a plan of whatever length.
+    fn induce(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
+        let beyond = (graph.top() - leveled_off_at) as u64;
+        let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
+        let share = EFFORT_A_LEVEL * beyond + effort / INDUCTION_SHARE;
+        let limits = self.limits;
+        let induction =
+            self.induction.get_or_insert_with(|| Induction::new(self.task, graph, limits));
+        if self.known.is_none() && induction.effort() < share {
+            match induction.go_on(share)? {
+                Proof::Plan(plan) => self.known = Some(plan),
+                Proof::Never(goals) => return Ok(Some(Extraction::Never(goals))),
+                Proof::Open => {}
+            }
+        }
+        let refuted = induction.refuted();
+        Ok(match self.known_at(graph) {
+            Some(plan) => Some(Extraction::Plan(plan)),
+            None => (graph.top() <= refuted).then_some(Extraction::None),
+        })
+    }
+}
