@@ -28,3 +28,4 @@ pub use orthoframe_semantics as semantics;
 pub use orthoframe_store as store;
 pub use orthoframe_strips as strips;
 pub use orthoframe_units as units;
+pub use orthoframe_vectors as vectors;
