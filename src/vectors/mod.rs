@@ -8,6 +8,8 @@
 //! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
 //! exchanges points, ends and covariances together.
 
+pub mod read;
+pub mod scan;
 mod segment;
 
 pub use segment::{Covariance, Cut, End, Segment, Truth};
