@@ -107,7 +107,13 @@ fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Op
     let slide_two = one.direction / sine;
     let own_one = slide_two * slide_two.transpose() * two.across(second_place, second_place);
     let own_two = slide_one * slide_one.transpose() * one.across(place, place);
-    let end = End::True(Truth::Corner);
+    // Two points make a line, but not a face: where it meets another is a vertex of the contour and no more.
+    let bend = CLEAR * CLEAR * (one.turning() + two.turning());
+    let end = if one.count > 2.0 && two.count > 2.0 && sine * sine > bend {
+        End::True(Truth::Corner)
+    } else {
+        End::Cut(Cut::Unclear)
+    };
     Some((
         Tip { end, point, place, lever: slide_one, own: own_one },
         Tip { end, point, place: second_place, lever: slide_two, own: own_two },

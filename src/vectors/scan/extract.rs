@@ -67,8 +67,7 @@ impl Extractor {
         let closed = sensor.is_closed() && ranges.len() >= sensor.count();
         self.find(sensor, ranges, if closed { seam(sensor, ranges) } else { 0 });
         if closed && self.runs.len() > 1 && self.seam_cuts(sensor) {
-            // Where the second line begins is a border that was found, not one that was made.
-            let start = self.hits[self.runs[1].from].beam as usize;
+            let start = self.surest_border();
             self.find(sensor, ranges, start);
         }
         self.trim(sensor);
@@ -94,7 +93,19 @@ impl Extractor {
         let gap = (self.hits[first.from].p - self.hits[last.to - 1].p).norm();
         let facing = first.line.direction.dot(&last.line.direction) > 0.9;
         let off = last.line.direction.perp(&(first.line.centre - last.line.centre)).abs();
-        gap < 3.0 * sensor.step * self.hits[first.from].r + 10.0 || (facing && off < 20.0)
+        gap < 0.2f64.mul_add(self.hits[first.from].r, 10.0) || (facing && off < 20.0)
+    }
+
+    /// The beam at which the line begins whose direction differs most from the line before it, both long: a border that
+    /// was found, not one that the seam made.
+    fn surest_border(&self) -> usize {
+        let long = |run: &Run| if run.to - run.from > 3 { 1.0 } else { 0.1 };
+        let turn = |at: &usize| {
+            let (a, b) = (&self.runs[*at - 1], &self.runs[*at]);
+            a.line.direction.perp(&b.line.direction).abs() * long(a) * long(b)
+        };
+        let at = (1..self.runs.len()).max_by(|a, b| turn(a).total_cmp(&turn(b))).unwrap_or(0);
+        self.hits[self.runs[at].from].beam as usize
     }
 
     /// Beams whose returns lie off the segment that the last scan's neighbours of theirs make: single spikes over which a

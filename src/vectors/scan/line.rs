@@ -102,6 +102,11 @@ impl Line {
         self.expected.max(found)
     }
 
+    /// Variance of the line's direction, in rad².
+    pub(crate) fn turning(&self) -> f64 {
+        self.variance() / self.spread
+    }
+
     /// Covariance of the line's errors across itself at the places `a` and `b`.
     pub(crate) fn across(&self, a: f64, b: f64) -> f64 {
         self.variance() * (1.0 / self.count + a * b / self.spread)
