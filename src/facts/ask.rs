@@ -35,6 +35,7 @@ use super::limits::{Limits, Watch};
 use super::program::{Column, Program, RelationId};
 use super::proof::{Explainer, Proof};
 use super::question::Question;
+use super::rows::heap;
 use super::stored::Stored;
 use super::word::{Value, Word, Words};
 use crate::units::Source;
@@ -150,6 +151,15 @@ impl Program {
         computed: &[&'a dyn Computed],
         limits: Limits,
     ) -> Result<Answers<'a>, AskError> {
+        if self.depends_on_order() {
+            let derived = self.evaluate_within(database, limits).map_err(AskError::from)?;
+            let is_stored = vec![true; self.relations.len()];
+            let kept = std::borrow::Cow::Owned(derived.kept);
+            let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
+            answers.given = derived.given;
+            answers.answer()?;
+            return Ok(answers);
+        }
         let all: Vec<RelationId> = self.relations().map(|(relation, _)| relation).collect();
         let columns: Vec<usize> = self.relations().map(|(_, info)| info.columns.len()).collect();
         let given = given(self, database, &all);
@@ -162,6 +172,44 @@ impl Program {
         answers.given = told;
         answers.answer()?;
         Ok(answers)
+    }
+}
+
+impl Program {
+    /// These relations alone, deriving only what they need of others; all others stay as they are told.
+    pub(super) fn evaluate_on_demand(
+        &self,
+        database: &Database,
+        relations: &[RelationId],
+        limits: Limits,
+    ) -> Result<Derived, AskError> {
+        let limits = limits.within(self.limits);
+        if self.depends_on_order() {
+            return Ok(self.evaluate_within(database, limits)?);
+        }
+        let all: Vec<RelationId> = self.relations().map(|(relation, _)| relation).collect();
+        let columns: Vec<usize> = self.relations().map(|(_, info)| info.columns.len()).collect();
+        let told = given(self, database, &all);
+        let mut rows = told.clone();
+        let kept = Kept::new(database.words.share(), told.clone(), &columns);
+        let mut is_derived = vec![false; columns.len()];
+        self.clauses.iter().for_each(|clause| is_derived[clause.head.index()] = true);
+        let is_stored = |relation: RelationId| !is_derived[relation.index()];
+        let watch = Rc::new(Watch::new(limits));
+        let demand = Demand::new(self, &kept, columns.len(), &is_stored, &[], watch);
+        let mut words = database.words.share();
+        for relation in relations.iter().filter(|of| is_derived[of.index()]) {
+            let found = demand.rows(*relation, 0, &[], &mut words);
+            if let Some(error) = failure(&demand, *relation) {
+                return Err(error);
+            }
+            let mut sorted = heap(columns[relation.index()]);
+            found.iter().for_each(|row| sorted.push(row));
+            rows[relation.index()] = sorted.sort();
+        }
+        drop(demand);
+        words.settle();
+        Ok(Derived::new(self, words, rows, told))
     }
 }
 

@@ -8,11 +8,15 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::clause;
 use super::fault::RuleError;
+use super::limits::Ceilings;
 use super::program::{
     Clause, Column, Fact, Found, Kind, Literal, Names, Program, RelationId, RelationInfo, Stratum,
+    Subsumption,
 };
+use super::record::{self, Shape};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
-use super::word::Words;
+use super::word::{NO_WORD, Words};
+use super::{subsume, unify, witness};
 use crate::units::{Source, nearest_name};
 
 /// Tuples are kept in rows of at most so many words.
@@ -39,8 +43,20 @@ pub(super) struct Declared {
     pub(super) names: Names,
     pub(super) types: Vec<Type>,
     type_names: HashMap<String, usize>,
+    /// What records and branches hold, in the order of their kinds.
+    structures: Vec<Structure>,
+    /// For each branch's name its structure.
+    branches: HashMap<String, u32>,
     /// Relations whose rules were put where they are read: they have no tuples of their own.
     pub(super) unfolded: BTreeSet<RelationId>,
+}
+
+/// A type of records or branches; fields by the positions of their types.
+#[derive(Debug, Clone, Default)]
+struct Structure {
+    name: String,
+    branches: Vec<(String, Vec<usize>)>,
+    is_record: bool,
 }
 
 impl Declared {
@@ -82,6 +98,51 @@ impl Declared {
         self.types[other].below.push(one);
     }
 
+    /// The structure that has a branch of this name.
+    pub(super) fn branch(&self, name: &str) -> Option<u32> {
+        self.branches.get(name).copied()
+    }
+
+    /// The first word of the branch's records and the types of its fields; of a record's own where no branch is named,
+    /// with [`NO_WORD`] for the word that records lack.
+    pub(super) fn fields(&self, structure: u32, branch: Option<&Name>) -> Option<(u32, &[usize])> {
+        let of = self.structures.get(structure as usize)?;
+        match branch {
+            None if of.is_record => Some((NO_WORD, &of.branches[0].1)),
+            None => None,
+            Some(name) => {
+                let at = of.branches.iter().position(|(known, _)| *known == name.text)?;
+                (!of.is_record).then(|| (record::tag(at), of.branches[at].1.as_slice()))
+            }
+        }
+    }
+
+    /// A type of a kind.
+    fn type_of(&self, kind: Kind) -> usize {
+        let of_kind = || self.types.iter().position(|of| of.kind == kind);
+        primitive(kind).or_else(of_kind).unwrap_or(0)
+    }
+
+    /// A kind as messages name it.
+    pub(super) fn kind_text(&self, kind: Kind) -> String {
+        match kind {
+            Kind::Record(of) => {
+                self.structures.get(of as usize).map_or("[…]", |of| of.name.as_str()).to_owned()
+            }
+            plain => kind_name(plain).to_owned(),
+        }
+    }
+
+    /// What the values of each structure hold.
+    fn shapes(&self) -> Vec<Shape> {
+        let kinds = |fields: &[usize]| fields.iter().map(|of| self.types[*of].kind).collect();
+        let shape = |of: &Structure| Shape {
+            branches: of.branches.iter().map(|(name, of)| (name.clone(), kinds(of))).collect(),
+            is_record: of.is_record,
+        };
+        self.structures.iter().map(shape).collect()
+    }
+
     /// The position of a type in `types`.
     pub(super) fn type_named(&self, name: &str) -> Option<usize> {
         self.type_names.get(name).copied()
@@ -102,15 +163,27 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
     let mut declared = declare(items, faults);
     direct(items, &mut declared, faults);
     let mut words = Words::default();
+    words.set_shapes(declared.shapes());
+    let mut dominated: HashMap<RelationId, RelationId> = HashMap::new();
+    let subsuming: Vec<Rule> = items
+        .iter()
+        .filter_map(|item| subsume::rule(item, &mut declared, &mut dominated, faults))
+        .collect();
     let (mut clauses, mut facts) = (Vec::new(), Vec::new());
     let mut made = clause::Made::default();
     let closed: Vec<Rule> = items.iter().flat_map(|item| equivalence(item, faults)).collect();
     let rule = |item: &Item| if let Item::Rule(rule) = item { Some(rule.clone()) } else { None };
-    let rules: Vec<Rule> = items.iter().filter_map(rule).chain(closed).collect();
+    let rules: Vec<Rule> = items.iter().filter_map(rule).chain(closed).chain(subsuming).collect();
     rules.iter().for_each(|rule| single_variables(rule, faults));
     let (rules, gone) = super::inline::unfold(rules, items, &declared, faults);
+    let mut subsumptions = Vec::new();
     for rule in &rules {
+        let rule = &witness::brought_out(&unify::unified(rule));
         for clause in clause::clauses(rule, &declared, &mut words, &mut made, faults) {
+            if let Some(relation) = dominated.get(&clause.head) {
+                subsumptions.push(Subsumption { relation: *relation, clause });
+                continue;
+            }
             match constant_words(&clause) {
                 Some(words) => facts.push(Fact { relation: clause.head, words, at: clause.at }),
                 None => clauses.push(clause),
@@ -118,14 +191,18 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
         }
     }
     for (info, at) in made.relations {
-        declared.columns.push(info.columns.iter().map(|column| primitive(column.kind)).collect());
+        declared
+            .columns
+            .push(info.columns.iter().map(|column| declared.type_of(column.kind)).collect());
         declared.relations.push(info);
         declared.places.push(at);
     }
     clauses.extend(made.clauses);
     let clauses: Vec<Arc<Clause>> = clauses.into_iter().map(Arc::new).collect();
-    let strata = strata(&declared, &clauses, faults);
-    unused(&declared, &clauses, &facts, &gone, faults);
+    let strata = strata(&declared, &clauses, &subsumptions, faults);
+    let hidden = gone.iter().copied().chain(dominated.into_keys()).collect();
+    unused(&declared, &clauses, &subsumptions, &facts, &hidden, faults);
+    hints(items, faults);
     declared.unfolded = gone;
     Program {
         sources: sources.into(),
@@ -135,6 +212,8 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
         clauses: clauses.into(),
         facts: facts.into(),
         strata: strata.into(),
+        subsumptions: subsumptions.into(),
+        limits: limits(items, faults),
         words,
         warnings: [].into(),
     }
@@ -187,7 +266,9 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
         declared.type_names.insert(name.into(), declared.types.len());
         declared.types.push(Type { name: name.into(), kind, below: vec![], parts: vec![] });
     }
+    declare_structures(items, &mut declared, faults);
     declare_more(items, &mut declared, faults);
+    declare_fields(items, &mut declared, faults);
     declared
 }
 
@@ -195,11 +276,124 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
 pub(super) fn declare_more(items: &[Item], declared: &mut Declared, faults: &mut Found) {
     declare_types(items, declared, faults);
     for item in items {
-        if let Item::Relation { names, columns, second, roles } = item {
+        if let Item::Relation { names, columns, second, roles, domains } = item {
             for name in names {
                 declare_relation(name, columns, second.as_ref(), roles, declared, faults);
+                choose(name, domains, declared, faults);
             }
         }
+    }
+}
+
+/// The names of records and of branched types, so that their fields may be of them.
+fn declare_structures(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        let Item::Structure { name, is_record, .. } = item else { continue };
+        if declared.type_names.contains_key(&name.text) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+            continue;
+        }
+        let kind = Kind::Record(declared.structures.len() as u32);
+        declared.type_names.insert(name.text.clone(), declared.types.len());
+        let name = name.text.clone();
+        declared.types.push(Type { name: name.clone(), kind, below: vec![], parts: vec![] });
+        declared.structures.push(Structure { name, branches: Vec::new(), is_record: *is_record });
+    }
+}
+
+/// The fields of records and branches, once all types are known.
+fn declare_fields(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        let Item::Structure { name, branches, is_record } = item else { continue };
+        let Some(Kind::Record(of)) =
+            declared.type_named(&name.text).map(|id| declared.types[id].kind)
+        else {
+            continue;
+        };
+        if !declared.structures[of as usize].branches.is_empty() {
+            continue;
+        }
+        for branch in branches {
+            let types = branch.fields.iter();
+            let types: Vec<usize> =
+                types.map(|(_, field)| type_named(field, declared, faults).unwrap_or(0)).collect();
+            if types.len() >= MAX_COLUMNS {
+                let (what, limit, at) = ("полей записи", MAX_COLUMNS, branch.name.at);
+                faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
+            }
+            let is_new =
+                *is_record || declared.branches.insert(branch.name.text.clone(), of).is_none();
+            if !is_new {
+                let (name, at) = (branch.name.text.clone(), branch.name.at);
+                faults.push(at, RuleError::Duplicate { name, at: at.into() });
+            }
+            declared.structures[of as usize].branches.push((branch.name.text.clone(), types));
+        }
+    }
+}
+
+/// The columns of a relation's choice domains.
+fn choose(name: &Name, domains: &[Vec<Name>], declared: &mut Declared, faults: &mut Found) {
+    let Some(id) = declared.names.find(&name.text) else { return };
+    let info = &mut declared.relations[id.index()];
+    for domain in domains {
+        let mut columns = Vec::with_capacity(domain.len());
+        for column in domain {
+            match info.columns.iter().position(|known| known.name == column.text) {
+                Some(at) => columns.push(at),
+                None => {
+                    let what = format!("choice-domain «{}» без такого столбца", column.text);
+                    let help = "назовите столбцы этого отношения";
+                    let at = column.at;
+                    faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
+                }
+            }
+        }
+        if columns.len() == domain.len() {
+            info.choices.push(columns);
+        }
+    }
+}
+
+/// The pragmas that say how much an evaluation may take.
+fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
+    let mut limits = Ceilings::default();
+    for item in items {
+        let Item::Pragma { name, value, at } = item else { continue };
+        limits.on_demand |= name == "magic-transform";
+        let Ok(number) = value.trim().parse::<u64>() else {
+            if is_limit(name) {
+                let (expected, found) = ("целое число в кавычках".to_owned(), format!("«{value}»"));
+                faults.push(*at, RuleError::Syntax { expected, found, at: (*at).into() });
+            }
+            continue;
+        };
+        match name.as_str() {
+            "time-limit" => limits.seconds = Some(number),
+            "memory-limit" => limits.megabytes = Some(number),
+            "row-limit" => limits.rows = Some(number),
+            _ => {}
+        }
+    }
+    limits
+}
+
+fn is_limit(name: &str) -> bool {
+    matches!(name, "time-limit" | "memory-limit" | "row-limit")
+}
+
+/// Says what is read and has no effect.
+fn hints(items: &[Item], faults: &mut Found) {
+    for item in items {
+        let (what, at) = match item {
+            Item::Hint { what, at } => (what.clone(), *at),
+            Item::Pragma { name, at, .. } if !is_limit(name) && name != "magic-transform" => {
+                (format!(".pragma «{name}»"), *at)
+            }
+            _ => continue,
+        };
+        faults.push(at, RuleError::Hint { what, at: at.into() });
     }
 }
 
@@ -264,12 +458,12 @@ fn declare_type(
     declared.type_names.insert(name.text.clone(), id);
     declared.types.push(Type { name: name.text.clone(), kind, below: Vec::new(), parts });
     // The primitive type is above a union as it is above the union's parts.
-    declared.put_below(id, if bases.len() == 1 { first } else { primitive(kind) });
+    declared.put_below(id, if bases.len() == 1 { first } else { primitive(kind).unwrap_or(first) });
     if is_union {
         for (part, base) in known.iter().zip(bases) {
             if declared.types[*part].kind != kind {
-                let expected = kind_name(kind).into();
-                let found = kind_name(declared.types[*part].kind).into();
+                let expected = declared.kind_text(kind);
+                let found = declared.kind_text(declared.types[*part].kind);
                 let fault = RuleError::Types {
                     what: base.text.clone(),
                     expected,
@@ -287,12 +481,13 @@ fn declare_type(
     }
 }
 
-fn primitive(kind: Kind) -> usize {
+fn primitive(kind: Kind) -> Option<usize> {
     match kind {
-        Kind::Symbol => 0,
-        Kind::Number => 1,
-        Kind::Unsigned => 2,
-        Kind::Float => 3,
+        Kind::Symbol => Some(0),
+        Kind::Number => Some(1),
+        Kind::Unsigned => Some(2),
+        Kind::Float => Some(3),
+        Kind::Record(_) => None,
     }
 }
 
@@ -302,6 +497,7 @@ pub(super) fn kind_name(kind: Kind) -> &'static str {
         Kind::Number => "number",
         Kind::Unsigned => "unsigned",
         Kind::Float => "float",
+        Kind::Record(_) => "record",
     }
 }
 
@@ -381,6 +577,8 @@ fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInf
         Role::Equivalence => {}
         // Is unfolded where it must be, see `inline`.
         Role::Inline => {}
+        // Was seen to when the component was made.
+        Role::Overridable => {}
         Role::LimitSize => {
             let limit = parameters.iter().find(|(name, _)| name == "n");
             info.limit_size = limit.and_then(|(_, n)| n.parse().ok()).or(info.limit_size);
@@ -392,14 +590,16 @@ fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInf
 pub(super) fn strata(
     declared: &Declared,
     clauses: &[Arc<Clause>],
+    subsumptions: &[Subsumption],
     faults: &mut Found,
 ) -> Vec<Stratum> {
     let mut graph: DiGraph<(), ()> = DiGraph::new();
     let nodes: Vec<NodeIndex> = declared.relations.iter().map(|_| graph.add_node(())).collect();
     let mut edges: BTreeMap<(usize, usize), Option<Span>> = BTreeMap::new();
-    for clause in clauses {
-        reads(&clause.body, false, &mut |relation, not, at| {
-            let edge = edges.entry((clause.head.index(), relation.index())).or_insert(None);
+    let subsuming = subsumptions.iter().map(|of| (of.relation, &of.clause.body));
+    for (head, body) in clauses.iter().map(|clause| (clause.head, &clause.body)).chain(subsuming) {
+        reads(body, false, &mut |relation, not, at| {
+            let edge = edges.entry((head.index(), relation.index())).or_insert(None);
             *edge = edge.or(not.then_some(at));
         });
     }
@@ -422,10 +622,23 @@ pub(super) fn strata(
         let mut relations: Vec<_> =
             members.iter().map(|node| RelationId(node.index() as u32)).collect();
         relations.sort();
-        strata.push(Stratum { relations, clauses: Vec::new() });
+        strata.push(Stratum { relations, clauses: Vec::new(), subsumptions: Vec::new() });
     }
     for (n, clause) in clauses.iter().enumerate() {
         strata[group_of[clause.head.index()]].clauses.push(n);
+        let mut is_recursive = false;
+        reads(&clause.body, false, &mut |relation, _, _| {
+            is_recursive |= group_of[relation.index()] == group_of[clause.head.index()];
+        });
+        if is_recursive && clause.counts_on() {
+            let what = "autoinc() в рекурсивном правиле".to_owned();
+            let help = "пронумеруйте готовое отношение отдельным правилом";
+            let at = clause.at;
+            faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
+        }
+    }
+    for (n, of) in subsumptions.iter().enumerate() {
+        strata[group_of[of.relation.index()]].subsumptions.push(n);
     }
     strata
 }
@@ -476,6 +689,7 @@ fn cycle_text(
 fn unused(
     declared: &Declared,
     clauses: &[Arc<Clause>],
+    subsumptions: &[Subsumption],
     facts: &[Fact],
     unfolded: &BTreeSet<RelationId>,
     faults: &mut Found,
@@ -485,6 +699,11 @@ fn unused(
     for clause in clauses {
         filled[clause.head.index()] = true;
         reads(&clause.body, false, &mut |relation, _, _| read[relation.index()] = true);
+    }
+    for of in subsumptions {
+        reads(&of.clause.body, false, &mut |relation, _, _| {
+            read[relation.index()] |= relation != of.relation;
+        });
     }
     facts.iter().for_each(|fact| filled[fact.relation.index()] = true);
     for (n, info) in declared.relations.iter().enumerate() {
@@ -532,12 +751,19 @@ fn count_in_body<'a>(body: &'a Body, seen: &mut BTreeMap<&'a str, (Span, usize)>
 fn count_in_expr<'a>(expr: &'a Expr, seen: &mut BTreeMap<&'a str, (Span, usize)>) {
     match expr {
         Expr::Variable(name) => seen.entry(&name.text).or_insert((name.at, 0)).1 += 1,
-        Expr::Call { args, .. } => args.iter().for_each(|arg| count_in_expr(arg, seen)),
+        Expr::Call { args, .. } | Expr::Record { args, .. } => {
+            args.iter().for_each(|arg| count_in_expr(arg, seen));
+        }
         Expr::Aggregate { value, body, .. } => {
             value.iter().for_each(|value| count_in_expr(value, seen));
             count_in_body(body, seen);
         }
         Expr::As { value, .. } => count_in_expr(value, seen),
-        Expr::Any(_) | Expr::Number(..) | Expr::Decimal(..) | Expr::Text(..) => {}
+        Expr::Any(_)
+        | Expr::Nil(_)
+        | Expr::Number(..)
+        | Expr::Unsigned(..)
+        | Expr::Decimal(..)
+        | Expr::Text(..) => {}
     }
 }

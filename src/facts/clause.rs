@@ -1,20 +1,23 @@
 //! A rule of the text to clauses: one for each head and each choice of its disjunctions,
 //! over numbered variables with known kinds, each bound by something.
 
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
-use super::check::{Declared, kind_name};
+use super::check::Declared;
 use super::decimal;
 use super::fault::RuleError;
 use super::ground::used_variables;
 use super::kinds::is_whole;
+use super::pattern::Record;
 use super::program::{
     Aggregate, Atom, Bounds, Clause, Column, Compare, Expr, Found, Kind, Literal, NumberRange,
     RelationId, RelationInfo, Term, Variable, VariableId,
 };
+use super::record::NIL;
+use super::regular::{self, NoPattern};
 use super::syntax::{self, Aggregation, Body, Comparison, Functor, Rule, Span};
-use super::word::Words;
+use super::word::{Note, Words};
 use crate::units::nearest_name;
 
 /// Choices of a rule's disjunctions, multiplied out.
@@ -49,6 +52,7 @@ pub(super) fn clauses(
                 variables: Vec::new(),
                 is_sound: true,
                 excused: Vec::new(),
+                in_atoms: HashSet::new(),
             };
             clauses.extend(builder.clause(head, choice, rule.at));
         }
@@ -105,14 +109,15 @@ pub(super) fn asking(
             variables: Vec::new(),
             is_sound: true,
             excused: Vec::new(),
+            in_atoms: HashSet::new(),
         };
         let Some((clause, found)) = builder.asking(head, &exprs, choice, question.at) else {
             continue;
         };
         let known = kinds.get_or_insert_with(|| found.clone());
         for ((expr, one), other) in exprs.iter().zip(known.iter()).zip(&found) {
-            if one.plain() != other.plain() {
-                let (expected, found) = (kind_name(*one).into(), kind_name(*other).into());
+            if one != other {
+                let (expected, found) = (declared.kind_text(*one), declared.kind_text(*other));
                 let (what, at) = (expr_name(expr, &question.text), expr.at());
                 faults.push(at, RuleError::Types { what, expected, found, at: at.into() });
             }
@@ -199,13 +204,15 @@ pub(super) struct VariableType {
 
 pub(super) struct Builder<'a> {
     pub(super) declared: &'a Declared,
-    words: &'a mut Words,
+    pub(super) words: &'a mut Words,
     pub(super) faults: &'a mut Found,
     made: &'a mut Made,
     pub(super) variables: Vec<VariableType>,
     pub(super) is_sound: bool,
     /// Variables of premises that are themselves at fault: what would bind them is told already.
     pub(super) excused: Vec<VariableId>,
+    /// Variables that stand in positive atoms.
+    pub(super) in_atoms: HashSet<VariableId>,
 }
 
 impl Builder<'_> {
@@ -218,7 +225,7 @@ impl Builder<'_> {
         let mut scope = Scope::new();
         self.enter(premises, &head.args, None, &mut scope);
         let relation = self.declared.relation(&head.relation, self.faults);
-        self.find_kinds(premises, &scope);
+        self.find_kinds(premises, relation.map(|relation| (head, relation)), &scope);
         let mut body = self.literals(premises, &scope);
         let mut args = Vec::with_capacity(head.args.len());
         for (n, arg) in head.args.iter().enumerate() {
@@ -246,7 +253,7 @@ impl Builder<'_> {
     ) -> Option<(Clause, Vec<Kind>)> {
         let mut scope = Scope::new();
         self.enter(premises, exprs, None, &mut scope);
-        self.find_kinds(premises, &scope);
+        self.find_kinds(premises, None, &scope);
         let mut body = self.literals(premises, &scope);
         let (mut args, mut kinds) = (Vec::new(), Vec::new());
         for expr in exprs {
@@ -295,13 +302,22 @@ impl Builder<'_> {
     fn literals(&mut self, premises: &[Premise<'_>], scope: &Scope) -> Vec<Literal> {
         let mut body = Vec::with_capacity(premises.len());
         for premise in premises {
+            if let Premise::Atom(atom) = premise {
+                let variable = |arg: &syntax::Expr| match arg {
+                    syntax::Expr::Variable(name) => scope.get(&name.text).copied(),
+                    _ => None,
+                };
+                self.in_atoms.extend(atom.args.iter().filter_map(variable));
+            }
+        }
+        for premise in premises {
             match premise {
-                Premise::Atom(atom) => match self.atom(atom, scope, &mut body) {
+                Premise::Atom(atom) => match self.atom(atom, true, scope, &mut body) {
                     Some(atom) => body.push(Literal::Atom(atom)),
                     None => self.excuse(premise, scope),
                 },
                 Premise::Not(atom) => {
-                    if let Some(atom) = self.atom(atom, scope, &mut body) {
+                    if let Some(atom) = self.atom(atom, false, scope, &mut body) {
                         body.push(Literal::Not(atom));
                     }
                 }
@@ -318,6 +334,7 @@ impl Builder<'_> {
     fn atom(
         &mut self,
         atom: &syntax::Atom,
+        is_positive: bool,
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) -> Option<Atom> {
@@ -335,6 +352,13 @@ impl Builder<'_> {
             args.push(match arg {
                 syntax::Expr::Any(_) => Term::Any,
                 syntax::Expr::Variable(name) => Term::Variable(scope[&name.text]),
+                syntax::Expr::Record { .. } if is_positive && !is_closed(arg) => {
+                    let variable = self.fresh("", arg.at());
+                    self.variables[variable as usize].kind = Some(column.kind);
+                    let (value, record) = (Expr::Variable(variable), Record::of(arg)?);
+                    self.take_apart(&value, &record, Some(column.kind), scope, body)?;
+                    Term::Variable(variable)
+                }
                 _ => match self.expr(arg, Some(column.kind), scope, body)? {
                     Expr::Constant(word) => {
                         self.expect(arg, column.kind, scope);
@@ -344,7 +368,7 @@ impl Builder<'_> {
                     value => {
                         self.expect(arg, column.kind, scope);
                         let variable = self.fresh("", arg.at());
-                        let kind = column.kind.plain();
+                        let kind = column.kind;
                         self.variables[variable as usize].kind = Some(kind);
                         let (left, op) = (Expr::Variable(variable), Comparison::Equal);
                         let compare = Compare { op, left, right: value, kind, at: arg.at() };
@@ -375,9 +399,33 @@ impl Builder<'_> {
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) -> Option<()> {
-        let is_contains = matches!(op, Comparison::Contains | Comparison::NotContains);
-        let kind = self.common_kind(left, right, scope);
-        let wanted = if is_contains { Some(Kind::Symbol) } else { kind };
+        use Comparison::{Contains, Equal, Matches, NotContains, NotEqual, NotMatches};
+        let is_of_texts = matches!(op, Contains | NotContains | Matches | NotMatches);
+        let kind = match is_of_texts {
+            true => Some(Kind::Symbol),
+            false => self.common_kind(left, right, scope),
+        };
+        let wanted = kind;
+        let is_ordered = !is_of_texts && !matches!(op, Equal | NotEqual);
+        if let (Some(kind @ Kind::Record(_)), true) = (kind, is_ordered) {
+            let what =
+                format!("{} между значениями типа {}", op.sign(), self.declared.kind_text(kind));
+            let help = "записи сравнивают только на равенство";
+            self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
+            return None;
+        }
+        let has_record = [left, right].into_iter().any(|side| Record::of(side).is_some());
+        if op == Equal && has_record {
+            return self.equal_records((left, right), kind, at, scope, body);
+        }
+        if matches!(op, Matches | NotMatches) {
+            self.check_pattern(left);
+        }
+        let is_nil = |side: &syntax::Expr| matches!(side, syntax::Expr::Nil(_));
+        if kind.is_none() && (is_nil(left) || is_nil(right)) {
+            self.fault(at, RuleError::Record { what: "nil".into(), at: at.into() });
+            return None;
+        }
         if let Some(wanted) = wanted {
             let wrong = [left, right].into_iter().find(|side| !self.fits(side, wanted, scope));
             if let Some(wrong) = wrong {
@@ -392,6 +440,23 @@ impl Builder<'_> {
         Some(())
     }
 
+    /// Says what a pattern that stands in the text cannot do.
+    fn check_pattern(&mut self, pattern: &syntax::Expr) {
+        let syntax::Expr::Text(pattern, at) = pattern else { return };
+        match regular::compile(pattern) {
+            Ok(_) => {}
+            Err(NoPattern::Backtracking) => {
+                let what = format!("«{pattern}»: поиск с возвратами");
+                let help = "обойдитесь без \\1 и (?=…): они не решаются за линейное время";
+                self.fault(*at, RuleError::Unsupported { what, help, at: (*at).into() });
+            }
+            Err(NoPattern::Broken(why)) => {
+                let (pattern, at) = (pattern.clone(), *at);
+                self.faults.push(at, RuleError::Pattern { pattern, why, at: at.into() });
+            }
+        }
+    }
+
     fn excuse(&mut self, premise: &Premise<'_>, scope: &Scope) {
         let mut names = Vec::new();
         names_in(premise, &mut names);
@@ -399,7 +464,7 @@ impl Builder<'_> {
     }
 
     /// The expression over variables; `wanted` tells a whole number whether it stands for a decimal.
-    fn expr(
+    pub(super) fn expr(
         &mut self,
         expr: &syntax::Expr,
         wanted: Option<Kind>,
@@ -420,21 +485,42 @@ impl Builder<'_> {
                 };
                 Expr::Constant(self.words.number(number))
             }
-            syntax::Expr::Number(number, _) | syntax::Expr::Decimal(number, _) => {
+            syntax::Expr::Number(number, at) | syntax::Expr::Unsigned(number, at) => {
+                let is_unsigned =
+                    wanted == Some(Kind::Unsigned) || matches!(expr, syntax::Expr::Unsigned(..));
+                let is_narrow = match is_unsigned {
+                    true => u32::try_from(*number).is_ok(),
+                    false => i32::try_from(*number).is_ok(),
+                };
+                if is_unsigned && !is_narrow {
+                    let text = number.to_string();
+                    self.fault(*at, RuleError::Unsigned { text, at: (*at).into() });
+                    return None;
+                }
+                if !is_narrow {
+                    let number = *number;
+                    self.faults.push(*at, RuleError::Wide { number, at: (*at).into() });
+                }
                 Expr::Constant(self.words.number(*number))
+            }
+            syntax::Expr::Decimal(number, _) => Expr::Constant(self.words.number(*number)),
+            syntax::Expr::Nil(_) => Expr::Constant(NIL),
+            syntax::Expr::Record { .. } => {
+                return self.build(&Record::of(expr)?, wanted, scope, body);
             }
             syntax::Expr::Text(text, _) => Expr::Constant(self.words.symbol(text)),
             syntax::Expr::As { value, type_name, at } => {
                 self.cast(value, type_name, *at, scope, body)?
             }
             syntax::Expr::Call { functor, args, at } => {
-                let is_float = wanted == Some(Kind::Float) && is_whole(expr)
-                    || self.kind_of(expr, scope) == Some(Kind::Float);
+                let is_open = is_whole(expr)
+                    && matches!(wanted, Some(Kind::Float | Kind::Unsigned | Kind::Number));
                 let first = match functor.is_arithmetic() {
-                    true => is_float.then_some(Kind::Float),
+                    true if is_open => wanted,
+                    true => self.kind_of(expr, scope).or(wanted),
                     false => args.first().and_then(|arg| self.kind_of(arg, scope)),
                 };
-                self.call(functor.for_kinds(first), args, *at, scope, body)?
+                self.call(functor.for_kind(first), args, *at, scope, body)?
             }
             syntax::Expr::Aggregate { function, value, body: inner, at } => {
                 let target =
@@ -460,12 +546,20 @@ impl Builder<'_> {
             self.fault(at, RuleError::UnknownType { name, nearest, at: at.into() });
             return None;
         };
-        let (from, to) = (self.kind_of(value, scope), self.declared.types[of].kind.plain());
+        let (from, to) = (self.kind_of(value, scope), self.declared.types[of].kind);
+        let from = if is_whole(value) && to.is_number() { Some(to) } else { from };
         let value = self.expr(value, Some(to), scope, body)?;
         match (from, to) {
             (Some(Kind::Symbol), Kind::Number) => Some(Expr::Call(Functor::Ordinal, vec![value])),
+            (Some(Kind::Number), Kind::Unsigned) => {
+                Some(Expr::Call(Functor::NumberToUnsigned, vec![value]))
+            }
+            (Some(Kind::Unsigned), Kind::Number) => {
+                Some(Expr::Call(Functor::UnsignedToNumber, vec![value]))
+            }
             (Some(from), to) if from != to => {
-                let what = format!("as из {} в {}", kind_name(from), kind_name(to));
+                let (from, to) = (self.declared.kind_text(from), self.declared.kind_text(to));
+                let what = format!("as из {from} в {to}");
                 let help = "есть to_number, to_float и to_string";
                 self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
                 None
@@ -503,27 +597,41 @@ impl Builder<'_> {
         if functor == Functor::Ordinal && self.kind_of(&args[0], scope) == Some(Kind::Number) {
             return values.pop();
         }
-        if functor == Functor::Range {
-            return Some(self.range(values, at, body));
+        if functor.is_range() {
+            return Some(self.range(functor, values, at, body));
+        }
+        if functor == Functor::Counter {
+            return Some(Expr::Call(functor, values));
         }
         let call = Expr::Call(functor, values);
         // What is computed from constants alone is computed here.
-        if call.has_variables() {
+        if call.has_variables() || call.counts_on() {
             return Some(call);
         }
         let word = super::value::compute(&call, &|_| 0, self.words);
+        if let Some(Note::Wide(number)) = self.words.take_note() {
+            self.faults.push(at, RuleError::Wide { number, at: at.into() });
+        }
         Some(word.map_or(call, Expr::Constant))
     }
 
     /// The variable that stands for the range's numbers, one after the other.
-    fn range(&mut self, mut values: Vec<Expr>, at: Span, body: &mut Vec<Literal>) -> Expr {
+    fn range(
+        &mut self,
+        functor: Functor,
+        mut values: Vec<Expr>,
+        at: Span,
+        body: &mut Vec<Literal>,
+    ) -> Expr {
         let target = self.fresh("", at);
-        self.variables[target as usize].kind = Some(Kind::Number);
+        let kind = functor.result();
+        self.variables[target as usize].kind = Some(kind);
         let step = if values.len() > 2 { values.pop() } else { None };
         let (to, from) = (values.pop(), values.pop());
         let (from, to) = from.zip(to).expect("the reader counts the arguments");
-        let bounds = Bounds { from, to, step };
-        body.push(Literal::Range(NumberRange { target, bounds, at }));
+        let unit = if kind == Kind::Float { decimal::ONE } else { 1 };
+        let bounds = Bounds { from, to, step, unit };
+        body.push(Literal::Range(NumberRange { target, kind, bounds, at }));
         Expr::Variable(target)
     }
 
@@ -548,7 +656,7 @@ impl Builder<'_> {
             1 => {
                 let premises = choices.swap_remove(0);
                 self.enter(&premises, &[], value, &mut within);
-                self.find_kinds(&premises, &within);
+                self.find_kinds(&premises, None, &within);
                 self.literals(&premises, &within)
             }
             _ => vec![self.either(&choices, value, at, &mut within)?],
@@ -556,9 +664,10 @@ impl Builder<'_> {
         let mut kind = Kind::Number;
         let value = match value {
             Some(value) => {
-                if self.kind_of(value, &within) == Some(Kind::Float) {
-                    kind = Kind::Float;
-                }
+                kind = self
+                    .kind_of(value, &within)
+                    .filter(|kind| kind.is_number())
+                    .unwrap_or(Kind::Number);
                 self.expect(value, kind, &within);
                 Some(self.expr(value, Some(kind), &within, &mut literals)?)
             }
@@ -623,7 +732,7 @@ impl Builder<'_> {
             let excused = std::mem::take(&mut self.excused);
             let mut scope = Scope::new();
             self.enter(premises, &[], None, &mut scope);
-            self.find_kinds(premises, &scope);
+            self.find_kinds(premises, None, &scope);
             let body = self.literals(premises, &scope);
             let args: Vec<Expr> = names.iter().map(|name| Expr::Variable(scope[name])).collect();
             self.check_bound(&body, &args);
@@ -644,7 +753,7 @@ impl Builder<'_> {
         let columns = names.iter().zip(&kinds).map(|(name, kind)| Column {
             name: name.clone(),
             kind: *kind,
-            type_name: kind_name(*kind).into(),
+            type_name: self.declared.kind_text(*kind),
         });
         self.made.relations[place].0.columns = columns.collect();
         self.made.clauses.extend(clauses);
@@ -664,6 +773,19 @@ impl Builder<'_> {
     }
 }
 
+/// Whether an expression holds no variable and leaves nothing open.
+fn is_closed(expr: &syntax::Expr) -> bool {
+    match expr {
+        syntax::Expr::Record { args, .. } => args.iter().all(is_closed),
+        syntax::Expr::Number(..)
+        | syntax::Expr::Unsigned(..)
+        | syntax::Expr::Decimal(..)
+        | syntax::Expr::Text(..)
+        | syntax::Expr::Nil(_) => true,
+        _ => false,
+    }
+}
+
 /// The names of a premise at its own level.
 fn names_in<'a>(premise: &Premise<'a>, names: &mut Vec<&'a syntax::Name>) {
     match *premise {
@@ -680,7 +802,9 @@ fn names_in<'a>(premise: &Premise<'a>, names: &mut Vec<&'a syntax::Name>) {
 pub(super) fn names_of<'a>(expr: &'a syntax::Expr, names: &mut Vec<&'a syntax::Name>) {
     match expr {
         syntax::Expr::Variable(name) => names.push(name),
-        syntax::Expr::Call { args, .. } => args.iter().for_each(|arg| names_of(arg, names)),
+        syntax::Expr::Call { args, .. } | syntax::Expr::Record { args, .. } => {
+            args.iter().for_each(|arg| names_of(arg, names));
+        }
         syntax::Expr::As { value, .. } => names_of(value, names),
         _ => {}
     }

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::decimal::Decimal;
 use super::program::{Kind, Names, Program, RelationId, RelationInfo};
+use super::record::{self, Making};
 use super::rows::SharedRows;
 use super::stored::{Stored, stored};
 use super::word::{NO_WORD, Value, Word, Words};
@@ -75,7 +76,7 @@ impl Schema {
         &self,
         relation: RelationId,
         tuple: &[Value],
-        mut word: impl FnMut(&Value) -> Word,
+        mut word: impl FnMut(&Value, Kind) -> Word,
     ) -> Result<Vec<Word>, FactError> {
         let info = self.info(relation);
         if tuple.len() != info.columns.len() {
@@ -89,8 +90,10 @@ impl Schema {
         for (value, column) in tuple.iter().zip(&info.columns) {
             let fits = match value {
                 Value::Number(number) => {
-                    column.kind == Kind::Number || column.kind == Kind::Unsigned && *number >= 0
+                    column.kind == Kind::Number
+                        || column.kind == Kind::Unsigned && u32::try_from(*number).is_ok()
                 }
+                Value::Record(_) => matches!(column.kind, Kind::Record(_)),
                 Value::Decimal(_) => column.kind == Kind::Float,
                 Value::Symbol(_) => column.kind == Kind::Symbol,
             };
@@ -103,7 +106,29 @@ impl Schema {
                 });
             }
         }
-        Ok(tuple.iter().map(&mut word).collect())
+        let kinds = info.columns.iter().map(|column| column.kind);
+        Ok(tuple.iter().zip(kinds).map(|(value, kind)| word(value, kind)).collect())
+    }
+}
+
+impl Schema {
+    /// That each text of a record is one of its column's type.
+    fn check_records(
+        &self,
+        relation: RelationId,
+        tuple: &[Value],
+        row: &[Word],
+    ) -> Result<(), FactError> {
+        let info = self.info(relation);
+        match row.iter().position(|word| *word == NO_WORD) {
+            None => Ok(()),
+            Some(n) => Err(FactError::Types {
+                relation: info.name.clone(),
+                column: info.columns[n].name.clone(),
+                expected: info.columns[n].type_name.clone(),
+                found: tuple[n].to_string(),
+            }),
+        }
     }
 }
 
@@ -148,7 +173,10 @@ impl Database {
     ) -> Result<(RelationId, Vec<Word>), FactError> {
         let relation = relation.find(&self.schema)?;
         let words = &mut self.words;
-        let row = self.schema.encode(relation, tuple, |value| words.of(value))?;
+        let row = self
+            .schema
+            .encode(relation, tuple, |value, kind| words.of(value, kind).unwrap_or(NO_WORD))?;
+        self.schema.check_records(relation, tuple, &row)?;
         words.settle();
         Ok((relation, row))
     }
@@ -231,7 +259,9 @@ impl Database {
         tuple: &[Value],
     ) -> Result<(RelationId, Vec<Word>), FactError> {
         let relation = relation.find(&self.schema)?;
-        let row = self.schema.encode(relation, tuple, |value| find_word(&self.words, value))?;
+        let row = self
+            .schema
+            .encode(relation, tuple, |value, kind| find_word(&self.words, value, kind))?;
         Ok((relation, row))
     }
 
@@ -268,15 +298,22 @@ impl Loader<'_> {
         Known { word: self.database.words.symbol(text), kind: Kind::Symbol }
     }
 
+    /// A record from its text; none where the text is not of the column's type.
+    pub fn record(&mut self, text: &str, kind: Kind) -> Option<Known> {
+        let word = record::read(text, kind, &mut Making(&mut self.database.words))?;
+        Some(Known { word, kind })
+    }
+
     /// # Errors
     /// [`FactError`] when the tuple does not fit the relation.
     pub fn push(&mut self, relation: RelationId, tuple: &[Known]) -> Result<(), FactError> {
         let info = self.database.schema.info(relation);
         let fits = tuple.len() == info.columns.len()
             && tuple.iter().zip(&info.columns).all(|(value, column)| {
-                value.kind == column.kind.plain()
-                    && (column.kind != Kind::Unsigned
-                        || self.database.words.to_number(value.word) >= 0)
+                value.kind == column.kind
+                    || value.kind == Kind::Number
+                        && column.kind == Kind::Unsigned
+                        && u32::try_from(self.database.words.to_number(value.word)).is_ok()
             });
         if !fits {
             let words = &self.database.words;
@@ -305,11 +342,6 @@ impl Loader<'_> {
 }
 
 /// The word of a value, [`NO_WORD`] when the table has never seen it.
-pub(super) fn find_word(words: &Words, value: &Value) -> Word {
-    let found = match value {
-        Value::Number(number) => words.find_number(*number),
-        Value::Decimal(decimal) => words.find_number(decimal.millionths()),
-        Value::Symbol(text) => words.find_symbol(text),
-    };
-    found.unwrap_or(NO_WORD)
+pub(super) fn find_word(words: &Words, value: &Value, kind: Kind) -> Word {
+    words.find(value, kind).unwrap_or(NO_WORD)
 }

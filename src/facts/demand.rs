@@ -240,7 +240,9 @@ impl<'a> Demand<'a> {
         by.rows(&known, &mut |values| {
             debug_assert_eq!(values.len(), info.columns.len(), "{}", info.name);
             row.clear();
-            row.extend(values.iter().map(|value| words.of(value)));
+            let kinds = info.columns.iter().map(|column| column.kind);
+            let words_of = values.iter().zip(kinds);
+            row.extend(words_of.map(|(value, kind)| words.of(value, kind).unwrap_or(NO_WORD)));
             // What a computation gives besides what it was asked is no answer.
             let fits = columns_of(mask).zip(key).all(|(column, word)| row[column] == *word);
             if fits && row.len() == info.columns.len() {

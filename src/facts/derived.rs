@@ -3,11 +3,13 @@
 use std::fmt;
 
 use super::database::{FactError, RelationKey, Schema, find_word};
+use super::fault::{FileFaults, RuleError};
 use super::kept::Kept;
 use super::program::{Kind, Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::stored::{Starting, Stored};
-use super::word::{Value, Word, Words};
+use super::syntax::Span;
+use super::word::{Note, Value, Word, Words};
 
 /// All relations of a program after evaluation, input facts included.
 #[derive(Clone)]
@@ -17,6 +19,8 @@ pub struct Derived {
     pub(super) kept: Kept,
     /// What was told rather than derived, facts of the text and the database; none where everything was told.
     pub(super) given: Vec<Option<Box<dyn Stored>>>,
+    /// Where numbers came out otherwise than Soufflé's would.
+    pub(super) notes: Vec<(Span, Note)>,
 }
 
 impl fmt::Debug for Derived {
@@ -39,7 +43,29 @@ impl Derived {
         let given = given.into_iter().zip(is_derived);
         let given = given.map(|(given, is_derived)| is_derived.then(|| given.stored())).collect();
         let schema = Schema::of(program);
-        Self { program: program.clone(), schema, kept: Kept::new(words, rows, &columns), given }
+        Self {
+            program: program.clone(),
+            schema,
+            kept: Kept::new(words, rows, &columns),
+            given,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Warnings about rules in which a number came out otherwise than with Soufflé: beyond 32 bits, or rounded to
+    /// millionths. At most one for each rule.
+    #[must_use]
+    pub fn notes(&self) -> Vec<FileFaults> {
+        let fault = |(at, note): &(Span, Note)| {
+            let fault = match *note {
+                Note::Wide(number) => RuleError::Wide { number, at: (*at).into() },
+                Note::Rounded(number) => {
+                    RuleError::Rounded { number: number.to_string(), at: (*at).into() }
+                }
+            };
+            (at.file, fault)
+        };
+        super::program::by_file(&self.program.sources, self.notes.iter().map(fault).collect())
     }
 
     /// Whether a tuple was told, by the text or the database.
@@ -87,7 +113,12 @@ impl Derived {
             let (relation, expected) = (info.name.clone(), info.columns.len());
             return Err(FactError::Arity { relation, expected, found: first.len() });
         }
-        let key: Vec<Word> = first.iter().map(|value| find_word(&self.kept.words, value)).collect();
+        let kinds = info.columns.iter().map(|column| column.kind);
+        let key: Vec<Word> = first
+            .iter()
+            .zip(kinds)
+            .map(|(value, kind)| find_word(&self.kept.words, value, kind))
+            .collect();
         Ok(Tuples { derived: self, id, rest: self.kept.rows(id).starting(&key) })
     }
 
@@ -110,6 +141,11 @@ impl Derived {
     ) -> Result<(), E> {
         let rows = self.kept.rows(relation).rows();
         let columns = &self.schema.info(relation).columns;
+        if columns.iter().any(|column| matches!(column.kind, Kind::Record(_))) {
+            let mut order: Vec<usize> = (0..rows.len()).collect();
+            order.sort_by_cached_key(|at| self.tuple(relation, rows.row(*at)).values());
+            return order.into_iter().try_for_each(|at| visit(self.tuple(relation, rows.row(at))));
+        }
         let has_symbols = columns.iter().any(|column| !column.kind.is_number());
         let in_place = |word: &Word| super::word::is_in_place(*word);
         if !has_symbols && (0..rows.len()).all(|at| rows.row(at).iter().all(in_place)) {
@@ -133,7 +169,9 @@ impl Derived {
     /// [`FactError`] when the relation is unknown or the tuple does not fit it.
     pub fn contains(&self, relation: impl RelationKey, tuple: &[Value]) -> Result<bool, FactError> {
         let id = relation.find(&self.schema)?;
-        let row = self.schema.encode(id, tuple, |value| find_word(&self.kept.words, value))?;
+        let row = self
+            .schema
+            .encode(id, tuple, |value, kind| find_word(&self.kept.words, value, kind))?;
         Ok(!row.contains(&super::word::NO_WORD) && self.kept.rows(id).find(&row).is_some())
     }
 
@@ -185,15 +223,16 @@ impl<'a> Tuple<'a> {
     /// The number in a column; none when the column holds symbols or is not there.
     #[must_use]
     pub fn number(&self, column: usize) -> Option<i64> {
-        let holds_number = self.info.columns.get(column)?.kind.plain() == Kind::Number;
+        let holds_number =
+            matches!(self.info.columns.get(column)?.kind, Kind::Number | Kind::Unsigned);
         holds_number.then(|| self.words.to_number(self.row[column]))
     }
 
     /// The symbol in a column; none when the column holds numbers or is not there.
     #[must_use]
     pub fn symbol(&self, column: usize) -> Option<&'a str> {
-        let holds_number = self.info.columns.get(column)?.kind.is_number();
-        (!holds_number).then(|| self.words.text(self.row[column]).as_ref())
+        let holds_symbol = self.info.columns.get(column)?.kind == Kind::Symbol;
+        holds_symbol.then(|| self.words.text(self.row[column]).as_ref())
     }
 
     /// Appends the text of the value in a column.
@@ -202,10 +241,8 @@ impl<'a> Tuple<'a> {
         let (word, kind) = (self.row[column], self.info.columns[column].kind);
         match kind {
             Kind::Symbol => text.push_str(self.words.text(word)),
-            Kind::Number | Kind::Unsigned => {
-                let _ = write!(text, "{}", self.words.to_number(word));
-            }
-            Kind::Float => {
+            Kind::Record(_) => super::record::write(self.words, word, kind, true, text),
+            _ => {
                 let _ = write!(text, "{}", self.words.value(word, kind));
             }
         }

@@ -20,9 +20,11 @@ use super::head::{Head, head_variables};
 use super::limits::{Limits, Reached, Watch};
 use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
-use super::rows::{Growing, RowSet, SharedRows, Sink, growing, heap};
+use super::rows::{self, Growing, RowSet, SharedRows, Sink, heap};
 use super::run::Step;
-use super::word::Word;
+use super::subsume::{Choosing, Chosen, Dominated, Pruned};
+use super::syntax::Span;
+use super::word::{Note, Word};
 
 /// Why a program has no result.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
@@ -77,7 +79,7 @@ impl Program {
         database: &Database,
         limits: Limits,
     ) -> Result<Derived, EvaluateError> {
-        let mut evaluation = Evaluation::new(self, database, limits);
+        let mut evaluation = Evaluation::new(self, database, limits.within(self.limits));
         let last_readers = self.last_readers();
         for (n, stratum) in self.strata.iter().enumerate() {
             evaluation.stratum(stratum)?;
@@ -126,7 +128,12 @@ pub(super) struct Evaluation<'a> {
     pub(super) finished: Finished<'a>,
     /// Facts of the text and the database, by relation.
     given: Vec<SharedRows>,
+    /// Where numbers came out otherwise than Soufflé's would, the first for each rule.
+    notes: Vec<(Span, Note)>,
 }
+
+/// For relations with choice domains the combinations that have their tuple.
+type Choices = HashMap<RelationId, Chosen>;
 
 impl<'a> Evaluation<'a> {
     fn new(program: &'a Program, database: &Database, limits: Limits) -> Self {
@@ -144,7 +151,7 @@ impl<'a> Evaluation<'a> {
         let given = given(program, database, relations);
         let watch = Rc::new(Watch::new(limits));
         let finished = Finished::new(database.words.share(), vec![None; given.len()], watch);
-        Self { program, finished, given }
+        Self { program, finished, given, notes: Vec::new() }
     }
 
     /// To evaluate strata over what is finished.
@@ -153,7 +160,7 @@ impl<'a> Evaluation<'a> {
         finished: Finished<'a>,
         given: Vec<SharedRows>,
     ) -> Self {
-        Self { program, finished, given }
+        Self { program, finished, given, notes: Vec::new() }
     }
 
     fn derived(self) -> Derived {
@@ -161,7 +168,9 @@ impl<'a> Evaluation<'a> {
         let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
         let mut words = self.finished.words;
         words.settle();
-        Derived::new(self.program, words, rows, self.given)
+        let mut derived = Derived::new(self.program, words, rows, self.given);
+        derived.notes = self.notes;
+        derived
     }
 
     fn limit(&self, relation: RelationId) -> usize {
@@ -185,29 +194,41 @@ impl<'a> Evaluation<'a> {
         let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &*program.clauses[*n]).collect();
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
         let is_recursive = clauses.iter().any(|clause| own_atoms(clause, &is_own).next().is_some());
-        if is_recursive { self.fixpoint(stratum, &clauses) } else { self.once(stratum, &clauses) }
+        if is_recursive || !stratum.subsumptions.is_empty() {
+            self.fixpoint(stratum, &clauses)
+        } else {
+            self.once(stratum, &clauses)
+        }
     }
 
     /// A stratum without recursion is one relation, and one run of each of its clauses.
     fn once(&mut self, stratum: &Stratum, clauses: &[&Clause]) -> Result<(), EvaluateError> {
         for relation in &stratum.relations {
             let given = &self.given[relation.index()];
-            let rows = if clauses.is_empty() {
+            let mut chosen = self.chosen(*relation);
+            let rows = if clauses.is_empty() && chosen.is_none() {
                 SharedRows::clone(given)
             } else {
                 let mut new = heap(self.program.info(*relation).columns.len());
-                (0..given.len()).for_each(|at| new.push(given.row(at)));
+                let columns = self.program.info(*relation).columns.len();
+                for at in 0..given.len() {
+                    choosing(new.as_sink(), chosen.as_mut())
+                        .as_sink()
+                        .push(&given.row(at)[..columns]);
+                }
                 for clause in clauses {
                     self.finished.watch.hold(self.finished.bytes());
                     let limit = self.limit(*relation);
                     let versions = vec![Version::Finished; clause.body.len()];
                     let mut plan = self.plan(clause, &versions, None);
-                    if let Some((read, columns)) = self.projection(clause, &plan) {
+                    if let (Some((read, columns)), None) = (self.projection(clause, &plan), &chosen)
+                    {
                         new.project(self.finished.relation(read), &columns);
                         continue;
                     }
                     self.finished.provide(&mut plan);
-                    self.emit(clause, &plan, &no_parts(&plan), limit, new.as_sink());
+                    let mut sink = choosing(new.as_sink(), chosen.as_mut());
+                    self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
                     self.check_limits(clause)?;
                 }
                 self.check_size(*relation, new.len())?;
@@ -221,16 +242,25 @@ impl<'a> Evaluation<'a> {
     fn fixpoint(&mut self, stratum: &Stratum, clauses: &[&Clause]) -> Result<(), EvaluateError> {
         let program = self.program;
         let (mut iteration, mut orders) = (Iteration::new(), Iteration::new());
+        let is_pruned = !stratum.subsumptions.is_empty();
+        let mut choices = Choices::new();
         let mut growing: HashMap<RelationId, Box<dyn Growing>> = HashMap::new();
         for relation in &stratum.relations {
             let info = program.info(*relation);
-            let variable = growing_from(
-                &mut iteration,
-                &info.name,
-                info.columns.len(),
-                &self.given[relation.index()],
-            );
-            growing.insert(*relation, variable);
+            let columns = info.columns.len();
+            let rows: Box<dyn Growing> = match is_pruned {
+                true => Box::new(Pruned::new(columns)),
+                false => rows::growing(&mut iteration, &info.name, columns),
+            };
+            let given = &self.given[relation.index()];
+            let mut chosen = self.chosen(*relation);
+            for at in 0..given.len() {
+                let mut sink = rows.sink();
+                let row = &given.row(at)[..columns];
+                choosing(&mut *sink, chosen.as_mut()).as_sink().push(row);
+            }
+            choices.extend(chosen.map(|chosen| (*relation, chosen)));
+            growing.insert(*relation, rows);
         }
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
         let mut rounds: Vec<(&Clause, Plan)> = Vec::new();
@@ -241,33 +271,23 @@ impl<'a> Evaluation<'a> {
                 let mut plan = self.plan(clause, &versions, None);
                 self.finished.provide(&mut plan);
                 let limit = self.limit(clause.head);
-                self.emit(
-                    clause,
-                    &plan,
-                    &no_parts(&plan),
-                    limit,
-                    &mut *growing[&clause.head].sink(),
-                );
+                let mut sink = growing[&clause.head].sink();
+                let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
+                self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
+                drop(sink);
                 self.check_limits(clause)?;
             }
-            for recent in &own {
-                let mut versions = vec![Version::Finished; clause.body.len()];
-                for n in &own {
-                    versions[*n] = match n.cmp(recent) {
-                        std::cmp::Ordering::Less => Version::Stable,
-                        std::cmp::Ordering::Equal => Version::Recent,
-                        std::cmp::Ordering::Greater => Version::All,
-                    };
-                }
-                let mut plan = self.plan(clause, &versions, Some(*recent));
-                self.finished.provide(&mut plan);
-                rounds.push((clause, plan));
-            }
+            self.rounds(clause, &own, &mut rounds);
+        }
+        let mut pruning: Vec<(&Clause, Plan)> = Vec::new();
+        for n in &stratum.subsumptions {
+            let clause = &program.subsumptions[*n].clause;
+            let own: Vec<usize> = own_atoms(clause, &is_own).collect();
+            self.rounds(clause, &own, &mut pruning);
         }
         // The number of the order that each growing source is read in.
-        let orders_of: Vec<Vec<usize>> = rounds
-            .iter()
-            .map(|(_, plan)| {
+        let mut orders_of = |rounds: &[(&Clause, Plan)]| -> Vec<Vec<usize>> {
+            let mut of_plan = |plan: &Plan| {
                 let order = |request: &Request| match request {
                     Request::Growing { relation, first, version } => {
                         let rows = growing.get_mut(relation);
@@ -276,12 +296,19 @@ impl<'a> Evaluation<'a> {
                     _ => 0,
                 };
                 plan.requests.iter().map(order).collect()
-            })
-            .collect();
+            };
+            rounds.iter().map(|(_, plan)| of_plan(plan)).collect()
+        };
+        let (pruning_orders, orders_of) = (orders_of(&pruning), orders_of(&rounds));
         let finished = self.finished.bytes();
         loop {
             growing.values_mut().for_each(|rows| rows.flush());
-            if !iteration.changed() {
+            if is_pruned {
+                self.prune(stratum, &pruning, &pruning_orders, &mut growing)?;
+                if !growing.values().any(|rows| rows.has_recent()) {
+                    break;
+                }
+            } else if !iteration.changed() {
                 break;
             }
             growing.values_mut().for_each(|rows| rows.follow());
@@ -294,7 +321,10 @@ impl<'a> Evaluation<'a> {
                 let held = if is_limited { growing[&clause.head].len() } else { 0 };
                 let room = limit.saturating_sub(held);
                 let parts = parts(plan, orders, &growing);
-                self.emit(clause, plan, &parts, room, &mut *growing[&clause.head].sink());
+                let mut sink = growing[&clause.head].sink();
+                let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
+                self.emit(clause, plan, &parts, room, sink.as_sink());
+                drop(sink);
                 self.check_limits(clause)?;
             }
             for (relation, rows) in &growing {
@@ -303,6 +333,58 @@ impl<'a> Evaluation<'a> {
         }
         for (relation, rows) in growing {
             self.finished.rows[relation.index()] = Some(rows.complete());
+        }
+        Ok(())
+    }
+
+    fn chosen(&self, relation: RelationId) -> Option<Chosen> {
+        let info = self.program.info(relation);
+        (!info.choices.is_empty()).then(|| Chosen::of(info))
+    }
+
+    /// A plan for each atom of the stratum itself: that one over the rows of the last round.
+    fn rounds<'c>(
+        &mut self,
+        clause: &'c Clause,
+        own: &[usize],
+        rounds: &mut Vec<(&'c Clause, Plan)>,
+    ) {
+        for recent in own {
+            let mut versions = vec![Version::Finished; clause.body.len()];
+            for n in own {
+                versions[*n] = match n.cmp(recent) {
+                    std::cmp::Ordering::Less => Version::Stable,
+                    std::cmp::Ordering::Equal => Version::Recent,
+                    std::cmp::Ordering::Greater => Version::All,
+                };
+            }
+            let mut plan = self.plan(clause, &versions, Some(*recent));
+            self.finished.provide(&mut plan);
+            rounds.push((clause, plan));
+        }
+    }
+
+    /// Takes out of the relations what is subsumed, of which one tuple at least is of the last round.
+    fn prune(
+        &mut self,
+        stratum: &Stratum,
+        pruning: &[(&Clause, Plan)],
+        orders: &[Vec<usize>],
+        growing: &mut HashMap<RelationId, Box<dyn Growing>>,
+    ) -> Result<(), EvaluateError> {
+        let mut gone: HashMap<RelationId, Dominated> = HashMap::new();
+        for ((clause, plan), orders) in pruning.iter().zip(orders) {
+            let of = stratum.subsumptions.iter().map(|n| &self.program.subsumptions[*n]);
+            let relation = of.clone().find(|of| std::ptr::eq(&of.clause, *clause));
+            let Some(relation) = relation.map(|of| of.relation) else { continue };
+            let parts = parts(plan, orders, growing);
+            self.emit(clause, plan, &parts, MAX_ROWS, gone.entry(relation).or_default());
+            self.check_limits(clause)?;
+        }
+        for (relation, gone) in gone {
+            if let Some(rows) = growing.get_mut(&relation) {
+                rows.prune(&gone.rows);
+            }
         }
         Ok(())
     }
@@ -349,6 +431,35 @@ impl<'a> Evaluation<'a> {
         let mut head = Head::new(self.program, clause, limit, sink, &watch);
         let mut registers = vec![0; clause.variables.len()];
         self.finished.run(plan, parts, &mut registers, &mut head);
+        if let Some(note) = self.finished.words.take_note() {
+            const MAX_NOTES: usize = 32;
+            let is_known = self.notes.iter().any(|(at, _)| *at == clause.at);
+            if !is_known && self.notes.len() < MAX_NOTES {
+                self.notes.push((clause.at, note));
+            }
+        }
+    }
+}
+
+/// A sink, through the choice of a relation that has one.
+enum MaybeChoosing<'a> {
+    Plain(&'a mut dyn Sink),
+    Choosing(Choosing<'a>),
+}
+
+impl MaybeChoosing<'_> {
+    fn as_sink(&mut self) -> &mut dyn Sink {
+        match self {
+            MaybeChoosing::Plain(sink) => &mut **sink,
+            MaybeChoosing::Choosing(sink) => sink,
+        }
+    }
+}
+
+fn choosing<'a>(sink: &'a mut dyn Sink, chosen: Option<&'a mut Chosen>) -> MaybeChoosing<'a> {
+    match chosen {
+        None => MaybeChoosing::Plain(sink),
+        Some(taken) => MaybeChoosing::Choosing(Choosing { taken, sink }),
     }
 }
 
@@ -372,19 +483,6 @@ pub(super) fn given(program: &Program, database: &Database, of: &[RelationId]) -
         all.sort()
     });
     rows.collect()
-}
-
-fn growing_from(
-    iteration: &mut Iteration,
-    name: &str,
-    columns: usize,
-    given: &SharedRows,
-) -> Box<dyn Growing> {
-    let rows = growing(iteration, name, columns);
-    let mut sink = rows.sink();
-    (0..given.len()).for_each(|at| sink.push(given.row(at)));
-    drop(sink);
-    rows
 }
 
 /// Positions of the atoms over relations of the stratum itself.

@@ -2,12 +2,13 @@
 
 use nom::Parser;
 use nom::branch::alt;
+use nom::combinator::opt;
 use nom::sequence::{delimited, separated_pair};
 
 use super::fault::RuleError;
 use super::lex::{Token, Word};
 use super::parse::{atom, disjunction};
-use super::read::{Input, Read, decimal, list, name, number, sign, text};
+use super::read::{Input, Read, decimal, list, long_name, name, number, sign, text, unsigned};
 use super::syntax::{Aggregation, Body, Expr, Functor, Span};
 
 /// Longer chains of operators are refused: their trees are walked by recursion.
@@ -32,7 +33,9 @@ pub(super) fn expression(input: Input<'_>) -> Read<'_, Expr> {
 /// Levels of an expression; bounded, since what it is made of was measured before.
 fn depth(expr: &Expr) -> usize {
     match expr {
-        Expr::Call { args, .. } => 1 + args.iter().map(depth).max().unwrap_or(0),
+        Expr::Call { args, .. } | Expr::Record { args, .. } => {
+            1 + args.iter().map(depth).max().unwrap_or(0)
+        }
         _ => 1,
     }
 }
@@ -164,7 +167,14 @@ fn power(input: Input<'_>) -> Read<'_, Expr> {
     let (mut input, prefixes) = prefixes(input)?;
     let mut operands = Vec::new();
     loop {
-        let (rest, operand) = primary(input)?;
+        // a ^ -b
+        let (rest, operand) = match (operands.is_empty(), input.rest) {
+            (false, [Token { word: Word::Sign("-"), at }, rest @ ..]) => {
+                let (rest, value) = primary(Input { rest, ..input })?;
+                (rest, negated(value, *at))
+            }
+            _ => primary(input)?,
+        };
         operands.push(operand);
         if operands.len() > MAX_CHAIN {
             let at = input.at().into();
@@ -187,13 +197,22 @@ fn power(input: Input<'_>) -> Read<'_, Expr> {
     }
     for (functor, start) in prefixes.into_iter().rev() {
         let at = start.to(value.at());
-        value = match (functor, value) {
-            (Functor::Negate, Expr::Number(number, _)) => Expr::Number(number.wrapping_neg(), at),
-            (Functor::Negate, Expr::Decimal(number, _)) => Expr::Decimal(-number, at),
-            (_, value) => Expr::Call { functor, args: vec![value], at },
+        value = match functor {
+            Functor::Negate => negated(value, start),
+            _ => Expr::Call { functor, args: vec![value], at },
         };
     }
     Ok((input, value))
+}
+
+/// The value with a minus before it; `-5u` is computed, so that it goes round as Soufflé's does.
+fn negated(value: Expr, minus: Span) -> Expr {
+    let at = minus.to(value.at());
+    match value {
+        Expr::Number(number, _) => Expr::Number(number.wrapping_neg(), at),
+        Expr::Decimal(number, _) => Expr::Decimal(-number, at),
+        value => Expr::Call { functor: Functor::Negate, args: vec![value], at },
+    }
 }
 
 fn primary(input: Input<'_>) -> Read<'_, Expr> {
@@ -203,6 +222,8 @@ fn primary(input: Input<'_>) -> Read<'_, Expr> {
     // By the first word, so that brackets within brackets take little of the stack.
     match input.rest.first().map(|token| &token.word) {
         Some(Word::Sign("(")) => brackets(input),
+        Some(Word::Sign("[")) => record(input),
+        Some(Word::Sign("$")) => branch(input),
         Some(Word::Name(name)) if aggregation(name).is_some() => match aggregate(input) {
             Err(nom::Err::Error(_)) => alt((call, variable)).parse(input),
             read => read,
@@ -211,6 +232,7 @@ fn primary(input: Input<'_>) -> Read<'_, Expr> {
         _ => alt((
             variable,
             number.map(|(value, at)| Expr::Number(value, at)),
+            unsigned.map(|(value, at)| Expr::Unsigned(value, at)),
             decimal.map(|(value, at)| Expr::Decimal(value, at)),
             text,
             brackets,
@@ -226,17 +248,42 @@ fn brackets(input: Input<'_>) -> Read<'_, Expr> {
     Ok((input, value))
 }
 
+// [X, Y]   []
+fn record(input: Input<'_>) -> Read<'_, Expr> {
+    let at = input.at();
+    let (rest, _) = sign("[")(input)?;
+    let (rest, args) = opt(list(expression, sign(","))).parse(rest)?;
+    let at = at.to(rest.at());
+    let (rest, _) = sign("]")(rest)?;
+    Ok((rest, Expr::Record { branch: None, args: args.unwrap_or_default(), at }))
+}
+
+// $Node(L, R)   $Leaf   and $ alone, the counter's old name
+fn branch(input: Input<'_>) -> Read<'_, Expr> {
+    let start = input.at();
+    let (rest, _) = sign("$")(input)?;
+    let Ok((rest, name)) = long_name(rest) else {
+        return Ok((rest, Expr::Call { functor: Functor::Counter, args: Vec::new(), at: start }));
+    };
+    let at = start.to(name.at);
+    let branch = Some(Box::new(name));
+    let Ok((rest, _)) = sign("(")(rest) else {
+        return Ok((rest, Expr::Record { branch, args: Vec::new(), at }));
+    };
+    let (rest, args) = opt(list(expression, sign(","))).parse(rest)?;
+    let at = at.to(rest.at());
+    let (rest, _) = sign(")")(rest)?;
+    Ok((rest, Expr::Record { branch, args: args.unwrap_or_default(), at }))
+}
+
 /// The parts of Soufflé's expressions that are not known here.
 fn foreign(input: Input<'_>) -> Option<RuleError> {
     let token = input.rest.first()?;
-    let behind = input.rest.get(1).map(|token| &token.word);
     let (what, help) = match &token.word {
-        Word::Sign("[") => ("запись [ … ]", "разложите запись на столбцы отношения"),
-        Word::Sign("@") => ("функция из .functor", "посчитайте её заранее и дайте таблицей фактов"),
-        Word::Sign("$") => ("«$»: значение типа из вариантов или счётчик", "дайте номера фактами"),
-        Word::Name(name) if name == "nil" && behind != Some(&Word::Sign("(")) => {
-            ("пустая запись nil", "разложите запись на столбцы отношения")
-        }
+        Word::Sign("@") => (
+            "функция из .functor",
+            "чужой код здесь не выполняется: посчитайте её заранее и дайте таблицей фактов",
+        ),
         _ => return None,
     };
     Some(RuleError::Unsupported { what: what.into(), help, at: token.at.into() })
@@ -248,7 +295,7 @@ fn cast(input: Input<'_>) -> Read<'_, Expr> {
     if word.text != "as" {
         return input.fail("значение");
     }
-    let both = separated_pair(expression, sign(","), name);
+    let both = separated_pair(expression, sign(","), long_name);
     let (rest, (value, type_name)) = delimited(sign("("), both, sign(")")).parse(rest)?;
     let at = word.at.to(type_name.at);
     Ok((rest, Expr::As { value: Box::new(value), type_name: Box::new(type_name), at }))
@@ -259,10 +306,11 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
     match rest.rest.first() {
         Some(Token { word: Word::Sign("("), at }) => {
             let what = format!("функция «{}»", name.text);
-            let help = "есть арифметика, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
+            let help = "есть арифметика, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
             rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
         }
         _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
+        _ if name.text == "nil" => Ok((rest, Expr::Nil(name.at))),
         _ => Ok((rest, Expr::Variable(name))),
     }
 }
@@ -271,7 +319,9 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
 fn call(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     let Some(functor) = functor(&name.text) else { return input.fail("значение") };
-    let (rest, args) = delimited(sign("("), list(expression, sign(",")), sign(")")).parse(rest)?;
+    let (rest, args) =
+        delimited(sign("("), opt(list(expression, sign(","))), sign(")")).parse(rest)?;
+    let args = args.unwrap_or_default();
     let at = name.at.to(args.last().map_or(name.at, Expr::at));
     let wanted = functor.takes().len();
     let folds = matches!(functor, Functor::Concatenate | Functor::Smaller | Functor::Larger);

@@ -88,6 +88,75 @@ pub enum RuleError {
         #[label("здесь")]
         at: SourceSpan,
     },
+    /// A component that no `.comp` introduces.
+    #[error("неизвестный компонент «{name}»")]
+    #[diagnostic(code(facts::unknown_component), help("{}", did_you_mean(nearest.as_deref(), "опишите его: .comp")))]
+    UnknownComponent {
+        name: String,
+        nearest: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A branch or a record of no known type.
+    #[error("у записи здесь нет известного типа: {what}")]
+    #[diagnostic(
+        code(facts::record),
+        help("тип даёт столбец отношения, имя варианта ($Имя) или as([…], Тип)")
+    )]
+    Record {
+        what: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// What is read and has no effect here.
+    #[error("{what}: подсказка здесь ни на что не влияет")]
+    #[diagnostic(code(facts::hint), severity(Warning), help("итог программы от неё не зависит"))]
+    Hint {
+        what: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A number of the text that Soufflé would take for another.
+    #[error("число {number} не помещается в 32 бита: Soufflé посчитает с ним иначе")]
+    #[diagnostic(
+        code(facts::wide),
+        severity(Warning),
+        help("здесь числа 64-битные и не переполняются молча")
+    )]
+    Wide {
+        number: i64,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A number that Soufflé would compute as a binary fraction.
+    #[error("число {number} округлено до шести знаков: двоичная дробь Soufflé чуть другая")]
+    #[diagnostic(
+        code(facts::rounded),
+        severity(Warning),
+        help("float здесь – точная десятичная дробь в миллионных долях")
+    )]
+    Rounded {
+        number: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A regular expression that matches nothing because it is none.
+    #[error("«{pattern}» – не регулярное выражение: ничто ему не отвечает")]
+    #[diagnostic(code(facts::pattern), severity(Warning), help("{why}"))]
+    Pattern {
+        pattern: String,
+        why: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A number that no unsigned one is.
+    #[error("число «{text}» не помещается в 32 бита без знака")]
+    #[diagnostic(code(facts::unsigned), help("unsigned – от 0 до 4294967295"))]
+    Unsigned {
+        text: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     /// A relation or functor with a wrong number of arguments.
     #[error("у «{name}» аргументов {expected}, а дано {found}")]
     #[diagnostic(code(facts::arity), help("сверьтесь с объявлением «{name}»"))]
@@ -198,6 +267,13 @@ impl RuleError {
             | Self::Duplicate { at, .. }
             | Self::UnknownRelation { at, .. }
             | Self::UnknownType { at, .. }
+            | Self::UnknownComponent { at, .. }
+            | Self::Record { at, .. }
+            | Self::Unsigned { at, .. }
+            | Self::Hint { at, .. }
+            | Self::Wide { at, .. }
+            | Self::Rounded { at, .. }
+            | Self::Pattern { at, .. }
             | Self::Arity { at, .. }
             | Self::Types { at, .. }
             | Self::Ungrounded { at, .. }
@@ -348,7 +424,7 @@ a(№). a(4",
             &expect![[r#"
                 2:6 facts::syntax здесь ожидается «,» или «:-» или «.», а стоит «a»
                 3:19 facts::syntax здесь ожидается имя или число или текст в кавычках или «(», а стоит «.»
-                5:1 facts::unsupported не поддерживается: .comp
+                6:1 facts::syntax здесь ожидается «:» или «{», а стоит «a»
                 6:3 facts::number число «99999999999999999999» не помещается в 64 бита
                 6:28 facts::types «1.5»: нужен тип number, а здесь float
                 6:36 facts::unclosed текст в кавычках не закрыт

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use super::ask::AskError;
 use super::database::{Database, FactError, Known, Loader};
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
@@ -47,6 +48,19 @@ pub enum FilesError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Evaluate(#[from] EvaluateError),
+    /// What comes of `.pragma "magic-transform"`.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Ask(AskError),
+}
+
+impl From<AskError> for FilesError {
+    fn from(error: AskError) -> Self {
+        match error {
+            AskError::Evaluate(error) => Self::Evaluate(error),
+            other => Self::Ask(other),
+        }
+    }
 }
 
 /// What a run over files did.
@@ -87,9 +101,20 @@ pub fn run_files(
             read(&mut database, relation, info, parameters, facts_dir)?;
         }
     }
-    let derived = program.evaluate_within(&database, limits)?;
-    let mut report =
-        FilesReport { warnings: program.warnings().to_vec(), ..FilesReport::default() };
+    let derived = if program.asks_for_demand() {
+        let is_shown = |info: &RelationInfo| info.print_size || !info.outputs.is_empty();
+        let shown: Vec<RelationId> = program
+            .relations()
+            .filter(|(_, info)| is_shown(info))
+            .map(|(relation, _)| relation)
+            .collect();
+        program.evaluate_on_demand(&database, &shown, limits)?
+    } else {
+        program.evaluate_within(&database, limits)?
+    };
+    let mut warnings = program.warnings().to_vec();
+    warnings.extend(derived.notes());
+    let mut report = FilesReport { warnings, ..FilesReport::default() };
     for (relation, info) in program.relations() {
         if info.print_size {
             let size = derived.len(relation).expect("the relation is the program's own");
@@ -318,6 +343,7 @@ fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known 
             number.ok().map(|number| loader.number(number))
         }
         Some(Kind::Float) => text.trim().parse().ok().map(|decimal| loader.decimal(decimal)),
+        Some(kind @ Kind::Record(_)) => loader.record(text, kind),
         _ => None,
     };
     value.unwrap_or_else(|| loader.symbol(text))

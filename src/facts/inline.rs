@@ -213,14 +213,14 @@ impl Unfolding<'_> {
 }
 
 /// A body with other names: the head's variables are the arguments, all others the copy's own.
-struct Copy {
-    values: HashMap<String, Expr>,
-    number: usize,
-    has_own: bool,
+pub(super) struct Copy {
+    pub(super) values: HashMap<String, Expr>,
+    pub(super) number: usize,
+    pub(super) has_own: bool,
 }
 
 impl Copy {
-    fn body(&mut self, body: &Body) -> Body {
+    pub(super) fn body(&mut self, body: &Body) -> Body {
         match body {
             Body::All(parts) => Body::All(parts.iter().map(|part| self.body(part)).collect()),
             Body::Any(parts) => Body::Any(parts.iter().map(|part| self.body(part)).collect()),
@@ -235,7 +235,7 @@ impl Copy {
         }
     }
 
-    fn expr(&mut self, expr: &Expr) -> Expr {
+    pub(super) fn expr(&mut self, expr: &Expr) -> Expr {
         map_expr(expr, &mut |inner| match inner {
             Expr::Variable(name) => {
                 let value = self.values.get(&name.text).cloned();
@@ -258,7 +258,7 @@ impl Copy {
 }
 
 /// The expression with each part that `f` replaces replaced, from the outside in.
-fn map_expr(expr: &Expr, f: &mut dyn FnMut(&Expr) -> Option<Expr>) -> Expr {
+pub(super) fn map_expr(expr: &Expr, f: &mut dyn FnMut(&Expr) -> Option<Expr>) -> Expr {
     if let Some(other) = f(expr) {
         return other;
     }
@@ -266,6 +266,10 @@ fn map_expr(expr: &Expr, f: &mut dyn FnMut(&Expr) -> Option<Expr>) -> Expr {
         Expr::Call { functor, args, at } => {
             let args = args.iter().map(|arg| map_expr(arg, f)).collect();
             Expr::Call { functor: *functor, args, at: *at }
+        }
+        Expr::Record { branch, args, at } => {
+            let args = args.iter().map(|arg| map_expr(arg, f)).collect();
+            Expr::Record { branch: branch.clone(), args, at: *at }
         }
         Expr::As { value, type_name, at } => {
             Expr::As { value: Box::new(map_expr(value, f)), type_name: type_name.clone(), at: *at }

@@ -1,7 +1,8 @@
 //! What the values of a rule are computed as: found from columns and comparisons, checked where they are used.
 
-use super::check::kind_name;
-use super::clause::{Builder, Premise, Scope, names_of};
+use std::collections::HashMap;
+
+use super::clause::{Builder, Premise, Scope};
 use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::program::{Expr, Kind, RelationId, VariableId};
@@ -9,7 +10,12 @@ use super::syntax::{self, Aggregation, Body, Span};
 
 impl Builder<'_> {
     /// Kinds by the columns that variables stand in, then by what they are compared to.
-    pub(super) fn find_kinds(&mut self, premises: &[Premise<'_>], scope: &Scope) {
+    pub(super) fn find_kinds(
+        &mut self,
+        premises: &[Premise<'_>],
+        head: Option<(&syntax::Atom, RelationId)>,
+        scope: &Scope,
+    ) {
         for premise in premises {
             if let Premise::Atom(atom) | Premise::Not(atom) = premise {
                 let Some(relation) = self.declared.names.find(&atom.relation.text) else {
@@ -17,26 +23,32 @@ impl Builder<'_> {
                 };
                 let declared = self.declared;
                 for (arg, of) in atom.args.iter().zip(&declared.columns[relation.index()]) {
-                    if let syntax::Expr::Variable(name) = arg {
-                        let is_positive = matches!(premise, Premise::Atom(_));
-                        self.give_type(scope[&name.text], *of, is_positive, name.at);
+                    self.give(arg, *of, matches!(premise, Premise::Atom(_)), scope);
+                }
+            }
+        }
+        // A number that only the head tells apart is of the head's column.
+        if let Some((head, relation)) = head {
+            let declared = self.declared;
+            for (arg, of) in head.args.iter().zip(&declared.columns[relation.index()]) {
+                let kind = declared.types[*of].kind;
+                match arg {
+                    syntax::Expr::Variable(name) => {
+                        self.variables[scope[&name.text] as usize].kind.get_or_insert(kind);
                     }
+                    syntax::Expr::Record { .. } => {
+                        self.give_fields(arg, kind, scope);
+                    }
+                    _ => {}
                 }
             }
         }
         // Each round settles at least one variable, or nothing changes any more.
-        for _ in 0..premises.len() {
+        loop {
             let mut changed = false;
             for premise in premises {
                 if let Premise::Compare { left, right, .. } = premise {
-                    let Some(kind) = self.common_kind(left, right, scope) else { continue };
-                    for side in [left, right] {
-                        if let syntax::Expr::Variable(name) = side {
-                            let known = &mut self.variables[scope[&name.text] as usize].kind;
-                            changed |= known.is_none();
-                            known.get_or_insert(kind);
-                        }
-                    }
+                    changed |= self.compare_kinds(left, right, scope);
                 }
             }
             if !changed {
@@ -45,55 +57,170 @@ impl Builder<'_> {
         }
     }
 
+    /// What stands in a column of a type, or in a record's field.
+    fn give(&mut self, expr: &syntax::Expr, of: usize, is_positive: bool, scope: &Scope) {
+        match expr {
+            syntax::Expr::Variable(name) => {
+                self.give_type(scope[&name.text], of, is_positive, name.at);
+            }
+            syntax::Expr::Record { args, branch, .. } => {
+                let declared = self.declared;
+                let Kind::Record(shape) = declared.types[of].kind else { return };
+                let Some((_, fields)) = declared.fields(shape, branch.as_deref()) else { return };
+                for (arg, field) in args.iter().zip(fields) {
+                    self.give(arg, *field, is_positive, scope);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Settles what one side of a comparison tells of the other; true when something was new.
+    fn compare_kinds(&mut self, left: &syntax::Expr, right: &syntax::Expr, scope: &Scope) -> bool {
+        let Some(kind) = self.common_kind(left, right, scope) else { return false };
+        let mut changed = false;
+        for side in [left, right] {
+            match side {
+                syntax::Expr::Variable(name) => {
+                    let known = &mut self.variables[scope[&name.text] as usize].kind;
+                    changed |= known.is_none();
+                    known.get_or_insert(kind);
+                }
+                syntax::Expr::Record { .. } => changed |= self.give_fields(side, kind, scope),
+                // z + 1 = x tells of z as well.
+                syntax::Expr::Call { functor, args, .. } if functor.is_arithmetic() => {
+                    for arg in args {
+                        if let syntax::Expr::Variable(name) = arg {
+                            let known = &mut self.variables[scope[&name.text] as usize].kind;
+                            changed |= known.is_none();
+                            known.get_or_insert(kind);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        changed
+    }
+
+    /// The fields of a record that is compared with a value of a known type.
+    fn give_fields(&mut self, record: &syntax::Expr, kind: Kind, scope: &Scope) -> bool {
+        let (syntax::Expr::Record { args, branch, .. }, Kind::Record(shape)) = (record, kind)
+        else {
+            return false;
+        };
+        let declared = self.declared;
+        let Some((_, fields)) = declared.fields(shape, branch.as_deref()) else { return false };
+        let mut changed = false;
+        for (arg, field) in args.iter().zip(fields) {
+            let kind = declared.types[*field].kind;
+            match arg {
+                syntax::Expr::Variable(name) => {
+                    let known = &mut self.variables[scope[&name.text] as usize];
+                    if known.kind.is_none() {
+                        (known.kind, known.of) = (Some(kind), Some(*field));
+                        changed = true;
+                    }
+                }
+                syntax::Expr::Record { .. } => changed |= self.give_fields(arg, kind, scope),
+                _ => {}
+            }
+        }
+        changed
+    }
+
     /// What an expression is computed as, as far as its variables are known.
     pub(super) fn kind_of(&self, expr: &syntax::Expr, scope: &Scope) -> Option<Kind> {
+        self.kind_in(expr, &|name| self.variables[*scope.get(name)? as usize].kind)
+    }
+
+    /// The same, whoever knows the variables.
+    fn kind_in(&self, expr: &syntax::Expr, known: &dyn Fn(&str) -> Option<Kind>) -> Option<Kind> {
         match expr {
-            syntax::Expr::Variable(name) => self.variables[*scope.get(&name.text)? as usize].kind,
+            syntax::Expr::Variable(name) => known(&name.text),
             syntax::Expr::Number(..) => Some(Kind::Number),
+            syntax::Expr::Unsigned(..) => Some(Kind::Unsigned),
             syntax::Expr::Decimal(..) => Some(Kind::Float),
             syntax::Expr::Text(..) => Some(Kind::Symbol),
+            syntax::Expr::Record { branch, .. } => {
+                let of = self.declared.branch(&branch.as_ref()?.text)?;
+                Some(Kind::Record(of))
+            }
             syntax::Expr::As { type_name, .. } => {
                 let of = self.declared.type_named(&type_name.text)?;
-                Some(self.declared.types[of].kind.plain())
+                Some(self.declared.types[of].kind)
             }
             syntax::Expr::Call { functor, args, .. } if functor.is_arithmetic() => {
-                let is_float = args.iter().any(|arg| self.kind_of(arg, scope) == Some(Kind::Float));
-                Some(if is_float { Kind::Float } else { Kind::Number })
+                let mut own = args.iter().filter(|arg| !is_whole(arg)).peekable();
+                if own.peek().is_none() {
+                    return Some(Kind::Number);
+                }
+                own.find_map(|arg| self.kind_in(arg, known))
             }
             syntax::Expr::Call { functor, .. } => Some(functor.result()),
             syntax::Expr::Aggregate { function: Aggregation::Count, .. } => Some(Kind::Number),
             syntax::Expr::Aggregate { value, body, .. } => {
                 let value = value.as_deref()?;
-                Some(self.kind_of(value, scope).filter(|kind| *kind == Kind::Float).unwrap_or_else(
-                    || if self.sums_decimals(value, body) { Kind::Float } else { Kind::Number },
-                ))
+                let within = self.kinds_within(body, known);
+                let both = |name: &str| known(name).or_else(|| within.get(name).copied());
+                Some(self.kind_in(value, &both).unwrap_or(Kind::Number))
             }
-            syntax::Expr::Any(_) => None,
+            syntax::Expr::Any(_) | syntax::Expr::Nil(_) => None,
         }
     }
 
-    /// Whether an aggregate's value reads a variable that its body finds in a column of decimals.
-    pub(super) fn sums_decimals(&self, value: &syntax::Expr, body: &Body) -> bool {
-        let mut names = Vec::new();
-        names_of(value, &mut names);
-        match body {
-            Body::All(parts) | Body::Any(parts) => {
-                parts.iter().any(|part| self.sums_decimals(value, part))
+    /// What the names of an aggregate's body are computed as.
+    fn kinds_within(
+        &self,
+        body: &Body,
+        outer: &dyn Fn(&str) -> Option<Kind>,
+    ) -> HashMap<String, Kind> {
+        let mut within = HashMap::new();
+        let (mut atoms, mut compares) = (Vec::new(), Vec::new());
+        premises_of(body, &mut atoms, &mut compares);
+        for atom in atoms {
+            let Some(relation) = self.declared.names.find(&atom.relation.text) else { continue };
+            for (arg, of) in atom.args.iter().zip(&self.declared.columns[relation.index()]) {
+                self.note_kinds(arg, self.declared.types[*of].kind, &mut within);
             }
-            Body::Atom(atom) => {
-                let relation = self.declared.names.find(&atom.relation.text);
-                let columns = relation.map(|of| &self.declared.relations[of.index()].columns);
-                atom.args.iter().zip(columns.into_iter().flatten()).any(|(arg, column)| {
-                    column.kind == Kind::Float
-                        && matches!(arg, syntax::Expr::Variable(name)
-                            if names.iter().any(|known| known.text == name.text))
-                })
+        }
+        loop {
+            let before = within.len();
+            for (left, right) in &compares {
+                let both = |name: &str| outer(name).or_else(|| within.get(name).copied());
+                let (of_left, of_right) = (self.kind_in(left, &both), self.kind_in(right, &both));
+                let kind = match is_whole(left) {
+                    true => of_right.or(of_left),
+                    false => of_left.or(of_right),
+                };
+                let Some(kind) = kind else { continue };
+                self.note_kinds(left, kind, &mut within);
+                self.note_kinds(right, kind, &mut within);
             }
-            Body::Not(_) | Body::Compare { .. } => false,
+            if within.len() == before {
+                return within;
+            }
         }
     }
 
-    /// The kind that both sides of a comparison have; a whole number beside a decimal is a decimal.
+    /// Notes what an expression of a kind tells of its names.
+    fn note_kinds(&self, expr: &syntax::Expr, kind: Kind, within: &mut HashMap<String, Kind>) {
+        match expr {
+            syntax::Expr::Variable(name) => {
+                within.entry(name.text.clone()).or_insert(kind);
+            }
+            syntax::Expr::Record { args, branch, .. } => {
+                let Kind::Record(shape) = kind else { return };
+                let fields = self.declared.fields(shape, branch.as_deref());
+                for (arg, field) in args.iter().zip(fields.map_or(&[][..], |(_, fields)| fields)) {
+                    self.note_kinds(arg, self.declared.types[*field].kind, within);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The kind that both sides of a comparison have; a whole number is of the other side's.
     pub(super) fn common_kind(
         &self,
         left: &syntax::Expr,
@@ -101,11 +228,7 @@ impl Builder<'_> {
         scope: &Scope,
     ) -> Option<Kind> {
         let (of_left, of_right) = (self.kind_of(left, scope), self.kind_of(right, scope));
-        if of_right == Some(Kind::Float) && is_whole(left) {
-            of_right
-        } else {
-            of_left.or(of_right)
-        }
+        if is_whole(left) { of_right.or(of_left) } else { of_left.or(of_right) }
     }
 
     /// A variable may stand in columns of several types when one of them is part of the others.
@@ -121,7 +244,7 @@ impl Builder<'_> {
         let name = known.name.clone();
         let before = known.of;
         let fits = match (known.kind, before) {
-            (Some(known), _) if known != kind.plain() => false,
+            (Some(known), _) if known != kind => false,
             (_, Some(before)) if !kind.is_number() || is_user_type(before) || is_user_type(of) => {
                 self.declared.is_subtype(before, of) || self.declared.is_subtype(of, before)
             }
@@ -130,13 +253,13 @@ impl Builder<'_> {
         if !fits {
             let expected = self.declared.types[of].name.clone();
             let found = before.map_or_else(
-                || kind_name(known.kind.unwrap_or(Kind::Symbol)).to_owned(),
+                || self.declared.kind_text(known.kind.unwrap_or(Kind::Symbol)),
                 |before| self.declared.types[before].name.clone(),
             );
             self.fault(at, RuleError::Types { what: name, expected, found, at: at.into() });
             return;
         }
-        known.kind = Some(kind.plain());
+        known.kind = Some(kind);
         if is_positive && before.is_none_or(|before| self.declared.is_subtype(of, before)) {
             self.variables[variable as usize].of = Some(of);
         }
@@ -144,8 +267,8 @@ impl Builder<'_> {
 
     /// Whether an expression may stand where values of a kind are wanted.
     pub(super) fn fits(&self, expr: &syntax::Expr, kind: Kind, scope: &Scope) -> bool {
-        self.kind_of(expr, scope).is_none_or(|known| known == kind.plain())
-            || kind == Kind::Float && is_whole(expr)
+        self.kind_of(expr, scope).is_none_or(|known| known == kind)
+            || matches!(kind, Kind::Float | Kind::Unsigned) && is_whole(expr)
     }
 
     pub(super) fn expect(&mut self, expr: &syntax::Expr, kind: Kind, scope: &Scope) {
@@ -159,7 +282,12 @@ impl Builder<'_> {
         let at = expr.at();
         let what = match expr {
             syntax::Expr::Variable(name) => name.text.clone(),
-            syntax::Expr::Number(number, _) => number.to_string(),
+            syntax::Expr::Number(number, _) | syntax::Expr::Unsigned(number, _) => {
+                number.to_string()
+            }
+            syntax::Expr::Record { branch: Some(branch), .. } => format!("${}", branch.text),
+            syntax::Expr::Record { .. } => "[…]".into(),
+            syntax::Expr::Nil(_) => "nil".into(),
             syntax::Expr::Decimal(number, _) => Decimal::from_millionths(*number).to_string(),
             syntax::Expr::Text(text, _) => text.clone(),
             syntax::Expr::As { .. } => "as".into(),
@@ -167,8 +295,8 @@ impl Builder<'_> {
             syntax::Expr::Aggregate { function, .. } => function.word().into(),
             syntax::Expr::Any(_) => "_".into(),
         };
-        let found = kind_name(self.kind_of(expr, scope).unwrap_or(Kind::Symbol)).into();
-        let expected = kind_name(expected).into();
+        let found = self.declared.kind_text(self.kind_of(expr, scope).unwrap_or(Kind::Symbol));
+        let expected = self.declared.kind_text(expected);
         self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
     }
 
@@ -190,23 +318,48 @@ impl Builder<'_> {
                 self.expect(arg, column.kind, scope);
                 continue;
             };
+            if !matches!(arg, syntax::Expr::Variable(_)) && !self.fits(arg, column.kind, scope) {
+                self.wrong_kind(arg, column.kind, scope);
+                continue;
+            }
             let variable = &self.variables[id as usize];
-            let kind = variable.kind.unwrap_or(column.kind.plain());
+            let kind = variable.kind.unwrap_or(column.kind);
             let narrower = variable
                 .of
                 .is_none_or(|of| !is_user_type(wanted) || declared.is_subtype(of, wanted));
-            if kind != column.kind.plain() || !narrower {
+            if kind != column.kind || !narrower {
                 let found = match variable.of {
                     Some(of) => declared.types[of].name.clone(),
-                    None => kind_name(kind).into(),
+                    None => declared.kind_text(kind),
                 };
                 let (what, at) = (variable.name.clone(), arg.at());
                 let expected = column.type_name.clone();
                 self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
             }
-            self.variables[id as usize].kind.get_or_insert(column.kind.plain());
+            self.variables[id as usize].kind.get_or_insert(column.kind);
         }
         true
+    }
+}
+
+/// The atoms and comparisons of a body at its own level.
+fn premises_of<'a>(
+    body: &'a Body,
+    atoms: &mut Vec<&'a syntax::Atom>,
+    compares: &mut Vec<(&'a syntax::Expr, &'a syntax::Expr)>,
+) {
+    match body {
+        Body::All(parts) | Body::Any(parts) => {
+            parts.iter().for_each(|part| premises_of(part, atoms, compares));
+        }
+        Body::Not(part) => premises_of(part, atoms, compares),
+        Body::Atom(atom) => atoms.push(atom),
+        Body::Compare { op, left, right, .. } => {
+            use syntax::Comparison::{Contains, Matches, NotContains, NotMatches};
+            if !matches!(op, Contains | NotContains | Matches | NotMatches) {
+                compares.push((left, right));
+            }
+        }
     }
 }
 

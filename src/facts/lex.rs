@@ -19,12 +19,16 @@ const MAX_DEPTH: usize = 64;
 pub(super) enum Word {
     Name(String),
     Number(i64),
+    /// `5u`
+    Unsigned(i64),
     /// In millionths.
     Decimal(i64),
     Text(String),
     /// `.decl` and its like, without the dot.
     Directive(&'static str),
     Sign(&'static str),
+    /// A line for the preprocessor, without its `#`.
+    Line(String),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -89,11 +93,13 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
         };
         let Some(first) = rest.chars().next() else { return tokens };
         if first == '#' {
-            let end = rest.find('\n').unwrap_or(rest.len());
-            let at = place(rest, &rest[end..]).into();
-            let what = format!("препроцессор C: «{}»", rest[..end].trim_end());
-            let help = "подставьте текст сами; файл правил включают директивой .include";
-            faults.push(RuleError::Unsupported { what, help, at });
+            let mut end = rest.find('\n').unwrap_or(rest.len());
+            // A line goes on behind a backslash.
+            while rest[..end].trim_end_matches('\r').ends_with('\\') && end < rest.len() {
+                end = rest[end + 1..].find('\n').map_or(rest.len(), |more| end + 1 + more);
+            }
+            let at = place(rest, &rest[end..]);
+            tokens.push(Token { word: Word::Line(rest[1..end].replace(['\\', '\r'], " ")), at });
             rest = &rest[end..];
             continue;
         }
@@ -110,6 +116,9 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
             Raw::Directive(name) => Word::Directive(name),
             Raw::Number(digits) if digits.contains('.') => {
                 Word::Decimal(decimal(digits, at, faults))
+            }
+            Raw::Number(digits) if digits.ends_with('u') => {
+                Word::Unsigned(number(digits, at, faults))
             }
             Raw::Number(digits) => Word::Number(number(digits, at, faults)),
             Raw::Text => match quoted(rest) {

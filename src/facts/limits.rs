@@ -10,6 +10,30 @@ pub struct Limits {
     pub memory_bytes: usize,
 }
 
+/// What a program's own text allows: `.pragma "time-limit" "10"` in seconds, `"memory-limit"` in mebibytes,
+/// `"row-limit"` in rows of one relation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Ceilings {
+    pub(super) seconds: Option<u64>,
+    pub(super) megabytes: Option<u64>,
+    pub(super) rows: Option<u64>,
+    /// `.pragma "magic-transform" "*"`: what is put out is derived on demand.
+    pub(super) on_demand: bool,
+}
+
+impl Limits {
+    /// The narrower of both.
+    pub(super) fn within(self, ceilings: Ceilings) -> Self {
+        let time = ceilings.seconds.map_or(self.time, Duration::from_secs);
+        let bytes =
+            ceilings.megabytes.map_or(u64::MAX, |megabytes| megabytes.saturating_mul(1 << 20));
+        Self {
+            time: self.time.min(time),
+            memory_bytes: self.memory_bytes.min(usize::try_from(bytes).unwrap_or(usize::MAX)),
+        }
+    }
+}
+
 impl Default for Limits {
     /// Ten minutes and two gigabytes: more than the rules of a large hospital need, less than a machine has.
     fn default() -> Self {

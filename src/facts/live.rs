@@ -266,9 +266,12 @@ impl Update<'_> {
         let mut has_limit = false;
         for clause in clauses {
             reads(&clause.body, false, &mut |r, _, _| is_recursive |= is_own(r));
-            has_limit |= self.program.info(clause.head).limit_size.is_some();
+            let info = self.program.info(clause.head);
+            has_limit |= info.limit_size.is_some() || !info.choices.is_empty();
         }
-        // Which tuples a `.limitsize` keeps depends on the order of evaluation.
+        // Which tuples a `.limitsize` or a choice keeps depends on the order of evaluation, and what a subsumption took
+        // out is not known any more.
+        has_limit |= !stratum.subsumptions.is_empty();
         if has_limit || self.edit(stratum, is_recursive)?.is_err() {
             return self.anew(stratum);
         }

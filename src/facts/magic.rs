@@ -97,6 +97,7 @@ impl Magic {
         let stratum = Stratum {
             relations: ways.iter().flat_map(|(_, twin, calls)| [*twin, *calls]).collect(),
             clauses: (0..clauses.len()).collect(),
+            subsumptions: Vec::new(),
         };
         let program = Program {
             sources: Arc::clone(&of.sources),
@@ -105,6 +106,8 @@ impl Magic {
             clauses: clauses.into_iter().map(Arc::new).collect(),
             facts: [].into(),
             strata: [].into(),
+            subsumptions: [].into(),
+            limits: of.limits,
             words: Words::default(),
             warnings: [].into(),
             declared: Arc::clone(&of.declared),

@@ -14,15 +14,21 @@ use nom::sequence::{delimited, preceded, separated_pair};
 use super::expression::{aggregation, expression, functor};
 use super::fault::RuleError;
 use super::lex::{self, Token, Word};
-use super::read::{Failure, Furthest, Input, Read, list, many, name, number, sign, text_word};
-use super::syntax::{Atom, Body, Comparison, Item, Name, Role, Rule};
+use super::preprocess;
+use super::read::{Furthest, Input, Read, list, long_name, many, name, number, sign, text_word};
+use super::syntax::{
+    Atom, Body, Branch, Comparison, Component, Item, Name, Role, Rule, Span, Type,
+};
 
-const COMPONENTS: &str =
-    "компонентов, своих функций и решёток здесь нет; напишите правила прямо в этом файле";
+const FOREIGN: &str =
+    "чужой код здесь не выполняется: посчитайте значения заранее и дайте их таблицей фактов";
+
+/// Components within components.
+const MAX_NESTED: usize = 16;
 
 /// All items of a text; what could not be read is in `faults`.
 pub(super) fn items(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
-    let words = lex::words(text, file, faults);
+    let words = preprocess::expand(lex::words(text, file, faults), file, faults);
     items_of(&words, text.len(), file, faults)
 }
 
@@ -104,14 +110,25 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         Word::Directive("output") => directive(Role::Output, behind),
         Word::Directive("printsize") => directive(Role::PrintSize, behind),
         Word::Directive("limitsize") => directive(Role::LimitSize, behind),
-        // A hint to Soufflé's scheduler or options; the meaning of the program is the same without.
-        Word::Directive("plan") => plan(behind),
-        Word::Directive("pragma") => {
-            (text_word, opt(text_word)).map(|_| Item::Nothing).parse(behind)
-        }
+        // A hint to Soufflé's scheduler; the meaning of the program is the same without.
+        Word::Directive("plan") => plan(token.at, behind),
+        Word::Directive("pragma") => (text_word, opt(text_word))
+            .map(|(name, value)| Item::Pragma {
+                name,
+                value: value.unwrap_or_default(),
+                at: token.at,
+            })
+            .parse(behind),
+        Word::Directive("comp") => component(behind, 0),
+        Word::Directive("init") => instance(behind),
+        Word::Directive("override") => input.refuse(RuleError::Unsupported {
+            what: ".override вне компонента".into(),
+            help: "замените правила внутри .comp, который наследует другой",
+            at: token.at.into(),
+        }),
         Word::Directive(word) => input.refuse(RuleError::Unsupported {
             what: format!(".{word}"),
-            help: COMPONENTS,
+            help: FOREIGN,
             at: token.at.into(),
         }),
         _ => rule(input),
@@ -121,34 +138,114 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
 // .decl above, under(a: symbol, b: symbol) = НАД output
 fn relation(input: Input<'_>) -> Read<'_, Item> {
     let (input, names) = list(name, sign(",")).parse(input)?;
-    let column = separated_pair(name, sign(":"), name);
+    let column = separated_pair(name, sign(":"), long_name);
     let (input, columns) =
         delimited(sign("("), opt(list(column, sign(","))), sign(")")).parse(input)?;
     let (input, second) = opt(preceded(sign("="), name)).parse(input)?;
     let (input, words) = many(qualifier)(input)?;
-    let roles = words.into_iter().flatten().collect();
-    Ok((input, Item::Relation { names, columns: columns.unwrap_or_default(), second, roles }))
+    let (mut roles, mut domains) = (Vec::new(), Vec::new());
+    for word in words {
+        match word {
+            Qualifier::Role(role) => roles.push(role),
+            Qualifier::Domains(more) => domains.extend(more),
+            Qualifier::Storage => {}
+        }
+    }
+    let columns = columns.unwrap_or_default();
+    Ok((input, Item::Relation { names, columns, second, roles, domains }))
 }
 
-fn qualifier(input: Input<'_>) -> Read<'_, Option<Role>> {
+/// What stands behind a relation's columns.
+#[derive(Debug, Clone)]
+enum Qualifier {
+    Role(Role),
+    Domains(Vec<Vec<Name>>),
+    /// How Soufflé should keep the rows; here they are kept alike.
+    Storage,
+}
+
+// choice-domain x, (y, z)
+fn domains(input: Input<'_>) -> Read<'_, Vec<Vec<Name>>> {
+    let several = delimited(sign("("), list(name, sign(",")), sign(")"));
+    list(alt((several, name.map(|one| vec![one]))), sign(",")).parse(input)
+}
+
+// .comp Graph<N, M> : Base<N>, Other { … }
+fn component(input: Input<'_>, depth: usize) -> Read<'_, Item> {
+    if depth > MAX_NESTED {
+        let (what, limit, at) = ("компонентов друг в друге", MAX_NESTED, input.at().into());
+        return input.refuse(RuleError::TooLarge { what, limit, at });
+    }
+    let (input, head) = component_type(input)?;
+    let (input, bases) = match sign(":")(input) {
+        Ok((input, _)) => list(component_type, sign(",")).parse(input)?,
+        Err(_) => (input, Vec::new()),
+    };
+    let (mut input, _) = sign("{")(input)?;
+    let mut items = Vec::new();
+    loop {
+        let Some(token) = input.rest.first() else { return input.fail("«}»") };
+        let behind = Input { rest: &input.rest[1..], ..input };
+        let next;
+        (input, next) = match token.word {
+            Word::Sign("}") => {
+                return Ok((behind, Item::Component(Component { head, bases, items })));
+            }
+            Word::Directive("comp") => component(behind, depth + 1)?,
+            Word::Directive("override") => name.map(Item::Override).parse(behind)?,
+            _ => item(input)?,
+        };
+        items.push(next);
+    }
+}
+
+// Graph<Place, Thing>
+fn component_type(input: Input<'_>) -> Read<'_, Type> {
+    let (input, name) = long_name(input)?;
+    let [Token { word: Word::Sign("<"), .. }, rest @ ..] = input.rest else {
+        return Ok((input, Type { name, args: Vec::new() }));
+    };
+    let input = Input { rest, ..input };
+    let (input, args) = list(long_name, sign(",")).parse(input)?;
+    let (input, _) = sign(">")(input)?;
+    Ok((input, Type { name, args }))
+}
+
+// .init g = Graph<Place>
+fn instance(input: Input<'_>) -> Read<'_, Item> {
+    let at = input.at();
+    let (input, name) = name(input)?;
+    let (input, _) = sign("=")(input)?;
+    let (input, of) = component_type(input)?;
+    let at = at.to(of.name.at);
+    Ok((input, Item::Instance { name, of, at }))
+}
+
+fn qualifier(input: Input<'_>) -> Read<'_, Qualifier> {
     let (rest, name) = name(input)?;
-    if name.text == "choice" && matches!(rest.rest, [Token { word: Word::Sign("-"), .. }, ..]) {
-        let help = "выберите по порядку: правилом с min или с отрицанием";
-        let what = "choice-domain".into();
-        return input.refuse(RuleError::Unsupported { what, help, at: name.at.into() });
+    if let [
+        Token { word: Word::Sign("-"), .. },
+        Token { word: Word::Name(domain), .. },
+        behind @ ..,
+    ] = rest.rest
+        && name.text == "choice"
+        && domain == "domain"
+    {
+        return domains.map(Qualifier::Domains).parse(Input { rest: behind, ..rest });
     }
     // A qualifier is a bare word; a word with a bracket is the next fact.
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign(_), .. })) {
         return input.fail("объявление или правило");
     }
     match name.text.as_str() {
-        "input" => Ok((rest, Some(Role::Input))),
-        "output" => Ok((rest, Some(Role::Output))),
-        "printsize" => Ok((rest, Some(Role::PrintSize))),
-        "eqrel" => Ok((rest, Some(Role::Equivalence))),
-        "inline" => Ok((rest, Some(Role::Inline))),
-        "btree" | "btree_delete" | "brie" | "no_inline" | "magic" | "no_magic" | "overridable" => {
-            Ok((rest, None))
+        "input" => Ok((rest, Qualifier::Role(Role::Input))),
+        "output" => Ok((rest, Qualifier::Role(Role::Output))),
+        "printsize" => Ok((rest, Qualifier::Role(Role::PrintSize))),
+        "eqrel" => Ok((rest, Qualifier::Role(Role::Equivalence))),
+        "inline" => Ok((rest, Qualifier::Role(Role::Inline))),
+        "overridable" => Ok((rest, Qualifier::Role(Role::Overridable))),
+        "btree" | "btree_delete" | "brie" | "no_inline" | "magic" | "no_magic" => {
+            Ok((rest, Qualifier::Storage))
         }
         word => {
             let help = "уберите это слово: отношения хранятся одинаково";
@@ -174,19 +271,25 @@ fn type_item(input: Input<'_>) -> Read<'_, Item> {
         return Ok((input, Item::Type { name: type_name, bases, is_union: false }));
     }
     let (rest, sign_word) = alt((sign("<:"), sign("="))).parse(input)?;
-    let record = match rest.rest {
-        [Token { word: Word::Sign("["), at }, ..] => Some(("записи", at)),
-        [Token { word: Word::Name(_), at }, Token { word: Word::Sign("{"), .. }, ..] => {
-            Some(("типы из вариантов", at))
-        }
-        _ => None,
+    let fields = |open, close| {
+        let field = separated_pair(name, sign(":"), long_name);
+        delimited(sign(open), opt(list(field, sign(","))), sign(close))
+            .map(Option::unwrap_or_default)
     };
-    if let Some((what, at)) = record {
-        let help = "разложите значение на столбцы отношения";
-        let what = what.to_owned();
-        return rest.refuse(RuleError::Unsupported { what, help, at: (*at).into() });
+    match rest.rest {
+        [Token { word: Word::Sign("["), .. }, ..] => {
+            let (rest, fields) = fields("[", "]").parse(rest)?;
+            let branches = vec![Branch { name: type_name.clone(), fields }];
+            return Ok((rest, Item::Structure { name: type_name, branches, is_record: true }));
+        }
+        [Token { word: Word::Name(_), .. }, Token { word: Word::Sign("{"), .. }, ..] => {
+            let branch = (name, fields("{", "}")).map(|(name, fields)| Branch { name, fields });
+            let (rest, branches) = list(branch, sign("|")).parse(rest)?;
+            return Ok((rest, Item::Structure { name: type_name, branches, is_record: false }));
+        }
+        _ => {}
     }
-    let (rest, bases) = list(name, sign("|")).parse(rest)?;
+    let (rest, bases) = list(long_name, sign("|")).parse(rest)?;
     if bases.len() > 1 && sign_word == "<:" {
         return rest.fail("«=»");
     }
@@ -202,11 +305,10 @@ fn old_type<'a>(base: &str, input: Input<'a>) -> Read<'a, Item> {
 
 // .output above, under(IO=file, filename="above.csv")
 fn directive(role: Role, input: Input<'_>) -> Read<'_, Item> {
-    let (input, relations) = list(name, sign(",")).parse(input)?;
-    if let Some(last) = relations.last() {
-        refuse_dotted(last, input)?;
-    }
-    let value = alt((text_word, name.map(|name| name.text), number.map(|n| n.0.to_string())));
+    let (input, relations) = list(long_name, sign(",")).parse(input)?;
+    let minus = preceded(sign("-"), number).map(|n| format!("-{}", n.0));
+    let value =
+        alt((text_word, name.map(|name| name.text), number.map(|n| n.0.to_string()), minus));
     let parameter = separated_pair(name.map(|name| name.text), sign("="), value);
     // No rule starts with a bracket, so one that stands here must be read to its end.
     let (input, parameters) = match input.rest.first() {
@@ -220,19 +322,27 @@ fn directive(role: Role, input: Input<'_>) -> Read<'_, Item> {
 }
 
 // .plan 0:(2,1), 1:(1,2)
-fn plan(input: Input<'_>) -> Read<'_, Item> {
-    let order = delimited(sign("("), list(number, sign(",")), sign(")"));
-    list(separated_pair(number, sign(":"), order), sign(",")).map(|_| Item::Nothing).parse(input)
+fn plan(at: Span, input: Input<'_>) -> Read<'_, Item> {
+    let order = delimited(sign("("), opt(list(number, sign(","))), sign(")"));
+    let hint = Item::Hint { what: ".plan".into(), at };
+    list(separated_pair(number, sign(":"), order), sign(",")).map(|_| hint.clone()).parse(input)
 }
 
 // above(A, B), over(A, B) :- body.
 fn rule(input: Input<'_>) -> Read<'_, Item> {
     let start = input.at();
     let (input, heads) = list(atom, sign(",")).parse(input)?;
-    if let Some(Token { word: Word::Sign("<="), at }) = input.rest.first() {
-        let help = "отберите наименьшие правилом с min или с отрицанием";
-        let what = "поглощение (A <= B)".into();
-        return input.refuse(RuleError::Unsupported { what, help, at: (*at).into() });
+    if let ([dominated], [Token { word: Word::Sign("<="), .. }, rest @ ..]) =
+        (heads.as_slice(), input.rest)
+    {
+        let input = Input { rest, ..input };
+        let (input, dominating) = atom(input)?;
+        let (input, body) = opt(preceded(sign(":-"), disjunction)).parse(input)?;
+        let end = input.at();
+        let (input, _) = sign(".")(input)?;
+        let body = body.unwrap_or(Body::All(Vec::new()));
+        let (dominated, at) = (dominated.clone(), start.to(end));
+        return Ok((input, Item::Subsumption { dominated, dominating, body, at }));
     }
     let (input, body) = opt(preceded(sign(":-"), disjunction)).parse(input)?;
     let end = input.at();
@@ -282,41 +392,20 @@ fn truth(input: Input<'_>) -> Read<'_, Body> {
 // contains("дверь", Name)
 fn matching(input: Input<'_>) -> Read<'_, Body> {
     let (rest, name) = name(input)?;
-    if name.text == "match"
-        && matches!(rest.rest.first(), Some(Token { word: Word::Sign("("), .. }))
-    {
-        let help = "есть contains(часть, целое)";
-        return input.refuse(RuleError::Unsupported {
-            what: "match".into(),
-            help,
-            at: name.at.into(),
-        });
-    }
-    if name.text != "contains" {
-        return input.fail("посылка");
-    }
+    let op = match name.text.as_str() {
+        "match" => Comparison::Matches,
+        "contains" => Comparison::Contains,
+        _ => return input.fail("посылка"),
+    };
     let (rest, _) = sign("(")(rest)?;
     let (rest, (left, right)) = separated_pair(expression, sign(","), expression).parse(rest)?;
     let at = name.at.to(rest.at());
     let (rest, _) = sign(")")(rest)?;
-    Ok((rest, Body::Compare { op: Comparison::Contains, left, right, at }))
-}
-
-/// `g.edge` is a relation of a component.
-fn refuse_dotted(relation: &Name, behind: Input<'_>) -> Result<(), nom::Err<Failure>> {
-    let [dot, Token { word: Word::Name(part), at }, ..] = behind.rest else { return Ok(()) };
-    if dot.word != Word::Sign(".") || dot.at.start != relation.at.end || at.start != dot.at.end {
-        return Ok(());
-    }
-    let what = format!("имя из компонента: {}.{part}", relation.text);
-    // Reading goes on behind the rule's full stop, not behind this dot.
-    let after = Input { rest: &behind.rest[2..], ..behind };
-    after.refuse(RuleError::Unsupported { what, help: COMPONENTS, at: relation.at.to(*at).into() })
+    Ok((rest, Body::Compare { op, left, right, at }))
 }
 
 pub(super) fn atom(input: Input<'_>) -> Read<'_, Atom> {
-    let (rest, relation) = name(input)?;
-    refuse_dotted(&relation, rest)?;
+    let (rest, relation) = long_name(input)?;
     if functor(&relation.text).is_some() || aggregation(&relation.text).is_some() {
         return input.fail("отношение");
     }

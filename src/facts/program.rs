@@ -7,9 +7,10 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::fault::{Faults, FileFaults, RuleError};
+use super::limits::Ceilings;
 use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
 use super::word::{Value, Word, Words};
-use super::{check, parse};
+use super::{check, component, parse};
 use crate::units::{Source, name_key};
 
 /// A relation of a program, by position.
@@ -27,21 +28,18 @@ impl RelationId {
 pub enum Kind {
     Symbol,
     Number,
-    /// A number that is never negative.
+    /// A number of 32 bits that is never negative and goes round.
     Unsigned,
     /// An exact decimal, see [`Decimal`](super::Decimal).
     Float,
+    /// A record or a value of a branched type, by the number of the type.
+    Record(u32),
 }
 
 impl Kind {
     /// Whether its words stand for numbers, which decimals are in millionths.
     pub(super) fn is_number(self) -> bool {
-        self != Self::Symbol
-    }
-
-    /// What values of this kind are computed and compared as.
-    pub(super) fn plain(self) -> Self {
-        if self == Self::Unsigned { Self::Number } else { self }
+        !matches!(self, Self::Symbol | Self::Record(_))
     }
 }
 
@@ -68,6 +66,8 @@ pub struct RelationInfo {
     pub print_size: bool,
     /// `.limitsize`: evaluation of the relation stops at so many tuples.
     pub limit_size: Option<usize>,
+    /// `choice-domain`: of the tuples that agree in all columns of one of these, the first that is found stays.
+    pub choices: Vec<Vec<usize>>,
 }
 
 /// `filename="…"`, `delimiter="…"` and the like.
@@ -142,6 +142,7 @@ pub(super) struct Aggregate {
 #[derive(Debug, Clone)]
 pub(super) struct NumberRange {
     pub(super) target: VariableId,
+    pub(super) kind: Kind,
     pub(super) bounds: Bounds,
     pub(super) at: Span,
 }
@@ -152,6 +153,8 @@ pub(super) struct Bounds {
     pub(super) from: Expr,
     pub(super) to: Expr,
     pub(super) step: Option<Expr>,
+    /// One, in what the numbers are counted in.
+    pub(super) unit: i64,
 }
 
 impl Bounds {
@@ -183,8 +186,29 @@ impl Expr {
         all
     }
 
+    /// Whether `autoinc()` stands in it.
+    pub(super) fn counts_on(&self) -> bool {
+        match self {
+            Self::Call(functor, args) => {
+                *functor == Functor::Counter || args.iter().any(Self::counts_on)
+            }
+            _ => false,
+        }
+    }
+
     pub(super) fn has_variables(&self) -> bool {
         !self.all_variables(|_| false)
+    }
+}
+
+impl Clause {
+    /// Whether `autoinc()` stands in it.
+    pub(super) fn counts_on(&self) -> bool {
+        self.args.iter().any(Expr::counts_on)
+            || self.body.iter().any(|literal| match literal {
+                Literal::Compare(compare) => compare.left.counts_on() || compare.right.counts_on(),
+                _ => false,
+            })
     }
 }
 
@@ -194,6 +218,15 @@ pub(super) struct Stratum {
     pub(super) relations: Vec<RelationId>,
     /// Positions in [`Program::clauses`].
     pub(super) clauses: Vec<usize>,
+    /// Positions in [`Program::subsumptions`].
+    pub(super) subsumptions: Vec<usize>,
+}
+
+/// Which tuples of a relation go where others stand.
+#[derive(Debug, Clone)]
+pub(super) struct Subsumption {
+    pub(super) relation: RelationId,
+    pub(super) clause: Clause,
 }
 
 /// A fact in the text.
@@ -213,6 +246,10 @@ pub struct Program {
     pub(super) clauses: Arc<[Arc<Clause>]>,
     pub(super) facts: Arc<[Fact]>,
     pub(super) strata: Arc<[Stratum]>,
+    /// For each `A <= B` a clause whose head is the tuple that goes and the one that stays.
+    pub(super) subsumptions: Arc<[Subsumption]>,
+    /// What the text itself allows.
+    pub(super) limits: Ceilings,
     /// The constants of the text; a database starts with them.
     pub(super) words: Words,
     pub(super) warnings: Arc<[FileFaults]>,
@@ -261,6 +298,7 @@ impl Program {
     }
 
     fn of_items(sources: &[Source], items: &[Item], mut faults: Found) -> Result<Self, Faults> {
+        let items = &component::expand(items.to_vec(), &mut faults);
         let mut program = check::program(sources, items, &mut faults);
         let (warnings, errors): (Vec<_>, Vec<_>) =
             faults.all.into_iter().partition(|(_, fault)| fault.is_warning());
@@ -292,6 +330,21 @@ impl Program {
     /// All relations, in the order of their declarations.
     pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
         self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), &**info))
+    }
+
+    /// Whether the text asks for its results to be derived on demand: `.pragma "magic-transform" "*"`.
+    pub(super) fn asks_for_demand(&self) -> bool {
+        self.limits.on_demand
+    }
+
+    /// Whether what is derived depends on the order in which it is: then nothing can be derived in part.
+    pub(super) fn depends_on_order(&self) -> bool {
+        !self.subsumptions.is_empty()
+            || self.clauses.iter().any(|clause| clause.counts_on())
+            || self
+                .relations
+                .iter()
+                .any(|info| info.limit_size.is_some() || !info.choices.is_empty())
     }
 
     /// The facts of a relation that stand in the text, each with its values and where it stands.

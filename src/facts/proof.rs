@@ -231,7 +231,8 @@ impl Explainer {
         let schema = super::Schema::of(&self.program);
         let relation = relation.find(&schema)?;
         let words = &mut self.finished.words;
-        let row = schema.encode(relation, tuple, |value| words.of(value))?;
+        let row = schema
+            .encode(relation, tuple, |value, kind| words.of(value, kind).unwrap_or(NO_WORD))?;
         Ok((relation, row))
     }
 
@@ -584,7 +585,7 @@ pub(super) fn premise(
         }
         Literal::Range(range) => {
             let word = registers[range.target as usize];
-            let value = (word != NO_WORD).then(|| words.value(word, Kind::Number));
+            let value = (word != NO_WORD).then(|| words.value(word, range.kind));
             Premise::Counted { text: excerpt(range.at), value }
         }
         Literal::Aggregate(aggregate) => {

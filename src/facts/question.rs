@@ -145,17 +145,14 @@ impl Program {
         for item in items {
             match item {
                 Item::Rule(rule) => rules.push(rule.clone()),
-                Item::Include { .. } | Item::Directive { .. } => {
-                    let at = match item {
-                        Item::Include { at, .. } => *at,
-                        Item::Directive { relations, .. } => relations[0].at,
-                        _ => Span::default(),
-                    };
+                Item::Type { .. } | Item::Relation { .. } => {}
+                Item::Hint { .. } | Item::Pragma { .. } => {}
+                other => {
+                    let at = other.at();
                     let what = "такая директива в вопросе".to_owned();
                     let help = "в вопросе годятся .decl, .type, правила и факты";
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
-                Item::Type { .. } | Item::Relation { .. } | Item::Nothing => {}
             }
         }
         rules.extend(closed);
@@ -172,6 +169,7 @@ impl Program {
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
             }
+            let rule = &super::witness::brought_out(&super::unify::unified(rule));
             clauses.extend(clause::clauses(rule, declared, words, made, faults));
         }
         clauses
@@ -197,7 +195,7 @@ impl Program {
         );
         let known = self.relations.len();
         let offset = self.clauses.len();
-        let mut own = strata(&wide, &more, faults);
+        let mut own = strata(&wide, &more, &[], faults);
         own.retain(|stratum| stratum.relations.iter().any(|of| of.index() >= known));
         for stratum in &mut own {
             stratum.clauses.iter_mut().for_each(|n| *n += offset);
@@ -209,6 +207,8 @@ impl Program {
             clauses: self.clauses.iter().cloned().chain(more).collect(),
             facts: Arc::clone(&self.facts),
             strata: self.strata.iter().cloned().chain(own).collect(),
+            subsumptions: Arc::clone(&self.subsumptions),
+            limits: self.limits,
             words: self.words.share(),
             warnings: [].into(),
             declared: Arc::clone(declared),
@@ -247,7 +247,7 @@ fn read(
     items: &mut Vec<Item>,
     faults: &mut Vec<RuleError>,
 ) -> Option<syntax::Question> {
-    let words = lex::words(text, file, faults);
+    let words = super::preprocess::expand(lex::words(text, file, faults), file, faults);
     let at = words.iter().position(|token| token.word == Word::Sign("?-"));
     let (before, asked) = words.split_at(at.unwrap_or(0));
     items.extend(items_of(before, text.len(), file, faults));

@@ -33,7 +33,8 @@ impl Furthest {
         let token = self.left.and_then(|left| words.get(words.len() - left));
         let found = token.map_or("конец текста".into(), |token| match &token.word {
             Word::Name(name) => format!("«{name}»"),
-            Word::Number(number) => format!("число {number}"),
+            Word::Number(number) | Word::Unsigned(number) => format!("число {number}"),
+            Word::Line(line) => format!("«#{}»", line.trim_end()),
             Word::Decimal(number) => format!("число {}", Decimal::from_millionths(*number)),
             Word::Text(_) => "текст в кавычках".into(),
             Word::Directive(word) => format!("«.{word}»"),
@@ -132,6 +133,28 @@ pub(super) fn number(input: Input<'_>) -> Read<'_, (i64, Span)> {
         }
         _ => input.fail("число"),
     }
+}
+
+pub(super) fn unsigned(input: Input<'_>) -> Read<'_, (i64, Span)> {
+    match input.rest {
+        [Token { word: Word::Unsigned(value), at }, rest @ ..] => {
+            Ok((Input { rest, ..input }, (*value, *at)))
+        }
+        _ => input.fail("число"),
+    }
+}
+
+/// A name of one or more parts: `London.train.edge`.
+pub(super) fn long_name(input: Input<'_>) -> Read<'_, Name> {
+    let (mut input, mut whole) = name(input)?;
+    while let [dot, Token { word: Word::Name(part), at }, rest @ ..] = input.rest {
+        if dot.word != Word::Sign(".") || dot.at.start != whole.at.end || at.start != dot.at.end {
+            break;
+        }
+        whole = Name { text: format!("{}.{part}", whole.text), at: whole.at.to(*at) };
+        input = Input { rest, ..input };
+    }
+    Ok((input, whole))
 }
 
 /// In millionths.

@@ -4,6 +4,7 @@
 //! and [`RowSet`] and [`Growing`] are what the rest of the engine sees of any width.
 
 use std::cell::{Ref, RefCell, RefMut};
+use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -136,7 +137,7 @@ pub(super) trait Sink {
 
 /// Rows in any order, to become a [`RowSet`].
 pub(super) trait Heap: Sink {
-    fn as_sink(&mut self) -> &mut dyn Sink;
+    fn as_sink(&mut self) -> &mut (dyn Sink + 'static);
     /// Takes these columns of all rows.
     fn project(&mut self, rows: &dyn RowSet, columns: &[usize]);
     fn sort(self: Box<Self>) -> SharedRows;
@@ -161,7 +162,7 @@ impl<const N: usize> Sink for Vec<Row<N>> {
 }
 
 impl<const N: usize> Heap for Vec<Row<N>> {
-    fn as_sink(&mut self) -> &mut dyn Sink {
+    fn as_sink(&mut self) -> &mut (dyn Sink + 'static) {
         self
     }
 
@@ -273,6 +274,12 @@ pub(super) trait Growing {
     /// Memory held, what was pushed since included.
     fn bytes(&self) -> usize;
     fn complete(self: Box<Self>) -> SharedRows;
+    /// Takes rows out, where they can be taken out.
+    fn prune(&mut self, _: &HashSet<Box<[Word]>>) {}
+    /// Whether the last round found something.
+    fn has_recent(&self) -> bool {
+        true
+    }
 }
 
 struct GrowingRows<const N: usize> {

@@ -617,7 +617,8 @@ fn choose(
 }
 
 fn is_order(op: Comparison) -> bool {
-    !matches!(op, Comparison::Contains | Comparison::NotContains)
+    use Comparison::{Contains, Matches, NotContains, NotMatches};
+    !matches!(op, Contains | NotContains | Matches | NotMatches)
 }
 
 /// Without branches, so that a filter that half of the rows pass is as fast as any.

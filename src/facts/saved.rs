@@ -20,10 +20,11 @@ const MAGIC: &[u8; 8] = b"ORTHOFCT";
 const FORMAT: u32 = 1;
 
 impl Live {
-    /// The result and its input facts as bytes; none while an edit waits for [`Live::update`].
+    /// The result and its input facts as bytes; none while an edit waits for [`Live::update`], and for a program with
+    /// records, which have no place in the format.
     #[must_use]
     pub fn save(&self) -> Option<Vec<u8>> {
-        if self.has_edits() {
+        if self.has_edits() || !self.program().words.shapes().is_empty() {
             return None;
         }
         let derived = self.derived();
@@ -54,7 +55,7 @@ impl Live {
         let is_ours = input.take(8)? == MAGIC
             && input.count()? == FORMAT as usize
             && input.take(8)? == hash(program).to_le_bytes();
-        if !is_ours {
+        if !is_ours || !program.words.shapes().is_empty() {
             return None;
         }
         let mut words = Words::default();

@@ -41,6 +41,8 @@ pub(super) struct Name {
 pub(super) enum Item {
     /// `.type Place <: symbol`; with `=` the base may be several types, whose values are then the type's.
     Type { name: Name, bases: Vec<Name>, is_union: bool },
+    /// `.type Pair = [x: number, y: symbol]`, `.type Tree = Leaf {} | Node {l: Tree, r: Tree}`.
+    Structure { name: Name, branches: Vec<Branch>, is_record: bool },
     /// `.include "other.dl"`
     Include { path: String, at: Span },
     /// `.decl above(a: symbol, b: symbol) = НАД`; several names may share one list of columns.
@@ -49,13 +51,67 @@ pub(super) enum Item {
         columns: Vec<(Name, Name)>,
         second: Option<Name>,
         roles: Vec<Role>,
+        /// Of `choice-domain`: columns of which each combination stands in one tuple.
+        domains: Vec<Vec<Name>>,
     },
+    /// `.comp Graph<N> : Base<N> { … }`
+    Component(Component),
+    /// `.init g = Graph<Place>`
+    Instance { name: Name, of: Type, at: Span },
+    /// `.override rel`, within a component.
+    Override(Name),
+    /// `shortest(x, a) <= shortest(x, b) :- b < a.`: the left tuple goes where the right one stands.
+    Subsumption { dominated: Atom, dominating: Atom, body: Body, at: Span },
+    /// What is read and has no effect.
+    Hint { what: String, at: Span },
+    /// `.pragma "time-limit" "10"`
+    Pragma { name: String, value: String, at: Span },
     /// `.input`, `.output`, `.printsize`, `.limitsize`.
     Directive { role: Role, relations: Vec<Name>, parameters: Vec<(String, String)> },
     /// A fact is a rule without a body.
     Rule(Rule),
-    /// Read over on purpose, such as `.pragma`.
-    Nothing,
+}
+
+impl Item {
+    /// Its place, or that of the first name in it.
+    pub(super) fn at(&self) -> Span {
+        match self {
+            Self::Type { name, .. } | Self::Structure { name, .. } | Self::Override(name) => {
+                name.at
+            }
+            Self::Include { at, .. }
+            | Self::Instance { at, .. }
+            | Self::Subsumption { at, .. }
+            | Self::Hint { at, .. }
+            | Self::Pragma { at, .. } => *at,
+            Self::Relation { names, .. } | Self::Directive { relations: names, .. } => {
+                names.first().map(|name| name.at).unwrap_or_default()
+            }
+            Self::Component(component) => component.head.name.at,
+            Self::Rule(rule) => rule.at,
+        }
+    }
+}
+
+/// A component's name with its parameters, or with the types that stand for them.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Type {
+    pub(super) name: Name,
+    pub(super) args: Vec<Name>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Component {
+    pub(super) head: Type,
+    pub(super) bases: Vec<Type>,
+    pub(super) items: Vec<Item>,
+}
+
+/// A way to build a value of a structure: its name and its fields with their types.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Branch {
+    pub(super) name: Name,
+    pub(super) fields: Vec<(Name, Name)>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +124,8 @@ pub(super) enum Role {
     Equivalence,
     /// `inline`: its rules are put where it is read.
     Inline,
+    /// Its rules may be replaced by a component that inherits it.
+    Overridable,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -112,9 +170,19 @@ pub(super) enum Expr {
     Any(Span),
     Variable(Name),
     Number(i64, Span),
+    /// `5u`
+    Unsigned(i64, Span),
     /// In millionths.
     Decimal(i64, Span),
     Text(String, Span),
+    /// `[x, y]`, or with a branch's name `$Node(l, r)`.
+    Record {
+        branch: Option<Box<Name>>,
+        args: Vec<Self>,
+        at: Span,
+    },
+    /// `nil`, the record that is none.
+    Nil(Span),
     /// `as(value, type)`
     As {
         value: Box<Self>,
@@ -140,6 +208,9 @@ impl Expr {
             Self::Variable(name) => name.at,
             Self::Any(at)
             | Self::Number(_, at)
+            | Self::Unsigned(_, at)
+            | Self::Nil(at)
+            | Self::Record { at, .. }
             | Self::Decimal(_, at)
             | Self::Text(_, at)
             | Self::As { at, .. }
@@ -160,6 +231,9 @@ pub enum Comparison {
     GreaterOrEqual,
     Contains,
     NotContains,
+    /// Soufflé's `match(pattern, text)`: the whole text is of the regular expression.
+    Matches,
+    NotMatches,
 }
 
 impl Comparison {
@@ -174,6 +248,8 @@ impl Comparison {
             Self::GreaterOrEqual => Self::Less,
             Self::Contains => Self::NotContains,
             Self::NotContains => Self::Contains,
+            Self::Matches => Self::NotMatches,
+            Self::NotMatches => Self::Matches,
         }
     }
 
@@ -186,7 +262,7 @@ impl Comparison {
             Self::LessOrEqual => Self::GreaterOrEqual,
             Self::Greater => Self::Less,
             Self::GreaterOrEqual => Self::LessOrEqual,
-            Self::Contains | Self::NotContains => return None,
+            Self::Contains | Self::NotContains | Self::Matches | Self::NotMatches => return None,
         })
     }
 
@@ -202,6 +278,8 @@ impl Comparison {
             Self::GreaterOrEqual => ">=",
             Self::Contains => "contains",
             Self::NotContains => "!contains",
+            Self::Matches => "match",
+            Self::NotMatches => "!match",
         }
     }
 }
@@ -229,8 +307,8 @@ impl Aggregation {
 
 macro_rules! functors {
     ($($name:ident $word:literal $result:ident ($($arg:ident),*);)+) => {
-        /// What computes a value from values. The list gives word, result and arguments (`N` number, `D` decimal,
-        /// `S` symbol); the variants that end with `Decimals` are what a word means between decimals.
+        /// What computes a value from values. The list gives word, result and arguments (`N` number, `U` unsigned,
+        /// `D` decimal, `S` symbol); a word that stands several times means what fits its first argument.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub(super) enum Functor { $($name),+ }
 
@@ -252,6 +330,7 @@ macro_rules! functors {
     };
     (@kind N) => { Kind::Number };
     (@kind D) => { Kind::Float };
+    (@kind U) => { Kind::Unsigned };
     (@kind S) => { Kind::Symbol };
 }
 
@@ -265,6 +344,15 @@ functors! {
     Negate "neg" N(N);
     Smaller "min" N(N, N);
     Larger "max" N(N, N);
+    AddUnsigned "+" U(U, U);
+    SubtractUnsigned "-" U(U, U);
+    MultiplyUnsigned "*" U(U, U);
+    DivideUnsigned "/" U(U, U);
+    RemainderUnsigned "%" U(U, U);
+    PowerUnsigned "^" U(U, U);
+    NegateUnsigned "neg" U(U);
+    SmallerUnsigned "min" U(U, U);
+    LargerUnsigned "max" U(U, U);
     AddDecimals "+" D(D, D);
     SubtractDecimals "-" D(D, D);
     MultiplyDecimals "*" D(D, D);
@@ -273,6 +361,8 @@ functors! {
     NegateDecimals "neg" D(D);
     SmallerOfDecimals "min" D(D, D);
     LargerOfDecimals "max" D(D, D);
+    SmallerText "min" S(S, S);
+    LargerText "max" S(S, S);
     BitAnd "band" N(N, N);
     BitOr "bor" N(N, N);
     BitXor "bxor" N(N, N);
@@ -284,52 +374,65 @@ functors! {
     LogicalOr "lor" N(N, N);
     LogicalXor "lxor" N(N, N);
     LogicalNot "lnot" N(N);
+    BitAndUnsigned "band" U(U, U);
+    BitOrUnsigned "bor" U(U, U);
+    BitXorUnsigned "bxor" U(U, U);
+    BitNotUnsigned "bnot" U(U);
+    ShiftLeftUnsigned "bshl" U(U, U);
+    ShiftRightOfUnsigned "bshr" U(U, U);
+    ShiftRightUnsignedOfUnsigned "bshru" U(U, U);
+    LogicalAndUnsigned "land" U(U, U);
+    LogicalOrUnsigned "lor" U(U, U);
+    LogicalXorUnsigned "lxor" U(U, U);
+    LogicalNotUnsigned "lnot" U(U);
     Concatenate "cat" S(S, S);
     Length "strlen" N(S);
     Part "substr" S(S, N, N);
     ToText "to_string" S(N);
     TextToText "to_string" S(S);
     DecimalToText "to_string" S(D);
+    UnsignedToText "to_string" S(U);
     ToNumber "to_number" N(S);
     DecimalToNumber "to_number" N(D);
     NumberToNumber "to_number" N(N);
-    ToUnsigned "to_unsigned" N(S);
-    NumberToUnsigned "to_unsigned" N(N);
-    DecimalToUnsigned "to_unsigned" N(D);
+    UnsignedToNumber "to_number" N(U);
+    ToUnsigned "to_unsigned" U(S);
+    NumberToUnsigned "to_unsigned" U(N);
+    DecimalToUnsigned "to_unsigned" U(D);
+    UnsignedToUnsigned "to_unsigned" U(U);
     ToDecimal "to_float" D(S);
     DecimalToDecimal "to_float" D(D);
     NumberToDecimal "to_float" D(N);
+    UnsignedToDecimal "to_float" D(U);
     Ordinal "ord" N(S);
     Range "range" N(N, N, N);
+    RangeUnsigned "range" U(U, U, U);
+    RangeOfDecimals "range" D(D, D, D);
+    Counter "autoinc" N();
+    Record "[]" S();
+    Field "[n]" S();
 }
 
 impl Functor {
-    /// What the word means for arguments of these kinds; itself where it has one meaning.
-    pub(super) fn for_kinds(self, first: Option<Kind>) -> Self {
-        match (self, first) {
-            (Self::Add, Some(Kind::Float)) => Self::AddDecimals,
-            (Self::Subtract, Some(Kind::Float)) => Self::SubtractDecimals,
-            (Self::Multiply, Some(Kind::Float)) => Self::MultiplyDecimals,
-            (Self::Divide, Some(Kind::Float)) => Self::DivideDecimals,
-            (Self::Power, Some(Kind::Float)) => Self::PowerOfDecimals,
-            (Self::Negate, Some(Kind::Float)) => Self::NegateDecimals,
-            (Self::Smaller, Some(Kind::Float)) => Self::SmallerOfDecimals,
-            (Self::Larger, Some(Kind::Float)) => Self::LargerOfDecimals,
-            (Self::ToText, Some(Kind::Float)) => Self::DecimalToText,
-            (Self::ToNumber, Some(Kind::Float)) => Self::DecimalToNumber,
-            (Self::ToText, Some(Kind::Symbol)) => Self::TextToText,
-            (Self::ToNumber, Some(Kind::Number)) => Self::NumberToNumber,
-            (Self::ToUnsigned, Some(Kind::Number)) => Self::NumberToUnsigned,
-            (Self::ToUnsigned, Some(Kind::Float)) => Self::DecimalToUnsigned,
-            (Self::ToDecimal, Some(Kind::Number)) => Self::NumberToDecimal,
-            (Self::ToDecimal, Some(Kind::Float)) => Self::DecimalToDecimal,
-            _ => self,
-        }
+    /// What the word means for a first argument of this kind; itself where it has one meaning.
+    pub(super) fn for_kind(self, first: Option<Kind>) -> Self {
+        let fits = |functor: &Self| {
+            functor.word() == self.word() && functor.takes().first().copied() == first
+        };
+        Self::ALL.iter().copied().find(fits).unwrap_or(self)
     }
 
     /// Whether the result is of the kind of the arguments.
     pub(super) fn is_arithmetic(self) -> bool {
-        use Functor::{Add, Divide, Larger, Multiply, Negate, Power, Smaller, Subtract};
-        matches!(self, Add | Subtract | Multiply | Divide | Power | Negate | Smaller | Larger)
+        let same = self.takes().iter().all(|kind| *kind == self.result());
+        same && !self.takes().is_empty()
+            && !matches!(
+                self.word(),
+                "cat" | "to_string" | "to_number" | "to_unsigned" | "to_float"
+            )
+    }
+
+    pub(super) fn is_range(self) -> bool {
+        matches!(self, Self::Range | Self::RangeUnsigned | Self::RangeOfDecimals)
     }
 }

@@ -6,9 +6,9 @@
 use std::cmp::Ordering;
 
 use super::decimal::{self, Decimal};
-use super::program::{Bounds, Expr, VariableId};
+use super::program::{Bounds, Expr, Kind, VariableId};
 use super::syntax::{Comparison, Functor};
-use super::word::{Word, Words, is_in_place};
+use super::word::{NO_WORD, Note, Word, Words, is_in_place};
 
 /// The word of an expression's value; none where there is no value.
 pub(super) fn compute(
@@ -19,6 +19,15 @@ pub(super) fn compute(
     match expr {
         Expr::Variable(v) => Some(variable(*v)),
         Expr::Constant(word) => Some(*word),
+        Expr::Call(Functor::Record, fields) => {
+            let mut row = Vec::with_capacity(fields.len());
+            for field in fields {
+                row.push(compute(field, variable, words)?);
+            }
+            Some(words.record(&row))
+        }
+        Expr::Call(Functor::Field, parts) => field(parts, variable, words),
+        Expr::Call(Functor::Counter, _) => Some(words.next_number()),
         Expr::Call(functor, _) if functor.result().is_number() => {
             let number = number(expr, variable, words)?;
             Some(words.number(number))
@@ -28,6 +37,25 @@ pub(super) fn compute(
             Some(words.symbol(&text))
         }
     }
+}
+
+/// The word of a record's field: of the record, the first word that it must have (a branch's number) or [`NO_WORD`], and
+/// the place. None for `nil` and for another branch.
+fn field(
+    parts: &[Expr],
+    variable: &impl Fn(VariableId) -> Word,
+    words: &mut Words,
+) -> Option<Word> {
+    let [of, Expr::Constant(tag), Expr::Constant(place)] = parts else { return None };
+    let record = compute(of, variable, words)?;
+    if record == NO_WORD {
+        return None;
+    }
+    let row = words.record_of(record);
+    if *tag != NO_WORD && row.first() != Some(tag) {
+        return None;
+    }
+    row.get(*place as usize).copied()
 }
 
 /// The number that an expression of a number kind stands for.
@@ -42,10 +70,14 @@ pub(super) fn number(
         Expr::Call(functor, args) => (*functor, args.as_slice()),
     };
     match (functor, args) {
+        (Functor::Field | Functor::Record | Functor::Counter, _) => {
+            let word = compute(expr, variable, words)?;
+            Some(words.to_number(word))
+        }
         (Functor::Length, [a]) => text(a, variable, words).map(|text| text.chars().count() as i64),
         (Functor::ToNumber, [a]) => text(a, variable, words)?.trim().parse().ok(),
         (Functor::ToUnsigned, [a]) => {
-            text(a, variable, words)?.trim().parse().ok().filter(|number| *number >= 0)
+            text(a, variable, words)?.trim().parse::<u32>().ok().map(i64::from)
         }
         (Functor::ToDecimal, [a]) => {
             text(a, variable, words)?.trim().parse().ok().map(Decimal::millionths)
@@ -55,11 +87,23 @@ pub(super) fn number(
         (Functor::DecimalToUnsigned, [a]) => {
             Some(number(a, variable, words)? / decimal::ONE).filter(|number| *number >= 0)
         }
-        (Functor::NumberToNumber | Functor::DecimalToDecimal, [a]) => number(a, variable, words),
-        (Functor::NumberToUnsigned, [a]) => {
-            number(a, variable, words).filter(|number| *number >= 0)
+        (Functor::UnsignedToNumber, [a]) => {
+            // The same 32 bits.
+            number(a, variable, words).map(|number| i64::from(number as u32 as i32))
         }
-        (Functor::NumberToDecimal, [a]) => number(a, variable, words)?.checked_mul(decimal::ONE),
+        (
+            Functor::NumberToNumber | Functor::DecimalToDecimal | Functor::UnsignedToUnsigned,
+            [a],
+        ) => number(a, variable, words),
+        (Functor::NumberToUnsigned, [a]) => number(a, variable, words).map(round),
+        (Functor::NegateUnsigned, [a]) => {
+            number(a, variable, words).map(|number| round(number.wrapping_neg()))
+        }
+        (Functor::BitNotUnsigned, [a]) => number(a, variable, words).map(|number| round(!number)),
+        (Functor::LogicalNotUnsigned, [a]) => Some(i64::from(number(a, variable, words)? == 0)),
+        (Functor::NumberToDecimal | Functor::UnsignedToDecimal, [a]) => {
+            number(a, variable, words)?.checked_mul(decimal::ONE)
+        }
         (Functor::Ordinal, [a]) => compute(a, variable, words).map(i64::from),
         (Functor::Negate | Functor::NegateDecimals, [a]) => {
             number(a, variable, words)?.checked_neg()
@@ -69,9 +113,41 @@ pub(super) fn number(
         (_, [a, b]) => {
             let a = number(a, variable, words)?;
             let b = number(b, variable, words)?;
-            arithmetic(functor, a, b)
+            let result = arithmetic(functor, a, b)?;
+            note(functor, a, b, result, words);
+            Some(result)
         }
         _ => None,
+    }
+}
+
+/// As Soufflé's unsigned numbers go round: the lowest 32 bits.
+fn round(number: i64) -> i64 {
+    i64::from(number as u32)
+}
+
+/// Says so where Soufflé would have come to another number: it counts with 32 bits, and in binary fractions.
+#[inline]
+fn note(functor: Functor, a: i64, b: i64, result: i64, words: &mut Words) {
+    match functor {
+        Functor::MultiplyDecimals | Functor::DivideDecimals | Functor::PowerOfDecimals => {
+            let is_exact = match functor {
+                Functor::MultiplyDecimals => {
+                    i128::from(a) * i128::from(b) % i128::from(decimal::ONE) == 0
+                }
+                Functor::DivideDecimals => {
+                    b != 0 && i128::from(a) * i128::from(decimal::ONE) % i128::from(b) == 0
+                }
+                _ => false,
+            };
+            if !is_exact && result % decimal::ONE != 0 {
+                words.note(Note::Rounded(Decimal::from_millionths(result)));
+            }
+        }
+        _ if functor.result() == Kind::Number && i32::try_from(result).is_err() => {
+            words.note(Note::Wide(result));
+        }
+        _ => {}
     }
 }
 
@@ -85,6 +161,13 @@ fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
         Functor::Multiply => a.checked_mul(b),
         Functor::Divide => a.checked_div(b),
         Functor::Remainder => a.checked_rem(b),
+        // What is less than one is none, as Soufflé's whole numbers are cut.
+        Functor::Power if b < 0 => match a {
+            0 => None,
+            1 => Some(1),
+            -1 => Some(if b % 2 == 0 { 1 } else { -1 }),
+            _ => Some(0),
+        },
         Functor::Power => a.checked_pow(u32::try_from(b).ok()?),
         Functor::Smaller | Functor::SmallerOfDecimals => Some(a.min(b)),
         Functor::Larger | Functor::LargerOfDecimals => Some(a.max(b)),
@@ -96,9 +179,25 @@ fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
         Functor::ShiftRightUnsigned => {
             (a as u64).checked_shr(u32::try_from(b).ok()?).map(|bits| bits as i64)
         }
-        Functor::LogicalAnd => Some(i64::from(a != 0 && b != 0)),
-        Functor::LogicalOr => Some(i64::from(a != 0 || b != 0)),
-        Functor::LogicalXor => Some(i64::from((a != 0) != (b != 0))),
+        Functor::LogicalAnd | Functor::LogicalAndUnsigned => Some(i64::from(a != 0 && b != 0)),
+        Functor::LogicalOr | Functor::LogicalOrUnsigned => Some(i64::from(a != 0 || b != 0)),
+        Functor::LogicalXor | Functor::LogicalXorUnsigned => Some(i64::from((a != 0) != (b != 0))),
+        Functor::AddUnsigned => Some(round(a.wrapping_add(b))),
+        Functor::SubtractUnsigned => Some(round(a.wrapping_sub(b))),
+        Functor::MultiplyUnsigned => Some(round(a.wrapping_mul(b))),
+        Functor::DivideUnsigned => a.checked_div(b),
+        Functor::RemainderUnsigned => a.checked_rem(b),
+        Functor::PowerUnsigned => Some(i64::from((a as u32).wrapping_pow(b as u32))),
+        Functor::SmallerUnsigned => Some(a.min(b)),
+        Functor::LargerUnsigned => Some(a.max(b)),
+        Functor::BitAndUnsigned => Some(a & b),
+        Functor::BitOrUnsigned => Some(a | b),
+        Functor::BitXorUnsigned => Some(a ^ b),
+        // The places to shift go round as well, as a processor's do.
+        Functor::ShiftLeftUnsigned => Some(round(a << (b & 31))),
+        Functor::ShiftRightOfUnsigned | Functor::ShiftRightUnsignedOfUnsigned => {
+            Some(round(a >> (b & 31)))
+        }
         _ => None,
     }
 }
@@ -116,11 +215,25 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
         }
         (Functor::Part, [whole, from, length]) => {
             let whole = text(whole, variable, words)?;
-            let from = usize::try_from(number(from, variable, words)?).ok()?;
-            let length = usize::try_from(number(length, variable, words)?).ok()?;
+            let (from, length) = (number(from, variable, words)?, number(length, variable, words)?);
+            // Outside of the text there is nothing, and a negative length is all there is, as in Soufflé.
+            let Ok(from) = usize::try_from(from) else { return Some(String::new()) };
+            let length = usize::try_from(length).unwrap_or(usize::MAX);
             Some(whole.chars().skip(from).take(length).collect())
         }
-        (Functor::ToText, [a]) => number(a, variable, words).map(|number| number.to_string()),
+        (Functor::Field, _) => {
+            let word = compute(expr, variable, words)?;
+            Some(words.text(word).to_string())
+        }
+        (Functor::SmallerText, [a, b]) => {
+            Some(text(a, variable, words)?.min(text(b, variable, words)?))
+        }
+        (Functor::LargerText, [a, b]) => {
+            Some(text(a, variable, words)?.max(text(b, variable, words)?))
+        }
+        (Functor::ToText | Functor::UnsignedToText, [a]) => {
+            number(a, variable, words).map(|number| number.to_string())
+        }
         (Functor::TextToText, [a]) => text(a, variable, words),
         (Functor::DecimalToText, [a]) => {
             number(a, variable, words).map(|number| Decimal::from_millionths(number).to_string())
@@ -163,8 +276,8 @@ pub(super) fn numbers(
     let to = number(&bounds.to, variable, words)?;
     let step = match &bounds.step {
         Some(step) => number(step, variable, words)?,
-        None if from <= to => 1,
-        None => -1,
+        None if from <= to => bounds.unit,
+        None => -bounds.unit,
     };
     let far = i128::from(to) - i128::from(from);
     let count = match i128::from(step) {
@@ -185,6 +298,10 @@ pub(super) fn holds(op: Comparison, is_number: bool, a: Word, b: Word, words: &W
         Comparison::Equal => a == b,
         Comparison::NotEqual => a != b,
         Comparison::Contains => words.text(b).contains(words.text(a).as_ref()),
+        Comparison::Matches => super::regular::matches(words.text(a), words.text(b)) == Some(true),
+        Comparison::NotMatches => {
+            super::regular::matches(words.text(a), words.text(b)) == Some(false)
+        }
         Comparison::NotContains => !words.text(b).contains(words.text(a).as_ref()),
         _ => is_ordered(op, order(is_number, a, b, words)),
     }
@@ -208,6 +325,9 @@ pub(super) fn is_ordered(op: Comparison, order: Ordering) -> bool {
         Comparison::GreaterOrEqual => order.is_ge(),
         Comparison::Equal => order.is_eq(),
         Comparison::NotEqual => order.is_ne(),
-        Comparison::Contains | Comparison::NotContains => false,
+        Comparison::Contains
+        | Comparison::NotContains
+        | Comparison::Matches
+        | Comparison::NotMatches => false,
     }
 }

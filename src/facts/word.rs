@@ -15,6 +15,7 @@ use foldhash::fast::RandomState;
 
 use super::decimal::Decimal;
 use super::program::Kind;
+use super::record::{self, Finding, Making, NIL, Shape};
 
 /// One word of a tuple.
 pub(super) type Word = u32;
@@ -32,6 +33,8 @@ pub enum Value {
     Number(i64),
     Decimal(Decimal),
     Symbol(Arc<str>),
+    /// A record or a value of a branched type, as it is written: `[1, nil]`, `$Node($Leaf, $Leaf)`.
+    Record(Arc<str>),
 }
 
 impl From<Decimal> for Value {
@@ -63,7 +66,7 @@ impl fmt::Display for Value {
         match self {
             Self::Number(number) => write!(f, "{number}"),
             Self::Decimal(decimal) => write!(f, "{decimal}"),
-            Self::Symbol(text) => write!(f, "{text}"),
+            Self::Symbol(text) | Self::Record(text) => write!(f, "{text}"),
         }
     }
 }
@@ -86,30 +89,35 @@ pub(super) fn large_at(word: Word) -> Option<usize> {
 /// One layer of interned symbols and large numbers.
 #[derive(Debug, Clone, Default)]
 struct Layer {
-    /// Symbols and large numbers of the layers below.
-    below: (usize, usize),
+    /// Symbols, large numbers and records of the layers below.
+    below: (usize, usize, usize),
     symbols: Vec<Arc<str>>,
     text_bytes: usize,
     symbol_words: HashMap<Arc<str>, Word, RandomState>,
     numbers: Vec<i64>,
     number_words: HashMap<i64, Word, RandomState>,
+    records: Vec<Arc<[Word]>>,
+    record_bytes: usize,
+    record_words: HashMap<Arc<[Word]>, Word, RandomState>,
 }
 
 impl Layer {
     fn len(&self) -> usize {
-        self.symbols.len() + self.numbers.len()
+        self.symbols.len() + self.numbers.len() + self.records.len()
     }
 
-    /// Symbols and large numbers up to the end of this layer.
-    fn end(&self) -> (usize, usize) {
-        (self.below.0 + self.symbols.len(), self.below.1 + self.numbers.len())
+    /// Symbols, large numbers and records up to the end of this layer.
+    fn end(&self) -> (usize, usize, usize) {
+        let (symbols, numbers, records) = self.below;
+        (symbols + self.symbols.len(), numbers + self.numbers.len(), records + self.records.len())
     }
 
     /// Memory held, near enough: each text twice referred to.
     fn bytes(&self) -> usize {
         const A_SYMBOL: usize = 72;
         const A_NUMBER: usize = 32;
-        self.text_bytes + self.symbols.len() * A_SYMBOL + self.numbers.len() * A_NUMBER
+        let texts = self.text_bytes + self.symbols.len() * A_SYMBOL;
+        texts + self.numbers.len() * A_NUMBER + self.record_bytes + self.records.len() * A_SYMBOL
     }
 
     fn append(&mut self, above: Self) {
@@ -118,6 +126,9 @@ impl Layer {
         self.symbol_words.extend(above.symbol_words);
         self.numbers.extend(above.numbers);
         self.number_words.extend(above.number_words);
+        self.record_bytes += above.record_bytes;
+        self.records.extend(above.records);
+        self.record_words.extend(above.record_words);
     }
 }
 
@@ -129,6 +140,20 @@ impl Layer {
 pub(super) struct Words {
     shared: Vec<Arc<Layer>>,
     own: Layer,
+    shapes: Arc<[Shape]>,
+    /// What `autoinc()` gives next.
+    counter: i64,
+    /// The first number since [`Self::take_note`] that Soufflé would have computed otherwise.
+    note: Option<Note>,
+}
+
+/// A number that Soufflé would have computed otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Note {
+    /// Beyond the 32 bits that it counts with.
+    Wide(i64),
+    /// Rounded to millionths here, binary there.
+    Rounded(Decimal),
 }
 
 impl Words {
@@ -136,6 +161,7 @@ impl Words {
     pub(super) fn share(&self) -> Self {
         let mut all = self.clone();
         all.settle();
+        (all.counter, all.note) = (0, None);
         all
     }
 
@@ -179,6 +205,56 @@ impl Words {
     /// Memory that symbols and large numbers take, near enough.
     pub(super) fn bytes(&self) -> usize {
         self.layers().map(Layer::bytes).sum()
+    }
+
+    /// The types of records; set once, before any record is made.
+    pub(super) fn set_shapes(&mut self, shapes: Vec<Shape>) {
+        self.shapes = shapes.into();
+    }
+
+    pub(super) fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    pub(super) fn next_number(&mut self) -> Word {
+        self.counter += 1;
+        self.number(self.counter - 1)
+    }
+
+    pub(super) fn note(&mut self, note: Note) {
+        self.note.get_or_insert(note);
+    }
+
+    pub(super) fn take_note(&mut self) -> Option<Note> {
+        self.note.take()
+    }
+
+    pub(super) fn record(&mut self, row: &[Word]) -> Word {
+        if let Some(word) = self.find_record(row) {
+            return word;
+        }
+        self.own.record_bytes += 2 * size_of_val(row);
+        let row: Arc<[Word]> = row.into();
+        self.own.records.push(Arc::clone(&row));
+        // `nil` is word 0.
+        let word = self.own.end().2 as Word;
+        self.own.record_words.insert(row, word);
+        word
+    }
+
+    pub(super) fn find_record(&self, row: &[Word]) -> Option<Word> {
+        self.layers().find_map(|layer| layer.record_words.get(row)).copied()
+    }
+
+    /// The words of a record's fields; none for `nil`.
+    pub(super) fn record_of(&self, word: Word) -> &[Word] {
+        if word == NIL {
+            return &[];
+        }
+        let at = word as usize - 1;
+        let layer = self.layers().find(|layer| at < layer.end().2);
+        let layer = layer.expect("a word stands for a record of one of the layers");
+        &layer.records[at - layer.below.2]
     }
 
     /// All symbols in the order of their words.
@@ -233,12 +309,23 @@ impl Words {
             .or_else(|| self.layers().find_map(|layer| layer.number_words.get(&number)).copied())
     }
 
-    /// The word of a value, made where there is none yet.
-    pub(super) fn of(&mut self, value: &Value) -> Word {
-        match value {
+    /// The word of a value in a column of a kind, made where there is none yet; none for a text that is no record.
+    pub(super) fn of(&mut self, value: &Value, kind: Kind) -> Option<Word> {
+        Some(match value {
             Value::Number(number) => self.number(*number),
             Value::Decimal(decimal) => self.number(decimal.millionths()),
             Value::Symbol(text) => self.symbol(text),
+            Value::Record(text) => return record::read(text, kind, &mut Making(self)),
+        })
+    }
+
+    /// The word of a value that is known already.
+    pub(super) fn find(&self, value: &Value, kind: Kind) -> Option<Word> {
+        match value {
+            Value::Number(number) => self.find_number(*number),
+            Value::Decimal(decimal) => self.find_number(decimal.millionths()),
+            Value::Symbol(text) => self.find_symbol(text),
+            Value::Record(text) => record::read(text, kind, &mut Finding(self)),
         }
     }
 
@@ -247,6 +334,11 @@ impl Words {
             Kind::Symbol => Value::Symbol(Arc::clone(self.text(word))),
             Kind::Number | Kind::Unsigned => Value::Number(self.to_number(word)),
             Kind::Float => Value::Decimal(Decimal::from_millionths(self.to_number(word))),
+            Kind::Record(_) => {
+                let mut text = String::new();
+                record::write(self, word, kind, false, &mut text);
+                Value::Record(text.into())
+            }
         }
     }
 
