@@ -34,8 +34,7 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
         return Ok(outcome);
     }
     if !answer.unknown.is_empty() {
-        let texts: Vec<String> =
-            answer.unknown.iter().map(|text| format!("«{text}»")).collect();
+        let texts: Vec<String> = answer.unknown.iter().map(|text| format!("«{text}»")).collect();
         let text = common.lang.pick("в фактах такого нет", "no fact holds this");
         super::commands::note(&format!("{}: {text}", texts.join(", ")));
     }

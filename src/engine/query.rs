@@ -60,11 +60,17 @@ impl State {
             rows,
         };
         let computed = [
-            asked("distance_between", DISTANCE, vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)], distance),
+            asked(
+                "distance_between",
+                DISTANCE,
+                vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)],
+                distance,
+            ),
             asked("seen_from", SEEN, vec![(0b01, 30.0)], seen),
             asked("way_length", WAY, vec![(0b11, 1.0)], way),
         ];
-        let computed: Vec<&dyn Computed> = computed.iter().map(|one| one as &dyn Computed).collect();
+        let computed: Vec<&dyn Computed> =
+            computed.iter().map(|one| one as &dyn Computed).collect();
         let source = Source::new("?", question);
         let ask = |error: AskError| Error::Query(Box::new(error));
         let answers = relations.derived().ask_with(&source, &computed, limits).map_err(ask)?;
