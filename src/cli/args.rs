@@ -120,6 +120,8 @@ pub(super) enum Command {
         #[arg(long)]
         not: bool,
     },
+    /// Ask in the rules' language: ortho query '?- ON_TOP_OF(X, Y), CONTAINS("Комната-А", Y)' (docs/rules.md)
+    Query(QueryArgs),
     /// Plan a scenario of a rule file, or a PDDL problem; or the facts that the map gives to planning
     Plan(PlanArgs),
     /// Write the built-in rule files into a directory, to be edited and read with --rules
@@ -243,6 +245,21 @@ pub(super) struct AskArgs {
     /// Show the query as a Datalog rule, and the proof of what the answer rests on
     #[arg(long)]
     pub explain: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct QueryArgs {
+    /// `?- premises`, or `name(X, …) :- premises`; declarations and rules of its own may stand before it
+    pub question: String,
+    /// Why each answer is one, down to what was measured
+    #[arg(long)]
+    pub explain: bool,
+    /// Give up after this many seconds; 600 when left out
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub time_limit: Option<Duration>,
+    /// Give up when what is derived takes more memory than this, MiB; 2048 when left out
+    #[arg(long, value_name = "MIB")]
+    pub memory_limit: Option<usize>,
 }
 
 #[derive(Debug, Args)]

@@ -15,6 +15,7 @@ mod fault;
 mod import;
 mod observe;
 mod plan;
+mod query;
 mod read;
 mod signals;
 mod store;
@@ -81,6 +82,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => plan::run(common, plan),
+        Command::Query(args) => query::run(common, args),
         Command::Ask(ask) => ask::run(common, ask),
         Command::Do(args) => commands::perform(common, args),
         Command::Simulate(args) => vehicle::simulate(common, args),

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::corridor::{CorridorError, CorridorFileError};
 use crate::exchange::ImportError;
-use crate::facts::FilesError;
+use crate::facts::{AskError, FilesError};
 use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
@@ -47,6 +47,9 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Datalog(#[from] Box<FilesError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Query(#[from] Box<AskError>),
     #[cfg(feature = "pictures")]
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -444,6 +447,7 @@ impl Error {
             | Self::Import(_)
             | Self::Rules(_)
             | Self::Relations(_)
+            | Self::Query(_)
             | Self::Misheard(_)
             | Self::Mission(_)
             | Self::Corridor(_)

@@ -57,7 +57,7 @@ impl Program {
         words: &mut Words,
     ) -> Result<Question, Faults> {
         let mut sources: Vec<Source> = self.sources.to_vec();
-        sources.extend(more.iter().map(|source| Source::clone(source)));
+        sources.extend(more.iter().copied().cloned());
         sources.push(source.clone());
         let file = sources.len() as u32 - 1;
         let mut faults = Found::default();
@@ -123,6 +123,16 @@ impl Program {
         clauses.extend(made.clauses);
         clauses.extend(answers.into_iter().map(|clause| Clause { head: answer, ..clause }));
         if !faults.all.iter().all(|(_, fault)| fault.is_warning()) {
+            return None;
+        }
+        // What a call derives must not depend on which calls came before.
+        let depends = clauses.iter().any(|clause| clause.counts_on())
+            || infos.iter().any(|info| !info.choices.is_empty() || info.limit_size.is_some());
+        if depends {
+            let what = "choice-domain, autoinc или limitsize в вопросе".to_owned();
+            let help = "поставьте такое отношение в программу: там оно выводится целиком";
+            let at = asked.at;
+            faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
             return None;
         }
         let order = order(asked, &infos[infos.len() - 1], faults)?;
