@@ -35,7 +35,7 @@ fn golden_programs_within_narrow_limits() {
         for (time, memory_bytes) in
             [(short, usize::MAX), (Duration::MAX, small), (Duration::MAX, 4 * small)]
         {
-            let found = outcome(&case, Limits { time, memory_bytes });
+            let found = outcome(&case, Limits { time, memory_bytes, ..Limits::default() });
             let is_limit = found.contains(" с отношение «") || found.contains(" МиБ памяти");
             assert!(is_limit || found == expected, "{}: {found}", case.display());
             limited += usize::from(is_limit);
@@ -71,9 +71,10 @@ fn a_program_without_end_is_stopped_by_time_or_memory() {
     let program = folder.path().join("program.dl");
     for text in programs {
         std::fs::write(&program, format!(".decl a(x: number)\n{text}\n.output b\n")).unwrap();
+        let all = Limits::default();
         for (limits, code) in [
-            (Limits { time: Duration::from_millis(300), memory_bytes: usize::MAX }, "за 0.3 с"),
-            (Limits { time: Duration::from_secs(2), memory_bytes: 1 << 22 }, "4 МиБ памяти"),
+            (Limits { time: Duration::from_millis(300), memory_bytes: usize::MAX, ..all }, "за 0.3 с"),
+            (Limits { time: Duration::from_secs(2), memory_bytes: 1 << 22, ..all }, "4 МиБ памяти"),
         ] {
             let started = Instant::now();
             let fault = run_files(&program, folder.path(), folder.path(), limits).unwrap_err();

@@ -172,6 +172,12 @@ pub(super) enum Command {
         /// Give up when what is derived takes more memory than this, MiB; 2048 when left out
         #[arg(long, value_name = "MIB")]
         memory_limit: Option<usize>,
+        /// Give up when a relation has more rows than this; 134217728 when left out
+        #[arg(long, value_name = "ROWS")]
+        row_limit: Option<usize>,
+        /// Show for each rule the joins chosen, the sizes met and the time taken, the longest first
+        #[arg(long)]
+        explain: bool,
     },
     /// Where the robot stands, or where a pose is, in words
     Where {

@@ -386,11 +386,16 @@ pub(super) fn datalog(
     facts: &Path,
     output: &Path,
     limits: crate::facts::Limits,
+    explain: bool,
 ) -> Result<Answer, Failure> {
-    let report = crate::facts::run_files(program, facts, output, limits)
+    let run = if explain { crate::facts::run_files_traced } else { crate::facts::run_files };
+    let report = run(program, facts, output, limits)
         .map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
         note(drawn(warning).trim_end());
+    }
+    for line in &report.traced {
+        note(line.to_string().trim_end());
     }
     if common.json {
         let sizes: Vec<_> =

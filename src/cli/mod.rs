@@ -94,14 +94,23 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::route(common, from, to, *method, *words)
         }
         Command::Corridor(corridor) => corridor::run(common, corridor),
-        Command::Datalog { program, facts, output, time_limit, memory_limit } => {
+        Command::Datalog {
+            program,
+            facts,
+            output,
+            time_limit,
+            memory_limit,
+            row_limit,
+            explain,
+        } => {
             let all = crate::facts::Limits::default();
             let limits = crate::facts::Limits {
                 time: time_limit.unwrap_or(all.time),
                 memory_bytes: memory_limit
                     .map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20)),
+                rows: row_limit.unwrap_or(all.rows),
             };
-            commands::datalog(common, program, facts, output, limits)
+            commands::datalog(common, program, facts, output, limits, *explain)
         }
         Command::Where { map, at, detail, read: None } => {
             commands::locate(common, map.as_deref(), at.as_deref(), *detail)

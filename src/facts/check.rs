@@ -16,7 +16,7 @@ use super::program::{
 use super::record::{self, Shape};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::{NO_WORD, Words};
-use super::{subsume, unify, witness};
+use super::{idle, subsume, unify, witness};
 use crate::units::{Source, nearest_name};
 
 /// Tuples are kept in rows of at most so many words.
@@ -203,6 +203,7 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
     let hidden = gone.iter().copied().chain(dominated.into_keys()).collect();
     unused(&declared, &clauses, &subsumptions, &facts, &hidden, faults);
     hints(items, faults);
+    idle::warn(&declared, &clauses, &facts, faults);
     declared.unfolded = gone;
     Program {
         sources: sources.into(),
@@ -388,7 +389,9 @@ fn hints(items: &[Item], faults: &mut Found) {
     for item in items {
         let (what, at) = match item {
             Item::Hint { what, at } => (what.clone(), *at),
-            Item::Pragma { name, at, .. } if !is_limit(name) && name != "magic-transform" => {
+            Item::Pragma { name, at, .. }
+                if !is_limit(name) && !matches!(name.as_str(), "magic-transform" | "once") =>
+            {
                 (format!(".pragma «{name}»"), *at)
             }
             _ => continue,

@@ -7,6 +7,7 @@
 use std::cell::Ref;
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::time::Instant;
 
 use datafrog::Iteration;
 use miette::Diagnostic;
@@ -15,6 +16,7 @@ use thiserror::Error;
 use super::check::reads;
 use super::database::Database;
 use super::derived::Derived;
+use super::explain::RuleTrace;
 use super::finished::Finished;
 use super::head::{Head, head_variables};
 use super::limits::{Limits, Reached, Watch};
@@ -35,28 +37,30 @@ pub enum EvaluateError {
     #[diagnostic(
         code(facts::too_many),
         help(
-            "правило, видимо, порождает новое без конца; ограничьте числа в нём сравнением или задайте .limitsize"
+            "правило, видимо, порождает новое без конца; ограничьте числа в нём сравнением, задайте .limitsize или дайте больше строк (--row-limit)"
         )
     )]
     TooMany { relation: String, limit: usize },
     /// It takes longer than it may.
-    #[error("{rule}: за {seconds} с отношение «{relation}» не выведено")]
+    #[error("{rule}: за {seconds} с отношение «{relation}» не выведено, строк пока {rows}")]
     #[diagnostic(
         code(facts::time),
         help(
             "правило, видимо, порождает новое без конца: ограничьте в нём числа сравнением; или дайте больше времени (--time-limit)"
         )
     )]
-    Time { relation: String, rule: String, seconds: f64 },
+    Time { relation: String, rule: String, seconds: f64, rows: usize },
     /// It takes more memory than it may.
-    #[error("{rule}: отношение «{relation}» не помещается в {megabytes} МиБ памяти")]
+    #[error(
+        "{rule}: отношение «{relation}» не помещается в {megabytes} МиБ памяти, строк пока {rows}"
+    )]
     #[diagnostic(
         code(facts::memory),
         help(
             "свяжите посылки правила общими переменными или ограничьте его сравнением; или дайте больше памяти (--memory-limit)"
         )
     )]
-    Memory { relation: String, rule: String, megabytes: usize },
+    Memory { relation: String, rule: String, megabytes: usize, rows: usize },
 }
 
 /// A relation's rows at most, unless `.limitsize` says less.
@@ -80,14 +84,26 @@ impl Program {
         database: &Database,
         limits: Limits,
     ) -> Result<Derived, EvaluateError> {
+        Ok(self.run(database, limits, false)?.0)
+    }
+
+    /// With what each rule did, where that is asked for.
+    pub(super) fn run(
+        &self,
+        database: &Database,
+        limits: Limits,
+        is_traced: bool,
+    ) -> Result<(Derived, Vec<RuleTrace>), EvaluateError> {
         let mut evaluation = Evaluation::new(self, database, limits.within(self.limits));
+        evaluation.traced = is_traced.then(Vec::new);
         let last_readers = self.last_readers();
         for (n, stratum) in self.strata.iter().enumerate() {
             evaluation.stratum(stratum)?;
             // What nobody will read again need not be held in any other order.
             evaluation.finished.indexes.retain(|(read, _), _| last_readers[read.index()] > n);
         }
-        Ok(evaluation.derived())
+        let traced = evaluation.traced.take().unwrap_or_default();
+        Ok((evaluation.derived(), traced))
     }
 }
 
@@ -97,14 +113,14 @@ impl Program {
         let Some(reached) = watch.reached() else { return Ok(()) };
         let relation = self.info(clause.head).name.clone();
         let rule = self.place(clause.at);
-        let limits = watch.limits();
+        let (limits, rows) = (watch.limits(), watch.rows());
         Err(match reached {
             Reached::Time => {
-                EvaluateError::Time { relation, rule, seconds: limits.time.as_secs_f64() }
+                EvaluateError::Time { relation, rule, seconds: limits.time.as_secs_f64(), rows }
             }
             Reached::Memory => {
                 let megabytes = limits.memory_bytes >> 20;
-                EvaluateError::Memory { relation, rule, megabytes }
+                EvaluateError::Memory { relation, rule, megabytes, rows }
             }
         })
     }
@@ -125,12 +141,14 @@ impl Program {
 
 /// A program under way.
 pub(super) struct Evaluation<'a> {
-    program: &'a Program,
+    pub(super) program: &'a Program,
     pub(super) finished: Finished<'a>,
     /// Facts of the text and the database, by relation.
     given: Vec<SharedRows>,
     /// Where numbers came out otherwise than Soufflé's would, the first for each rule.
     notes: Vec<(Span, Note)>,
+    /// What each rule did, where that is asked for.
+    pub(super) traced: Option<Vec<RuleTrace>>,
 }
 
 /// For relations with choice domains the combinations that have their tuple.
@@ -152,7 +170,7 @@ impl<'a> Evaluation<'a> {
         let given = given(program, database, relations);
         let watch = Rc::new(Watch::new(limits));
         let finished = Finished::new(database.words.share(), vec![None; given.len()], watch);
-        Self { program, finished, given, notes: Vec::new() }
+        Self { program, finished, given, notes: Vec::new(), traced: None }
     }
 
     /// To evaluate strata over what is finished.
@@ -161,7 +179,7 @@ impl<'a> Evaluation<'a> {
         finished: Finished<'a>,
         given: Vec<SharedRows>,
     ) -> Self {
-        Self { program, finished, given, notes: Vec::new() }
+        Self { program, finished, given, notes: Vec::new(), traced: None }
     }
 
     fn derived(self) -> Derived {
@@ -179,11 +197,12 @@ impl<'a> Evaluation<'a> {
     }
 
     fn check_size(&self, relation: RelationId, size: usize) -> Result<(), EvaluateError> {
-        if size < MAX_ROWS {
+        let limit = self.finished.watch.limits().rows;
+        if size <= limit {
             return Ok(());
         }
         let relation = self.program.info(relation).name.clone();
-        Err(EvaluateError::TooMany { relation, limit: MAX_ROWS })
+        Err(EvaluateError::TooMany { relation, limit })
     }
 
     fn check_limits(&self, clause: &Clause) -> Result<(), EvaluateError> {
@@ -222,8 +241,8 @@ impl<'a> Evaluation<'a> {
                     let limit = self.limit(*relation);
                     let versions = vec![Version::Finished; clause.body.len()];
                     let mut plan = self.plan(clause, &versions, None);
-                    if let (Some((read, columns)), None) = (self.projection(clause, &plan), &chosen)
-                    {
+                    let copied = self.projection(clause, &plan).filter(|_| self.traced.is_none());
+                    if let (Some((read, columns)), None) = (copied, &chosen) {
                         new.project(self.finished.relation(read), &columns);
                         continue;
                     }
@@ -232,8 +251,9 @@ impl<'a> Evaluation<'a> {
                     self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
                     self.check_limits(clause)?;
                 }
-                self.check_size(*relation, new.len())?;
-                new.sort()
+                let rows = new.sort();
+                self.check_size(*relation, rows.len())?;
+                rows
             };
             self.finished.rows[relation.index()] = Some(rows);
         }
@@ -429,9 +449,15 @@ impl<'a> Evaluation<'a> {
         sink: &mut dyn Sink,
     ) {
         let watch = Rc::clone(&self.finished.watch);
+        let started = self.traced.is_some().then(|| (Instant::now(), sink.len()));
         let mut head = Head::new(self.program, clause, limit, sink, &watch);
         let mut registers = vec![0; clause.variables.len()];
         self.finished.run(plan, parts, &mut registers, &mut head);
+        watch.found(sink.len());
+        if let Some((started, before)) = started {
+            let found = sink.len().saturating_sub(before);
+            self.trace(clause, plan, found, started.elapsed());
+        }
         if let Some(note) = self.finished.words.take_note() {
             const MAX_NOTES: usize = 32;
             let is_known = self.notes.iter().any(|(at, _)| *at == clause.at);

@@ -234,6 +234,27 @@ pub enum RuleError {
         #[label("объявлено здесь")]
         at: SourceSpan,
     },
+    /// A rule of which some premise never holds.
+    #[error("правило никогда не сработает: {why}")]
+    #[diagnostic(code(facts::never_fires), severity(Warning), help("проверьте эту посылку"))]
+    NeverFires {
+        why: String,
+        #[label("эта посылка не выполняется")]
+        at: SourceSpan,
+    },
+    /// Premises that nothing ties: all pairs are tried.
+    #[error("посылки «{one}» и «{other}» ничем не связаны: перебираются все пары")]
+    #[diagnostic(
+        code(facts::product),
+        severity(Warning),
+        help("дайте им общую переменную или сравнение; если все пары и нужны, оставьте так")
+    )]
+    Product {
+        one: String,
+        other: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     /// A variable that occurs once; often a slip of the pen.
     #[error("переменная «{variable}» встречается один раз")]
     #[diagnostic(
@@ -282,6 +303,8 @@ impl RuleError {
             | Self::Cycle { at, .. }
             | Self::NeverUsed { at, .. }
             | Self::NeverDerived { at, .. }
+            | Self::NeverFires { at, .. }
+            | Self::Product { at, .. }
             | Self::SingleVariable { at, .. } => *at,
         }
     }

@@ -12,6 +12,7 @@ use super::ask::AskError;
 use super::database::{Database, FactError, Known, Loader};
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
+use super::explain::RuleTrace;
 use super::fault::{Faults, FileFaults};
 use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
@@ -74,6 +75,8 @@ pub struct FilesReport {
     pub written: Vec<PathBuf>,
     /// `.output` with `IO=stdout`: what is to be printed, as Soufflé prints it.
     pub printed: String,
+    /// What each rule did, the longest first; only where it was asked for.
+    pub traced: Vec<RuleTrace>,
 }
 
 /// Runs a program: `.input` relations from `facts_dir`, `.output` relations into `out_dir`.
@@ -91,6 +94,29 @@ pub fn run_files(
     out_dir: &Path,
     limits: Limits,
 ) -> Result<FilesReport, FilesError> {
+    run(program, facts_dir, out_dir, limits, false)
+}
+
+/// As [`run_files`], with what each rule did in [`FilesReport::traced`].
+///
+/// # Errors
+/// As [`run_files`].
+pub fn run_files_traced(
+    program: &Path,
+    facts_dir: &Path,
+    out_dir: &Path,
+    limits: Limits,
+) -> Result<FilesReport, FilesError> {
+    run(program, facts_dir, out_dir, limits, true)
+}
+
+fn run(
+    program: &Path,
+    facts_dir: &Path,
+    out_dir: &Path,
+    limits: Limits,
+    is_traced: bool,
+) -> Result<FilesReport, FilesError> {
     let program = Program::parse_included(&with_included(program)?)?;
     for (_, info) in program.relations() {
         info.input.iter().try_for_each(|known| check(info, known, false))?;
@@ -102,7 +128,8 @@ pub fn run_files(
             read(&mut database, relation, info, parameters, facts_dir)?;
         }
     }
-    let derived = if program.asks_for_demand() {
+    let mut traced = Vec::new();
+    let derived = if program.asks_for_demand() && !is_traced {
         let is_shown = |info: &RelationInfo| info.print_size || !info.outputs.is_empty();
         let shown: Vec<RelationId> = program
             .relations()
@@ -111,17 +138,25 @@ pub fn run_files(
             .collect();
         program.evaluate_on_demand(&database, &shown, limits)?
     } else {
-        program.evaluate_within(&database, limits)?
+        let derived;
+        (derived, traced) = program.run(&database, limits, is_traced)?;
+        derived
     };
     let mut warnings = program.warnings().to_vec();
     warnings.extend(derived.notes());
-    let mut report = FilesReport { warnings, ..FilesReport::default() };
+    let mut report =
+        FilesReport { warnings, traced: super::explain::sorted(traced), ..FilesReport::default() };
     for (relation, info) in program.relations() {
         if info.print_size {
             let size = derived.len(relation).expect("the relation is the program's own");
             report.sizes.push((info.name.clone(), size));
         }
         for parameters in &info.outputs {
+            if parameter(parameters, "IO") == Some("stdoutprintsize") {
+                let size = derived.len(relation).expect("the relation is the program's own");
+                report.sizes.push((info.name.clone(), size));
+                continue;
+            }
             if is_printed(parameters) {
                 print(&derived, relation, info, parameters, &mut report.printed);
                 continue;
@@ -171,7 +206,10 @@ fn parameter<'a>(parameters: &'a Parameters, name: &str) -> Option<&'a str> {
 fn check(info: &RelationInfo, parameters: &Parameters, may_print: bool) -> Result<(), FilesError> {
     for (name, value) in parameters {
         let is_known = match name.as_str() {
-            "IO" => value == "file" || may_print && value == "stdout",
+            "IO" => {
+                value == "file"
+                    || may_print && matches!(value.as_str(), "stdout" | "stdoutprintsize")
+            }
             "headers" | "rfc4180" => matches!(value.as_str(), "true" | "false"),
             "filename" | "delimiter" => true,
             "columns" => !may_print && file_columns(value, info.columns.len()).is_some(),

@@ -291,6 +291,9 @@ impl Builder<'_> {
 
     /// Whether an expression may stand where values of a kind are wanted.
     pub(super) fn fits(&self, expr: &syntax::Expr, kind: Kind, scope: &Scope) -> bool {
+        if matches!(expr, syntax::Expr::Nil(_)) {
+            return matches!(kind, Kind::Record(_));
+        }
         self.kind_of(expr, scope).is_none_or(|known| known == kind)
             || matches!(kind, Kind::Float | Kind::Unsigned) && is_whole(expr)
     }
@@ -319,7 +322,10 @@ impl Builder<'_> {
             syntax::Expr::Aggregate { function, .. } => function.word().into(),
             syntax::Expr::Any(_) => "_".into(),
         };
-        let found = self.declared.kind_text(self.kind_of(expr, scope).unwrap_or(Kind::Symbol));
+        let found = match expr {
+            syntax::Expr::Nil(_) => "запись".to_owned(),
+            _ => self.declared.kind_text(self.kind_of(expr, scope).unwrap_or(Kind::Symbol)),
+        };
         let expected = self.declared.kind_text(expected);
         self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
     }

@@ -3,11 +3,15 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
+use super::evaluate::MAX_ROWS;
+
 /// How long an evaluation may go on, and how much memory it may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     pub time: Duration,
     pub memory_bytes: usize,
+    /// Of one relation.
+    pub rows: usize,
 }
 
 /// What a program's own text allows: `.pragma "time-limit" "10"` in seconds, `"memory-limit"` in mebibytes,
@@ -30,6 +34,9 @@ impl Limits {
         Self {
             time: self.time.min(time),
             memory_bytes: self.memory_bytes.min(usize::try_from(bytes).unwrap_or(usize::MAX)),
+            rows: ceilings.rows.map_or(self.rows, |rows| {
+                self.rows.min(usize::try_from(rows).unwrap_or(usize::MAX))
+            }),
         }
     }
 }
@@ -37,7 +44,7 @@ impl Limits {
 impl Default for Limits {
     /// Ten minutes and two gigabytes: more than the rules of a large hospital need, less than a machine has.
     fn default() -> Self {
-        Self { time: Duration::from_secs(600), memory_bytes: 1 << 31 }
+        Self { time: Duration::from_secs(600), memory_bytes: 1 << 31, rows: MAX_ROWS }
     }
 }
 
@@ -57,6 +64,8 @@ pub(super) struct Watch {
     /// Memory that does not change while a rule runs: relations and indexes that are finished.
     held: Cell<usize>,
     reached: Cell<Option<Reached>>,
+    /// Rows that the last rule had found when it ended.
+    rows: Cell<usize>,
 }
 
 /// Looking at the clock costs more than most of what is done between two looks.
@@ -69,7 +78,13 @@ impl Watch {
 
     /// For what is bounded by a result that is there already.
     pub(super) fn unlimited() -> Self {
-        Self { limits: None, ticks: Cell::new(0), held: Cell::new(0), reached: Cell::new(None) }
+        Self {
+            limits: None,
+            ticks: Cell::new(0),
+            held: Cell::new(0),
+            reached: Cell::new(None),
+            rows: Cell::new(0),
+        }
     }
 
     pub(super) fn limits(&self) -> Limits {
@@ -79,6 +94,14 @@ impl Watch {
     /// Ends all loops for a reason of the caller's own.
     pub(super) fn stop(&self) {
         self.reached.set(self.reached.get().or(Some(Reached::Time)));
+    }
+
+    pub(super) fn found(&self, rows: usize) {
+        self.rows.set(rows);
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.rows.get()
     }
 
     pub(super) fn reached(&self) -> Option<Reached> {

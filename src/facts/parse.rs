@@ -119,6 +119,10 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
                 at: token.at,
             })
             .parse(behind),
+        // Each file is read once anyway.
+        Word::Directive("once") => {
+            Ok((behind, Item::Pragma { name: "once".into(), value: String::new(), at: token.at }))
+        }
         Word::Directive("comp") => component(behind, 0),
         Word::Directive("init") => instance(behind),
         Word::Directive("override") => input.refuse(RuleError::Unsupported {
