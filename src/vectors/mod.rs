@@ -8,8 +8,13 @@
 //! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
 //! exchanges points, ends and covariances together.
 
+mod line;
+pub mod picture;
+mod polyline;
 pub mod read;
 pub mod scan;
 mod segment;
+mod tip;
 
+pub use polyline::{Course, polyline};
 pub use segment::{Covariance, Cut, End, Segment, Truth};

@@ -41,7 +41,7 @@ fn row(
         let needed = needed.max(BEFORE + 1);
         return Err(LogFault::CutOff { found: all.len(), needed, at: (at + length, 0).into() });
     }
-    let time = number(&all[0])? * 1e-6;
+    let time = number(&all[0])? / 1e6;
     let ranges = all[BEFORE..]
         .iter()
         .map(|word| number(word).map(|millimetres| millimetres * 0.1))

@@ -7,28 +7,18 @@
 //! run      the ends                   no return        → nobody knows: out of range
 //! ```
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 use super::extract::{Hit, Run};
-use super::line::{Line, ROUGHNESS};
 use super::sensor::Sensor;
-use crate::segment::{Covariance, Cut, End, Segment, Truth};
+use crate::line::{Line, ROUGHNESS};
+use crate::segment::{Cut, End, Segment, Truth};
+use crate::tip::{Meeting, Tip, tip_segment};
 
 /// Sine of the least angle between two faces that make a corner.
 const FLAT: f64 = 0.12;
 /// Deviations that tell "beyond the line" and "short of it" from "on it".
 const CLEAR: f64 = 4.0;
-
-/// One end of a run on its way to be the end of a segment: its errors are `lever` times the line's error across itself
-/// at `place`, and what has covariance `own` besides.
-#[derive(Debug, Clone, Copy)]
-struct Tip {
-    end: End,
-    point: Vector2<f64>,
-    place: f64,
-    lever: Vector2<f64>,
-    own: Matrix2<f64>,
-}
 
 /// The segments of the runs, in their order.
 pub(crate) fn segments(
@@ -54,16 +44,8 @@ pub(crate) fn segments(
         };
         joined = next.map(|(_, second)| second);
         let end = next.map_or_else(|| tip(sensor, ranges, hits, run, true), |(first, _)| first);
-        into.push(segment(&run.line, &start, &end));
+        into.push(tip_segment(&run.line, &start, &end));
     }
-}
-
-fn segment(line: &Line, start: &Tip, end: &Tip) -> Segment<2> {
-    let of =
-        |tip: &Tip| tip.own + tip.lever * tip.lever.transpose() * line.across(tip.place, tip.place);
-    let cross = start.lever * end.lever.transpose() * line.across(start.place, end.place);
-    let covariance = Covariance { start: of(start), end: of(end), cross };
-    Segment { start: start.point, end: end.point, ends: [start.end, end.end], covariance }
 }
 
 /// Where two runs that follow each other meet, as the end of the first and the start of the second.
@@ -75,38 +57,35 @@ fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Op
         return None;
     }
     let (one, two) = (&a.line, &b.line);
-    let sine = one.direction.perp(&two.direction);
-    if sine.abs() < FLAT {
-        return None;
-    }
-    let apart = two.centre - one.centre;
-    let (place, second_place) =
-        (apart.perp(&two.direction) / sine, apart.perp(&one.direction) / sine);
-    let point = one.at(place);
+    let meeting = Meeting::of(one, two, FLAT)?;
+    let (point, [place, second_place]) = (meeting.point, meeting.places);
     // Between the beams beside the border, one beam of tolerance on each side.
     let low = sensor.directions[((last.beam + count - 1) % count) as usize];
     let high = sensor.directions[((first.beam + 1) % count) as usize];
     let open = !sensor.is_closed();
     let inner = (open && last.beam == 0) || low.perp(&point) >= 0.0;
     let outer = (open && first.beam + 1 == count) || point.perp(&high) >= 0.0;
+    // Where lines meet at a small angle, noise moves their meeting along both.
+    let sine = one.direction.perp(&two.direction).abs();
+    let room = CLEAR * one.expected.max(two.expected).sqrt() / sine + (first.p - last.p).norm();
+    let near = sine < 0.5
+        && (place - one.place(last.p)).abs() < room
+        && (second_place - two.place(first.p)).abs() < room;
     let ahead = point.dot(&(last.p + first.p)) > 0.0;
     let order = place > one.place(hits[a.from].p) && second_place < two.place(hits[b.to - 1].p);
-    if !(inner && outer && ahead && order) {
+    if !((inner && outer || near) && ahead && order) {
         return None;
     }
     if gap == 2 {
         // A return that no line took lies between: the faces meet only if it went no farther than their corner.
-        let between = ranges[((last.beam + 1) % count) as usize];
-        let room = (first.p - last.p).norm() + CLEAR * sensor.noise.along(between).sqrt();
-        if sensor.returned(between) && (between - point.norm()).abs() > room {
+        let between = ranges.get(((last.beam + 1) % count) as usize);
+        let between = between.copied().filter(|range| sensor.returned(*range));
+        let room =
+            |range: f64| (first.p - last.p).norm() + CLEAR * sensor.noise.along(range).sqrt();
+        if between.is_some_and(|range| (range - point.norm()).abs() > room(range)) {
             return None;
         }
     }
-    // N x = d with N of both normals: an error of the first line moves the corner along the second, and conversely.
-    let slide_one = -two.direction / sine;
-    let slide_two = one.direction / sine;
-    let own_one = slide_two * slide_two.transpose() * two.across(second_place, second_place);
-    let own_two = slide_one * slide_one.transpose() * one.across(place, place);
     // Two points make a line, but not a face: where it meets another is a vertex of the contour and no more.
     let bend = CLEAR * CLEAR * (one.turning() + two.turning());
     let end = if one.count > 2.0 && two.count > 2.0 && sine * sine > bend {
@@ -114,10 +93,7 @@ fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Op
     } else {
         End::Cut(Cut::Unclear)
     };
-    Some((
-        Tip { end, point, place, lever: slide_one, own: own_one },
-        Tip { end, point, place: second_place, lever: slide_two, own: own_two },
-    ))
+    Some(meeting.tips(one, two, end))
 }
 
 /// The end of a run that meets no other: of its last point, or of its first.

@@ -11,8 +11,8 @@
 use nalgebra::Vector2;
 
 use super::ends;
-use super::line::{Line, Sums};
 use super::sensor::Sensor;
+use crate::line::{Line, ROUGHNESS, Sums};
 use crate::segment::Segment;
 
 /// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
@@ -21,6 +21,8 @@ const OBLIQUE: f64 = 0.175;
 const SPLIT: f64 = 4.0;
 /// What joining two lines may cost, in squared deviations.
 const JOIN: f64 = 25.0;
+/// A border is moved by this many points at most.
+const NEAR: usize = 8;
 /// A last point this many deviations off its line is none of it.
 const TRIM: f64 = 2.0;
 /// Fewest points of a segment.
@@ -66,7 +68,7 @@ impl Extractor {
     pub fn segments(&mut self, sensor: &Sensor, ranges: &[f64]) -> &[Segment<2>] {
         let closed = sensor.is_closed() && ranges.len() >= sensor.count();
         self.find(sensor, ranges, if closed { seam(sensor, ranges) } else { 0 });
-        if closed && self.runs.len() > 1 && self.seam_cuts(sensor) {
+        if closed && self.runs.len() > 1 && self.seam_cuts() {
             let start = self.surest_border();
             self.find(sensor, ranges, start);
         }
@@ -88,7 +90,7 @@ impl Extractor {
     }
 
     /// The first and the last line may be one: what begins and ends at the seam is near, or lies on one line.
-    fn seam_cuts(&self, sensor: &Sensor) -> bool {
+    fn seam_cuts(&self) -> bool {
         let (first, last) = (&self.runs[0], &self.runs[self.runs.len() - 1]);
         let gap = (self.hits[first.from].p - self.hits[last.to - 1].p).norm();
         let facing = first.line.direction.dot(&last.line.direction) > 0.9;
@@ -175,7 +177,7 @@ impl Extractor {
             if torn {
                 self.clusters.push(self.hits.len());
             }
-            let sums = self.sums[self.hits.len()].and(p, r);
+            let sums = self.sums[self.hits.len()].and(p, r * r);
             self.sums.push(sums);
             self.hits.push(Hit { p, r, beam: beam as u32 });
         }
@@ -203,7 +205,7 @@ impl Extractor {
     }
 
     fn run(&self, from: usize, to: usize, sensor: &Sensor) -> Run {
-        let mut line = Line::through(&self.sums, from, to, &sensor.noise);
+        let mut line = Line::seen(&self.sums, from, to, &sensor.noise);
         if (self.hits[to - 1].p - self.hits[from].p).dot(&line.direction) < 0.0 {
             line.direction = -line.direction;
         }
@@ -217,17 +219,25 @@ impl Extractor {
             if a.to != b.from || a.to - a.from < 3 || b.to - b.from < 3 {
                 continue;
             }
-            let off =
-                |run: &Run, p: Vector2<f64>| run.line.direction.perp(&(p - run.line.centre)).abs();
-            let mut border = a.to;
-            while border + 2 < b.to && off(&a, self.hits[border].p) < off(&b, self.hits[border].p) {
-                border += 1;
+            // What the fit loses when the point goes from the second line to the first.
+            let gain = |at: usize| {
+                let p = self.hits[at].p;
+                let off = |line: &Line| line.direction.perp(&(p - line.centre));
+                let (one, two) = (off(&a.line), off(&b.line));
+                one * one - two * two
+            };
+            let (mut border, mut best, mut sum) = (a.to, 0.0, 0.0);
+            for at in a.to..(a.to + NEAR).min(b.to - 2) {
+                sum += gain(at);
+                if sum < best {
+                    (border, best) = (at + 1, sum);
+                }
             }
-            if border == a.to {
-                while border > a.from + 2
-                    && off(&b, self.hits[border - 1].p) < off(&a, self.hits[border - 1].p)
-                {
-                    border -= 1;
+            sum = 0.0;
+            for at in (a.to.saturating_sub(NEAR).max(a.from + 2)..a.to).rev() {
+                sum -= gain(at);
+                if sum < best {
+                    (border, best) = (at, sum);
                 }
             }
             if border != a.to {
@@ -390,6 +400,6 @@ fn farthest(hits: &[Hit], sensor: &Sensor) -> Option<usize> {
     };
     let bearing = noise.bearing * hit.r;
     let variance = noise.along(hit.r).mul_add(facing, bearing * bearing * (1.0 - facing))
-        + super::line::ROUGHNESS * super::line::ROUGHNESS;
+        + ROUGHNESS * ROUGHNESS;
     (off * off > SPLIT * SPLIT * 1.5 * variance * square).then_some(best)
 }

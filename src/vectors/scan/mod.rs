@@ -3,7 +3,6 @@
 mod cast;
 mod ends;
 mod extract;
-mod line;
 mod sensor;
 
 pub use cast::{Struck, cast};

@@ -7,7 +7,7 @@
 
 use nalgebra::Vector2;
 
-use super::sensor::Noise;
+use crate::scan::Noise;
 
 /// Deviation of a wall from its plane, in cm: what no sensor is to blame for.
 pub(crate) const ROUGHNESS: f64 = 0.5;
@@ -24,14 +24,15 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    pub(crate) fn and(&self, p: Vector2<f64>, r: f64) -> Self {
+    /// With one more point, `square` cm² from the origin.
+    pub(crate) fn and(&self, p: Vector2<f64>, square: f64) -> Self {
         Self {
             x: self.x + p.x,
             y: self.y + p.y,
             xx: p.x.mul_add(p.x, self.xx),
             xy: p.x.mul_add(p.y, self.xy),
             yy: p.y.mul_add(p.y, self.yy),
-            inverse: self.inverse + 1.0 / (r * r),
+            inverse: self.inverse + 1.0 / square,
         }
     }
 }
@@ -51,8 +52,8 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Through the points `from..to`, at least one.
-    pub(crate) fn through(sums: &[Sums], from: usize, to: usize, noise: &Noise) -> Self {
+    /// Through the points `from..to`, at least one, each with variance `expected` across the line.
+    pub(crate) fn through(sums: &[Sums], from: usize, to: usize, expected: f64) -> Self {
         let (a, b) = (&sums[from], &sums[to]);
         let count = (to - from) as f64;
         let share = 1.0 / count;
@@ -65,15 +66,22 @@ impl Line {
         let direction = half_turn(difference, 2.0 * xy, root);
         let sse = (0.5 * (sum - root)).max(0.0);
         let spread = (0.5 * (sum + root)).max(1e-12);
+        Self { count, centre, direction, spread, sse, expected }
+    }
+
+    /// The same for points that a range sensor measured from the origin.
+    pub(crate) fn seen(sums: &[Sums], from: usize, to: usize, noise: &Noise) -> Self {
+        let mut line = Self::through(sums, from, to, 0.0);
+        let (a, b) = (&sums[from], &sums[to]);
         // n·u of a point at distance r is d / r, with d the distance of the line: no sum over angles is needed.
-        let d = direction.perp(&centre);
-        let inverse = (b.inverse - a.inverse) * share;
+        let d = line.direction.perp(&line.centre);
+        let share = 1.0 / line.count;
         let squares = ((b.xx - a.xx) + (b.yy - a.yy)) * share;
-        let facing = (d * d * inverse).min(1.0);
-        let along = noise.along(squares.sqrt());
+        let facing = (d * d * (b.inverse - a.inverse) * share).min(1.0);
         let bearing = noise.bearing * noise.bearing;
         let across = bearing.mul_add((squares - d * d).max(0.0), ROUGHNESS * ROUGHNESS);
-        Self { count, centre, direction, spread, sse, expected: along.mul_add(facing, across) }
+        line.expected = noise.along(squares.sqrt()).mul_add(facing, across);
+        line
     }
 
     /// To the left of the direction.
