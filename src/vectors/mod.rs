@@ -1,0 +1,13 @@
+//! What a robot sees, as vectors: segments, models of things, and what of them does not depend on the observer (paper 3).
+//!
+//! A [`Segment`] is the paper's 1-simplex σ(p1, p2) with what is known of its two ends. Lengths are centimetres,
+//! angles radians counter-clockwise from +x; nothing here knows a map.
+//!
+//! # Invariants
+//!
+//! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
+//! exchanges points, ends and covariances together.
+
+mod segment;
+
+pub use segment::{Covariance, Cut, End, Segment, Truth};
