@@ -8,6 +8,20 @@
 //! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
 //! exchanges points, ends and covariances together.
 
+mod contour;
+pub mod costs;
+mod equality;
+mod invariants;
+mod locate;
+mod model;
+mod motion;
+mod observe;
 mod segment;
+mod synthesis;
 
+pub use equality::{Equality, Match, Measure, Residual, radius, within};
+pub use invariants::{Pair, Ratio, Triple, Turn};
+pub use model::{Membership, Model};
+pub use motion::{Euclid, Motion, Space, Transition};
+pub use observe::{Image, Loss, Observation, Sensor, project};
 pub use segment::{Covariance, Cut, End, Segment, Truth};

@@ -1,0 +1,227 @@
+//! A model of a thing: its segments in a frame of its own, in the order of the contour (SPEC V1, V3, V5, V9; paper 3,
+//! sections 1 and 4).
+//!
+//! # Invariants
+//!
+//! A model does not change; what is derived from its segments (joints, places) is derived once. Counts of sightings
+//! alone are updated.
+
+use crate::{Equality, Euclid, Motion, Pair, Segment, Space, Triple, locate::Locator};
+
+/// How often a segment was seen, and how often it should have been (V9).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Membership {
+    pub seen: u32,
+    pub expected: u32,
+}
+
+impl Membership {
+    /// The paper's P^μ(h): probability that an observation contains the segment; by the rule of succession, so that
+    /// one sighting is no certainty.
+    #[must_use]
+    pub fn probability(self) -> f64 {
+        (f64::from(self.seen) + 1.0) / (f64::from(self.expected) + 2.0)
+    }
+
+    /// With another's counts.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self { seen: self.seen + other.seen, expected: self.expected + other.expected }
+    }
+}
+
+/// A set of segments in contour order, with what follows from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model<const D: usize> {
+    segments: Vec<Segment<D>>,
+    membership: Vec<Membership>,
+    /// Whether segment k ends where segment k + 1 begins, cyclically: one corner, nothing hidden between.
+    joined: Vec<bool>,
+    places: Locator<D>,
+}
+
+impl<const D: usize> Model<D> {
+    /// Of segments that come in the order of their contours, as a scan or a polyline gives them.
+    #[must_use]
+    pub fn of_contour(segments: Vec<Segment<D>>) -> Self {
+        let membership = vec![Membership { seen: 1, expected: 1 }; segments.len()];
+        Self::with_membership(segments, membership)
+    }
+
+    /// Of a set of segments: brought into order, nearest end next (V5).
+    #[must_use]
+    pub fn of_set(segments: &[Segment<D>]) -> Self {
+        Self::of_contour(
+            crate::contour::order(segments).into_iter().map(|(_, segment)| segment).collect(),
+        )
+    }
+
+    /// Of segments in contour order, with their counts.
+    pub(crate) fn with_membership(segments: Vec<Segment<D>>, membership: Vec<Membership>) -> Self {
+        let count = segments.len();
+        let joined = (0..count)
+            .map(|k| count > 1 && meet(&segments[k], &segments[(k + 1) % count]))
+            .collect();
+        let places = Locator::new(&segments);
+        Self { segments, membership, joined, places }
+    }
+
+    #[must_use]
+    pub fn segments(&self) -> &[Segment<D>] {
+        &self.segments
+    }
+
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.segments.len()
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// Counts of a segment.
+    #[must_use]
+    pub fn membership(&self, segment: usize) -> Membership {
+        self.membership[segment]
+    }
+
+    /// Whether segment `k` and the next one, cyclically, share a corner.
+    #[must_use]
+    pub fn is_joined(&self, k: usize) -> bool {
+        self.joined[k]
+    }
+
+    /// Counts a further observation: which segments should have been in it, and were.
+    pub fn witness(
+        &mut self,
+        seen: impl IntoIterator<Item = usize>,
+        expected: impl IntoIterator<Item = usize>,
+    ) {
+        for k in expected {
+            self.membership[k].expected += 1;
+        }
+        for k in seen {
+            let membership = &mut self.membership[k];
+            membership.seen += 1;
+            // What was seen was to be seen, whatever was thought.
+            membership.expected = membership.expected.max(membership.seen);
+        }
+    }
+
+    /// Segments that pass within `reach` cm of a point, and perhaps some others; ascending.
+    #[must_use]
+    pub fn near(&self, point: &nalgebra::SVector<f64, D>, reach: f64) -> Vec<u32> {
+        let mut found = Vec::new();
+        self.places.near(point, reach, &mut found);
+        found
+    }
+
+    pub(crate) const fn places(&self) -> &Locator<D> {
+        &self.places
+    }
+
+    /// The model after a motion.
+    #[must_use]
+    pub fn moved(&self, motion: &Motion<D>) -> Self {
+        let segments = self.segments.iter().map(|s| s.moved(motion)).collect();
+        Self::with_membership(segments, self.membership.clone())
+    }
+
+    /// The model of some of its segments, in its order.
+    #[must_use]
+    pub fn part(&self, members: &[usize]) -> Self {
+        let mut members = members.to_vec();
+        members.sort_unstable();
+        let segments = members.iter().map(|&k| self.segments[k]).collect();
+        Self::with_membership(segments, members.iter().map(|&k| self.membership[k]).collect())
+    }
+
+    /// Greatest distance of two ends along one axis, in cm.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        (0..D)
+            .map(|axis| {
+                let ends = self.segments.iter().flat_map(|s| [s.start[axis], s.end[axis]]);
+                let (low, high) =
+                    ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+                (high - low).max(0.0)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// V3: equal as sets of undirected segments, in one frame. Each finds its own match, none is left.
+    #[must_use]
+    pub fn equals(&self, other: &Self, equality: &Equality) -> bool {
+        if self.len() != other.len() {
+            return false;
+        }
+        let fits: Vec<Vec<usize>> = self
+            .segments
+            .iter()
+            .map(|s| {
+                (0..other.len())
+                    .filter(|&k| equality.equal(s, &other.segments[k]).is_some())
+                    .collect()
+            })
+            .collect();
+        let mut taken = vec![None; other.len()];
+        (0..self.len()).all(|k| place(k, &fits, &mut taken, &mut vec![false; other.len()]))
+    }
+}
+
+impl<const D: usize> Model<D>
+where
+    Euclid<D>: Space<D>,
+{
+    /// Invariants of the pairs {k, k + 1} along the contour, open at its end unless it is closed there.
+    #[must_use]
+    pub fn pairs(&self) -> Vec<Option<Pair>> {
+        (1..self.len())
+            .map(|k| (k - 1, k))
+            .chain(self.closing().map(|last| (last, 0)))
+            .map(|(a, b)| Pair::of(&self.segments[a], &self.segments[b]))
+            .collect()
+    }
+
+    /// Invariants of three in a row, from each segment on that has two after it.
+    #[must_use]
+    pub fn triples(&self) -> Vec<Option<Triple>> {
+        let count = self.len();
+        let starts = if self.closing().is_some() { count } else { count.saturating_sub(2) };
+        let at = |k: usize| &self.segments[k % count];
+        (0..starts).map(|k| Triple::of(at(k), at(k + 1), at(k + 2))).collect()
+    }
+
+    /// The last segment, where it is joined with the first.
+    fn closing(&self) -> Option<usize> {
+        let last = self.len().checked_sub(1)?;
+        (self.len() > 2 && self.joined[last]).then_some(last)
+    }
+}
+
+/// Whether `a` ends, truly, where `b` truly begins.
+fn meet<const D: usize>(a: &Segment<D>, b: &Segment<D>) -> bool {
+    if !a.ends[1].is_true() || !b.ends[0].is_true() {
+        return false;
+    }
+    let gap = b.start - a.end;
+    let trace = a.covariance.end.trace() + b.covariance.start.trace();
+    // 3.7 σ, bounded by the trace: wide enough for one corner seen twice, narrow beside any face.
+    gap.norm_squared() <= 14.0 * trace + 1e-6
+}
+
+/// One step of Kuhn's matching: finds segment `k` a partner, moving others where needed.
+fn place(k: usize, fits: &[Vec<usize>], taken: &mut [Option<usize>], tried: &mut [bool]) -> bool {
+    for &partner in &fits[k] {
+        if std::mem::replace(&mut tried[partner], true) {
+            continue;
+        }
+        if taken[partner].is_none_or(|other| place(other, fits, taken, tried)) {
+            taken[partner] = Some(k);
+            return true;
+        }
+    }
+    false
+}
