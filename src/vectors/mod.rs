@@ -11,6 +11,7 @@
 mod contour;
 pub mod costs;
 mod equality;
+pub mod identify;
 mod invariants;
 mod locate;
 mod model;
@@ -20,6 +21,9 @@ mod segment;
 mod synthesis;
 
 pub use equality::{Equality, Match, Measure, Residual, radius, within};
+pub use identify::{
+    Counters, Identification, Index, Library, Options, Placement, Scale, ThingId, exhaustive,
+};
 pub use invariants::{Pair, Ratio, Triple, Turn};
 pub use model::{Membership, Model};
 pub use motion::{Euclid, Motion, Space, Transition};

@@ -38,6 +38,10 @@ pub struct Model<const D: usize> {
     /// Whether segment k ends where segment k + 1 begins, cyclically: one corner, nothing hidden between.
     joined: Vec<bool>,
     places: Locator<D>,
+    /// The greatest deviation of a coordinate, in cm.
+    deviation: f64,
+    /// All ends are true.
+    whole: bool,
 }
 
 impl<const D: usize> Model<D> {
@@ -63,7 +67,9 @@ impl<const D: usize> Model<D> {
             .map(|k| count > 1 && meet(&segments[k], &segments[(k + 1) % count]))
             .collect();
         let places = Locator::new(&segments);
-        Self { segments, membership, joined, places }
+        let deviation = segments.iter().map(|s| s.covariance.deviation()).fold(0.0, f64::max);
+        let whole = segments.iter().all(Segment::is_whole);
+        Self { segments, membership, joined, places, deviation, whole }
     }
 
     #[must_use]
@@ -120,6 +126,18 @@ impl<const D: usize> Model<D> {
 
     pub(crate) const fn places(&self) -> &Locator<D> {
         &self.places
+    }
+
+    /// The greatest deviation of a coordinate of an end, in cm.
+    #[must_use]
+    pub const fn deviation(&self) -> f64 {
+        self.deviation
+    }
+
+    /// Whether every end is true.
+    #[must_use]
+    pub const fn is_whole(&self) -> bool {
+        self.whole
     }
 
     /// The model after a motion.
