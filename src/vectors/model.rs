@@ -35,7 +35,10 @@ impl Membership {
 pub struct Model<const D: usize> {
     segments: Vec<Segment<D>>,
     membership: Vec<Membership>,
-    /// Whether segment k ends where segment k + 1 begins, cyclically: one corner, nothing hidden between.
+    /// The segment after each on its contour: of a ring the first again, of an open contour the next contour's first.
+    next: Vec<Option<u32>>,
+    previous: Vec<Option<u32>>,
+    /// Whether a segment ends where the next one begins: one corner, nothing hidden between.
     joined: Vec<bool>,
     places: Locator<D>,
     /// The greatest deviation of a coordinate, in cm.
@@ -62,14 +65,17 @@ impl<const D: usize> Model<D> {
 
     /// Of segments in contour order, with their counts.
     pub(crate) fn with_membership(segments: Vec<Segment<D>>, membership: Vec<Membership>) -> Self {
-        let count = segments.len();
-        let joined = (0..count)
-            .map(|k| count > 1 && meet(&segments[k], &segments[(k + 1) % count]))
-            .collect();
+        let (next, joined) = chain(&segments);
+        let mut previous = vec![None; segments.len()];
+        for (k, after) in next.iter().enumerate() {
+            if let Some(after) = after {
+                previous[*after as usize] = Some(k as u32);
+            }
+        }
         let places = Locator::new(&segments);
         let deviation = segments.iter().map(|s| s.covariance.deviation()).fold(0.0, f64::max);
         let whole = segments.iter().all(Segment::is_whole);
-        Self { segments, membership, joined, places, deviation, whole }
+        Self { segments, membership, next, previous, joined, places, deviation, whole }
     }
 
     #[must_use]
@@ -93,7 +99,19 @@ impl<const D: usize> Model<D> {
         self.membership[segment]
     }
 
-    /// Whether segment `k` and the next one, cyclically, share a corner.
+    /// The segment after `k` on its contour.
+    #[must_use]
+    pub fn next(&self, k: usize) -> Option<usize> {
+        self.next[k].map(|k| k as usize)
+    }
+
+    /// The segment before `k`.
+    #[must_use]
+    pub fn previous(&self, k: usize) -> Option<usize> {
+        self.previous[k].map(|k| k as usize)
+    }
+
+    /// Whether segment `k` and the next one share a corner.
     #[must_use]
     pub fn is_joined(&self, k: usize) -> bool {
         self.joined[k]
@@ -193,30 +211,47 @@ impl<const D: usize> Model<D>
 where
     Euclid<D>: Space<D>,
 {
-    /// Invariants of the pairs {k, k + 1} along the contour, open at its end unless it is closed there.
+    /// Invariants of each segment and the next one: the paper's pairs {(j − 1), j}.
     #[must_use]
-    pub fn pairs(&self) -> Vec<Option<Pair>> {
-        (1..self.len())
-            .map(|k| (k - 1, k))
-            .chain(self.closing().map(|last| (last, 0)))
-            .map(|(a, b)| Pair::of(&self.segments[a], &self.segments[b]))
+    pub fn pairs(&self) -> Vec<(usize, usize, Option<Pair>)> {
+        (0..self.len())
+            .filter_map(|a| self.next(a).map(|b| (a, b)))
+            .map(|(a, b)| (a, b, Pair::of(&self.segments[a], &self.segments[b])))
             .collect()
     }
 
-    /// Invariants of three in a row, from each segment on that has two after it.
+    /// Invariants of three in a row, by the first of them.
     #[must_use]
-    pub fn triples(&self) -> Vec<Option<Triple>> {
-        let count = self.len();
-        let starts = if self.closing().is_some() { count } else { count.saturating_sub(2) };
-        let at = |k: usize| &self.segments[k % count];
-        (0..starts).map(|k| Triple::of(at(k), at(k + 1), at(k + 2))).collect()
+    pub fn triples(&self) -> Vec<(usize, Option<Triple>)> {
+        let row = |a: usize| {
+            let b = self.next(a)?;
+            let c = self.next(b).filter(|&c| c != a)?;
+            Some((a, Triple::of(&self.segments[a], &self.segments[b], &self.segments[c])))
+        };
+        (0..self.len()).filter_map(row).collect()
     }
+}
 
-    /// The last segment, where it is joined with the first.
-    fn closing(&self) -> Option<usize> {
-        let last = self.len().checked_sub(1)?;
-        (self.len() > 2 && self.joined[last]).then_some(last)
+/// Successors along contours, and which are joined.
+fn chain<const D: usize>(segments: &[Segment<D>]) -> (Vec<Option<u32>>, Vec<bool>) {
+    let count = segments.len();
+    let mut next: Vec<Option<u32>> =
+        (0..count).map(|k| (k + 1 < count).then_some(k as u32 + 1)).collect();
+    let mut joined: Vec<bool> =
+        (0..count).map(|k| k + 1 < count && meet(&segments[k], &segments[k + 1])).collect();
+    let mut first = 0;
+    for k in 0..count {
+        if joined[k] {
+            continue;
+        }
+        // A run of joined segments ends here: closed, if it ends where it began.
+        if k > first + 1 && meet(&segments[k], &segments[first]) {
+            next[k] = Some(first as u32);
+            joined[k] = true;
+        }
+        first = k + 1;
     }
+    (next, joined)
 }
 
 /// Whether `a` ends, truly, where `b` truly begins.

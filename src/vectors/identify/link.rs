@@ -26,7 +26,7 @@ pub enum Scale {
 pub(crate) struct Link {
     pub(crate) a: usize,
     pub(crate) b: usize,
-    /// All that stands between is seen and joined: whoever has both has them as near.
+    /// All that stands between is seen and joined: a thing that has all of it has the two as near.
     pub(crate) certain: bool,
     pub(crate) shape: Shape,
 }
@@ -64,30 +64,48 @@ impl Shape {
     }
 }
 
-/// Links of a model, from each segment to the next `reach` ones, cyclically.
+/// Links of a model, from each segment to the next `reach` ones on its contour.
 pub(crate) fn links<const D: usize>(model: &Model<D>, reach: usize) -> impl Iterator<Item = Link>
 where
     Euclid<D>: Space<D>,
 {
-    let count = model.len();
-    (0..count).flat_map(move |a| {
+    (0..model.len()).flat_map(move |a| {
         let mut certain = true;
-        (1..=reach.min(count.saturating_sub(1))).filter_map(move |step| {
-            let (last, b) = ((a + step - 1) % count, (a + step) % count);
-            certain &= model.is_joined(last);
-            if runs_backward(count, a, b) {
-                return None;
-            }
-            let shape = shape(model, a, b, step == 1 && certain)?;
-            Some(Link { a, b, certain, shape })
-        })
+        let mut b = a;
+        (1..=reach)
+            .map_while(move |step| {
+                certain &= model.is_joined(b);
+                b = model.next(b).filter(|&b| b != a)?;
+                Some((step, b, certain))
+            })
+            .filter_map(move |(step, b, certain)| {
+                if runs_backward(model, a, b, reach) {
+                    return None;
+                }
+                let shape = shape(model, a, b, step == 1 && certain)?;
+                Some(Link { a, b, certain, shape })
+            })
     })
 }
 
-/// Whether the shorter way along a ring of `count` segments leads from `b` to `a`: each pair is linked one way alone.
-pub(crate) const fn runs_backward(count: usize, a: usize, b: usize) -> bool {
-    let step = (b + count - a) % count;
-    2 * step > count || (2 * step == count && a > b)
+/// Whether the contour leads from `b` to `a` rather than from `a` to `b`; in a small ring, by the shorter way.
+pub(crate) fn runs_backward<const D: usize>(
+    model: &Model<D>,
+    a: usize,
+    b: usize,
+    reach: usize,
+) -> bool {
+    let steps = |from: usize, to: usize| {
+        let mut at = from;
+        (1..=reach).find(|_| {
+            at = model.next(at).unwrap_or(from);
+            at == to
+        })
+    };
+    match (steps(a, b), steps(b, a)) {
+        (Some(there), Some(back)) => there > back || (there == back && a > b),
+        (there, _) => there.is_none(),
+    }
 }
 
 /// The invariants of segments `a` and `b`; `None` where too little of them was seen to tell.
@@ -106,9 +124,6 @@ where
     let exact = [first.ends[0].is_true(), second.ends[1].is_true()];
     let noise = deviations[0].max(deviations[1]);
     if corner {
-        if !(exact[0] && exact[1]) {
-            return None;
-        }
         let alpha = Turn::between(first, second)?.angle();
         return Some(Shape {
             corner,
@@ -150,6 +165,10 @@ pub(crate) enum Kind {
     Part,
     /// Both lengths known, and not used: for views that do not know them.
     WholeAsPart,
+    /// A corner of which a length is not known, by its turn: the last resort.
+    Turn,
+    /// A corner whose lengths are known, and not used.
+    WholeAsTurn,
 }
 
 /// One invariant as a coordinate of the hash.
@@ -195,6 +214,9 @@ impl Key {
         let [p, q] = shape.lengths;
         if shape.corner {
             key.angle(shape.alpha, swing(s, p) + swing(t, q));
+            if kind != Kind::Corner {
+                return key;
+            }
             match scale {
                 Scale::Known => {
                     key.length(p, swing(s, 1.0));
@@ -308,6 +330,8 @@ impl Axis {
 pub(crate) fn canonical(shape: &Shape, kind: Kind, radius: f64, stored: f64) -> (bool, bool) {
     let [s, t] = shape.deviations.map(|own| radius * own.hypot(stored));
     match kind {
+        // A turn alone does not say which is which.
+        Kind::Turn | Kind::WholeAsTurn => (false, true),
         Kind::Corner | Kind::Whole => {
             let apart = shape.lengths[0] - shape.lengths[1];
             (apart < 0.0, apart.abs() <= std::f64::consts::SQRT_2 * (s + t))

@@ -176,7 +176,10 @@ where
 
     fn kinds_stored(&self, link: &Link) -> impl Iterator<Item = Kind> + use<D> {
         let kinds = match (link.shape.corner, link.shape.is_whole()) {
-            (true, _) => [Some(Kind::Corner), None],
+            (true, true) => {
+                [Some(Kind::Corner), self.options.cut_ends.then_some(Kind::WholeAsTurn)]
+            }
+            (true, false) => [Some(Kind::Turn), None],
             (false, true) => {
                 [Some(Kind::Whole), self.options.cut_ends.then_some(Kind::WholeAsPart)]
             }
@@ -205,7 +208,7 @@ where
                     let Some(model) = library.model(thing) else { continue };
                     let (first, second) = (usize::from(posting.first), usize::from(posting.second));
                     let stored = if swapped { (second, first) } else { (first, second) };
-                    if let Some(seeds) = fits(&link, &told, &model, stored, self.options.scale) {
+                    if let Some(seeds) = fits(&link, &told, &model, stored, &self.options) {
                         self.consider(view, &model, thing, seeds, &mut found, &mut counters);
                     }
                 }
@@ -214,8 +217,8 @@ where
         (decide(found, view, &self.options, self.len()), counters)
     }
 
-    /// The links to ask for: of those that share no segment the cheapest, one more than segments may be foreign; all
-    /// of them, where there are not as many.
+    /// The links to ask for: the cheapest that share no segment, not even one between, one more than segments may be
+    /// foreign; all of them, where there are not as many.
     fn plan(&self, view: &Model<D>) -> Vec<(f64, Link, Vec<(Key, bool)>)> {
         let mut all: Vec<_> = links(view, self.options.reach)
             .map(|link| {
@@ -228,29 +231,22 @@ where
             })
             .collect();
         all.sort_by(|a: &(f64, Link, _), b| a.0.total_cmp(&b.0));
-        let wanted = self.options.misses(view.len()) + 1;
-        let mut used = vec![false; view.len()];
-        let mut chosen = vec![false; all.len()];
-        let mut count = 0;
-        for (k, (_, link, _)) in all.iter().enumerate() {
-            if count < wanted && link.certain && !used[link.a] && !used[link.b] {
-                used[link.a] = true;
-                used[link.b] = true;
-                chosen[k] = true;
-                count += 1;
-            }
+        match cheapest(view.len(), &all, self.options.misses(view.len()) + 1) {
+            Some(chosen) => all
+                .into_iter()
+                .enumerate()
+                .filter(|(k, _)| chosen.contains(k))
+                .map(|(_, link)| link)
+                .collect(),
+            None => all,
         }
-        if count >= wanted {
-            let mut keep = chosen.into_iter();
-            all.retain(|_| keep.next().unwrap_or(false));
-        }
-        all
     }
 
     /// The keys under which a link of a view may be stored, and whether each tells it from `b`.
     fn keys(&self, link: &Link) -> Vec<(Key, bool)> {
         let kinds: &[Kind] = match (link.shape.corner, link.shape.is_whole()) {
-            (true, _) => &[Kind::Corner],
+            (true, true) => &[Kind::Corner, Kind::Turn],
+            (true, false) => &[Kind::WholeAsTurn, Kind::Turn],
             (false, true) => &[Kind::Whole, Kind::Part],
             (false, false) => &[Kind::WholeAsPart, Kind::Part],
         };
@@ -300,18 +296,58 @@ where
     }
 }
 
+/// Which `wanted` certain links of a view share no segment and cost least together; `None` where there are not as many.
+fn cheapest(
+    segments: usize,
+    links: &[(f64, Link, Vec<(Key, bool)>)],
+    wanted: usize,
+) -> Option<Vec<usize>> {
+    // best[c][k]: least cost of c links among the first k segments, and the link that ends there, if one does.
+    let mut best = vec![vec![(f64::INFINITY, None); segments + 1]; wanted + 1];
+    best[0].fill((0.0, None));
+    for k in 1..=segments {
+        for c in 1..=wanted {
+            best[c][k] = (best[c][k - 1].0, None);
+        }
+        for (l, (cost, link, _)) in links.iter().enumerate() {
+            if link.certain && link.b + 1 == k && link.a < link.b {
+                for c in 1..=wanted {
+                    let with = best[c - 1][link.a].0 + cost;
+                    if with < best[c][k].0 {
+                        best[c][k] = (with, Some(l));
+                    }
+                }
+            }
+        }
+    }
+    let (mut c, mut k) = (wanted, segments);
+    best[c][k].0.is_finite().then_some(())?;
+    let mut chosen = Vec::with_capacity(wanted);
+    while c > 0 {
+        match best[c][k].1 {
+            Some(l) => {
+                chosen.push(l);
+                (c, k) = (c - 1, links[l].1.a);
+            }
+            None => k -= 1,
+        }
+    }
+    Some(chosen)
+}
+
 /// The correspondences of a link with segments `p`, `q` of a stored model, if all invariants agree.
 fn fits<const D: usize>(
     link: &Link,
     told: &Key,
     model: &Model<D>,
     (p, q): (usize, usize),
-    scale: Scale,
+    options: &Options,
 ) -> Option<[Correspondence; 2]>
 where
     Euclid<D>: Space<D>,
 {
-    let backward = link::runs_backward(model.len(), p, q);
+    let Options { scale, reach, .. } = *options;
+    let backward = link::runs_backward(model, p, q, reach);
     let shape = if backward {
         link::shape(model, q, p, link.shape.corner)?.swapped()
     } else {

@@ -32,7 +32,7 @@ pub(crate) struct Table {
     recent: HashMap<u32, Vec<Posting>>,
     pending: usize,
     /// Links of each kind.
-    kinds: [usize; 4],
+    kinds: [usize; 6],
 }
 
 impl Table {

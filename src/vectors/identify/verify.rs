@@ -249,7 +249,6 @@ where
             known
         };
         let root = std::f64::consts::TAU.sqrt();
-        let count = self.view.len();
         let mut sum = 0.0;
         for &pair in pairs {
             let (k, stored) = (pair.0, self.stored(pair));
@@ -261,12 +260,10 @@ where
             let turn =
                 std::f64::consts::PI * moved.length() / (root * std::f64::consts::SQRT_2 * sigma);
             sum += across * turn.ln().clamp(0.0, 4.0_f64.ln());
-            let met = [
-                (k > 0 || count > 2)
-                    && self.view.is_joined((k + count - 1) % count)
-                    && of_view[(k + count - 1) % count].is_some(),
-                self.view.is_joined(k) && of_view[(k + 1) % count].is_some(),
-            ];
+            let before = self.view.previous(k).filter(|&p| self.view.is_joined(p));
+            let after = self.view.next(k).filter(|_| self.view.is_joined(k));
+            let met =
+                [before, after].map(|other| other.is_some_and(|other| of_view[other].is_some()));
             for side in 0..2 {
                 if residual.compared[side] && !met[side] {
                     sum += (2.0 * stored.length() / (root * sigma)).ln().max(0.0);
@@ -277,7 +274,7 @@ where
             sum += self.model.membership(pair.1).probability().ln();
         }
         // What is not explained was foreign: one in twenty is.
-        sum += (count - pairs.len()) as f64 * 0.05_f64.ln();
+        sum += (self.view.len() - pairs.len()) as f64 * 0.05_f64.ln();
         let turns = if D == 2 {
             std::f64::consts::TAU
         } else {
