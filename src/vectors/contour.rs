@@ -52,7 +52,7 @@ fn joints<const D: usize>(
     tips.sort_by(|&a, &b| point(a)[0].total_cmp(&point(b)[0]));
     let slack = |(k, side): Tip| {
         let c = &segments[k].covariance;
-        14.0 * if side == 0 { c.start.trace() } else { c.end.trace() }
+        14.0 / D as f64 * if side == 0 { c.start.trace() } else { c.end.trace() }
     };
     let widest = tips.iter().map(|&t| slack(t)).fold(0.0, f64::max);
     let mut meets = Vec::new();

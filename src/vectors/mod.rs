@@ -22,7 +22,8 @@ mod synthesis;
 
 pub use equality::{Equality, Match, Measure, Residual, radius, within};
 pub use identify::{
-    Counters, Identification, Index, Library, Options, Placement, Scale, ThingId, exhaustive,
+    Counters, Identification, Index, Library, Options, Placement, Scale, Search, ThingId,
+    exhaustive,
 };
 pub use invariants::{Pair, Ratio, Triple, Turn};
 pub use model::{Membership, Model};

@@ -261,8 +261,8 @@ fn meet<const D: usize>(a: &Segment<D>, b: &Segment<D>) -> bool {
     }
     let gap = b.start - a.end;
     let trace = a.covariance.end.trace() + b.covariance.start.trace();
-    // 3.7 σ, bounded by the trace: wide enough for one corner seen twice, narrow beside any face.
-    gap.norm_squared() <= 14.0 * trace + 1e-6
+    // 3.7 σ of one coordinate: wide enough for one corner seen twice.
+    gap.norm_squared() <= 14.0 * trace / D as f64 + 1e-6
 }
 
 /// One step of Kuhn's matching: finds segment `k` a partner, moving others where needed.

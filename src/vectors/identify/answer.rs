@@ -59,6 +59,16 @@ impl<const D: usize> Identification<D> {
     }
 }
 
+/// An answer and how it was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search<const D: usize> {
+    pub answer: Identification<D>,
+    pub counters: Counters,
+    /// Every placement that fits is in the answer: the view had links enough, and no stored thing has cut ends.
+    /// Of a few segments that stand apart from one another some placement may be missed.
+    pub complete: bool,
+}
+
 /// What was compared on the way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counters {

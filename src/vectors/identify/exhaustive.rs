@@ -3,7 +3,7 @@
 //! The obvious slow version, against which the index is held; it verifies and decides by the same rules.
 
 use super::{
-    Counters, Identification, Options, ThingId, decide,
+    Counters, Options, Search, ThingId, decide,
     verify::{Hypothesis, Trial},
 };
 use crate::{Equality, Euclid, Model, Space};
@@ -15,7 +15,7 @@ pub fn exhaustive<const D: usize>(
     models: &[Model<D>],
     view: &Model<D>,
     options: &Options,
-) -> (Identification<D>, Counters)
+) -> Search<D>
 where
     Euclid<D>: Space<D>,
 {
@@ -51,5 +51,6 @@ where
             }
         }
     }
-    (decide(found, view, options, models.len()), counters)
+    let answer = decide(found, view, options, models.len());
+    Search { answer, counters, complete: true }
 }

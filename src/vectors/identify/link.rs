@@ -64,28 +64,58 @@ impl Shape {
     }
 }
 
-/// Links of a model, from each segment to the next `reach` ones on its contour.
+/// Links of a stored model, from each segment to the next `reach` ones on its contour.
 pub(crate) fn links<const D: usize>(model: &Model<D>, reach: usize) -> impl Iterator<Item = Link>
 where
     Euclid<D>: Space<D>,
 {
+    walks(model, reach, false)
+        .filter(move |&(a, b, ..)| !runs_backward(model, a, b, reach))
+        .filter_map(link(model))
+}
+
+/// Links of a view: what comes last may be beside what comes first, with the hidden side between.
+pub(crate) fn links_of_view<const D: usize>(
+    view: &Model<D>,
+    reach: usize,
+) -> impl Iterator<Item = Link>
+where
+    Euclid<D>: Space<D>,
+{
+    walks(view, reach, true).filter_map(link(view))
+}
+
+/// From each segment to those after it: the two, whether they meet in a corner, and whether all between surely is joined.
+fn walks<const D: usize>(
+    model: &Model<D>,
+    reach: usize,
+    around: bool,
+) -> impl Iterator<Item = (usize, usize, bool, bool)> {
     (0..model.len()).flat_map(move |a| {
-        let mut certain = true;
-        let mut b = a;
-        (1..=reach)
-            .map_while(move |step| {
-                certain &= model.is_joined(b);
-                b = model.next(b).filter(|&b| b != a)?;
-                Some((step, b, certain))
-            })
-            .filter_map(move |(step, b, certain)| {
-                if runs_backward(model, a, b, reach) {
-                    return None;
-                }
-                let shape = shape(model, a, b, step == 1 && certain)?;
-                Some(Link { a, b, certain, shape })
-            })
+        let (mut certain, mut b) = (true, a);
+        (1..=reach).map_while(move |step| {
+            let from = b;
+            b = model.next(b).or(around.then_some(0)).filter(|&b| b != a)?;
+            certain &= model.is_joined(from) && touch(model, from, b);
+            Some((a, b, step == 1 && model.is_joined(from), certain))
+        })
     })
+}
+
+/// Whether one corner was found for both, not two near one another: a small face may hide between those.
+fn touch<const D: usize>(model: &Model<D>, a: usize, b: usize) -> bool {
+    let (a, b) = (&model.segments()[a], &model.segments()[b]);
+    (b.start - a.end).norm() <= 0.1 * a.covariance.deviation().max(b.covariance.deviation())
+}
+
+fn link<const D: usize>(model: &Model<D>) -> impl Fn((usize, usize, bool, bool)) -> Option<Link>
+where
+    Euclid<D>: Space<D>,
+{
+    |(a, b, corner, certain)| {
+        let shape = shape(model, a, b, corner)?;
+        Some(Link { a, b, certain, shape })
+    }
 }
 
 /// Whether the contour leads from `b` to `a` rather than from `a` to `b`; in a small ring, by the shorter way.
@@ -209,8 +239,8 @@ impl Key {
         let [s, t] = shape.deviations.map(|own| radius * own.hypot(stored));
         let both = s.hypot(t);
         let mut key = Self { kind, axes: [Axis::default(); 6], count: 0 };
-        // Ends of one segment err by √2 against one another.
-        let swing = |error: f64, length: f64| std::f64::consts::SQRT_2 * error / length;
+        // Ends of one segment err by √2 against one another; nothing is known of a direction shorter than its error.
+        let swing = |error: f64, length: f64| lean(std::f64::consts::SQRT_2 * error, length);
         let [p, q] = shape.lengths;
         if shape.corner {
             key.angle(shape.alpha, swing(s, p) + swing(t, q));
@@ -219,21 +249,21 @@ impl Key {
             }
             match scale {
                 Scale::Known => {
-                    key.length(p, swing(s, 1.0));
-                    key.length(q, swing(t, 1.0));
+                    key.length(p, std::f64::consts::SQRT_2 * s);
+                    key.length(q, std::f64::consts::SQRT_2 * t);
                 }
-                Scale::Free => key.log(q / p, swing(s, p).hypot(swing(t, q))),
+                Scale::Free => key.log(q / p, (s / p).hypot(t / q) * 1.5),
             }
             return key;
         }
         let gap = shape.gap;
-        key.angle(shape.alpha, swing(s, p).hypot(both / gap));
-        key.angle(shape.beta, swing(t, q).hypot(both / gap));
+        key.angle(shape.alpha, swing(s, p).hypot(lean(both, gap)));
+        key.angle(shape.beta, swing(t, q).hypot(lean(both, gap)));
         if D == 3 {
             // Near the gap's own direction a segment has no turn about it.
-            let lean = |angle: f64| angle.sin().abs().max(1e-3);
+            let flat = |angle: f64| angle.sin().abs().max(1e-3);
             let tilt = |error: f64, length: f64, angle: f64| {
-                (swing(error, length) + both / gap) / lean(angle)
+                (swing(error, length) + lean(both, gap)) / flat(angle)
             };
             key.angle(shape.dihedral, tilt(s, p, shape.alpha).hypot(tilt(t, q, shape.beta)));
         }
@@ -244,12 +274,12 @@ impl Key {
         if kind == Kind::Whole {
             match scale {
                 Scale::Known => {
-                    key.length(p, swing(s, 1.0));
-                    key.length(q, swing(t, 1.0));
+                    key.length(p, std::f64::consts::SQRT_2 * s);
+                    key.length(q, std::f64::consts::SQRT_2 * t);
                 }
                 Scale::Free => {
-                    key.log(p / gap, swing(s, p).hypot(both / gap));
-                    key.log(q / gap, swing(t, q).hypot(both / gap));
+                    key.log(p / gap, swing(s, p).hypot(lean(both, gap)));
+                    key.log(q / gap, swing(t, q).hypot(lean(both, gap)));
                 }
             }
         }
@@ -322,6 +352,11 @@ impl Axis {
     pub(crate) const fn wrapped(&self, cell: i64) -> i64 {
         if self.period > 0 { cell.rem_euclid(self.period) } else { cell }
     }
+}
+
+/// The greatest angle by which a vector of this length is turned by an error across it.
+fn lean(error: f64, length: f64) -> f64 {
+    if error < length { (error / length).asin() } else { std::f64::consts::PI }
 }
 
 /// The order in which a link is stored: the longer segment first, or, where lengths are not known, the greater turn.

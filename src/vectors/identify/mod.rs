@@ -18,7 +18,7 @@ mod verify;
 
 use std::{borrow::Cow, collections::HashMap};
 
-pub use answer::{Counters, Identification, Placement, ThingId};
+pub use answer::{Counters, Identification, Placement, Search, ThingId};
 pub use exhaustive::exhaustive;
 pub use link::Scale;
 
@@ -83,6 +83,8 @@ pub struct Index<const D: usize> {
     /// Things by slot; what was removed leaves its slot empty.
     slots: Vec<Option<ThingId>>,
     slot_of: HashMap<ThingId, u32>,
+    /// All ends of all models are true.
+    whole: bool,
     /// The greatest deviation of a stored coordinate, in cm.
     deviation: f64,
 }
@@ -100,6 +102,7 @@ where
             table: Table::default(),
             slots: Vec::new(),
             slot_of: HashMap::new(),
+            whole: true,
             deviation: 0.0,
         }
     }
@@ -153,6 +156,7 @@ where
         let slot = self.slots.len() as u32;
         self.slots.push(Some(thing));
         self.slot_of.insert(thing, slot);
+        self.whole &= model.is_whole();
         self.deviation = self.deviation.max(model.deviation());
         for link in links(model, self.options.reach) {
             // A posting counts segments in 16 bits; no one thing has as many.
@@ -190,14 +194,11 @@ where
 
     /// Which thing a view shows, and from where (V19, V20).
     #[must_use]
-    pub fn identify<L: Library<D> + ?Sized>(
-        &self,
-        library: &L,
-        view: &Model<D>,
-    ) -> (Identification<D>, Counters) {
+    pub fn identify<L: Library<D> + ?Sized>(&self, library: &L, view: &Model<D>) -> Search<D> {
         let mut counters = Counters::default();
         let mut found: Vec<(ThingId, Hypothesis<D>)> = Vec::new();
-        for (_, link, keys) in self.plan(view) {
+        let (links, enough) = self.plan(view);
+        for (_, link, keys) in links {
             for (key, swapped) in keys {
                 let mut candidates: Vec<Posting> = Vec::new();
                 self.table.find(&key, &mut counters, |posting| candidates.push(*posting));
@@ -214,32 +215,29 @@ where
                 }
             }
         }
-        (decide(found, view, &self.options, self.len()), counters)
+        let answer = decide(found, view, &self.options, self.len());
+        Search { answer, counters, complete: enough && self.whole }
     }
 
     /// The links to ask for: the cheapest that share no segment, not even one between, one more than segments may be
     /// foreign; all of them, where there are not as many.
-    fn plan(&self, view: &Model<D>) -> Vec<(f64, Link, Vec<(Key, bool)>)> {
-        let mut all: Vec<_> = links(view, self.options.reach)
-            .map(|link| {
-                let keys = self.keys(&link);
-                let cost = keys
-                    .iter()
-                    .map(|(key, _)| key.cells() + self.table.count(key.kind) as f64 * key.share())
-                    .sum();
-                (cost, link, keys)
-            })
+    fn plan(&self, view: &Model<D>) -> (Vec<(f64, Link, Vec<(Key, bool)>)>, bool) {
+        let cost = |keys: &[(Key, bool)]| -> f64 {
+            keys.iter()
+                .map(|(key, _)| key.cells() + self.table.count(key.kind) as f64 * key.share())
+                .sum()
+        };
+        let mut all: Vec<_> = link::links_of_view(view, self.options.reach)
+            .map(|link| (link, self.keys(&link)))
+            .map(|(link, keys)| (cost(&keys), link, keys))
             .collect();
         all.sort_by(|a: &(f64, Link, _), b| a.0.total_cmp(&b.0));
-        match cheapest(view.len(), &all, self.options.misses(view.len()) + 1) {
-            Some(chosen) => all
-                .into_iter()
-                .enumerate()
-                .filter(|(k, _)| chosen.contains(k))
-                .map(|(_, link)| link)
-                .collect(),
-            None => all,
-        }
+        let Some(chosen) = cheapest(view.len(), &all, self.options.misses(view.len()) + 1) else {
+            return (all, false);
+        };
+        let kept =
+            all.into_iter().enumerate().filter(|(k, _)| chosen.contains(k)).map(|(_, link)| link);
+        (kept.collect(), true)
     }
 
     /// The keys under which a link of a view may be stored, and whether each tells it from `b`.
@@ -375,7 +373,13 @@ where
     found.sort_by(|a, b| {
         b.1.evidence.total_cmp(&a.1.evidence).then(a.0.cmp(&b.0)).then(a.1.pairs.cmp(&b.1.pairs))
     });
-    found.dedup_by(|a, b| a.0 == b.0 && a.1.pairs == b.1.pairs);
+    let mut kept: Vec<(ThingId, Hypothesis<D>)> = Vec::with_capacity(found.len());
+    for (thing, hypothesis) in found {
+        if !kept.iter().any(|(of, h)| *of == thing && same_place(&h.pairs, &hypothesis.pairs)) {
+            kept.push((thing, hypothesis));
+        }
+    }
+    let found = kept;
     let Some(best) = found.first().map(|h| h.1.evidence) else { return Identification::Unknown };
     let unknown = (things.max(1) as f64).ln();
     let most = best.max(unknown);
@@ -398,6 +402,12 @@ where
         return Identification::Unique(placements.swap_remove(0));
     }
     Identification::Ambiguous(placements)
+}
+
+/// Whether two placements on one thing are one: most of either lies on the same segments; the rest was a close call.
+pub(crate) fn same_place(a: &[Correspondence], b: &[Correspondence]) -> bool {
+    let shared = a.iter().filter(|pair| b.contains(pair)).count();
+    2 * shared > a.len().max(b.len())
 }
 
 /// How many different lines the explained segments of a view lie on.

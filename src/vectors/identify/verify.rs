@@ -197,13 +197,40 @@ where
 
     /// What of the view is in the model under a motion, by V11; `None` when too much is not.
     fn matches(&self, motion: &Motion<D>, counters: &mut Counters) -> Option<Vec<Correspondence>> {
-        let mut pairs = Vec::with_capacity(self.view.len());
+        let mut found = Vec::with_capacity(self.view.len());
         for (k, segment) in self.view.segments().iter().enumerate() {
-            if let Some((stored, reversed, _)) = self.nearest(&segment.moved(motion), counters) {
-                pairs.push((k, stored, reversed));
+            let moved = segment.moved(motion);
+            if let Some((stored, reversed, score)) = self.nearest(&moved, counters) {
+                found.push((score, (k, stored, reversed), self.covered(&moved, stored)));
             }
         }
+        // A face is seen once: of two segments on the same part of it the better one stays.
+        found.sort_by(|p, q| p.0.total_cmp(&q.0));
+        let mut kept: Vec<(Correspondence, (f64, f64))> = Vec::with_capacity(found.len());
+        for (_, pair, (from, to)) in found {
+            let twice = |&(other, (low, high)): &(Correspondence, (f64, f64))| {
+                other.1 == pair.1 && to.min(high) > from.max(low)
+            };
+            if !kept.iter().any(twice) {
+                kept.push((pair, (from, to)));
+            }
+        }
+        let mut pairs: Vec<Correspondence> = kept.into_iter().map(|(pair, _)| pair).collect();
+        pairs.sort_unstable();
         (pairs.len() + self.misses >= self.view.len() && pairs.len() >= 2).then_some(pairs)
+    }
+
+    /// The part of a stored segment that a moved one covers, in cm along it: a whole one all of it, a piece what was
+    /// seen, less its error.
+    fn covered(&self, moved: &Segment<D>, stored: usize) -> (f64, f64) {
+        let segment = &self.model.segments()[stored];
+        let u = segment.vector().try_normalize(1e-9);
+        let Some(u) = u.filter(|_| !moved.is_whole()) else {
+            return (f64::NEG_INFINITY, f64::INFINITY);
+        };
+        let (p, q) = ((moved.start - segment.start).dot(&u), (moved.end - segment.start).dot(&u));
+        let error = 4.0 * moved.covariance.deviation().hypot(segment.covariance.deviation());
+        (p.min(q) + error, p.max(q) - error)
     }
 
     /// The stored segment that a moved one is a view of.
