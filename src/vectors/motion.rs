@@ -144,6 +144,38 @@ where
     Some(Motion::from_parts(shift.into(), turning, scale))
 }
 
+/// The motion that pairs of segments ask for, start to start: true ends upon true ends, directions upon directions.
+///
+/// `None` where no two true ends say where along itself something lies.
+pub(crate) fn motion_of<const D: usize>(
+    pairs: &[(Segment<D>, Segment<D>)],
+    scaled: bool,
+) -> Option<Motion<D>>
+where
+    Euclid<D>: Space<D>,
+{
+    let mut points = Vec::with_capacity(2 * pairs.len());
+    let mut known = 0;
+    for (from, to) in pairs {
+        let length = from.length().min(to.length());
+        let (u, v) = (
+            from.vector().try_normalize(1e-9)? * length,
+            to.vector().try_normalize(1e-9)? * length,
+        );
+        let both = [0, 1].map(|k| from.ends[k].is_true() && to.ends[k].is_true());
+        known += both.iter().filter(|&&b| b).count();
+        match both {
+            [true, true] => points.extend([(from.start, to.start), (from.end, to.end)]),
+            [true, false] => {
+                points.extend([(from.start, to.start), (from.start + u, to.start + v)])
+            }
+            [false, true] => points.extend([(from.end - u, to.end - v), (from.end, to.end)]),
+            [false, false] => {}
+        }
+    }
+    if known < 2 { None } else { carry(&points, scaled) }
+}
+
 /// A motion refined by residuals: weighted least squares about the motion so far (Gauss–Newton).
 #[derive(Debug, Clone)]
 pub(crate) struct Fit<const D: usize> {

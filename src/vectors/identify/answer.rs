@@ -87,3 +87,15 @@ impl Counters {
         self.lookups + self.postings + self.segments
     }
 }
+
+impl Counters {
+    /// With another's.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self {
+            lookups: self.lookups + other.lookups,
+            postings: self.postings + other.postings,
+            segments: self.segments + other.segments,
+        }
+    }
+}

@@ -13,6 +13,7 @@
 mod answer;
 mod exhaustive;
 mod link;
+mod seeds;
 mod table;
 mod verify;
 
@@ -21,6 +22,7 @@ use std::{borrow::Cow, collections::HashMap};
 pub use answer::{Counters, Identification, Placement, Search, ThingId};
 pub use exhaustive::exhaustive;
 pub use link::Scale;
+pub(crate) use seeds::Seeds;
 
 use crate::{Equality, Euclid, Model, Segment, Space};
 use link::{Key, Kind, Link, canonical, links};

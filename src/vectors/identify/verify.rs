@@ -9,7 +9,7 @@ use nalgebra::SMatrix;
 use super::{answer::Counters, link::Scale};
 use crate::{
     Covariance, Equality, Euclid, Model, Motion, Residual, Segment, Space, motion::Fit,
-    motion::carry,
+    motion::motion_of,
 };
 
 /// A view, a stored model, and what is asked of them.
@@ -47,38 +47,8 @@ where
     ///
     /// `None` where no two true ends say where along itself something lies.
     pub(crate) fn seed(&self, pairs: [Correspondence; 2]) -> Option<Motion<D>> {
-        let mut points = Vec::with_capacity(4);
-        let mut known = 0;
-        for pair in pairs {
-            let (seen, stored) = (&self.view.segments()[pair.0], self.stored(pair));
-            let length = seen.length().min(stored.length());
-            let (u, v) = (seen.vector().try_normalize(1e-9)?, stored.vector().try_normalize(1e-9)?);
-            match [0, 1].map(|k| seen.ends[k].is_true() && stored.ends[k].is_true()) {
-                [true, true] => {
-                    known += 2;
-                    points.extend([(seen.start, stored.start), (seen.end, stored.end)]);
-                }
-                [true, false] => {
-                    known += 1;
-                    points.extend([
-                        (seen.start, stored.start),
-                        (seen.start + u * length, stored.start + v * length),
-                    ]);
-                }
-                [false, true] => {
-                    known += 1;
-                    points.extend([
-                        (seen.end - u * length, stored.end - v * length),
-                        (seen.end, stored.end),
-                    ]);
-                }
-                [false, false] => {}
-            }
-        }
-        if known < 2 || points.len() < 4 {
-            return None;
-        }
-        carry(&points, self.scale == Scale::Free)
+        let told = pairs.map(|pair| (self.view.segments()[pair.0], self.stored(pair)));
+        motion_of(&told, self.scale == Scale::Free)
     }
 
     /// Whether the view is a part of the model near a first motion that two correspondences gave.
