@@ -8,13 +8,38 @@
 //! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
 //! exchanges points, ends and covariances together.
 
+pub mod change;
+mod contour;
+pub mod costs;
+mod equality;
+pub mod identify;
+mod invariants;
 mod line;
+mod locate;
+mod model;
+mod motion;
+mod observe;
 pub mod picture;
 mod polyline;
 pub mod read;
 pub mod scan;
+mod scene;
 mod segment;
+mod synthesis;
 mod tip;
 
+pub use change::{Difference, Differential, RigidPart, difference, rigid_parts};
+pub use equality::{Equality, Match, Measure, Residual, radius, within};
+pub use identify::{
+    Counters, Identification, Index, Library, Options, Placement, Scale, Search, ThingId,
+    exhaustive,
+};
+pub use invariants::{Pair, Ratio, Triple, Turn};
+pub use model::{Membership, Model};
+pub use motion::{Euclid, Motion, Space, Transition};
+pub use observe::{Image, Loss, Observation, Sensor, project};
 pub use polyline::{Course, polyline};
+pub use scene::{
+    Body, Change, Leaf, Node, Odometry, Owner, Part, Report, Scene, Thing, TreeNode, Writes,
+};
 pub use segment::{Covariance, Cut, End, Segment, Truth};
