@@ -15,7 +15,7 @@ use crate::units::{AreaId, DoorId};
 use super::leaf::opening_of;
 use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
-use super::obstacle::Blocker;
+use super::blocker::Blocker;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::things;

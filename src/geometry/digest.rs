@@ -13,7 +13,7 @@ use crate::map::{DoorMount, Item};
 use crate::units::{AreaId, ObjectId, ReplicaId};
 
 use super::Bounds;
-use super::floor::Site;
+use super::site::Site;
 use super::opening::Opening;
 
 /// Feeds what is written into a hash.

@@ -7,8 +7,9 @@ use crate::map::{BaseVector, Permeability};
 use crate::units::Point;
 
 use super::dead_zone::jamb;
-use super::floor::{FragmentFloor, Site};
-use super::obstacle::{Blocker, Obstacle};
+use super::floor::FragmentFloor;
+use super::site::Site;
+use super::blocker::{Blocker, Obstacle};
 use super::passframe::Beyond;
 use super::storey::Side;
 

@@ -18,7 +18,8 @@ use crate::units::{AreaId, DoorId, MapId, Point};
 use super::blocked::NoRoute;
 use super::chain::Passed;
 use super::opening::Opening;
-use super::plan::{DoorStates, FloorPlan};
+use super::plan::FloorPlan;
+use super::site::DoorStates;
 use super::route::{Method, Route, Target};
 
 /// Seconds until a lift comes when it is called.

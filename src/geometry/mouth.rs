@@ -17,7 +17,7 @@
 use crate::units::{AreaId, Point, Vector};
 
 use super::apart::distance;
-use super::floor::{SLACK, Site};
+use super::site::{SLACK, Site};
 use super::grid::{Contour, Grid, difference, intersection};
 use super::obstacle::walls_in;
 use super::opening::Opening;

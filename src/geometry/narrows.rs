@@ -31,7 +31,7 @@ use super::grid::{Contour, Grid, difference, overlay};
 use super::mesh::Mesh;
 use super::mouth::thick;
 use super::network::Piece;
-use super::obstacle::Blocker;
+use super::blocker::Blocker;
 use super::plan::FloorPlan;
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 

@@ -13,8 +13,9 @@ use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 use super::Polygon;
 use super::blocked::{Barrier, NoRoute};
 use super::leaf::{Strike, opening_of};
-use super::obstacle::Blocker;
-use super::plan::{DoorStates, FloorPlan};
+use super::blocker::Blocker;
+use super::plan::FloorPlan;
+use super::site::DoorStates;
 use super::route::Target;
 use super::scene::Prism;
 

@@ -14,7 +14,7 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId};
 
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::network::{Marks, Walkable};
-use super::obstacle::Blocker;
+use super::blocker::Blocker;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
 use super::scene::Scene;

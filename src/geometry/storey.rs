@@ -7,8 +7,8 @@ use crate::units::{AreaId, Point, Vector};
 
 use super::Polygon;
 use super::apart::distance;
-use super::floor::Site;
-use super::obstacle::{Blocker, Obstacle};
+use super::site::Site;
+use super::blocker::{Blocker, Obstacle};
 use super::scene::{PlacedArea, Prism};
 
 /// What has no thickness is given this to either side, in cm, so that it has a place on the floor.

@@ -36,7 +36,8 @@ use crate::units::{Point, Vector};
 
 use super::apart::{distance, segment_distance};
 use super::coverage::{body, meeting, over, shrunk};
-use super::floor::{FragmentFloor, SLACK};
+use super::floor::FragmentFloor;
+use super::site::SLACK;
 use super::grid::{Contour, Grid, Shapes};
 use super::mesh::Mesh;
 use super::narrows::Narrows;

@@ -18,7 +18,7 @@ use crate::units::{Point, Pose, Vector};
 
 use super::floor::FragmentFloor;
 use super::nearest_on_segment;
-use super::obstacle::Blocker;
+use super::blocker::Blocker;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;
