@@ -14,15 +14,14 @@
 //! **Invariant**: what is free and the dead zones do not overlap and together are the floor inside the doorways'
 //! lines; centre space lies in it, at least the robot's radius and clearance (less [`SLACK`]) from everything.
 
-use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, Point, Vector};
 
+use super::blocker::Obstacle;
 use super::buckets::Buckets;
 use super::coverage::Coverage;
 use super::dead_zone::dead_zones;
@@ -30,13 +29,12 @@ use super::edging::Edging;
 use super::grid::{Contour, Grid, Outlines, Shapes, difference, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::mouth::{Mouths, beyond, not_own};
-use super::blocker::Obstacle;
 use super::obstacle::{leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::on_demand::{Folded, OnDemand};
 use super::opening::Opening;
 use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
-use super::scene::{Prism, Scene};
+use super::scene::Prism;
 use super::site::{SLACK, Site};
 use super::storey::{Storey, THIN};
 use super::{Bounds, Region, nearest_on_segment};

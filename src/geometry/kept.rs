@@ -12,11 +12,11 @@ use std::collections::HashMap;
 use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point, ReplicaId};
 
+use super::blocker::{Blocker, Obstacle};
 use super::edging::{Edging, Face, Mark};
 use super::floor::{Exit, FragmentFloor};
 use super::grid::{Grid, Node, Outlines};
 use super::kept_value::Kept;
-use super::blocker::{Blocker, Obstacle};
 use super::passframe::{Beyond, PassframeId};
 use super::storey::Side;
 use super::{Bounds, Polygon};

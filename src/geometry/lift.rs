@@ -19,8 +19,8 @@ use super::blocked::NoRoute;
 use super::chain::Passed;
 use super::opening::Opening;
 use super::plan::FloorPlan;
-use super::site::DoorStates;
 use super::route::{Method, Route, Target};
+use super::site::DoorStates;
 
 /// Seconds until a lift comes when it is called.
 pub const LIFT_WAIT: f64 = 20.0;

@@ -4,13 +4,13 @@
 //! a thing behind a wall is no obstacle.
 
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, Point, Vector};
 
 use super::blocker::{Blocker, Obstacle};
 use super::leaf::Leaves;
 use super::opening::Opening;
-use super::site::Site;
 use super::scene::{PlacedArea, PlacedReplica, Prism};
+use super::site::Site;
 use super::storey::{Side, Storey, THIN, sides, strip};
 use super::{Bounds, Polygon};
 

@@ -21,7 +21,6 @@ use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
 use super::floor::FragmentFloor;
-use super::site::{DoorStates, SLACK, Site};
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
 use super::network::{Network, Portal, overlap};
@@ -30,6 +29,7 @@ use super::openings::{Openings, STEP_REACH};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::search::CellKey;
+use super::site::{DoorStates, SLACK, Site};
 use super::strait::{self, Strait};
 use super::{Bounds, Passframe, PassframeId, Region};
 
