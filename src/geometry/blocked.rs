@@ -12,10 +12,10 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
+use super::blocker::Blocker;
 use super::leaf::opening_of;
 use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
-use super::obstacle::Blocker;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::things;

@@ -24,9 +24,9 @@ use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
 use super::dead_zone::RIM;
-use super::floor::SLACK;
 use super::grid::{Contour, Grid, Shapes, difference, intersection, positive};
 use super::offset::shrink;
+use super::site::SLACK;
 use super::{Bounds, Polygon, convex_hull, nearest_on_segment};
 
 /// Headings are tried at this step, in radians.

@@ -9,9 +9,9 @@ use crate::map::Permeability;
 use crate::units::Point;
 
 use super::apart::distance_within;
+use super::blocker::Blocker;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes, overlay, positive};
-use super::obstacle::Blocker;
 use super::offset::{grow, shrink};
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 

@@ -13,8 +13,8 @@ use crate::map::{DoorMount, Item};
 use crate::units::{AreaId, ObjectId, ReplicaId};
 
 use super::Bounds;
-use super::floor::Site;
 use super::opening::Opening;
+use super::site::Site;
 
 /// Feeds what is written into a hash.
 struct Feed(DefaultHasher);

@@ -6,10 +6,11 @@
 use crate::map::{BaseVector, Permeability};
 use crate::units::Point;
 
+use super::blocker::{Blocker, Obstacle};
 use super::dead_zone::jamb;
-use super::floor::{FragmentFloor, Site};
-use super::obstacle::{Blocker, Obstacle};
+use super::floor::FragmentFloor;
 use super::passframe::Beyond;
+use super::site::Site;
 use super::storey::Side;
 
 /// Something that can stand along a border.

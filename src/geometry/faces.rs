@@ -9,7 +9,7 @@ use nalgebra::{Point3, Vector3};
 use crate::map::World;
 use crate::units::{Point, ReplicaId};
 
-use super::obstacle::Blocker;
+use super::blocker::Blocker;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;

@@ -14,15 +14,14 @@
 //! **Invariant**: what is free and the dead zones do not overlap and together are the floor inside the doorways'
 //! lines; centre space lies in it, at least the robot's radius and clearance (less [`SLACK`]) from everything.
 
-use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, Point, Vector};
 
+use super::blocker::Obstacle;
 use super::buckets::Buckets;
 use super::coverage::Coverage;
 use super::dead_zone::dead_zones;
@@ -30,18 +29,15 @@ use super::edging::Edging;
 use super::grid::{Contour, Grid, Outlines, Shapes, difference, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::mouth::{Mouths, beyond, not_own};
-use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
+use super::obstacle::{leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::on_demand::{Folded, OnDemand};
 use super::opening::Opening;
 use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
-use super::plan::DoorStates;
-use super::scene::{Prism, Scene};
+use super::scene::Prism;
+use super::site::{SLACK, Site};
 use super::storey::{Storey, THIN};
 use super::{Bounds, Region, nearest_on_segment};
-
-/// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
-pub const SLACK: f64 = 0.004;
 
 /// Rounds in which fewer Passframes are looked for in vain.
 const PATIENCE: usize = 1;
@@ -82,63 +78,6 @@ pub struct FragmentFloor {
     /// A convex partition of `centre`.
     pub(super) cells: Mesh,
     pub(super) exits: Vec<Exit>,
-}
-
-/// What a Fragment's floor is made from.
-pub(super) struct Site<'a> {
-    pub(super) world: &'a World,
-    pub(super) scene: &'a Scene,
-    /// Replicas near any place.
-    pub(super) nearby: &'a (dyn Fn(&Bounds) -> Vec<ReplicaId> + Sync),
-    pub(super) doorways: &'a [Opening],
-    pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
-    pub(super) robot: &'a RobotProfile,
-    pub(super) states: &'a DoorStates,
-}
-
-impl Site<'_> {
-    /// How far the robot's centre keeps from everything.
-    pub(super) fn reach(&self) -> f64 {
-        (self.robot.radius.get() + self.robot.clearance.get()).max(2.0 * SLACK)
-    }
-
-    pub(super) fn state(&self, door: DoorId) -> DoorState {
-        self.states
-            .get(&door)
-            .copied()
-            .or_else(|| self.world.doors.get(&door).map(|d| d.state))
-            .unwrap_or(DoorState::CLOSED)
-    }
-
-    /// Whether the robot may try to pass: the door stands open, high enough, and without a step.
-    pub(super) fn is_open(&self, doorway: &Opening) -> bool {
-        let door_admits = match (doorway.door, doorway.permeability) {
-            (None, Permeability::Permeable) => true,
-            (None, _) => false,
-            (Some(door), _) => {
-                let high_enough = self.world.doors.get(&door).is_none_or(|d| {
-                    d.height.get() <= 0.0 || d.height.get() >= self.robot.height.get()
-                });
-                let state = self.state(door);
-                let stands_open = state.status == DoorStatus::Open && state.opening > 0.0;
-                high_enough && (stands_open || self.is_passage(door))
-            }
-        };
-        door_admits && doorway.rise.abs() <= self.robot.step.get().max(0.0) + 1e-9
-    }
-
-    fn is_passage(&self, door: DoorId) -> bool {
-        self.world.doors.get(&door).is_some_and(|d| d.kind == DoorKind::Passage)
-    }
-
-    /// The doorways of an Area, each with the Area's index in it.
-    pub(super) fn doorways_of(
-        &self,
-        area: AreaId,
-    ) -> impl Iterator<Item = (usize, &Opening, usize)> {
-        let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
-        own.iter().map(|&(doorway, side)| (doorway, &self.doorways[doorway], side))
-    }
 }
 
 impl FragmentFloor {

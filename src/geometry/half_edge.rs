@@ -17,7 +17,7 @@ use i_triangle::int::triangulator::IntTriangulator;
 use i_triangle::int::validation::Validation;
 
 use super::grid::{Node, Shapes};
-use super::mesh::NONE;
+use super::numbers::NONE;
 
 /// Positive when a, b, c turn left; exact, since the grid leaves two bits of 32 free.
 fn orientation(a: Node, b: Node, c: Node) -> i64 {

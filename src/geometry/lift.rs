@@ -18,8 +18,9 @@ use crate::units::{AreaId, DoorId, MapId, Point};
 use super::blocked::NoRoute;
 use super::chain::Passed;
 use super::opening::Opening;
-use super::plan::{DoorStates, FloorPlan};
+use super::plan::FloorPlan;
 use super::route::{Method, Route, Target};
+use super::site::DoorStates;
 
 /// Seconds until a lift comes when it is called.
 pub const LIFT_WAIT: f64 = 20.0;

@@ -8,7 +8,7 @@ use crate::units::Point;
 use super::buckets::Buckets;
 use super::grid::{Contour, Grid, Node, Region, Shapes, positive};
 use super::half_edge::HalfEdges;
-use super::kept::Kept;
+use super::kept_value::Kept;
 use super::numbers::{Numbers, Part};
 use super::on_demand::OnDemand;
 use super::{Bounds, Polygon, nearest_on_segment};

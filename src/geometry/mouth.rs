@@ -17,10 +17,10 @@
 use crate::units::{AreaId, Point, Vector};
 
 use super::apart::distance;
-use super::floor::{SLACK, Site};
 use super::grid::{Contour, Grid, difference, intersection};
 use super::obstacle::walls_in;
 use super::opening::Opening;
+use super::site::{SLACK, Site};
 use super::storey::{Storey, THIN};
 use super::{Bounds, Polygon};
 

@@ -24,6 +24,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::map::Permeability;
 use crate::units::{Point, Vector};
 
+use super::blocker::Blocker;
 use super::buckets::Buckets;
 use super::dead_zone::jamb;
 use super::floor::FragmentFloor;
@@ -31,7 +32,6 @@ use super::grid::{Contour, Grid, difference, overlay};
 use super::mesh::Mesh;
 use super::mouth::thick;
 use super::network::Piece;
-use super::obstacle::Blocker;
 use super::plan::FloorPlan;
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 

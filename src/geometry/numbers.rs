@@ -1,6 +1,6 @@
 //! Lists of numbers that are mostly small: cells and corners by their places in a Fragment.
 
-use super::kept::Kept;
+use super::kept_value::Kept;
 
 /// No number.
 pub(super) const NONE: u32 = u32::MAX;

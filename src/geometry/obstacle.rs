@@ -4,41 +4,15 @@
 //! a thing behind a wall is no obstacle.
 
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, Point, Vector};
 
-use super::floor::Site;
+use super::blocker::{Blocker, Obstacle};
 use super::leaf::Leaves;
 use super::opening::Opening;
 use super::scene::{PlacedArea, PlacedReplica, Prism};
+use super::site::Site;
 use super::storey::{Side, Storey, THIN, sides, strip};
 use super::{Bounds, Polygon};
-
-/// What takes floor away.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Blocker {
-    /// An Orthoframe of a replica.
-    Replica { replica: ReplicaId, item: usize },
-    /// A leaf of a door between Areas.
-    DoorLeaf { door: DoorId, leaf: usize },
-    /// A leaf of a replica's own door.
-    ReplicaLeaf { replica: ReplicaId, door: DoorId, leaf: usize },
-    /// A wall, by the side that stands on it.
-    Wall { area: AreaId, item: usize, side: usize },
-    /// A piece of the Area's floor that lies too high or too low, or under a low ceiling.
-    Floor { area: AreaId, item: usize },
-}
-
-/// A piece of floor that is taken, and the heights between which.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Obstacle {
-    pub blocker: Blocker,
-    pub polygon: Polygon,
-    /// The side of its Orthoframe that it is a strip of; none of a whole base, whose edges are the sides.
-    pub side: Option<usize>,
-    /// Above the floor, in cm.
-    pub bottom: f64,
-    pub top: f64,
-}
 
 /// The floor that a prism takes from the robot above a floor at `floor`, by side where it is thin; none when it
 /// stands aside of the robot's height.

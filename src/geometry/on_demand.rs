@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::kept::Kept;
+use super::kept_value::Kept;
 
 /// A value that follows from what it stands beside: made when first asked for, neither compared nor kept.
 #[derive(Debug, Clone)]

@@ -12,11 +12,11 @@ use std::fmt;
 use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point};
 
+use super::blocker::Blocker;
 use super::buckets::Buckets;
 use super::edging::Face;
 use super::floor::FragmentFloor;
 use super::mesh::{Mesh, NONE};
-use super::obstacle::Blocker;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// Unique in its Fragment; said in digits and letters of which none is taken for another.

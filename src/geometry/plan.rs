@@ -20,7 +20,7 @@ use super::buckets::Buckets;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
-use super::floor::{FragmentFloor, SLACK, Site};
+use super::floor::FragmentFloor;
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
 use super::network::{Network, Portal, overlap};
@@ -29,11 +29,9 @@ use super::openings::{Openings, STEP_REACH};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::search::CellKey;
+use super::site::{DoorStates, SLACK, Site};
 use super::strait::{self, Strait};
 use super::{Bounds, Passframe, PassframeId, Region};
-
-/// Doors that stand otherwise than the world says: opened by the robot, or assumed.
-pub type DoorStates = BTreeMap<DoorId, DoorState>;
 
 /// The floor of one Map for one robot.
 #[derive(Debug, Clone)]

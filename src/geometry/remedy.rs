@@ -12,11 +12,12 @@ use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::Polygon;
 use super::blocked::{Barrier, NoRoute};
+use super::blocker::Blocker;
 use super::leaf::{Strike, opening_of};
-use super::obstacle::Blocker;
-use super::plan::{DoorStates, FloorPlan};
+use super::plan::FloorPlan;
 use super::route::Target;
 use super::scene::Prism;
+use super::site::DoorStates;
 
 /// What would have to change.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,8 +13,8 @@ use crate::map::World;
 use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId};
 
 use super::blocked::{Barrier, NoRoute, explain, single};
+use super::blocker::Blocker;
 use super::network::{Marks, Walkable};
-use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
 use super::scene::Scene;

@@ -7,9 +7,9 @@ use crate::units::{AreaId, Point, Vector};
 
 use super::Polygon;
 use super::apart::distance;
-use super::floor::Site;
-use super::obstacle::{Blocker, Obstacle};
+use super::blocker::{Blocker, Obstacle};
 use super::scene::{PlacedArea, Prism};
+use super::site::Site;
 
 /// What has no thickness is given this to either side, in cm, so that it has a place on the floor.
 pub(super) const THIN: f64 = 0.01;

@@ -36,7 +36,7 @@ use crate::units::{Point, Vector};
 
 use super::apart::{distance, segment_distance};
 use super::coverage::{body, meeting, over, shrunk};
-use super::floor::{FragmentFloor, SLACK};
+use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes};
 use super::mesh::Mesh;
 use super::narrows::Narrows;
@@ -44,6 +44,7 @@ use super::network::Piece;
 use super::plan::FloorPlan;
 use super::route::Anchor;
 use super::search::CellKey;
+use super::site::SLACK;
 use super::{Bounds, Polygon};
 
 /// Straight legs between two pieces of centre space, one for each way.

@@ -16,9 +16,9 @@ use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
+use super::blocker::Blocker;
 use super::floor::FragmentFloor;
 use super::nearest_on_segment;
-use super::obstacle::Blocker;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;
