@@ -324,6 +324,28 @@ fn ways_are_told_in_the_world_as_it_is() {
     assert_eq!(ask(&locked, "Can you get to the hall?").0, Said::No);
 }
 
+/// So it is where a lift lies between, whose cabin the way leaves by a door that opens by itself.
+#[test]
+fn a_shut_door_on_another_storey_is_no_lack_of_a_way() {
+    let Some(path) = shared("cases/office-two-storeys.toml") else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let engine = home(&dir, &std::fs::read_to_string(path).unwrap());
+    let world = engine.world_now().unwrap();
+    let rooms: Vec<String> = world.areas.values().map(|area| area.name.clone()).collect();
+    let mut through = 0;
+    for (from, to) in rooms.iter().flat_map(|from| rooms.iter().map(move |to| (from, to))) {
+        let is_locked = |room: &str| room == "Storeroom";
+        let way = engine.journey(from, to, Method::Shortest).unwrap();
+        let is_way = way.legs.iter().all(|leg| leg.route.is_ok());
+        let wanted = from == to || !is_locked(from) && !is_locked(to);
+        assert_eq!(is_way, wanted, "{from} – {to}");
+        through += usize::from(!way.rides.is_empty() && !way.opens.is_empty());
+    }
+    assert!(through > 3, "{through}");
+    let (said, text) = ask(&engine, "How do I get from the lobby to Office A?");
+    assert!(said == Said::Found && text.contains("Office A door must be opened"), "{text}");
+}
+
 /// A sequence of numbers that repeats itself.
 struct Dice(u64);
 

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use orthoframe::engine::{Engine, Whereabout};
 use orthoframe_exchange::{Options, read};
 use orthoframe_language::Language;
-use orthoframe_language::report::Detail;
+use orthoframe_language::report::{Detail, Facing};
 use orthoframe_map::World;
 use orthoframe_semantics::Spot;
 use orthoframe_units::{Deg, MapId, Point, Pose};
@@ -14,6 +14,7 @@ use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use proptest::test_runner::{TestCaseError, TestRunner};
 
 use crate::files::shared;
+use crate::floor_properties::Random;
 use crate::worlds::{area_named, doubled, mirrored, rb2, renamed, rotated, unnumbered};
 
 const DETAILS: [Detail; 3] = [Detail::Region, Detail::Spot, Detail::Heading];
@@ -97,6 +98,41 @@ fn what_is_meant(found: &Whereabout) -> Vec<(String, String)> {
 #[test]
 fn what_is_said_of_a_pose_is_read_as_a_region_that_holds_it() {
     check(rb2());
+}
+
+/// What stands at a wall's other side, or reaches into it by a loose box, is not faced through it.
+#[test]
+fn nothing_is_faced_through_a_wall() {
+    let shared = [
+        "cases/office-two-storeys.toml",
+        "procthor/house_0.json",
+        "virtualhome/TestScene1_graph.json",
+    ]
+    .into_iter()
+    .filter_map(shared)
+    .map(|path| read(&path, &Options::default()).expect("a map").world);
+    let mut random = Random(24);
+    let mut count = 0;
+    for world in std::iter::once(rb2()).chain(shared) {
+        let engine = Engine::in_memory(world, None).unwrap();
+        let world = engine.world().unwrap();
+        let maps: Vec<MapId> = world.maps.keys().copied().collect();
+        for n in 0..1500 {
+            let map = maps[n % maps.len()];
+            let place = (random.unit(), random.unit(), random.between(0.0, 360.0));
+            let Some(pose) = pose(&engine, map, place) else { continue };
+            let Ok(found) = engine.locate(map, pose, true) else { continue };
+            let Some(Facing::Object(named)) = &found.position.facing else { continue };
+            let name = named.phrase().name();
+            let mut homes = world.replicas.values().filter(|r| r.name == name).map(|r| r.area);
+            let is_here = homes.any(|area| area == found.terms.area);
+            let in_doorway = matches!(found.terms.spot, Spot::InDoorway(_));
+            count += usize::from(is_here);
+            let told = found.position.say_in(Language::English, Detail::Heading);
+            assert!(is_here || in_doorway, "{pose:?}: {told}");
+        }
+    }
+    assert!(count > 100, "{count}");
 }
 
 #[test]

@@ -64,12 +64,17 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
         };
         list.iter().map(line).collect()
     };
-    let sign =
-        |(sign, [ru, en]): &(CorridorSign, [&str; 2])| (*sign, common.lang.pick(ru, en).to_owned());
+    let arcs: Vec<CorridorArc> = arcs.collect();
+    // In the second variant an arc has commands, not a code.
+    let has_codes = arcs.iter().any(|arc| !arc.label.is_empty());
+    let sign = |&(sign, words): &(CorridorSign, [&'static str; 2])| {
+        let [ru, en] = if sign == CorridorSign::Arc && !has_codes { PLAIN_ARC } else { words };
+        (sign, common.lang.pick(ru, en).to_owned())
+    };
     Ok(corridor_svg(&CorridorDrawing {
         title,
         vertices: vertices.collect(),
-        arcs: arcs.collect(),
+        arcs,
         codes: told(&CODES),
         signs: SIGNS.iter().map(sign).collect(),
         notes,
@@ -99,6 +104,8 @@ const SIGNS: [(CorridorSign, [&str; 2]); 5] = [
     (CorridorSign::Way, ["путь", "the way"]),
     (CorridorSign::UTurn, ["разворот", "U-turn"]),
 ];
+
+const PLAIN_ARC: [&str; 2] = ["ход от входа к входу", "drive from entrance to entrance"];
 
 fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Directions), Failure> {
     let mut system = match (&args.file, &args.map) {

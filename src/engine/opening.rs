@@ -48,7 +48,7 @@ impl Known {
             let only = opened(world, floors, &needed);
             let Ok(legs) = find(world, &only) else { return Ok(None) };
             let passed: Vec<Shut> = shut_doors(floors, &legs, &needed).collect();
-            match cannot_open(world, floors.clone(), &passed) {
+            match cannot_open(world, called(world, floors), &passed) {
                 Some(door) => shut.remove(&door),
                 None => return Ok(Some((legs, passed.iter().map(|shut| shut.door).collect()))),
             };
@@ -85,6 +85,12 @@ fn opened(world: &World, floors: &Floors, doors: &BTreeSet<DoorId>) -> Floors {
         if states.is_empty() { floor.clone() } else { floor.with_doors(world, &states) }
     };
     floors.iter().map(|(map, floor)| (*map, open(floor))).collect()
+}
+
+/// The floors as a way over them meets them: lifts open their doors where they are called, and the cabin in which a leg
+/// begins is shut otherwise.
+fn called(world: &World, floors: &Floors) -> Floors {
+    floors.iter().map(|(map, floor)| (*map, floor.with_lifts_open(world).into_owned())).collect()
 }
 
 /// Those of some doors that a way passes, in its order.

@@ -282,6 +282,9 @@ pub(super) enum Faced {
     Inward,
 }
 
+/// How far a thing of another room may reach through the wall and still stand behind it, cm.
+const IN_WALL: f64 = 5.0;
+
 /// The first thing that a ray along the heading meets.
 pub(super) fn faced(
     world: &World,
@@ -300,11 +303,23 @@ pub(super) fn faced(
             nearest = Some((distance, what));
         }
     };
+    // A thing of another room leans on the other side of the wall, or reaches into it where boxes are loose.
+    let wall = scene.areas.get(&area).and_then(|placed| {
+        let own = placed.prisms.iter().filter(|p| matches!(p.owner, Owner::Area(_)));
+        let sides = own.flat_map(|prism| prism.polygon.edges().zip(prism.sides.iter()));
+        let walls = sides.filter(|(_, side)| side.permeability == Permeability::Impermeable);
+        walls.filter_map(|((a, b), _)| hit(pose.at, ray, a, b)).min_by(f64::total_cmp)
+    });
+    let is_behind = |replica: ReplicaId, distance: f64| {
+        world.replicas.get(&replica).is_some_and(|r| r.area != area)
+            && wall.is_some_and(|wall| distance > wall - IN_WALL)
+    };
     // One faces a table, not the spoon on it.
     for replica in scene.replicas.values().filter(|r| !world.has_trait(r.id, "portable")) {
         for prism in replica.prisms.iter().filter(|p| p.bottom < height && p.top > 10.0) {
             for (a, b) in prism.polygon.edges() {
-                if let Some(distance) = hit(pose.at, ray, a, b) {
+                let met = hit(pose.at, ray, a, b);
+                if let Some(distance) = met.filter(|d| !is_behind(replica.id, *d)) {
                     offer(distance, Faced::Object(replica.id));
                 }
             }

@@ -234,6 +234,12 @@ fn corridors_are_told_by_entrances() {
     let one = place.json(&way, 0);
     let two = place.json(&[&way[..], &["--variant", "2"]].concat(), 0);
     assert_eq!(one["steps"], two["steps"]);
+    // A legend explains codes only where arcs bear them.
+    for (variant, has_codes) in [("1", true), ("2", false)] {
+        let draw = [&["draw"][..], &way, &["--variant", variant]].concat();
+        let legend = place.run(&draw).is(0).out;
+        assert_eq!(legend.contains("дуга с кодом"), has_codes);
+    }
     let told: Vec<&str> =
         one["steps"].as_array().unwrap().iter().map(|s| s["ru"].as_str().unwrap()).collect();
     assert_eq!(
