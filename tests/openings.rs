@@ -76,7 +76,7 @@ fn a_changed_threshold_changes_floor_plan_and_answer_alike() {
     let standard = Engine::in_memory(home(), None).unwrap();
     assert_eq!(said(&standard), [true; 4]);
     let dir = tempfile::tempdir().unwrap();
-    let from = r#"limit("common",   "step distance",   6000)."#;
+    let from = r#"limit("common",   "step distance",     6000)."#;
     assert_eq!(STANDARD.matches(from).count(), 1);
     for (limit, joins) in [(2100, true), (2000, true), (1900, false), (0, false)] {
         let to = format!(r#"limit("common",   "step distance",   {limit})."#);
