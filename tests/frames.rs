@@ -233,6 +233,46 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
     }
 }
 
+/// A robot notes what it saw where it stands in the frame of the map, and finds it there again: in each room, turned or not.
+#[test]
+fn an_observation_is_taken_and_given_in_the_frame_of_the_map() {
+    use orthoframe::store::{Change, Timestamp};
+    use orthoframe::units::{Deg, Frame};
+
+    let dir = tempfile::tempdir().expect("a directory");
+    let mut world = crate::worlds::rb2();
+    // The file of the map has the flat elsewhere, and turned.
+    let moved = Frame::new(-3100.0, -540.0, 0.0, Deg::of(90.0));
+    for item in world.maps.values_mut().flat_map(|map| &mut map.items) {
+        item.frame = moved.compose(&item.frame);
+    }
+    let file = save(dir.path(), &world.to_toml());
+    let mut engine = Engine::open(&dir.path().join("store"), None).expect("a store");
+    engine.import(&file, &Change::new("тест", Timestamp(1), "карта")).expect("a map");
+    let corners: Vec<(AreaId, Point)> = world
+        .areas
+        .keys()
+        .flat_map(|&area| {
+            let ring = on_the_map(&world, area).remove(0);
+            let middle = ring.iter().fold(Point::origin(), |m, p| m + p.coords / ring.len() as f64);
+            contains(&ring, middle).then_some((area, middle))
+        })
+        .collect();
+    assert!(corners.len() > 2);
+    for (n, (area, at)) in corners.iter().enumerate() {
+        let pose = Frame::new(at.x, at.y, 12.0, Deg::of(30.0));
+        let when = Timestamp(10 + n as i64);
+        engine.observe_on_map("Зонт-1", (None, pose), 0.9, "робот", when).expect("seen");
+        let found = engine.where_is("Зонт-1", when).expect("known").belief.place;
+        assert_eq!(found.area, *area);
+        let (_, there) = engine.on_map(&found).expect("a map").expect("placed");
+        assert!((there.origin() - at).norm() < 0.02, "{there:?} {at}");
+        assert!((there.angle.get() - 30.0).abs() < 0.02 && (there.z.get() - 12.0).abs() < 0.02);
+    }
+    let outside = Frame::new(9_000.0, 9_000.0, 0.0, Deg::of(0.0));
+    assert!(engine.observe_on_map("Зонт-1", (None, outside), 0.9, "робот", Timestamp(99)).is_err());
+}
+
 fn save(dir: &std::path::Path, text: &str) -> std::path::PathBuf {
     let path = dir.join("again.toml");
     std::fs::write(&path, text).expect("written");

@@ -14,7 +14,7 @@ const SYNONYMS: &str = "import-synonyms.toml";
 
 pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure> {
     #[cfg(feature = "sqlite")]
-    if args.sqlite {
+    if args.sqlite || (args.format.is_none() && is_sqlite(&args.file)) {
         return tables(common, &args.file);
     }
     let rules = rules_dir(common);
@@ -65,6 +65,18 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     };
     let head = lang.pick("Ревизия", "Revision");
     say(&format!("{}\n{head} {revision}: {what}.", described(world, lang)))
+}
+
+/// Whether a file begins as SQLite's do.
+#[cfg(feature = "sqlite")]
+fn is_sqlite(file: &std::path::Path) -> bool {
+    use std::io::Read;
+    const MAGIC: &[u8; 16] = b"SQLite format 3\0";
+    let mut head = [0; MAGIC.len()];
+    // What is no plain file may give nothing for ever.
+    file.is_file()
+        && std::fs::File::open(file).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && &head == MAGIC
 }
 
 /// The tables of an SQLite file, taken as they are: no reader, no assembler, the checks of a map file.

@@ -51,9 +51,15 @@ pub(super) struct ObserveArgs {
         long,
         value_name = "X,Y[,Z]",
         allow_hyphen_values = true,
-        required_unless_present = "missing"
+        required_unless_present_any = ["missing", "pose"]
     )]
     at: Option<Numbers>,
+    /// Where it was seen, in the frame of the Map: that of `where` and `route`, and of the file of an imported map, cm
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, conflicts_with_all = ["at", "area", "missing"])]
+    pose: Option<Numbers>,
+    /// The Map of --pose; the one on which the map has the thing when left out
+    #[arg(long, value_name = "NAME", requires = "pose")]
+    map: Option<String>,
     /// The Area; the one in which the map has the thing when left out
     #[arg(long, value_name = "NAME")]
     area: Option<String>,
@@ -123,7 +129,8 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
 
 fn observe(common: &Common, args: &ObserveArgs) -> Result<Answer, Failure> {
     let mut engine = open_to_write(common)?;
-    let surveyed = engine.thing(&args.name)?.frame;
+    let thing = engine.thing(&args.name)?;
+    let (surveyed, area) = (thing.frame, thing.area);
     let seen = args.at.as_ref().map(|Numbers(at)| {
         let number = |i: usize, default: f64| at.get(i).copied().unwrap_or(default);
         let angle = args.angle.map_or(surveyed.angle, Deg::of);
@@ -131,7 +138,19 @@ fn observe(common: &Common, args: &ObserveArgs) -> Result<Answer, Failure> {
         (args.area.as_deref(), Frame::new(number(0, 0.0), number(1, 0.0), z, angle))
     });
     let at = args.when.unwrap_or_else(now);
-    engine.observe(&args.name, seen, args.sure, &common.user, at)?;
+    match &args.pose {
+        Some(Numbers(pose)) => {
+            let number = |i: usize, default: f64| pose.get(i).copied().unwrap_or(default);
+            let on_map = engine.on_map(&Seen { area, frame: surveyed })?;
+            let before = on_map.map_or(surveyed, |(_, frame)| frame);
+            let angle = args.angle.map_or(before.angle, Deg::of);
+            let frame =
+                Frame::new(number(0, 0.0), number(1, 0.0), number(2, before.z.get()), angle);
+            let place = (args.map.as_deref(), frame);
+            engine.observe_on_map(&args.name, place, args.sure, &common.user, at)?;
+        }
+        None => engine.observe(&args.name, seen, args.sure, &common.user, at)?,
+    }
     let found = engine.where_is(&args.name, at)?;
     if common.json {
         say(&view(&engine, &found)?.to_string())
@@ -168,10 +187,18 @@ fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
 
 fn place_view(engine: &Engine, seen: &Seen) -> Result<Value, Failure> {
     let f = &seen.frame;
+    let on_map = engine.on_map(seen)?.map(|(map, frame)| {
+        json!({
+            "map": engine.world().ok().and_then(|w| w.maps.get(&map)).map(|m| m.name.as_str()),
+            "at": [frame.x.get(), frame.y.get(), frame.z.get()],
+            "angle_deg": frame.angle.get(),
+        })
+    });
     Ok(json!({
         "area": engine.world()?.areas.get(&seen.area).map(|a| a.name.as_str()),
         "at": [f.x.get(), f.y.get(), f.z.get()],
         "angle_deg": f.angle.get(),
+        "on_map": on_map,
     }))
 }
 

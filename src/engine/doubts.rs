@@ -19,7 +19,7 @@ pub fn check_map_closely(
     let (world, mut told) = check_map(file)?;
     let mut doubts = map::doubts(&world, &rules.map(quoted_words).unwrap_or_default());
     if let Some(source) = &told.source {
-        map::locate(source, Format::of(file), &mut doubts);
+        map::locate(source, Format::of_text(file, source.text()), &mut doubts);
     }
     told.faults.extend(doubts);
     told.faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));

@@ -2,9 +2,10 @@
 
 use crate::map::{Entity, Replica};
 use crate::store::{Belief, Change, ImportReport, Observation, Reader, Seen, Store, Timestamp};
-use crate::units::{AreaId, Frame, ReplicaId};
+use crate::units::{AreaId, Frame, MapId, ReplicaId};
 
 use super::history::in_memory;
+use super::position::nowhere_on;
 use super::{Engine, Error, RequestError, State};
 
 /// Where a thing is believed to be, or was.
@@ -106,7 +107,63 @@ impl State {
     }
 }
 
+impl State {
+    /// A place of an Area where it is on its Map: the frame of `where`, of routes, and of the file of an imported map.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn on_map(&self, seen: &Seen) -> Result<Option<(MapId, Frame)>, Error> {
+        let placed = self.world()?.placement(seen.area);
+        Ok(placed.map(|(map, area)| (map, area.compose(&seen.frame))))
+    }
+
+    /// A place on a Map, as one of the Area that holds it: of the thing's own Map, where none is named.
+    ///
+    /// # Errors
+    /// As [`State::thing`]; no Map bears the name, or no Area of it holds the place.
+    pub fn seen_on_map(&self, thing: &str, map: Option<&str>, at: Frame) -> Result<Seen, Error> {
+        let world = self.world()?;
+        let home = world.placement(self.thing(thing)?.area).map(|(map, _)| map);
+        let map = match map.map(|name| self.find(name)).transpose()? {
+            Some(Entity::Map(id)) => Some(id),
+            Some(other) => {
+                return Err(RequestError::NotAnArea { name: world.name(other).to_owned() }.into());
+            }
+            None => home,
+        };
+        let map = map.ok_or(RequestError::RobotNowhere)?;
+        let area = self.relations()?.measurements().area_at(map, at.origin());
+        let placed = area.and_then(|area| Some((area, world.placement(area)?.1)));
+        let Some((area, frame)) = placed else {
+            return Err(nowhere_on(world, self.floor(map)?, at.origin()).into());
+        };
+        let inner = frame.invert(at.origin());
+        let (z, angle) = (at.z - frame.z, at.angle - frame.angle);
+        Ok(Seen { area, frame: Frame::new(inner.x, inner.y, z.get(), angle) })
+    }
+}
+
 impl Engine {
+    /// Notes that a thing was seen at a place of its Map: see [`State::seen_on_map`].
+    ///
+    /// # Errors
+    /// As [`State::seen_on_map`]; the disk refused.
+    pub fn observe_on_map(
+        &mut self,
+        name: &str,
+        (map, at): (Option<&str>, Frame),
+        sure: f64,
+        observer: &str,
+        when: Timestamp,
+    ) -> Result<(), Error> {
+        let replica = self.thing(name)?.id;
+        let seen = Some(self.seen_on_map(name, map, at)?);
+        self.next().forget_present();
+        let observer = observer.to_owned();
+        let observation = Observation { replica, at: when, seen, sure, observer };
+        Ok(self.writable()?.observe(&[observation])?)
+    }
+
     /// Notes that a thing was seen at a place of an Area (of the map's Area for it, where none is named), or
     /// that it was not where it was expected. The map stays as it was.
     ///

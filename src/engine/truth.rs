@@ -32,7 +32,7 @@ impl State {
     /// All faults of the file, and where it tells of another building or robot than the map does.
     pub fn read_truth(&self, file: &Path) -> Result<Truth, Error> {
         let source = Source::read_within(file, LIMIT).map_err(|fault| unreadable(file, &fault))?;
-        self.truth(&source, Format::of(file))
+        self.truth(&source, Format::of_text(file, source.text()))
     }
 
     /// The same from a text.

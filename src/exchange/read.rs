@@ -269,7 +269,7 @@ pub fn read(path: &Path, options: &Options) -> Result<Imported, ImportError> {
 /// A map file of our own.
 fn own(path: &Path, input: &Input<'_>) -> Result<Imported, ImportError> {
     let reading = match &input.text {
-        Some(text) => map::read(text, map::Format::of(path)),
+        Some(text) => map::read(text, map::Format::of_text(path, text.text())),
         None => map::read_file(path),
     };
     match reading.world {

@@ -137,7 +137,11 @@ fn a_map_on_one_line_is_a_map_for_an_import_too() {
     let format = turned.shift_remove("format").unwrap();
     turned.insert("format".into(), format);
     place.write("last.json", serde_json::Value::Object(turned).to_string());
-    for name in ["map.json", "one.json", "two.json", "last.json"] {
+    place.write("nameless", map.to_string());
+    #[cfg(feature = "sqlite")]
+    place.run(&["export", "--sqlite", "tables.db"]).is(0);
+    let tables = if cfg!(feature = "sqlite") { "tables.db" } else { "map.json" };
+    for name in ["map.json", "one.json", "two.json", "last.json", "nameless", tables] {
         let run = place.run(&["import", name, "--store", "other"]).is(0);
         assert!(run.out.contains("РБ-2"), "{name}: {}", run.out);
     }

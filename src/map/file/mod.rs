@@ -43,6 +43,17 @@ pub enum Format {
 }
 
 impl Format {
+    /// By the ending of the file's name; where that says nothing, JSON if the text begins as JSON does, else TOML.
+    #[must_use]
+    pub fn of_text(path: &Path, text: &str) -> Self {
+        let told = path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
+        match told.as_deref() {
+            Some("yaml" | "yml" | "json" | "toml") => Self::of(path),
+            _ if text.trim_start_matches('\u{FEFF}').trim_start().starts_with('{') => Self::Json,
+            _ => Self::Toml,
+        }
+    }
+
     /// By the ending of the file's name; TOML when it says nothing.
     #[must_use]
     pub fn of(path: &Path) -> Self {
@@ -121,7 +132,7 @@ impl Fault {
 pub fn read_file(path: &Path) -> Reading {
     let fail = |error| Reading { world: None, faults: MapErrors::of(error) };
     match Source::read_within(path, LIMIT) {
-        Ok(source) => read(&source, Format::of(path)),
+        Ok(source) => read(&source, Format::of_text(path, source.text())),
         Err(FileFault::TooLarge { bytes, limit }) => fail(MapError::TooLarge { bytes, limit }),
         Err(fault) => {
             let path = path.to_string_lossy().into_owned();
