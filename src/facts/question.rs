@@ -57,7 +57,7 @@ impl Program {
         words: &mut Words,
     ) -> Result<Question, Faults> {
         let mut sources: Vec<Source> = self.sources.to_vec();
-        sources.extend(more.iter().map(|source| Source::clone(source)));
+        sources.extend(more.iter().copied().cloned());
         sources.push(source.clone());
         let file = sources.len() as u32 - 1;
         let mut faults = Found::default();
