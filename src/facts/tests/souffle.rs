@@ -78,7 +78,7 @@ fn outcome(case: &Path, name: &str) -> Outcome {
     let facts = case.join("facts");
     let facts = if facts.exists() { facts } else { case.to_owned() };
     let limits =
-        Limits { time: Duration::from_secs(20), memory_bytes: 1 << 30, ..Limits::default() };
+        Limits { time: Duration::from_secs(240), memory_bytes: 1 << 30, ..Limits::default() };
     let report = match run_files(&case.join(format!("{name}.dl")), &facts, out.path(), limits) {
         Ok(report) => report,
         Err(FilesError::Program(faults)) => {
