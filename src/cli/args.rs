@@ -120,15 +120,20 @@ pub(super) enum Command {
         #[arg(long)]
         not: bool,
     },
+    /// Ask in the rules' language: ortho query '?- ON_TOP_OF(X, Y), CONTAINS("Комната-А", Y)' (docs/rules.md)
+    Query(QueryArgs),
     /// Plan a scenario of a rule file, or a PDDL problem; or the facts that the map gives to planning
     Plan(PlanArgs),
-    /// Write the built-in rule files into a directory, to be edited and read with --rules
+    /// Write the built-in rule files into a directory, to be edited and read with --rules; or put rule files into one form
     Rules {
-        #[arg(long, value_name = "DIR")]
-        export: PathBuf,
+        #[arg(long, value_name = "DIR", required_unless_present = "format")]
+        export: Option<PathBuf>,
         /// Overwrite files that are there
-        #[arg(long)]
+        #[arg(long, requires = "export")]
         force: bool,
+        /// Datalog files (.dl) to be put into the usual form: blanks, indents, empty lines; the words stay
+        #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "export")]
+        format: Vec<PathBuf>,
     },
     /// Carry out a task given in words, or a scenario, in the simulator or with a robot: ortho do "Принеси лекарство"
     Do(DoArgs),
@@ -249,6 +254,21 @@ pub(super) struct AskArgs {
     /// Show the query as a Datalog rule, and the proof of what the answer rests on
     #[arg(long)]
     pub explain: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct QueryArgs {
+    /// `?- premises`, or `name(X, …) :- premises`; declarations and rules of its own may stand before it
+    pub question: String,
+    /// Why each answer is one, down to what was measured
+    #[arg(long)]
+    pub explain: bool,
+    /// Give up after this many seconds; 600 when left out
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub time_limit: Option<Duration>,
+    /// Give up when what is derived takes more memory than this, MiB; 2048 when left out
+    #[arg(long, value_name = "MIB")]
+    pub memory_limit: Option<usize>,
 }
 
 #[derive(Debug, Args)]

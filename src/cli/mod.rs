@@ -15,6 +15,7 @@ mod fault;
 mod import;
 mod observe;
 mod plan;
+mod query;
 mod read;
 mod signals;
 mod store;
@@ -81,10 +82,14 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => plan::run(common, plan),
+        Command::Query(args) => query::run(common, args),
         Command::Ask(ask) => ask::run(common, ask),
         Command::Do(args) => commands::perform(common, args),
         Command::Simulate(args) => vehicle::simulate(common, args),
-        Command::Rules { export, force } => commands::export_rules(common, export, *force),
+        Command::Rules { export: Some(export), force, .. } => {
+            commands::export_rules(common, export, *force)
+        }
+        Command::Rules { format, .. } => commands::format_rules(common, format),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),

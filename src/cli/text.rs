@@ -50,7 +50,7 @@ pub(super) fn counts(relations: &Relations, lang: Lang) -> String {
     table.to_string()
 }
 
-fn table() -> Table {
+pub(super) fn table() -> Table {
     let mut table = Table::new();
     table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Disabled);
     table

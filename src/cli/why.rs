@@ -100,9 +100,9 @@ fn parts(fact: &str) -> Option<(&str, Vec<&str>)> {
 }
 
 /// Relations by the names of the wanted language.
-struct Names<'a> {
-    relations: &'a Relations,
-    lang: Lang,
+pub(super) struct Names<'a> {
+    pub(super) relations: &'a Relations,
+    pub(super) lang: Lang,
 }
 
 impl Names<'_> {
@@ -111,7 +111,7 @@ impl Names<'_> {
     }
 
     /// A shown tree with the relations' names in the wanted language.
-    fn translate(&self, text: &str) -> String {
+    pub(super) fn translate(&self, text: &str) -> String {
         if self.lang == Lang::Ru {
             return text.to_owned();
         }
@@ -132,7 +132,7 @@ impl Names<'_> {
     }
 }
 
-fn proof_json(names: &Names<'_>, proof: &Proof) -> Value {
+pub(super) fn proof_json(names: &Names<'_>, proof: &Proof) -> Value {
     let step = |n: usize| {
         let step = &proof.steps[n];
         let mut view = json!({

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::corridor::{CorridorError, CorridorFileError};
 use crate::exchange::ImportError;
-use crate::facts::FilesError;
+use crate::facts::{AskError, FilesError};
 use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
@@ -46,6 +46,9 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Datalog(#[from] Box<FilesError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Query(#[from] Box<AskError>),
     #[cfg(feature = "pictures")]
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -438,6 +441,7 @@ impl Error {
             | Self::Import(_)
             | Self::Rules(_)
             | Self::Relations(_)
+            | Self::Query(_)
             | Self::Misheard(_)
             | Self::Corridor(_)
             | Self::CorridorFile(_) => true,

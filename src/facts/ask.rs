@@ -88,6 +88,7 @@ pub struct Answers<'a> {
     given: Vec<Option<Box<dyn Stored>>>,
     words: Words,
     limits: Limits,
+    unknown: Vec<std::sync::Arc<str>>,
     rows: Vec<Vec<Value>>,
     found: Vec<Box<[Word]>>,
 }
@@ -229,6 +230,7 @@ impl<'a> Answers<'a> {
         let computed: Vec<&'a dyn Computed> = computed.iter().filter(named).copied().collect();
         let more: Vec<&Source> = computed.iter().map(|by| by.declaration()).collect();
         let question = program.question(source, &more, &mut words)?;
+        let unknown = words.symbols().skip(kept.words.symbols().count()).cloned().collect();
         let relation = |n: usize| RelationId((question.known + n) as u32);
         let computed = computed.iter().enumerate().map(|(n, by)| (relation(n), *by)).collect();
         Ok(Self {
@@ -239,6 +241,7 @@ impl<'a> Answers<'a> {
             given: Vec::new(),
             words,
             limits,
+            unknown,
             rows: Vec::new(),
             found: Vec::new(),
         })
@@ -290,6 +293,11 @@ impl<'a> Answers<'a> {
     #[must_use]
     pub fn rows(&self) -> &[Vec<Value>] {
         &self.rows
+    }
+
+    /// Texts in the question, its own facts included, that stand in no other fact.
+    pub fn unknown(&self) -> impl Iterator<Item = &str> {
+        self.unknown.iter().map(|text| &**text)
     }
 
     /// Why an answer is one: a proof of least height, whose first step is the question itself. None for no such answer.

@@ -125,6 +125,16 @@ impl Program {
         if !faults.all.iter().all(|(_, fault)| fault.is_warning()) {
             return None;
         }
+        // What a call derives must not depend on which calls came before.
+        let depends = clauses.iter().any(|clause| clause.counts_on())
+            || infos.iter().any(|info| !info.choices.is_empty() || info.limit_size.is_some());
+        if depends {
+            let what = "choice-domain, autoinc или limitsize в вопросе".to_owned();
+            let help = "поставьте такое отношение в программу: там оно выводится целиком";
+            let at = asked.at;
+            faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
+            return None;
+        }
         let order = order(asked, &infos[infos.len() - 1], faults)?;
         let program = self.with(sources, &declared, infos, clauses, faults);
         Some(Question { program, known, answer, order, limit: asked.limit })

@@ -106,3 +106,36 @@ fn a_datalog_program_runs_on_files() {
     let at = |f: &Value| (f["line"].as_u64(), f["column"].as_u64());
     assert!(faults.as_array().unwrap().iter().any(|f| at(f) == (Some(2), Some(9))), "{faults}");
 }
+
+#[test]
+fn a_query_joins_stored_and_computed_relations() {
+    let place = Place::with_rb2();
+    let medicine = place.json(&["query", "?- ON_TOP_OF(\"Лекарство\", X), CONTAINS(R, X)"], 0);
+    assert_eq!(medicine["columns"], serde_json::json!(["X", "R"]));
+    assert_eq!(medicine["rows"].as_array().unwrap().len(), 1, "{medicine}");
+    assert_eq!(medicine["rows"][0][0], "Тумбочка-2");
+    let near = place.json(
+        &[
+            "query",
+            "?- ON_TOP_OF(X, Y), distance_between(X, Z, D), X != Z, D < 3000.order D.limit 3",
+        ],
+        0,
+    );
+    let distances: Vec<i64> =
+        near["rows"].as_array().unwrap().iter().map(|row| row[3].as_i64().unwrap()).collect();
+    assert!(distances.len() == 3 && distances.is_sorted(), "{near}");
+    let ways = place.json(
+        &["query", "?- CONTAINS(R, \"Лекарство\"), CONTAINS(Q, _), way_length(R, Q, D).order D"],
+        0,
+    );
+    assert!(!ways["rows"].as_array().unwrap().is_empty(), "{ways}");
+    let seen = place.json(&["query", "?- seen_from(\"Лекарство\", X)"], 0);
+    assert!(!seen["rows"].as_array().unwrap().is_empty(), "{seen}");
+    // No answer is "no"; a name that nothing bears is told.
+    let nothing = place.json(&["query", "?- ON_TOP_OF(X, \"Стол-99\")"], 1);
+    assert_eq!(nothing["unknown"], serde_json::json!(["Стол-99"]));
+    let why = place.run(&["query", "--explain", "?- ON_TOP_OF(\"Лекарство\", X)"]).is(0);
+    assert!(why.out.contains("over("), "{}", why.out);
+    let blocked = place.run(&["query", "?- distance_between(X, Y, D)"]).is(2);
+    assert!(blocked.err.contains("РАССТОЯНИЕ_МЕЖДУ"), "{}", blocked.err);
+}

@@ -7,7 +7,9 @@ mod facts_naive;
 use std::collections::BTreeSet;
 
 use facts_naive::{Dice, Facts, Model, Rule, Tuple, random_facts};
-use orthoframe_facts::{Answers, AskError, Because, Database, Live, Program, Value};
+use orthoframe_facts::{
+    Answers, AskError, Because, Computed, Database, Limits, Live, Program, Value,
+};
 use orthoframe_units::Source;
 
 /// The seeds of a test: `count` from 0, or as many from the number that `ORTHO_SEED` says, for a longer search.
@@ -211,4 +213,154 @@ fn many_calls_are_answered_as_few_are() {
     }
     let dead = Source::new("?", "?- node(A), !path(A, _)");
     assert_eq!(rows(program.ask(&facts, &dead), "dead"), derived.sorted("dead").unwrap());
+}
+
+/// `plus(a, b, c)`: any two of three numbers tell the third, and each use is counted.
+struct Sum {
+    declaration: Source,
+    asked: std::cell::Cell<usize>,
+}
+
+impl Computed for Sum {
+    fn declaration(&self) -> &Source {
+        &self.declaration
+    }
+
+    fn ways(&self) -> &[(u32, f64)] {
+        &[(0b011, 1.0), (0b101, 1.0), (0b110, 1.0)]
+    }
+
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
+        self.asked.set(self.asked.get() + 1);
+        let number = |n: usize| match known[n] {
+            Some(Value::Number(number)) => Some(number),
+            _ => None,
+        };
+        let row = match (number(0), number(1), number(2)) {
+            (Some(a), Some(b), _) => [a, b, a + b],
+            (Some(a), None, Some(c)) => [a, c - a, c],
+            (None, Some(b), Some(c)) => [c - b, b, c],
+            _ => panic!("asked in a way that it does not offer"),
+        };
+        tell(&row.map(Value::Number));
+    }
+}
+
+fn sum() -> Sum {
+    let declaration = Source::new("sum", ".decl plus(a: number, b: number, c: number) = СУММА");
+    Sum { declaration, asked: std::cell::Cell::new(0) }
+}
+
+const NUMBERS: &str = ".decl n(x: number) .output n n(1). n(2). n(3). n(4). n(7).";
+
+fn numbers(answers: &Answers<'_>) -> Vec<Vec<i64>> {
+    let number = |value: &Value| match value {
+        Value::Number(number) => *number,
+        _ => panic!("a number is wanted"),
+    };
+    answers.rows().iter().map(|row| row.iter().map(number).collect()).collect()
+}
+
+#[test]
+fn computed_relations_stand_in_every_kind_of_premise() {
+    let program = Program::parse(&Source::new("n.dl", NUMBERS)).unwrap();
+    let facts = program.database();
+    let derived = program.evaluate(&facts).unwrap();
+    for (question, expected) in [
+        (
+            "?- n(X), n(Y), n(Z), plus(X, Y, Z), X < Y",
+            vec![vec![1, 2, 3], vec![1, 3, 4], vec![3, 4, 7]],
+        ),
+        ("?- plus(3, X, 7)", vec![vec![4]]),
+        ("?- n(X), !СУММА(X, X, 4), X < 4", vec![vec![1], vec![3]]),
+        (
+            "?- n(X), S = sum Y : { n(Z), plus(X, Z, Y) }, X > 3 .order X desc",
+            vec![vec![7, 52], vec![4, 37]],
+        ),
+        // Recursion through what is computed ends where its guard says.
+        (
+            ".decl up(x: number) up(1). up(Y) :- up(X), plus(X, X, Y), Y < 100. ?- up(X), X > 20",
+            vec![vec![32], vec![64]],
+        ),
+        (
+            ".decl up(x: number, y: number) up(X, X) :- n(X). up(X, Z) :- up(X, Y), plus(Y, 1, Z), Z < 10. ?- up(7, Y)",
+            vec![vec![7], vec![8], vec![9]],
+        ),
+        // Asked backwards it would go down without end: a computed value makes no call of its own group.
+        (
+            ".decl up(x: number, y: number) up(X, X) :- n(X). up(X, Z) :- up(X, Y), plus(Y, 1, Z), Z < 10. ?- up(7, 8), X = 1",
+            vec![vec![1]],
+        ),
+        // No recursion, no end to care for.
+        (".decl g(x: number, y: number) g(X, Y) :- n(X), plus(X, 1, Y). ?- g(X, 8)", vec![vec![7]]),
+    ] {
+        let source = Source::new("?", question);
+        let by = sum();
+        let computed: [&dyn Computed; 1] = [&by];
+        let limits = Limits::default();
+        let answers = program.ask_with(&facts, &source, &computed, limits);
+        let answers = answers.unwrap_or_else(|error| panic!("{question}: {error}"));
+        assert_eq!(numbers(&answers), expected, "{question}");
+        let answers = derived.ask_with(&source, &computed, limits).unwrap();
+        assert_eq!(numbers(&answers), expected, "{question}");
+        for n in 0..answers.rows().len() {
+            let proof = answers.why(n).unwrap().expect("there is such an answer");
+            assert_eq!(proof.steps[0].fact.values, answers.rows()[n], "{proof}");
+        }
+    }
+    let by = sum();
+    let source = Source::new("?", "?- n(X), plus(X, Y, Z)");
+    let error = derived.ask_with(&source, &[&by], Limits::default()).unwrap_err();
+    assert!(matches!(error, AskError::Blocked { .. }), "{error}");
+    assert!(error.to_string().contains("a и b или a и c или b и c"), "{error}");
+    assert_eq!(by.asked.get(), 0);
+    // The same call is computed once.
+    let source = Source::new("?", "?- n(X), n(Y), plus(1, 2, Z)");
+    derived.ask_with(&source, &[&by], Limits::default()).unwrap();
+    assert_eq!(by.asked.get(), 1);
+}
+
+#[test]
+fn faults_of_a_question_have_their_places() {
+    let program = Program::parse(&Source::new("n.dl", NUMBERS)).unwrap();
+    let facts = program.database();
+    for (question, expected) in [
+        ("?- m(X)", "?:1:4: неизвестное отношение «m»"),
+        ("?- n(X), X > \"a\"", "?:1:14: «a»: нужен тип number, а здесь symbol"),
+        ("?- n(X), !n(Y)", "?:1:13: переменная «Y» ничем не связана"),
+        ("?- n(X .limit 3", "?:1:8: здесь ожидается действие или «,» или «)», а стоит «.»"),
+        ("?- n(X).order Z", "?:1:15: переменная «Z» ничем не связана"),
+        ("n(8). ?- n(X)", "?:1:1: не поддерживается: правило вопроса для отношения программы «n»"),
+        (
+            ".decl a(x: number) a(X) :- n(X), !a(X). ?- a(X)",
+            "?:1:35: отношение зависит от собственного отрицания или счёта: a → не a",
+        ),
+        ("?-", "?:1:3: здесь ожидается"),
+        ("", "?:1:1: здесь ожидается"),
+    ] {
+        let error = program.ask(&facts, &Source::new("?", question)).expect_err(question);
+        assert!(error.to_string().starts_with(expected), "{question}: {error}");
+    }
+}
+
+#[test]
+fn answers_come_in_the_order_asked_for() {
+    let program = Program::parse(&Source::new("n.dl", NUMBERS)).unwrap();
+    let facts = program.database();
+    for (question, expected) in [
+        ("?- n(X)", vec![vec![1], vec![2], vec![3], vec![4], vec![7]]),
+        ("?- n(X).order X desc.limit 2.", vec![vec![7], vec![4]]),
+        (
+            "?- n(X), Y = X % 2 .order Y desc, X",
+            vec![vec![1, 1], vec![3, 1], vec![7, 1], vec![2, 0], vec![4, 0]],
+        ),
+        ("twice(X * 2) :- n(X), X < 3", vec![vec![2], vec![4]]),
+        ("?- (n(X) ; X = 9), X > 4", vec![vec![7], vec![9]]),
+        ("?- n(_X), _X > 5", vec![vec![]]),
+        ("?- n(8)", vec![]),
+    ] {
+        let answers = program.ask(&facts, &Source::new("?", question));
+        let answers = answers.unwrap_or_else(|error| panic!("{question}: {error}"));
+        assert_eq!(numbers(&answers), expected, "{question}");
+    }
 }

@@ -1,0 +1,62 @@
+//! `ortho query '?- ON_TOP_OF(X, "Стол-1"), way_length("Точка-А", X, D).order D.limit 3'`: a question in the rules' language.
+
+use serde_json::json;
+
+use super::args::{Common, QueryArgs};
+use super::commands::open;
+use super::fault::Failure;
+use super::why::{Names, proof_json};
+use super::{Answer, say};
+use crate::facts::Limits;
+
+/// Runs the command; no answer at all is "no".
+pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let all = Limits::default();
+    let limits = Limits {
+        time: args.time_limit.unwrap_or(all.time),
+        memory_bytes: args.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20)),
+    };
+    let answer = engine.query_within(&args.question, args.explain, limits)?;
+    let outcome = if answer.rows.is_empty() { Answer::No } else { Answer::Yes };
+    let names = Names { relations: engine.relations()?, lang: common.lang };
+    if common.json {
+        let rows: Vec<_> = answer.rows.iter().map(|row| super::json::tuple(row)).collect();
+        let mut view = json!({ "columns": answer.columns, "rows": rows });
+        if args.explain {
+            let proofs = answer.proofs.iter().map(|proof| proof_json(&names, proof));
+            view["proofs"] = proofs.collect();
+        }
+        if !answer.unknown.is_empty() {
+            view["unknown"] = json!(answer.unknown);
+        }
+        say(&view.to_string())?;
+        return Ok(outcome);
+    }
+    if !answer.unknown.is_empty() {
+        let texts: Vec<String> = answer.unknown.iter().map(|text| format!("«{text}»")).collect();
+        let text = common.lang.pick("в фактах такого нет", "no fact holds this");
+        super::commands::note(&format!("{}: {text}", texts.join(", ")));
+    }
+    let mut lines = Vec::new();
+    match (answer.columns.is_empty(), answer.rows.is_empty()) {
+        (true, false) => lines.push(common.lang.pick("Да.", "Yes.").to_owned()),
+        (true, true) => lines.push(common.lang.pick("Нет.", "No.").to_owned()),
+        (false, true) => {
+            lines.push(common.lang.pick("Ответов нет.", "There are no answers.").to_owned());
+        }
+        (false, false) => {
+            let mut table = super::text::table();
+            table.set_header(&answer.columns);
+            for row in &answer.rows {
+                table.add_row(row.iter().map(ToString::to_string));
+            }
+            lines.push(table.to_string());
+        }
+    }
+    lines.extend(
+        answer.proofs.iter().map(|proof| names.translate(&proof.to_string()).trim_end().to_owned()),
+    );
+    say(&lines.join("\n\n"))?;
+    Ok(outcome)
+}

@@ -1,0 +1,210 @@
+//! Questions in the rules' own language, about what is believed to be so now.
+//!
+//! Beside the relations of the rule text stand three that are computed when they are asked for: how far two things are
+//! from each other, what is seen from a place, and how long the way between two places is. None of them is stored for
+//! all pairs: the building has too many.
+
+use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
+use crate::geometry::{Eye, Method};
+use crate::map::Entity;
+use crate::semantics::{Relations, Subject};
+use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
+
+use super::sight::things_in_view;
+use super::surroundings::Surroundings;
+use super::{Error, State};
+
+/// What a question found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QueryAnswer {
+    /// The question's variables, or what its head says.
+    pub columns: Vec<String>,
+    /// Distinct rows, in the order that the question asks for.
+    pub rows: Vec<Vec<Value>>,
+    /// Why each row is there, where that was asked for; of the rows from the first on.
+    pub proofs: Vec<Proof>,
+    /// Texts in the question that no fact holds: what stands for them is likely misspelled.
+    pub unknown: Vec<String>,
+}
+
+/// Proofs of so many rows at most.
+const MOST_PROOFS: usize = 20;
+
+impl State {
+    /// Answers `?- НАХОДИТСЯ_СВЕРХУ_НА(X, "Стол-1"), distance_between(X, "Окно-1", D), D < 20000.order D.limit 3`,
+    /// with rules of its own before it if it likes (docs/rules.md).
+    ///
+    /// # Errors
+    /// There is no map, the question has faults, or a limit was reached.
+    pub fn query(&self, question: &str, with_proofs: bool) -> Result<QueryAnswer, Error> {
+        self.query_within(question, with_proofs, Limits::default())
+    }
+
+    /// As [`State::query`], within limits.
+    ///
+    /// # Errors
+    /// As [`State::query`].
+    pub fn query_within(
+        &self,
+        question: &str,
+        with_proofs: bool,
+        limits: Limits,
+    ) -> Result<QueryAnswer, Error> {
+        let around = self.around()?;
+        let relations = around.relations()?;
+        let asked = |name, columns, ways, rows| Asked {
+            declaration: Source::new(name, format!(".decl {columns}")),
+            ways,
+            around,
+            relations,
+            rows,
+        };
+        let computed = [
+            asked(
+                "distance_between",
+                DISTANCE,
+                vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)],
+                distance,
+            ),
+            asked("seen_from", SEEN, vec![(0b01, 30.0)], seen),
+            asked("way_length", WAY, vec![(0b11, 1.0)], way),
+        ];
+        let computed: Vec<&dyn Computed> =
+            computed.iter().map(|one| one as &dyn Computed).collect();
+        let source = Source::new("?", question);
+        let ask = |error: AskError| Error::Query(Box::new(error));
+        let answers = relations.derived().ask_with(&source, &computed, limits).map_err(ask)?;
+        let most = if with_proofs { answers.rows().len().min(MOST_PROOFS) } else { 0 };
+        let mut proofs = Vec::new();
+        for n in 0..most {
+            proofs.extend(answers.why(n).map_err(ask)?);
+        }
+        Ok(QueryAnswer {
+            columns: answers.columns().iter().map(|Column { name, .. }| name.clone()).collect(),
+            rows: answers.rows().to_vec(),
+            proofs,
+            unknown: answers
+                .unknown()
+                .filter(|text| relations.symbols().subject(text).is_none())
+                .map(str::to_owned)
+                .collect(),
+        })
+    }
+}
+
+/// In tenths of a millimetre, between the surfaces of two things of one Map.
+const DISTANCE: &str = "РАССТОЯНИЕ_МЕЖДУ(x: Thing, y: Thing, d: number) = distance_between";
+/// What the robot would see that stands at a thing, a door, in a room or place, whichever way it turns.
+const SEEN: &str = "ВИДНО_ОТ(место: symbol, x: Thing) = seen_from";
+/// In tenths of a millimetre, from where one stands at the one to the other, by doors that stand open.
+const WAY: &str = "ДЛИНА_ПУТИ(a: symbol, b: symbol, d: number) = way_length";
+
+type Rows = fn(&Asked<'_>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option<()>;
+
+/// A relation that geometry computes.
+struct Asked<'e> {
+    declaration: Source,
+    ways: Vec<(u32, f64)>,
+    around: Surroundings<'e>,
+    relations: &'e Relations,
+    rows: Rows,
+}
+
+impl Computed for Asked<'_> {
+    fn declaration(&self) -> &Source {
+        &self.declaration
+    }
+
+    fn ways(&self) -> &[(u32, f64)] {
+        &self.ways
+    }
+
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
+        // Of what has no place nothing is computed.
+        let _ = (self.rows)(self, known, tell);
+    }
+}
+
+impl Asked<'_> {
+    fn entity(&self, value: Option<&Value>) -> Option<Entity> {
+        let Some(Value::Symbol(symbol)) = value else { return None };
+        match self.relations.symbols().subject(symbol)? {
+            Subject::Entity(entity) => Some(entity),
+            Subject::Object(_) | Subject::Part(_) => None,
+        }
+    }
+
+    fn symbol(&self, thing: ReplicaId) -> Option<Value> {
+        let symbol = self.relations.symbols().known(Subject::Entity(Entity::Replica(thing)))?;
+        Some(Value::Symbol(symbol.clone()))
+    }
+}
+
+fn length(cm: f64) -> Option<Value> {
+    Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
+}
+
+fn distance(
+    asked: &Asked<'_>,
+    known: &[Option<Value>],
+    tell: &mut dyn FnMut(&[Value]),
+) -> Option<()> {
+    let thing = |n: usize| match asked.entity(known[n].as_ref()) {
+        Some(Entity::Replica(thing)) => Some(thing),
+        _ => None,
+    };
+    let mut tell_of = |a: ReplicaId, b: ReplicaId| {
+        let row = || {
+            let d = length(asked.relations.distance(a, b)?)?;
+            Some([asked.symbol(a)?, asked.symbol(b)?, d])
+        };
+        if let Some(row) = row().filter(|_| a != b) {
+            tell(&row);
+        }
+    };
+    let world = asked.around.world().ok()?;
+    let all = || world.replicas.keys().copied();
+    match (&known[0], &known[1]) {
+        (Some(_), Some(_)) => tell_of(thing(0)?, thing(1)?),
+        (Some(_), None) => {
+            let a = thing(0)?;
+            all().for_each(|b| tell_of(a, b));
+        }
+        (None, _) => {
+            let b = thing(1)?;
+            all().for_each(|a| tell_of(a, b));
+        }
+    }
+    Some(())
+}
+
+fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {
+    let place = asked.entity(known[0].as_ref())?;
+    let (world, located) = (asked.around.world().ok()?, asked.around.locate_entity(place).ok()?);
+    let floor = asked.around.floor(located.map).ok()?;
+    let stands = floor.scene().area_at(located.at);
+    let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
+    let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
+    let range = asked.relations.thresholds().robot_sight;
+    let pose = Pose { at: located.at, heading: Deg::ZERO };
+    let eye = Eye { pose, height, field: 360.0, range };
+    for thing in things_in_view(world, floor, &eye) {
+        if let Some(symbol) = asked.symbol(thing) {
+            tell(&[known[0].clone()?, symbol]);
+        }
+    }
+    Some(())
+}
+
+fn way(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {
+    let ends = [asked.entity(known[0].as_ref())?, asked.entity(known[1].as_ref())?];
+    let around = &asked.around;
+    let (from, to) = (around.locate_entity(ends[0]).ok()?, around.locate_entity(ends[1]).ok()?);
+    if from.map != to.map {
+        return None;
+    }
+    let floor = around.floor(from.map).ok()?;
+    let route = floor.route(around.world().ok()?, from.at, to.target, Method::Shortest).ok()?;
+    tell(&[known[0].clone()?, known[1].clone()?, length(route.length)?]);
+    Some(())
+}
