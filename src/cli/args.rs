@@ -143,6 +143,8 @@ pub(super) enum Command {
     Ask(AskArgs),
     /// A dialogue: questions and commands, a line each, with what was said before kept in mind
     Talk,
+    /// Rule files under an editor: the Language Server Protocol over standard streams, for .dl and .strips
+    LanguageServer,
     /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
     Words { name: String },
     /// The shortest drivable way between two places, rooms, doors or things

@@ -413,8 +413,8 @@ pub(super) fn datalog(
     explain: bool,
 ) -> Result<Answer, Failure> {
     let run = if explain { crate::facts::run_files_traced } else { crate::facts::run_files };
-    let report = run(program, facts, output, limits)
-        .map_err(|e| crate::engine::Error::from(Box::new(e)))?;
+    let report =
+        run(program, facts, output, limits).map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
         note(drawn(warning).trim_end());
     }

@@ -13,6 +13,7 @@ mod edit;
 mod export;
 mod fault;
 mod import;
+mod language_server;
 mod observe;
 mod plan;
 mod query;
@@ -93,6 +94,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),
+        Command::LanguageServer => language_server::run(),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }
