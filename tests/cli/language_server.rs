@@ -180,7 +180,7 @@ fn robot_rules_under_an_editor() {
     assert!(place["range"]["start"]["line"].as_u64().unwrap() <= line as u64, "{place}");
     let hover = client.at("textDocument/hover", &uri, line as u64, column as u64 + 1);
     let value = hover["contents"]["value"].as_str().unwrap();
-    assert!(value.contains("РОБОТ-НАХОДИТСЯ-В_") && value.contains("the robot is in"), "{value}");
+    assert!(value.contains("РОБОТ-НАХОДИТСЯ-В") && value.contains("the robot is in"), "{value}");
 
     let broken = text.replacen("Типы:", "Типыы:", 1);
     let faults = client.change(&uri, &broken);
