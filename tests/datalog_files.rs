@@ -73,7 +73,10 @@ fn a_program_without_end_is_stopped_by_time_or_memory() {
         std::fs::write(&program, format!(".decl a(x: number)\n{text}\n.output b\n")).unwrap();
         let all = Limits::default();
         for (limits, code) in [
-            (Limits { time: Duration::from_millis(300), memory_bytes: usize::MAX, ..all }, "за 0.3 с"),
+            (
+                Limits { time: Duration::from_millis(300), memory_bytes: usize::MAX, ..all },
+                "за 0.3 с",
+            ),
             (Limits { time: Duration::from_secs(2), memory_bytes: 1 << 22, ..all }, "4 МиБ памяти"),
         ] {
             let started = Instant::now();

@@ -236,8 +236,8 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
 /// A robot notes what it saw where it stands in the frame of the map, and finds it there again: in each room, turned or not.
 #[test]
 fn an_observation_is_taken_and_given_in_the_frame_of_the_map() {
-    use orthoframe::store::{Change, Timestamp};
-    use orthoframe::units::{Deg, Frame};
+    use orthoframe_store::{Change, Timestamp};
+    use orthoframe_units::{Deg, Frame};
 
     let dir = tempfile::tempdir().expect("a directory");
     let mut world = crate::worlds::rb2();

@@ -124,13 +124,16 @@ pub(super) enum Command {
     Query(QueryArgs),
     /// Plan a scenario of a rule file, or a PDDL problem; or the facts that the map gives to planning
     Plan(PlanArgs),
-    /// Write the built-in rule files into a directory, to be edited and read with --rules
+    /// Write the built-in rule files into a directory, to be edited and read with --rules; or put rule files into one form
     Rules {
-        #[arg(long, value_name = "DIR")]
-        export: PathBuf,
+        #[arg(long, value_name = "DIR", required_unless_present = "format")]
+        export: Option<PathBuf>,
         /// Overwrite files that are there
-        #[arg(long)]
+        #[arg(long, requires = "export")]
         force: bool,
+        /// Datalog files (.dl) to be put into the usual form: blanks, indents, empty lines; the words stay
+        #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "export")]
+        format: Vec<PathBuf>,
     },
     /// Carry out a task given in words, or a scenario, in the simulator or with a robot: ortho do "Принеси лекарство"
     Do(DoArgs),
@@ -140,6 +143,8 @@ pub(super) enum Command {
     Ask(AskArgs),
     /// A dialogue: questions and commands, a line each, with what was said before kept in mind
     Talk,
+    /// Rule files under an editor: the Language Server Protocol over standard streams, for .dl and .strips
+    LanguageServer,
     /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
     Words { name: String },
     /// The shortest drivable way between two places, rooms, doors or things

@@ -312,6 +312,30 @@ pub(super) fn export_rules(common: &Common, dir: &Path, force: bool) -> Result<A
     say(&written.join("\n"))
 }
 
+/// Puts rule files into the usual form and names those that changed.
+pub(super) fn format_rules(common: &Common, files: &[PathBuf]) -> Result<Answer, Failure> {
+    const MAX_BYTES: u64 = 16 << 20;
+    let fault = |path: &Path, cause: std::io::Error| {
+        let error = crate::facts::FilesError::File { path: path.to_owned(), cause };
+        Failure::from(crate::engine::Error::from(Box::new(error)))
+    };
+    let mut changed = Vec::new();
+    for path in files {
+        let text = crate::units::read_text(path, MAX_BYTES)
+            .map_err(|error| fault(path, error.into_io()))?;
+        let formatted = crate::facts::format_rules(&text);
+        if formatted != text {
+            crate::units::write_file(path, formatted.as_bytes())
+                .map_err(|cause| fault(path, cause))?;
+            changed.push(path.display().to_string());
+        }
+    }
+    if common.json {
+        return say(&json!({"outcome": "done", "changed": changed}).to_string());
+    }
+    say(&changed.join("\n"))
+}
+
 pub(super) fn route(
     common: &Common,
     from: &str,
@@ -389,8 +413,8 @@ pub(super) fn datalog(
     explain: bool,
 ) -> Result<Answer, Failure> {
     let run = if explain { crate::facts::run_files_traced } else { crate::facts::run_files };
-    let report = run(program, facts, output, limits)
-        .map_err(|e| crate::engine::Error::from(Box::new(e)))?;
+    let report =
+        run(program, facts, output, limits).map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
         note(drawn(warning).trim_end());
     }

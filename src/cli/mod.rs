@@ -13,6 +13,7 @@ mod edit;
 mod export;
 mod fault;
 mod import;
+mod language_server;
 mod observe;
 mod plan;
 mod query;
@@ -86,10 +87,14 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Ask(ask) => ask::run(common, ask),
         Command::Do(args) => commands::perform(common, args),
         Command::Simulate(args) => vehicle::simulate(common, args),
-        Command::Rules { export, force } => commands::export_rules(common, export, *force),
+        Command::Rules { export: Some(export), force, .. } => {
+            commands::export_rules(common, export, *force)
+        }
+        Command::Rules { format, .. } => commands::format_rules(common, format),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),
+        Command::LanguageServer => language_server::run(),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

@@ -83,7 +83,11 @@ impl State {
             columns: answers.columns().iter().map(|Column { name, .. }| name.clone()).collect(),
             rows: answers.rows().to_vec(),
             proofs,
-            unknown: answers.unknown().map(|text| text.to_string()).collect(),
+            unknown: answers
+                .unknown()
+                .filter(|text| relations.symbols().subject(text).is_none())
+                .map(str::to_owned)
+                .collect(),
         })
     }
 }

@@ -58,7 +58,7 @@ fn components(items: &[Item]) -> Vec<&Component> {
 /// The components that a place may name: its own, then those around it.
 struct Scope<'a> {
     known: Vec<&'a Component>,
-    outer: Option<&'a Scope<'a>>,
+    outer: Option<&'a Self>,
 }
 
 impl<'a> Scope<'a> {
@@ -124,7 +124,7 @@ impl Making<'_> {
         let found = scope.find(&of.name.text);
         if found.is_none() {
             let (name, at) = (of.name.text.clone(), of.name.at);
-            let nearest = nearest_name(&name, scope.names().into_iter()).map(str::to_owned);
+            let nearest = nearest_name(&name, scope.names()).map(str::to_owned);
             self.faults.push(at, RuleError::UnknownComponent { name, nearest, at: at.into() });
         }
         found
@@ -189,7 +189,7 @@ impl Making<'_> {
         let named = bound(&of.name);
         let at = of.name.at;
         let Some(component) = scope.find(&named.text) else {
-            let nearest = nearest_name(&named.text, scope.names().into_iter()).map(str::to_owned);
+            let nearest = nearest_name(&named.text, scope.names()).map(str::to_owned);
             let fault = RuleError::UnknownComponent { name: named.text, nearest, at: at.into() };
             self.faults.push(at, fault);
             return;

@@ -11,7 +11,7 @@
 //!
 //! **Invariant**: a kept call has exactly the rows of the least fixpoint that fit its key.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -22,14 +22,15 @@ use super::ask::{AskError, Computed};
 use super::called::{Called, Flat, Lookup, Mask, columns_of};
 use super::check::reads;
 use super::evaluate::MAX_ROWS;
+use super::finished::share;
 use super::head::Head;
 use super::kept::{Kept, View};
 use super::limits::Watch;
 use super::magic::{Magic, Outside};
-use super::plan::{Plan, Request, Statistics, Task, Version, plan_with_cost};
+use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, Version, plan_with_cost};
 use super::program::{Clause, Expr, Program, RelationId, VariableId};
 use super::proof::turned;
-use super::rows::heap;
+use super::rows::{SharedRows, heap};
 use super::run::{Goal, Source, run};
 use super::syntax::Span;
 use super::word::{NO_WORD, Word, Words};
@@ -39,6 +40,9 @@ const MAX_DEPTH: usize = 48;
 
 /// Calls of one relation by the same columns that are answered one by one, whatever the relation's size.
 const FEW_CALLS: usize = 64;
+
+/// How much larger than what it reads a recursive relation is taken to be.
+const GROWTH: f64 = 32.0;
 
 /// How a relation comes by its rows.
 #[derive(Clone, Copy)]
@@ -80,6 +84,48 @@ struct Table {
     answered: HashMap<Key, Rc<Flat>, RandomState>,
     /// Every call that is not there has no rows.
     is_whole: bool,
+    /// What magic sets found besides the call that they were made for.
+    besides: Vec<Rc<Besides>>,
+}
+
+/// Calls that came up on the way to another call, and the rows that fit any of them.
+pub(super) struct Besides {
+    pub(super) calls: SharedRows,
+    pub(super) rows: SharedRows,
+    /// Made at the first look.
+    by_key: OnceCell<HashMap<Key, Vec<u32>, RandomState>>,
+}
+
+impl Besides {
+    pub(super) fn new(calls: SharedRows, rows: SharedRows) -> Self {
+        Self { calls, rows, by_key: OnceCell::new() }
+    }
+
+    /// None where the call did not come up.
+    fn find(&self, mask: Mask, key: &[Word], columns: usize) -> Option<Rc<Flat>> {
+        if self.calls.range(key).is_empty() {
+            return None;
+        }
+        let by_key = self.by_key.get_or_init(|| {
+            let mut by_key: HashMap<Key, Vec<u32>, RandomState> = HashMap::default();
+            let mut key = Vec::new();
+            for at in 0..self.rows.len() {
+                let row = self.rows.row(at);
+                key.clear();
+                key.extend(columns_of(mask).map(|column| row[column]));
+                match by_key.get_mut(key.as_slice()) {
+                    Some(places) => places.push(at as u32),
+                    None => drop(by_key.insert(key.as_slice().into(), vec![at as u32])),
+                }
+            }
+            by_key
+        });
+        let mut flat = Flat::new(columns);
+        for at in by_key.get(key).into_iter().flatten() {
+            flat.push(self.rows.row(*at as usize));
+        }
+        Some(Rc::new(flat))
+    }
 }
 
 /// A clause with its head's columns of a mask known.
@@ -339,7 +385,11 @@ impl<'a> Demand<'a> {
             let names: Vec<&str> = names.map(|column| column.name.as_str()).collect();
             names.join(" и ")
         };
-        let needs: Vec<String> = by.ways().iter().map(|(mask, _)| way(mask)).collect();
+        let ways = by.ways();
+        let is_least =
+            |mask: &Mask| ways.iter().all(|(other, _)| other == mask || other & mask != *other);
+        let least = ways.iter().map(|(mask, _)| mask).filter(|mask| is_least(mask));
+        let needs: Vec<String> = least.map(way).collect();
         AskError::Blocked {
             relation: info.name.clone(),
             needs: needs.join(" или "),
@@ -367,6 +417,14 @@ impl<'a> Demand<'a> {
 
     /// A call of a recursive relation.
     fn magic(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> Rc<Flat> {
+        let besides = match self.state.borrow().tables.get(&(relation, mask)) {
+            Some(table) => table.besides.clone(),
+            None => Vec::new(),
+        };
+        let columns = self.columns(relation);
+        if let Some(found) = besides.iter().find_map(|one| one.find(mask, key, columns)) {
+            return found;
+        }
         let known = self.state.borrow().magic.get(&(relation, mask)).map(Rc::clone);
         let magic = known.unwrap_or_else(|| {
             let group = &self.groups[&relation];
@@ -376,15 +434,21 @@ impl<'a> Demand<'a> {
         });
         match magic.evaluate(self, key, words) {
             Ok(answers) => {
-                let mut state = self.state.borrow_mut();
-                for ((of, mask), answered) in answers {
-                    let table = state.tables.entry((of, mask)).or_default();
-                    for (key, rows) in answered {
-                        table.answered.entry(key).or_insert(rows);
+                let mut flat = Flat::new(columns);
+                // The first way is that of the call.
+                if let Some((_, own)) = answers.first() {
+                    for at in 0..own.rows.len() {
+                        let row = own.rows.row(at);
+                        if columns_of(mask).map(|column| &row[column]).eq(key) {
+                            flat.push(row);
+                        }
                     }
                 }
-                let table = state.tables.entry((relation, mask)).or_default();
-                table.answered.get(key).map(Rc::clone).unwrap_or_default()
+                let mut state = self.state.borrow_mut();
+                for (way, besides) in answers.into_iter().filter(|(_, one)| one.calls.len() > 1) {
+                    state.tables.entry(way).or_default().besides.push(Rc::new(besides));
+                }
+                Rc::new(flat)
             }
             Err(error) => {
                 self.fail(error.into());
@@ -398,8 +462,13 @@ impl<'a> Demand<'a> {
         mask != 0
             && calls >= FEW_CALLS
             && matches!(self.kinds[relation.index()], Kind::Derived)
-            && calls as f64 * 4.0 > self.size(relation)
+            && calls as f64 * 4.0 > self.distinct(relation, 0)
             && self.can_ask_for_all(relation, &mut Vec::new())
+    }
+
+    /// Whether a relation of a lower stratum has rows enough for evaluation only, whatever it is asked.
+    pub(super) fn is_finite(&self, relation: RelationId) -> bool {
+        self.can_ask_for_all(relation, &mut Vec::new())
     }
 
     /// No computed relation, which may not be asked for all, and no growth without end that a key would bound.
@@ -450,8 +519,10 @@ impl<'a> Demand<'a> {
                 most = most.max(self.size(of));
             });
         }
-        self.state.borrow_mut().sizes.insert(relation, most);
-        most
+        // Closures are larger than what they close.
+        let grows = if self.groups.contains_key(&relation) { GROWTH } else { 1.0 };
+        self.state.borrow_mut().sizes.insert(relation, most * grows);
+        most * grows
     }
 }
 
@@ -543,7 +614,25 @@ impl Statistics for Demand<'_> {
     fn distinct(&self, relation: RelationId, column: usize) -> f64 {
         match self.kinds.get(relation.index()) {
             Some(Kind::Stored) => self.kept.distinct(relation, column),
+            Some(Kind::Derived) if self.groups.contains_key(&relation) => {
+                (self.size(relation) / GROWTH).max(1.0)
+            }
             _ => (self.size(relation) / 2.0).max(1.0),
+        }
+    }
+
+    fn share(
+        &self,
+        relation: RelationId,
+        column: usize,
+        holds: &dyn Fn(Word, &Words) -> bool,
+    ) -> f64 {
+        match self.kinds.get(relation.index()) {
+            Some(Kind::Stored) => {
+                let rows = self.kept.rows(relation).base();
+                share(&*rows, column, &|word| holds(word, &self.kept.words))
+            }
+            _ => UNKNOWN_SHARE,
         }
     }
 

@@ -295,7 +295,6 @@ impl<'a> Evaluation<'a> {
                 let mut sink = growing[&clause.head].sink();
                 let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
                 self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
-                drop(sink);
                 self.check_limits(clause)?;
             }
             self.rounds(clause, &own, &mut rounds);
@@ -345,7 +344,6 @@ impl<'a> Evaluation<'a> {
                 let mut sink = growing[&clause.head].sink();
                 let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
                 self.emit(clause, plan, &parts, room, sink.as_sink());
-                drop(sink);
                 self.check_limits(clause)?;
             }
             for (relation, rows) in &growing {

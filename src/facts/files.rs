@@ -170,6 +170,25 @@ fn run(
     Ok(report)
 }
 
+impl Program {
+    /// Reads a program's text that stands, or will stand, at this path, with all that it includes.
+    ///
+    /// # Errors
+    /// [`FilesError`]: faults of the texts, or an included file that cannot be read.
+    pub fn parse_at(source: &Source, path: &Path) -> Result<Self, FilesError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut sources = vec![source.clone()];
+        for name in includes(source.text()) {
+            for more in with_included(&folder.join(name))? {
+                if sources.iter().all(|known| known.name() != more.name()) {
+                    sources.push(more);
+                }
+            }
+        }
+        Ok(Self::parse_included(&sources)?)
+    }
+}
+
 /// A program that is longer was not written by a person.
 const MAX_PROGRAM_BYTES: u64 = 16 << 20;
 /// Facts of one relation.

@@ -151,17 +151,25 @@ impl Statistics for Finished<'_> {
         column: usize,
         holds: &dyn Fn(Word, &Words) -> bool,
     ) -> f64 {
-        const SAMPLE: usize = 512;
-        let Some(rows) = self.rows[relation.index()].as_deref() else { return UNKNOWN_SHARE };
-        let step = rows.len().div_ceil(SAMPLE).max(1);
-        let (mut all, mut held) = (0, 0);
-        for at in (0..rows.len()).step_by(step) {
-            all += 1;
-            held += usize::from(holds(rows.row(at)[column], &self.words));
+        if let Some(outside) = self.outside(relation) {
+            return outside.share(relation, column, holds);
         }
-        // A sample that misses the few that hold does not show that there are none.
-        (held as f64 + 0.5) / (f64::from(all) + 1.0)
+        let Some(rows) = self.rows[relation.index()].as_deref() else { return UNKNOWN_SHARE };
+        share(rows, column, &|word| holds(word, &self.words))
     }
+}
+
+/// The share of rows whose column's word holds, estimated from a sample.
+pub(super) fn share(rows: &dyn RowSet, column: usize, holds: &dyn Fn(Word) -> bool) -> f64 {
+    const SAMPLE: usize = 512;
+    let step = rows.len().div_ceil(SAMPLE).max(1);
+    let (mut all, mut held) = (0, 0);
+    for at in (0..rows.len()).step_by(step) {
+        all += 1;
+        held += usize::from(holds(rows.row(at)[column]));
+    }
+    // A sample that misses the few that hold does not show that there are none.
+    (held as f64 + 0.5) / (f64::from(all) + 1.0)
 }
 
 /// Different words in a column, estimated from a sample where the relation is large.

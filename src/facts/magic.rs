@@ -12,14 +12,12 @@
 //!
 //! Negations and aggregates of the clauses read lower strata, which are called as wholes outside ([`Outside`]).
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use foldhash::fast::RandomState;
-
-use super::called::{Flat, Mask, columns_of};
-use super::demand::Demand;
+use super::called::{Mask, columns_of};
+use super::demand::{Besides, Demand};
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
 use super::ground::used_variables;
@@ -60,7 +58,7 @@ pub(super) struct Magic {
     given: Vec<(RelationId, RelationId)>,
 }
 
-type Answers = Vec<(Way, HashMap<Box<[Word]>, Rc<Flat>, RandomState>)>;
+type Answers = Vec<(Way, Besides)>;
 
 struct Builder<'a, 'd> {
     demand: &'a Demand<'d>,
@@ -144,23 +142,7 @@ impl Magic {
                 rows.expect("the stratum is evaluated")
             };
             let (rows, calls) = (rows_of(twin), rows_of(calls));
-            let columns = self.program.info(*twin).columns.len();
-            let known = columns_of(*mask).count();
-            let mut answered: HashMap<Box<[Word]>, Flat, RandomState> = HashMap::default();
-            for at in 0..calls.len() {
-                answered.insert(calls.row(at)[..known].into(), Flat::new(columns));
-            }
-            let mut key = Vec::with_capacity(known);
-            for at in 0..rows.len() {
-                let row = rows.row(at);
-                key.clear();
-                key.extend(columns_of(*mask).map(|column| row[column]));
-                if let Some(flat) = answered.get_mut(key.as_slice()) {
-                    flat.push(row);
-                }
-            }
-            let answered = answered.into_iter().map(|(key, rows)| (key, Rc::new(rows)));
-            answers.push(((*of, *mask), answered.collect()));
+            answers.push(((*of, *mask), Besides::new(calls, rows)));
         }
         Ok(answers)
     }
@@ -293,18 +275,25 @@ struct Walk<'a, 'd> {
     demand: &'a Demand<'d>,
     group: &'a [RelationId],
     bound: Vec<bool>,
+    /// Computed from values of the call: such a value may not make a further call, for that could go on without end
+    /// where evaluation ends.
+    made: Vec<bool>,
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
     fn new(clause: &'a Clause, demand: &'a Demand<'d>, group: &'a [RelationId]) -> Self {
-        Self { clause, demand, group, bound: vec![false; clause.variables.len()] }
+        let none = vec![false; clause.variables.len()];
+        Self { clause, demand, group, bound: none.clone(), made: none }
     }
 
     fn known(&self, atom: &Atom) -> Mask {
         let is_known = |term: &Term| match term {
             Term::Any => false,
             Term::Constant(_) => true,
-            Term::Variable(v) => self.bound[*v as usize],
+            Term::Variable(v) => {
+                let is_own = self.group.contains(&atom.relation);
+                self.bound[*v as usize] && !(is_own && self.made[*v as usize])
+            }
         };
         let columns = atom.args.iter().enumerate().filter(|(_, term)| is_known(term));
         columns.fold(0, |mask, (column, _)| mask | 1 << column)
@@ -339,6 +328,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 }
                 _ => None,
             };
+            self.trace(&body[n]);
             let bound = &mut self.bound;
             match &body[n] {
                 Literal::Aggregate(aggregate) => bound[aggregate.target as usize] = true,
@@ -350,6 +340,46 @@ impl<'a, 'd> Walk<'a, 'd> {
             order.push((n, mask));
         }
         order
+    }
+
+    /// Which variables a literal is about to make, and which it finds among finitely many.
+    fn trace(&mut self, literal: &Literal) {
+        match literal {
+            Literal::Atom(atom) => {
+                let is_finite =
+                    self.group.contains(&atom.relation) || self.demand.is_finite(atom.relation);
+                for term in &atom.args {
+                    if let Term::Variable(v) = term {
+                        let at = *v as usize;
+                        self.made[at] = !is_finite && (self.made[at] || !self.bound[at]);
+                    }
+                }
+            }
+            Literal::Compare(compare) => {
+                for (one, other) in
+                    [(&compare.left, &compare.right), (&compare.right, &compare.left)]
+                {
+                    let Expr::Variable(v) = one else { continue };
+                    if self.bound[*v as usize] || compare.op != Comparison::Equal {
+                        continue;
+                    }
+                    self.made[*v as usize] = match other {
+                        Expr::Variable(from) => self.made[*from as usize],
+                        Expr::Constant(_) => false,
+                        Expr::Call(..) => true,
+                    };
+                }
+            }
+            Literal::Range(range) => {
+                let at = range.target as usize;
+                self.made[at] |= !self.bound[at];
+            }
+            Literal::Aggregate(aggregate) => {
+                let at = aggregate.target as usize;
+                self.made[at] |= !self.bound[at];
+            }
+            Literal::Not(_) => {}
+        }
     }
 
     fn is_ready(&self, literal: &Literal) -> bool {

@@ -85,10 +85,13 @@ pub(super) struct Choosing<'a> {
     pub(super) sink: &'a mut dyn Sink,
 }
 
+/// Combinations of values.
+type Taken = HashSet<Box<[Word]>>;
+
 /// The combinations that have their tuple.
 #[derive(Debug, Default)]
 pub(super) struct Chosen {
-    domains: Vec<(Vec<usize>, HashSet<Box<[Word]>>)>,
+    domains: Vec<(Vec<usize>, Taken)>,
 }
 
 impl Chosen {
@@ -179,10 +182,10 @@ impl Pruned {
         if is_stable { order.stable.borrow().clone() } else { order.recent.borrow().clone() }
     }
 
-    fn set(&mut self, stable: SharedRows, recent: SharedRows) {
+    fn set(&mut self, stable: &SharedRows, recent: &SharedRows) {
         for order in &self.orders {
-            order.stable.replace(turned(&stable, &order.columns));
-            order.recent.replace(turned(&recent, &order.columns));
+            order.stable.replace(turned(stable, &order.columns));
+            order.recent.replace(turned(recent, &order.columns));
         }
     }
 }
@@ -220,7 +223,7 @@ impl Growing for Pruned {
             }
             new.push(row);
         }
-        self.set(old, new.sort());
+        self.set(&old, &new.sort());
     }
 
     /// Takes tuples out.
@@ -239,7 +242,7 @@ impl Growing for Pruned {
             left.sort()
         };
         let (stable, recent) = (left(&self.rows(true)), left(&self.rows(false)));
-        self.set(stable, recent);
+        self.set(&stable, &recent);
     }
 
     fn has_recent(&self) -> bool {

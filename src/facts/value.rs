@@ -19,20 +19,33 @@ pub(super) fn compute(
     match expr {
         Expr::Variable(v) => Some(variable(*v)),
         Expr::Constant(word) => Some(*word),
-        Expr::Call(Functor::Record, fields) => {
-            let mut row = Vec::with_capacity(fields.len());
-            for field in fields {
-                row.push(compute(field, variable, words)?);
-            }
-            Some(words.record(&row))
-        }
-        Expr::Call(Functor::Field, parts) => field(parts, variable, words),
-        Expr::Call(Functor::Counter, _) => Some(words.next_number()),
         Expr::Call(functor, _) if functor.result().is_number() => {
             let number = number(expr, variable, words)?;
             Some(words.number(number))
         }
-        Expr::Call(..) => {
+        Expr::Call(functor, args) => no_number(*functor, args, expr, variable, words),
+    }
+}
+
+/// Records, their fields and texts; apart from the numbers, which most rules compute most often.
+#[inline(never)]
+fn no_number(
+    functor: Functor,
+    args: &[Expr],
+    expr: &Expr,
+    variable: &impl Fn(VariableId) -> Word,
+    words: &mut Words,
+) -> Option<Word> {
+    match functor {
+        Functor::Record => {
+            let mut row = Vec::with_capacity(args.len());
+            for field in args {
+                row.push(compute(field, variable, words)?);
+            }
+            Some(words.record(&row))
+        }
+        Functor::Field => field(args, variable, words),
+        _ => {
             let text = text(expr, variable, words)?;
             Some(words.symbol(&text))
         }
@@ -70,10 +83,6 @@ pub(super) fn number(
         Expr::Call(functor, args) => (*functor, args.as_slice()),
     };
     match (functor, args) {
-        (Functor::Field | Functor::Record | Functor::Counter, _) => {
-            let word = compute(expr, variable, words)?;
-            Some(words.to_number(word))
-        }
         (Functor::Length, [a]) => text(a, variable, words).map(|text| text.chars().count() as i64),
         (Functor::ToNumber, [a]) => text(a, variable, words)?.trim().parse().ok(),
         (Functor::ToUnsigned, [a]) => {
@@ -114,8 +123,18 @@ pub(super) fn number(
             let a = number(a, variable, words)?;
             let b = number(b, variable, words)?;
             let result = arithmetic(functor, a, b)?;
-            note(functor, a, b, result, words);
+            if is_noted(functor, result) {
+                note(functor, a, b, result, words);
+            }
             Some(result)
+        }
+        (Functor::Field, parts) => {
+            let word = field(parts, variable, words)?;
+            Some(words.to_number(word))
+        }
+        (Functor::Counter, _) => {
+            let word = words.next_number();
+            Some(words.to_number(word))
         }
         _ => None,
     }
@@ -126,8 +145,16 @@ fn round(number: i64) -> i64 {
     i64::from(number as u32)
 }
 
-/// Says so where Soufflé would have come to another number: it counts with 32 bits, and in binary fractions.
+/// Whether Soufflé may have come to another number: quickly no for most.
 #[inline]
+fn is_noted(functor: Functor, result: i64) -> bool {
+    use Functor::{DivideDecimals, MultiplyDecimals, PowerOfDecimals};
+    i32::try_from(result).is_err()
+        || matches!(functor, MultiplyDecimals | DivideDecimals | PowerOfDecimals)
+}
+
+/// Says so where Soufflé would have come to another number: it counts with 32 bits, and in binary fractions.
+#[cold]
 fn note(functor: Functor, a: i64, b: i64, result: i64, words: &mut Words) {
     match functor {
         Functor::MultiplyDecimals | Functor::DivideDecimals | Functor::PowerOfDecimals => {
@@ -298,13 +325,16 @@ pub(super) fn holds(op: Comparison, is_number: bool, a: Word, b: Word, words: &W
         Comparison::Equal => a == b,
         Comparison::NotEqual => a != b,
         Comparison::Contains => words.text(b).contains(words.text(a).as_ref()),
-        Comparison::Matches => super::regular::matches(words.text(a), words.text(b)) == Some(true),
-        Comparison::NotMatches => {
-            super::regular::matches(words.text(a), words.text(b)) == Some(false)
-        }
+        Comparison::Matches => is_match(a, b, words) == Some(true),
+        Comparison::NotMatches => is_match(a, b, words) == Some(false),
         Comparison::NotContains => !words.text(b).contains(words.text(a).as_ref()),
         _ => is_ordered(op, order(is_number, a, b, words)),
     }
+}
+
+#[cold]
+fn is_match(pattern: Word, text: Word, words: &Words) -> Option<bool> {
+    super::regular::matches(words.text(pattern), words.text(text))
 }
 
 fn order(is_number: bool, a: Word, b: Word, words: &Words) -> Ordering {

@@ -162,7 +162,7 @@ fn outer_names(body: &Body, names: &mut HashSet<String>) {
 }
 
 /// Names that premises bind, one by another.
-fn bound_by<'a>(parts: &mut dyn Iterator<Item = &'a Body>) -> HashSet<String> {
+fn bound_by(parts: &mut dyn Iterator<Item = &Body>) -> HashSet<String> {
     let mut bound = HashSet::new();
     let mut equalities = Vec::new();
     for part in parts {

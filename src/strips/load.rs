@@ -87,6 +87,12 @@ impl Scenario {
         if faults.is_empty() { Ok(scenario) } else { Err(RuleFaults(faults)) }
     }
 
+    /// As [`Scenario::read_whole`], of a text that stands, or will stand, at this path.
+    #[must_use]
+    pub fn parse_whole(source: &Source, path: &Path) -> (Self, Vec<RuleFault>) {
+        Self::load(source, Some(path))
+    }
+
     /// Reads a PDDL domain and problem.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 mod drives;
 mod faults;
+mod language_server;
 mod limits;
 mod map;
 mod plans;

@@ -139,3 +139,35 @@ fn a_query_joins_stored_and_computed_relations() {
     let blocked = place.run(&["query", "?- distance_between(X, Y, D)"]).is(2);
     assert!(blocked.err.contains("РАССТОЯНИЕ_МЕЖДУ"), "{}", blocked.err);
 }
+
+#[test]
+fn rule_files_take_one_form() {
+    let place = Place::empty();
+    let path =
+        place.write("r.dl", ".decl a(x:number,y:number) output\na(1,2).\n\n\n\na(X,Y):-a(Y,X).\n");
+    let changed = place.run(&["rules", "--format", &path]).is(0);
+    assert_eq!(changed.out.trim(), path);
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text, ".decl a(x:number, y:number) output\na(1, 2).\n\na(X, Y) :- a(Y, X).\n");
+    assert_eq!(place.run(&["rules", "--format", &path]).is(0).out.trim(), "");
+    place.run(&["rules"]).is(2);
+}
+
+#[test]
+fn a_datalog_run_explains_its_joins() {
+    let place = Place::empty();
+    let program = place.write(
+        "p.dl",
+        ".decl e(a: number, b: number)\ne(1, 2). e(2, 3).\n.decl p(a: number, b: number) output\np(A, B) :- e(A, B).\np(A, C) :- p(A, B), e(B, C).\n",
+    );
+    let out = place.path("").display().to_string();
+    let run = place.run(&["datalog", &program, "-D", &out, "--explain"]).is(0);
+    assert!(run.err.contains("«p»: запусков"), "{}", run.err);
+    assert!(
+        run.err.contains("p: новые строки") && run.err.contains("e по a: 2 строк"),
+        "{}",
+        run.err
+    );
+    let limited = place.run(&["datalog", &program, "-D", &out, "--row-limit", "2"]);
+    assert!(limited.code != 0 && limited.err.contains("больше 2 строк"), "{}", limited.err);
+}

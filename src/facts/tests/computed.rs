@@ -93,13 +93,9 @@ fn power(kind: Kind, base: i128, exponent: i128) -> Option<i128> {
         }
         return Some(result);
     }
-    Some(if exponent == 0 {
-        1
-    } else if base == -1 && exponent % 2 == 0 {
-        1
-    } else {
-        base
-    })
+    // 0, 1 or -1.
+    let is_one = exponent == 0 || base == -1 && exponent % 2 == 0;
+    Some(if is_one { 1 } else { base })
 }
 
 /// The value of `a op b`; none where there is none.
