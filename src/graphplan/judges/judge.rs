@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Form {
     Word(String),
-    List(Vec<Form>),
+    List(Vec<Self>),
 }
 
 impl Form {
@@ -198,7 +198,10 @@ fn case(domain: &str, problem: &str, plan: &str) -> Result<Case, String> {
     let mut steps: BTreeMap<usize, Vec<Done>> = BTreeMap::new();
     for line in plan.lines().map(|line| line.split(';').next().unwrap_or_default()) {
         let Some((step, call)) = line.split_once(':') else { continue };
-        let step = step.trim().parse().map_err(|_| format!("no step: {line}"))?;
+        let step = step
+            .trim()
+            .parse()
+            .map_err(|why: std::num::ParseIntError| format!("no step ({why}): {line}"))?;
         let call = read(call);
         let words: Vec<&str> = call[0].list().iter().map(Form::word).collect();
         let action = actions.get(words[0]).ok_or_else(|| format!("no such action: {line}"))?;

@@ -29,7 +29,7 @@ fn problems() -> Vec<(PathBuf, PathBuf)> {
     let task = data.join("taskography");
     let homes =
         ["h2", "h3"].map(|name| (home.join("domain.pddl"), home.join(format!("{name}.pddl"))));
-    let scans = ["tiny1", "tiny2"]
+    let scans = ["tiny1"]
         .map(|set| (task.join(set).join("domain.pddl"), task.join(set).join("problem0.pddl")));
     homes.into_iter().chain(scans).collect()
 }
