@@ -113,7 +113,7 @@ pub fn progress_in_words(
 ) -> Vec<String> {
     match progress {
         Progress::Planned(planned) => {
-            if !matches!(planned.solved.outcome, Outcome::Plan(_)) || planned.steps.is_empty() {
+            if planned.solved.outcome.plan().is_none() || planned.steps.is_empty() {
                 return Vec::new();
             }
             let told = |directive: &Directive| directive_told(world, directive, language);

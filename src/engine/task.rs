@@ -348,7 +348,8 @@ impl State {
         let Errand { domain, belief, relations, goals, tidies } = errand;
         // Reports are of moments between plans; each follows by itself.
         let mut reported = relations.clone();
-        let (rules, limits) = (&self.rules.relations, Limits::default());
+        let effort = Some(Limits::TO_START);
+        let (rules, limits) = (&self.rules.relations, Limits { effort, ..Limits::default() });
         let mut mission = Mission::new(belief, domain, relations, rules, limits);
         let mut reports = Vec::new();
         let mut plans = 0;

@@ -71,7 +71,7 @@ use std::time::Instant;
 
 pub use extract::solve_plainly;
 pub use plan::{Flaw, Plan, validate};
-pub use portfolio::{solve_any, solve_anytime};
+pub use portfolio::{solve_any, solve_anytime, solve_soon};
 pub use proof::{Learned, solve, solve_learning};
 
 use crate::strips::FactId;
@@ -170,8 +170,8 @@ pub struct Limits {
     pub tell: Option<fn(&Plan)>,
     /// Who is told by [`solve_anytime`] when fewer steps than before are ruled out.
     pub tell_bound: Option<fn(usize)>,
-    /// What [`solve_anytime`] may take in all, in variables set by the solver and what takes as long, if that is
-    /// limited.
+    /// What a proof, or [`solve_anytime`] in all, may take, in variables set by the solver and what takes as long, if
+    /// that is limited.
     pub effort: Option<u64>,
 }
 
@@ -194,6 +194,9 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// What a robot that is to start within two seconds may take.
+    pub const TO_START: u64 = 1 << 25;
+
     /// Whether the clock and so much memory held allow to go on.
     ///
     /// # Errors

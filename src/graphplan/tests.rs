@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::samples::{Named, Random, random_errand, random_task, random_task_with_objects, wishes};
 use super::*;
 use crate::proof::{Turn, search};
-use crate::strips::Operator;
+use crate::strips::{Operator, Task};
 
 /// Facts as bits.
 fn mask(facts: &[FactId]) -> u64 {

@@ -207,12 +207,12 @@ impl<'r> Mission<'r> {
         }
         let (solved, now_learned) = solve_again(self.domain, &problem, &self.limits, learned)?;
         let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
-        let steps = match &solved.outcome {
-            Outcome::Plan(plan) => {
+        let steps = match solved.outcome.plan() {
+            Some(plan) => {
                 let directive = |&o| Directive::of(self.domain, solved.task.operator(o));
                 plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
             }
-            _ => Vec::new(),
+            None => Vec::new(),
         };
         let (joins, lifts) = (relations.joins(), lifts(&self.belief.world, relations));
         Ok((Planned { solved, steps, places, joins, lifts, learned_before }, now_learned))
@@ -279,7 +279,7 @@ impl<'r> Mission<'r> {
             {
                 return stuck(refused, surprise, reins.tell);
             }
-            let Outcome::Plan(plan) = &planned.solved.outcome else {
+            let Some(plan) = planned.solved.outcome.plan() else {
                 (reins.tell)(&Event::Planned(&planned));
                 return Ok(Ending::NoPlan(Box::new(planned)));
             };

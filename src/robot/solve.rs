@@ -203,7 +203,7 @@ pub fn solve(
     told(domain, problem, task, outcome, wanted, limits)
 }
 
-/// The shortest plan, with what was learned by planning before where that is sound, and what is learned now.
+/// The shortest plan, or the best that the effort allows, with what was learned by planning before where that is sound, and what is learned now.
 ///
 /// # Errors
 /// As [`solve`].
@@ -215,7 +215,7 @@ pub(super) fn solve_again(
 ) -> Result<(Solved, Option<Learned>), RuleFaults> {
     let (task, (outcome, learned)) = match grounded(domain, problem, limits)? {
         Ok(task) => {
-            let solved = graphplan::solve_learning(&task, learned, limits);
+            let solved = graphplan::solve_soon(&task, learned, limits);
             (task, solved)
         }
         Err(limit) => (Task::default(), (Outcome::LimitReached(limit.into()), None)),

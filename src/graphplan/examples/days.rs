@@ -77,7 +77,7 @@ fn day(rooms: usize, things: usize, storeys: usize, is_rounds: bool) -> String {
         if piece > first {
             // Along a corridor; its beginning lies beside the beginning of the one before.
             let own = piece - first;
-            let before = if own % ALONG == 0 { piece - ALONG } else { piece - 1 };
+            let before = if own.is_multiple_of(ALONG) { piece - ALONG } else { piece - 1 };
             link(&mut init, &mut objects, &hall, &format!("h{before}"), false);
         } else if storeys > 1 {
             let storey = piece / per_storey;

@@ -6,14 +6,17 @@
 //! nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
 
 use super::any::{self, Found};
-use super::shorten::shorten;
+use super::shorten;
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Working, prove};
-use crate::strips::Task;
-use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, validate};
+use crate::strips::{FactId, Task};
+use crate::{Learned, Limit, Limits, Outcome, Plan, Unfinished, solve, solve_learning, validate};
 
 /// What the first round may take for shortening, and for a proof.
 const FIRST_EFFORT: u64 = 1 << 22;
+
+/// What the fewest steps of one errand may take.
+const ERRAND_EFFORT: u64 = 1 << 22;
 
 /// After so many rounds nothing but the proof itself is left to be sought.
 const ROUNDS: u32 = 24;
@@ -77,36 +80,77 @@ pub fn solve_anytime(task: &Task, limits: &Limits) -> Outcome {
     }
 }
 
+/// As [`solve_learning`] as long as [`Limits::effort`] lasts; where the proof has not come to an end by then, what
+/// [`solve_anytime`] knows after as much again: a robot starts with a plan and its bounds.
+#[must_use]
+pub fn solve_soon(
+    task: &Task,
+    learned: Option<&Learned>,
+    limits: &Limits,
+) -> (Outcome, Option<Learned>) {
+    let solved = solve_learning(task, learned, limits);
+    let Outcome::LimitReached(refuted) = &solved.0 else { return solved };
+    if refuted.limit != Limit::Effort {
+        return solved;
+    }
+    let outcome = match solve_anytime(task, limits) {
+        Outcome::LimitReached(mut known) => {
+            known.at_least = known.at_least.max(refuted.at_least);
+            match known.plan {
+                Some(plan) if plan.steps.len() <= known.at_least => Outcome::Plan(plan),
+                _ => Outcome::LimitReached(known),
+            }
+        }
+        outcome => outcome,
+    };
+    (outcome, None)
+}
+
 fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let (task, limits) = (best.task, best.limits);
-    // Forward search may lose its way; then the proof has its turn.
     let some = Limits { memory_bytes: limits.memory_bytes / 4, ..limits.clone() };
-    match any::search(task, &some, any::Effort::Least) {
-        Ok(Found::Plan(plan)) => best.offer(plan),
-        // The planning graph tells why.
-        Ok(Found::Exhausted) => return Ok(Some(solve(task, limits))),
-        Ok(Found::Open) | Err(Limit::Memory) => {}
-        Err(limit) => return Err(limit),
-    }
-    let working = Working::of(task, limits)?;
-    let errands = Errands::of(working.task());
-    let mut current = None;
+    let errands = Errands::of(task);
     if let Some(errands) = &errands {
         best.raise(errands.at_least);
-        if let Some(plan) = any::in_order(working.task(), &errands.goals, &some)? {
-            best.offer(working.own(plan.clone()));
-            current = Some(plan);
+        if let Some(plan) = any::in_order(task, &errands.goals, &some)? {
+            best.offer(plan);
         }
     }
-    if let Working::Reduced(_) = working
-        && !best.is_proven()
-        && let Ok(Found::Plan(plan)) = any::search(working.task(), &some, any::Effort::Least)
-    {
-        best.offer(working.own(plan.clone()));
-        let steps = plan.steps.len();
-        current = current.filter(|known: &Plan| known.steps.len() <= steps).or(Some(plan));
-    } else if let Working::Whole(_) = working {
-        current = best.plan.clone();
+    // Forward search may lose its way; then the proof has its turn.
+    if best.plan.is_none() {
+        match any::search(task, &some, any::Effort::Least) {
+            Ok(Found::Plan(plan)) => best.offer(plan),
+            // The planning graph tells why.
+            Ok(Found::Exhausted) => return Ok(Some(solve(task, limits))),
+            Ok(Found::Open) | Err(Limit::Memory) => {}
+            Err(limit) => return Err(limit),
+        }
+    }
+    let working = Working::of(task, limits)?;
+    // Plans in the terms of the task that is worked on, the best of which is shortened on.
+    let mut current: Vec<Plan> = Vec::new();
+    match working {
+        Working::Whole(_) => current.extend(best.plan.clone()),
+        Working::Reduced(_) => {}
+    }
+    if !best.is_proven() {
+        if let Some(errands) = &errands {
+            let order: Vec<FactId> =
+                errands.goals.iter().filter_map(|&goal| working.fact(goal)).collect();
+            let planned = shorten::one_by_one(working.task(), &order, ERRAND_EFFORT, limits);
+            current.extend(planned);
+        }
+        // A day of errands is in order already; any other plan may be as good as the first.
+        if let (Working::Reduced(_), true) = (&working, current.is_empty())
+            && let Ok(Found::Plan(plan)) = any::search(working.task(), &some, any::Effort::Least)
+        {
+            current.push(plan);
+        } else if let (Working::Whole(_), true) = (&working, errands.is_some())
+            && let Ok(Found::Plan(plan)) = any::search(task, &some, any::Effort::Least)
+        {
+            current.push(plan);
+        }
+        current.iter().for_each(|plan| best.offer(working.own(plan.clone())));
     }
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
@@ -118,13 +162,15 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         if round > 0 && limits.effort.is_some_and(|most| spent > most) {
             return Ok(None);
         }
-        if let Some(plan) = current.take() {
-            let within =
-                Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
-            let shorter = shorten(working.task(), plan, &within);
-            best.offer(working.own(shorter.clone()));
-            current = Some(shorter);
+        let within =
+            Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
+        for plan in &mut current {
+            *plan = shorten::shorten(working.task(), std::mem::take(plan), &within);
+            best.offer(working.own(plan.clone()));
         }
+        // The others had their chance.
+        current.sort_by_key(|plan| (plan.steps.len(), plan.action_count()));
+        current.truncate(1);
         if best.is_proven() {
             break;
         }
@@ -151,7 +197,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             match any::search(task, &some, reach) {
                 Ok(Found::Plan(plan)) => {
                     if let Working::Whole(_) = working {
-                        current = Some(plan.clone());
+                        current.push(plan.clone());
                     }
                     best.offer(plan);
                 }

@@ -8,7 +8,7 @@ mod novelty;
 mod relaxed;
 mod shorten;
 
-pub use anytime::solve_anytime;
+pub use anytime::{solve_anytime, solve_soon};
 
 use crate::proof::{Turn, search};
 use crate::strips::Task;

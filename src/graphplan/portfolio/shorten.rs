@@ -97,6 +97,34 @@ fn replaced(
     (size(&whole) < size(plan)).then_some(whole)
 }
 
+/// One goal after the other in this order, each in the fewest steps from where the one before ended, with all goals
+/// before it kept; none where one of them takes more than so much effort.
+pub(crate) fn one_by_one(
+    task: &Task,
+    goals: &[FactId],
+    effort: u64,
+    limits: &Limits,
+) -> Option<Plan> {
+    let mut steps: Vec<Vec<OperatorId>> = Vec::new();
+    for count in 1..=goals.len() {
+        let init = state_before(task, &steps);
+        let mut goal = goals[..count].to_vec();
+        goal.sort_unstable();
+        if goal.iter().all(|fact| init.contains(fact)) {
+            continue;
+        }
+        let piece = Task { init, goal, ..task.clone() };
+        let within = Limits { fewer_actions: 0, shorten: 0, ..limits.clone() };
+        let turn = Turn { effort: Some(effort), ..TURN };
+        let (Some(Outcome::Plan(found)), _) = search_counted(&piece, &within, turn) else {
+            return None;
+        };
+        steps.extend(found.steps);
+    }
+    super::any::drop_needless(task, &mut steps);
+    Some(in_parallel(task, steps.into_iter().flatten()))
+}
+
 fn state_before(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
     let mut holds = vec![false; task.facts.len()];
     task.init.iter().for_each(|fact| holds[fact.index()] = true);

@@ -176,13 +176,18 @@ impl Group {
         operator.del_effects.iter().any(|fact| self.has(fact))
     }
 
-    /// Whether this group is one more part of where the walker is: whatever changes it needs the first.
+    /// Whether this group is one more part of where the walker is: whatever changes it needs the first, and some of what
+    /// changes the first needs it in turn.
     fn goes_with(&self, first: &Self, task: &Task) -> bool {
-        let mut changers =
-            task.operators.iter().filter(|operator| self.is_changed_by(operator)).peekable();
-        changers.peek().is_some()
-            && !self.meets(first)
-            && changers.all(|operator| first.needed(operator).is_some())
+        let changing = |group: &Self| {
+            task.operators
+                .iter()
+                .filter(|operator| group.is_changed_by(operator))
+                .collect::<Vec<_>>()
+        };
+        !self.meets(first)
+            && changing(self).iter().all(|operator| first.needed(operator).is_some())
+            && changing(first).iter().any(|operator| self.needed(operator).is_some())
     }
 
     /// Whether whatever changes the group needs a place and moves nowhere.

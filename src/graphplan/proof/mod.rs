@@ -56,12 +56,17 @@ pub fn solve_learning(
     if inherited.is_none() && task.facts.len() >= LARGE {
         return (solve_large(task, limits).unwrap_or_else(Outcome::LimitReached), None);
     }
-    match with_stack(|| search(task, limits, Turn::default(), inherited.as_ref())) {
-        Ok((outcome, learned)) => {
-            (outcome.expect("turns without end come to an answer"), Some(learned))
-        }
+    let turn = Turn { effort: limits.effort, ..Turn::default() };
+    match with_stack(|| search(task, limits, turn, inherited.as_ref())) {
+        Ok((Some(outcome), learned)) => (outcome, Some(learned)),
+        Ok((None, learned)) => (Outcome::LimitReached(spent(&learned)), None),
         Err(unfinished) => (Outcome::LimitReached(unfinished), None),
     }
+}
+
+/// Turns without end come to an answer, or to the end of the effort allowed.
+fn spent(learned: &Learned) -> Unfinished {
+    Unfinished { at_least: learned.fewest_steps, ..Limit::Effort.into() }
 }
 
 /// Of so many facts a task is planned without the operators that no shortest plan needs. What is learned then is about
@@ -74,10 +79,12 @@ pub(crate) fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Unfin
         plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
         plan
     };
-    let (outcome, _) = with_stack(|| search(&reduced.task, limits, Turn::default(), None))
+    let turn = Turn { effort: limits.effort, ..Turn::default() };
+    let (outcome, learned) = with_stack(|| search(&reduced.task, limits, turn, None))
         .map_err(|unfinished| Unfinished { plan: unfinished.plan.map(own), ..unfinished })?;
     let facts = |facts: Vec<FactId>| facts.into_iter().map(|fact| reduced.fact(fact)).collect();
-    Ok(match outcome.expect("turns without end come to an answer") {
+    let Some(outcome) = outcome else { return Err(spent(&learned)) };
+    Ok(match outcome {
         Outcome::Plan(plan) => Outcome::Plan(own(plan)),
         Outcome::NoPlan { leveled_off_at, reason } => {
             let reason = match reason {
@@ -194,6 +201,16 @@ impl<'t> Working<'t> {
         match self {
             Self::Whole(task) => task,
             Self::Reduced(reduced) => &reduced.task,
+        }
+    }
+
+    /// A fact of the whole in terms of this task, if it plays a part in it.
+    pub(crate) fn fact(&self, whole: FactId) -> Option<FactId> {
+        match self {
+            Self::Whole(_) => Some(whole),
+            Self::Reduced(reduced) => {
+                reduced.task.fact_ids().find(|&own| reduced.fact(own) == whole)
+            }
         }
     }
 

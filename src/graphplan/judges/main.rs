@@ -1,0 +1,117 @@
+//! Plans of problems of others before two judges: one of this folder, which reads rules and plans by itself, and
+//! `unified-planning` (Python), where it is there. `python3 -m pip install --target target/judges unified-planning` puts
+//! it there; where `CI` is set, both it and the problems must be.
+
+#![allow(clippy::print_stdout, reason = "a test that was not made should say so")]
+
+mod judge;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use judge::judge;
+use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, solve_anytime};
+use orthoframe_strips::{PlanText, Scenario};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Domain and problem files; none, with a word, where the data is not there.
+fn problems() -> Vec<(PathBuf, PathBuf)> {
+    let data = root().join("../shared/data");
+    if !data.exists() {
+        assert!(std::env::var_os("CI").is_none(), "{} is missing", data.display());
+        println!("skipped: {} is not there", data.display());
+        return Vec::new();
+    }
+    let home = data.join("homebot");
+    let task = data.join("taskography");
+    let homes =
+        ["h2", "h3"].map(|name| (home.join("domain.pddl"), home.join(format!("{name}.pddl"))));
+    let scans = ["tiny1"]
+        .map(|set| (task.join(set).join("domain.pddl"), task.join(set).join("problem0.pddl")));
+    homes.into_iter().chain(scans).collect()
+}
+
+/// The plans of all ways to plan, within little effort.
+fn plans(domain: &Path, problem: &Path) -> Vec<String> {
+    let scenario = Scenario::read_pddl(domain, problem).unwrap_or_else(|faults| panic!("{faults}"));
+    let task = scenario.ground().unwrap_or_else(|faults| panic!("{faults}"));
+    let limits = Limits { effort: Some(0), fewer_actions: 0, ..Limits::default() };
+    let mut outcomes = vec![solve_any(&task, &limits), solve_anytime(&task, &limits)];
+    if task.operators.len() < 400 {
+        outcomes.push(solve(&task, &Limits { effort: None, ..limits }));
+    }
+    let plans: Vec<String> = outcomes
+        .iter()
+        .filter_map(Outcome::plan)
+        .map(|plan| PlanText::write(&task, &plan.steps))
+        .collect();
+    assert!(!plans.is_empty(), "{} has a plan", problem.display());
+    plans
+}
+
+#[test]
+fn plans_stand_before_two_judges() {
+    let (mut judged, mut files) = (0, Vec::new());
+    let folder = root().join("target/judges/plans");
+    for (domain, problem) in problems() {
+        let text = |path: &Path| std::fs::read_to_string(path).expect("the data can be read");
+        for plan in plans(&domain, &problem) {
+            judge(&text(&domain), &text(&problem), &plan)
+                .unwrap_or_else(|why| panic!("{}: {why}\n{plan}", problem.display()));
+            std::fs::create_dir_all(&folder).expect("target can be written to");
+            let file = folder.join(format!("{judged}.plan"));
+            std::fs::write(&file, &plan).expect("target can be written to");
+            files.extend([domain.clone(), problem.clone(), file]);
+            judged += 1;
+        }
+    }
+    if files.is_empty() {
+        return;
+    }
+    let script = root().join("src/graphplan/judges/unified.py");
+    let foreign = Command::new("python3")
+        .arg(script)
+        .args(files)
+        .env("PYTHONPATH", root().join("target/judges"))
+        .output();
+    match foreign {
+        Ok(done) if done.status.code() != Some(77) => {
+            let told = String::from_utf8_lossy(&done.stdout);
+            let faults = String::from_utf8_lossy(&done.stderr);
+            assert!(done.status.success(), "{told}{faults}");
+            assert_eq!(
+                told.lines().filter(|line| line.ends_with(": valid")).count(),
+                judged,
+                "{told}"
+            );
+        }
+        _ => {
+            assert!(std::env::var_os("CI").is_none(), "unified-planning is missing");
+            println!("skipped: unified-planning is not there");
+        }
+    }
+}
+
+const DOMAIN: &str = "(define (domain d) (:types t) (:predicates (p ?x - t) (q ?x - t))
+ (:action give :parameters (?x - t) :precondition (p ?x) :effect (and (q ?x) (not (p ?x))))
+ (:action use :parameters (?x - t) :precondition (p ?x) :effect (q ?x))
+ (:action bare :parameters (?x ?y - t) :precondition (and (not (p ?x)) (not (= ?x ?y))) :effect (p ?x)))";
+const PROBLEM: &str =
+    "(define (problem x) (:domain d) (:objects a b - t) (:init (p a)) (:goal (and (q a) (p b))))";
+
+#[test]
+fn the_judge_refuses_what_does_not_work() {
+    let verdict = |plan: &str| judge(DOMAIN, PROBLEM, plan).err().unwrap_or_default();
+    assert_eq!(verdict("0: (give a)\n0: (bare b a)\n"), "");
+    assert_eq!(verdict("0: (bare b a)\n1: (use a)\n"), "");
+    assert_eq!(verdict("0: (give a)\n"), "the goal is missed");
+    assert_eq!(verdict("0: (give a)\n1: (use a)\n"), "cannot be carried out: 1: (use a)");
+    assert!(verdict("0: (give a)\n0: (use a)\n").starts_with("not in one step"));
+    assert!(verdict("0: (bare b b)\n").starts_with("equal or not"));
+    assert!(verdict("0: (take a)\n").starts_with("no such action"));
+    assert!(verdict("0: (give c)\n").starts_with("c is no"));
+    assert!(verdict("0: (give a b)\n").starts_with("not so many arguments"));
+}
