@@ -1,7 +1,21 @@
 //! What a robot sees, as vectors: segments, models of things, and what of them does not depend on the observer (paper 3).
 //!
-//! A [`Segment`] is the paper's 1-simplex σ(p1, p2) with what is known of its two ends. Lengths are centimetres,
-//! angles radians counter-clockwise from +x; nothing here knows a map.
+//! A [`Segment`] is the paper's 1-simplex σ(p1, p2) with what is known of its two ends. Segments come of scans ([`scan`],
+//! whose logs [`read`] reads), of pictures ([`picture`]) and of any [`polyline`]. Lengths are centimetres, angles radians
+//! counter-clockwise from +x; nothing here knows a map.
+//!
+//! ```
+//! use orthoframe_vectors::scan::{Extractor, Noise, Sensor};
+//!
+//! // Half a turn of a sensor that stands 2 m before a wall.
+//! let sensor = Sensor::new(-1.5, 3.0 / 180.0, 181, (1.0, 1000.0), Noise::default())?;
+//! let ranges: Vec<f64> = (0..181).map(|beam| 200.0 / sensor.bearing(beam).cos()).collect();
+//! let mut extractor = Extractor::new();
+//! let segments = extractor.segments(&sensor, &ranges);
+//! assert_eq!(segments.len(), 1);
+//! assert!(!segments[0].is_whole()); // both ends are out of reach
+//! # Ok::<(), orthoframe_vectors::scan::SensorError>(())
+//! ```
 //!
 //! # Invariants
 //!
