@@ -12,19 +12,20 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod corridor;
-pub mod draw;
 pub mod engine;
-pub mod exchange;
-pub mod facts;
-pub mod geometry;
-pub mod graphplan;
-pub mod language;
-pub mod map;
-pub mod robot;
-pub mod semantics;
-pub mod store;
-pub mod strips;
-pub mod units;
 
 pub use engine::Engine;
+pub use orthoframe_corridor as corridor;
+pub use orthoframe_draw as draw;
+pub use orthoframe_exchange as exchange;
+pub use orthoframe_facts as facts;
+pub use orthoframe_geometry as geometry;
+pub use orthoframe_graphplan as graphplan;
+pub use orthoframe_language as language;
+pub use orthoframe_map as map;
+pub use orthoframe_robot as robot;
+pub use orthoframe_semantics as semantics;
+pub use orthoframe_store as store;
+pub use orthoframe_strips as strips;
+pub use orthoframe_units as units;
+pub use orthoframe_vectors as vectors;

@@ -86,7 +86,7 @@ impl Command {
             match command {
                 Self::ToDoor(_) if goes_on => passed += 1,
                 _ => {
-                    out.push(language.sentence(*command, passed));
+                    out.push(command.sentence(language, passed));
                     passed = 0;
                 }
             }
@@ -95,11 +95,11 @@ impl Command {
     }
 }
 
-impl Language {
+impl Command {
     /// A command after `passed` entrances that were driven by.
-    fn sentence(self, command: Command, passed: usize) -> String {
-        match (self, command) {
-            (Self::Russian, Command::ToDoor(side)) => {
+    fn sentence(self, language: Language, passed: usize) -> String {
+        match (language, self) {
+            (Language::Russian, Self::ToDoor(side)) => {
                 let hand = match side {
                     Side::Right => "справа",
                     Side::Left => "слева",
@@ -107,13 +107,13 @@ impl Language {
                 };
                 format!("Проезжайте до {}-го входа, дверь {hand}.", passed + 1)
             }
-            (Self::Russian, Command::ToJunction(_)) if passed > 0 => {
+            (Language::Russian, Self::ToJunction(_)) if passed > 0 => {
                 // «мимо» takes the genitive: мимо 1 входа, мимо 2 входов, мимо 21 входа.
                 let one = passed % 10 == 1 && passed % 100 != 11;
                 let word = if one { "входа" } else { "входов" };
                 format!("Проезжайте мимо {passed} {word} до соединения коридоров.")
             }
-            (Self::English, Command::ToDoor(side)) => {
+            (Language::English, Self::ToDoor(side)) => {
                 let hand = match side {
                     Side::Right => "on the right",
                     Side::Left => "on the left",
@@ -121,12 +121,12 @@ impl Language {
                 };
                 format!("Drive to the {} entrance, the door {hand}.", english_ordinal(passed + 1))
             }
-            (Self::English, Command::ToJunction(_)) if passed > 0 => {
+            (Language::English, Self::ToJunction(_)) if passed > 0 => {
                 let word = if passed == 1 { "entrance" } else { "entrances" };
                 format!("Drive past {passed} {word} to the corridor junction.")
             }
-            (Self::Russian, other) => imperative(other).to_owned(),
-            (Self::English, other) => format!("{}.", capitalized(other.english())),
+            (Language::Russian, other) => imperative(other).to_owned(),
+            (Language::English, other) => format!("{}.", capitalized(other.english())),
         }
     }
 }

@@ -5,8 +5,8 @@
 //! same commands.
 //!
 //! ```
-//! use orthoframe::corridor::{CorridorSystem, Variant, directions};
-//! use orthoframe::units::Source;
+//! use orthoframe_corridor::{CorridorSystem, Variant, directions};
+//! use orthoframe_units::Source;
 //!
 //! let text = include_str!("../../maps/corridor-paper4.toml");
 //! let corridors = CorridorSystem::from_toml(&Source::new("corridor-paper4.toml", text)).unwrap();
@@ -20,6 +20,10 @@
 //!
 //! Commands contain nothing that the robot cannot see; both variants give the same command stream, ties included.
 //! A corridor file with any fault gives no system.
+
+use orthoframe_geometry as geometry;
+use orthoframe_map as map;
+use orthoframe_units as units;
 
 mod arms;
 mod command;

@@ -13,6 +13,10 @@
 //! sheet; every sign of a plan stands in its legend; one that finds no place is told by its number in a list, or
 //! left out. The order of faces in a view is exact (a binary space partition), not by distance.
 
+use orthoframe_geometry as geometry;
+use orthoframe_map as map;
+use orthoframe_units as units;
+
 mod canvas;
 mod corridor;
 mod font;

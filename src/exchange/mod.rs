@@ -13,6 +13,11 @@
 //! bounded by its limits and its time by the file's length, whatever the bytes: `fuzz/bodies.rs` states it,
 //! `tests/hostile.rs` tries it. What is exported in our own notations reads back as the same world.
 
+use orthoframe_geometry as geometry;
+use orthoframe_map as map;
+use orthoframe_store as store;
+use orthoframe_units as units;
+
 mod assemble;
 mod error;
 mod export;

@@ -295,7 +295,7 @@ mod tests {
     use expect_test::{Expect, expect};
 
     use super::*;
-    use crate::facts::Program;
+    use crate::Program;
 
     /// Every fault and warning with its place and code.
     fn check(text: &str, expected: &Expect) {

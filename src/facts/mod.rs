@@ -9,8 +9,8 @@
 //! **Invariant**: a [`Program`] that parses can be evaluated: its variables are bound, its negations stratified.
 //!
 //! ```
-//! use orthoframe::facts::{Program, Value};
-//! use orthoframe::units::Source;
+//! use orthoframe_facts::{Program, Value};
+//! use orthoframe_units::Source;
 //!
 //! let rules = Source::new("опора.dl", r#"
 //!     .decl стоит_на(верх: symbol, низ: symbol) = stands_on
@@ -52,6 +52,8 @@
 //! quarter would fall, or that has a `.limitsize`, is evaluated anew. Rows keep their places through edits
 //! (`facts/stored.rs`: a sorted part that is never moved, one bit for each of its rows, and a tree of later
 //! rows), so indexes are built once and follow (`facts/kept.rs`).
+
+use orthoframe_units as units;
 
 mod check;
 mod clause;

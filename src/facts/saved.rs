@@ -180,7 +180,7 @@ fn hash(program: &Program) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::facts::Value;
+    use crate::Value;
     use crate::units::Source;
 
     const RULES: &str = r#"

@@ -200,7 +200,7 @@ mod tests {
     use expect_test::{Expect, expect};
 
     use super::*;
-    use crate::facts::Program;
+    use crate::Program;
     use crate::units::Source;
 
     const RULES: &str = r#"

@@ -522,7 +522,7 @@ fn cut(from: f64, to: f64, (da, db): (f64, f64)) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::grid::{difference, doubled_area};
+    use crate::grid::{difference, doubled_area};
 
     fn rectangle(x: i32, y: i32, w: i32, h: i32) -> Vec<Node> {
         [(x, y), (x + w, y), (x + w, y + h), (x, y + h)].map(|(x, y)| Node::new(x, y)).to_vec()

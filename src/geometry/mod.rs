@@ -5,8 +5,8 @@
 //! it. All floors keep to paper 1, sections 7 and 8; each file says where it goes further.
 //!
 //! ```
-//! use orthoframe::geometry::{Polygon, Region};
-//! use orthoframe::units::Point;
+//! use orthoframe_geometry::{Polygon, Region};
+//! use orthoframe_units::Point;
 //!
 //! let square = |low: f64, high: f64| {
 //!     Polygon::new([(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec())
@@ -63,6 +63,9 @@
 //!   covered is evened by 4 % of the radius, and the mouths of gaps, up to 14 % deep, count as dead. It is made
 //!   when it is asked for, and has Passframes (`FragmentFloor::with_footprint`), which the paper's method and
 //!   the search do not use: they go by those of the disc, and by straits.
+
+use orthoframe_map as map;
+use orthoframe_units as units;
 
 mod blocked;
 mod buckets;

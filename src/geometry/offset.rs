@@ -330,7 +330,7 @@ fn turned(v: Vector, sin: f64, cos: f64) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::grid::{Shapes, positive};
+    use crate::grid::{Shapes, positive};
 
     fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
         Polygon::new(vec![
@@ -408,7 +408,7 @@ mod tests {
             let high = rectangle(x, y, 400.0 - x, 300.0 - y);
             let grid = grid();
             let [walls, low, high] = [&walls, &low, &high].map(|p| grid.contour(p));
-            let floor = grid.regions(&crate::geometry::grid::difference(&[walls], &[low, high]));
+            let floor = grid.regions(&crate::grid::difference(&[walls], &[low, high]));
             assert_eq!(shrunk(&floor, 30.0).len(), rooms, "{width}");
         }
     }

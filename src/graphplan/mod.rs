@@ -6,9 +6,9 @@
 //! and the same sets of goals keep failing, there is no plan, and that is an answer, not an error.
 //!
 //! ```
-//! use orthoframe::graphplan::{Limits, Outcome, solve};
-//! use orthoframe::strips::Scenario;
-//! use orthoframe::units::Source;
+//! use orthoframe_graphplan::{Limits, Outcome, solve};
+//! use orthoframe_strips::Scenario;
+//! use orthoframe_units::Source;
 //!
 //! let task = Scenario::parse(&Source::new("дверь", "
 //! Действие: Открыть (Параметры: дверь ?y)
@@ -16,7 +16,7 @@
 //! Факты: ЗАКРЫТА_(Дверь-ВZ)   Цель: ОТКРЫТА_(Дверь-ВZ)"))?.ground()?;
 //! let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("дверь открывается") };
 //! assert_eq!(task.operator(plan.steps[0][0]).to_string(), "Открыть_(Дверь-ВZ)");
-//! # Ok::<(), orthoframe::strips::RuleFaults>(())
+//! # Ok::<(), orthoframe_strips::RuleFaults>(())
 //! ```
 //!
 //! # Invariants
@@ -52,6 +52,9 @@
 //!   be missing holds in no relaxed future, and what is told to help was neither stated nor can be brought
 //!   about; what was withdrawn comes first. What is told is data (`Said`) until it is worded, by the phrases of
 //!   the rules or as the rule file writes it (`strips/phrase`).
+
+use orthoframe_strips as strips;
+use orthoframe_units as units;
 
 mod any;
 mod bits;

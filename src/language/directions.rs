@@ -6,9 +6,9 @@
 //! Invariant: the sentences depend on the values alone, and no turn is told that is not among them.
 //!
 //! ```
-//! use orthoframe::language::Language;
-//! use orthoframe::language::directions::{Directions, Exit, Goal, Passage, Stretch};
-//! use orthoframe::language::report::{Detail, Named, Opening};
+//! use orthoframe_language::Language;
+//! use orthoframe_language::directions::{Directions, Exit, Goal, Passage, Stretch};
+//! use orthoframe_language::report::{Detail, Named, Opening};
 //! let stretch = |angle| Stretch { angle, at: None, length: 200.0, passed: vec![] };
 //! let exit = Exit { opening: Opening::Door, name: Some(Named::plain("Дверь-ВZ")), angle: 0.0 };
 //! let first = Passage { room: Named::plain("Комната-В"), stretches: vec![stretch(None)], exit: Some(exit) };
@@ -485,7 +485,7 @@ fn sentence(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::words::WordHints;
+    use crate::words::WordHints;
     use expect_test::{Expect, expect};
 
     fn name(name: &str) -> Named {

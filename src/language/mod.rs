@@ -4,7 +4,7 @@
 //! holds no map. Invariant: no text from outside makes it panic, and it never guesses between two names.
 //!
 //! ```
-//! use orthoframe::language::{NounPhrase, WordHints, russian};
+//! use orthoframe_language::{NounPhrase, WordHints, russian};
 //! let room = NounPhrase::parse("Комната-В", &WordHints::default());
 //! assert_eq!(format!("{} – {}", russian::whence(&room), russian::whither(&room)), "из Комнаты-В – в Комнату-В");
 //! ```
@@ -53,9 +53,14 @@
 //!   alike: `engine/present` has its floor and relations, which `relations/follow` brings from the survey's
 //!   tuple by tuple, and `engine/surroundings` hands them to the tellers.
 
+use orthoframe_facts as facts;
+use orthoframe_map as map;
+use orthoframe_semantics as semantics;
+use orthoframe_units as units;
+
 pub mod command;
 pub mod directions;
-pub(crate) mod names;
+pub mod names;
 pub mod question;
 pub mod report;
 pub mod words;

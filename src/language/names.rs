@@ -6,13 +6,13 @@ use crate::map::{self, Entity, Forms, TypeEntry, World};
 
 /// The name of an entity, ready to be declined.
 #[must_use]
-pub(crate) fn named(world: &World, entity: Entity) -> Named {
+pub fn named(world: &World, entity: Entity) -> Named {
     let english = english_name(world, entity);
     Named::new(world.name(entity), &hints(world, entity), Some(english).filter(|n| !n.is_empty()))
 }
 
 /// What the map says of the forms of a name.
-pub(crate) fn hints(world: &World, entity: Entity) -> WordHints {
+pub fn hints(world: &World, entity: Entity) -> WordHints {
     let none = Forms::new();
     let forms = match entity {
         Entity::Area(id) => &world.areas[&id].forms,
@@ -47,7 +47,7 @@ fn gender_of_foreign(world: &World, entity: Entity) -> Option<Gender> {
     hints.gender.or(is_russian.then(|| NounPhrase::parse(&kind.name, &hints).gender()))
 }
 
-pub(crate) fn hints_of_type(kind: &TypeEntry) -> WordHints {
+pub fn hints_of_type(kind: &TypeEntry) -> WordHints {
     WordHints {
         gender: kind.gender.map(|g| match g {
             map::Gender::Masculine => Gender::Masculine,
@@ -78,7 +78,7 @@ fn spelled(forms: &Forms) -> std::collections::BTreeMap<(Number, Case), String> 
 }
 
 /// The English name of an entity, empty where the map gives none.
-pub(crate) fn english_name(world: &World, entity: Entity) -> &str {
+pub fn english_name(world: &World, entity: Entity) -> &str {
     match entity {
         Entity::Map(id) => &world.maps[&id].name_en,
         Entity::Area(id) => &world.areas[&id].name_en,
@@ -94,7 +94,8 @@ mod tests {
 
     #[test]
     fn a_foreign_name_is_of_the_gender_of_its_kind() {
-        let world = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml")).unwrap();
+        let world =
+            World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/lab.toml")).unwrap();
         let gender = |name| named(&world, world.find(name)[0]).phrase().gender();
         assert_eq!(gender("Office door"), Gender::Feminine);
     }

@@ -72,13 +72,13 @@ impl World {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Entity;
+    use crate::Entity;
     use crate::units::Cm;
 
     #[test]
     fn a_door_is_at_the_same_place_from_both_rooms() {
-        let world =
-            World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml")).expect("a good map");
+        let world = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/rb2.toml"))
+            .expect("a good map");
         for (name, joins) in [
             ("Дверь-ВZ", &["Комната-В", "Комната-Z"][..]),
             ("Дверь-ZY", &["Комната-Z", "Комната-Y"]),

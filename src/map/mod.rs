@@ -5,8 +5,8 @@
 //! every check of this folder; what is built by hand must pass [`check`] before it is stored.
 //!
 //! ```
-//! use orthoframe::map::{Entity, Format, World};
-//! use orthoframe::units::Source;
+//! use orthoframe_map::{Entity, Format, World};
+//! use orthoframe_units::Source;
 //!
 //! let text = r#"
 //!     format = 1
@@ -28,7 +28,7 @@
 //! let shown: Vec<_> = errors.faults.iter().map(|f| (errors.position(f).unwrap(), f.to_string())).collect();
 //! assert_eq!(shown[0], ((4, 12), "Ортофрейм «floor»: векторы Базы идут по часовой стрелке".into()));
 //! assert_eq!(shown[1].0, (10, 23)); // Помещение «studio» не существует; может быть, «study»?
-//! # Ok::<(), orthoframe::map::MapErrors>(())
+//! # Ok::<(), orthoframe_map::MapErrors>(())
 //! ```
 //!
 //! # Invariants
@@ -40,6 +40,8 @@
 //! file is, so that nothing can be edited into a map that a map file could not say. Reading takes bounded memory:
 //! text size, nesting, alias replay, vectors per base are limited. A conditional side bears exactly one door; a
 //! named passage is a door without leaves.
+
+use orthoframe_units as units;
 
 mod check;
 mod counterpart;
@@ -54,7 +56,7 @@ mod orthoframe;
 mod types;
 mod world;
 
-pub(crate) use check::plane;
+pub use check::plane;
 pub use check::{check, doubts};
 pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};

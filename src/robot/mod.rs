@@ -14,6 +14,13 @@
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
 //! free floor that the route was made from; it draws no random numbers, so a run repeats itself.
 
+use orthoframe_geometry as geometry;
+use orthoframe_graphplan as graphplan;
+use orthoframe_map as map;
+use orthoframe_semantics as semantics;
+use orthoframe_strips as strips;
+use orthoframe_units as units;
+
 mod belief;
 mod directive;
 mod eye;

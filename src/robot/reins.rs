@@ -197,8 +197,8 @@ fn check(moment: &Moment, map: MapId, since: f64, way: &[Point]) -> Result<(), F
 #[cfg(test)]
 mod tests {
     use super::{OFF_THE_WAY, check};
-    use crate::robot::vehicle::{Failure, Moment};
     use crate::units::{Deg, MapId, Point, Pose};
+    use crate::vehicle::{Failure, Moment};
 
     #[test]
     fn a_pose_is_believed_on_the_way_alone() {

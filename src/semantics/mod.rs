@@ -9,9 +9,9 @@
 //! between two things, what is asked for once – it reads them from the rule text as [`Thresholds`].
 //!
 //! ```
-//! use orthoframe::map::{Format, World};
-//! use orthoframe::semantics::{Profile, RelationRules, derive};
-//! use orthoframe::units::Source;
+//! use orthoframe_map::{Format, World};
+//! use orthoframe_semantics::{Profile, RelationRules, derive};
+//! use orthoframe_units::Source;
 //!
 //! let map = Source::new("дом.toml", r#"
 //! format = 1
@@ -50,6 +50,11 @@
 //! of INSIDE, ON_TOP_OF, ABOVE, UNDER. Two different subjects never share a symbol. Measurements in facts are
 //! integers; no relation depends on the Map's axes. What the store kept of relations is taken up only under the
 //! same revision, rule text, profile and version of the crate; pairs are then measured when first asked for.
+
+use orthoframe_facts as facts;
+use orthoframe_geometry as geometry;
+use orthoframe_map as map;
+use orthoframe_units as units;
 
 mod ask;
 mod body;

@@ -419,8 +419,8 @@ mod tests {
 
     use super::*;
     use crate::map::Format;
-    use crate::semantics::{Profile, RelationRules, derive};
     use crate::units::Source;
+    use crate::{Profile, RelationRules, derive};
 
     const HOME: &str = r#"
 format = 1

@@ -202,8 +202,8 @@ mod tests {
 
     use super::*;
     use crate::map::{Entity, Format};
-    use crate::semantics::{Profile, RelationRules, derive};
     use crate::units::{Frame, Source};
+    use crate::{Profile, RelationRules, derive};
 
     /// ```text
     /// 400 +-----------+ +-----------+

@@ -314,7 +314,7 @@ impl Thresholds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::semantics::STANDARD;
+    use crate::STANDARD;
 
     fn program(text: &str) -> Program {
         Program::parse(&Source::new("правила.dl", text)).expect("it is sound")

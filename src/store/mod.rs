@@ -7,7 +7,7 @@
 //! the map can be read as of any revision.
 //!
 //! ```
-//! use orthoframe::store::{Change, Store, Timestamp};
+//! use orthoframe_store::{Change, Store, Timestamp};
 //! # let dir = tempfile::tempdir().unwrap();
 //! # let dir = dir.path().join("store");
 //!
@@ -16,7 +16,7 @@
 //! assert!(store.world()?.is_none()); // until the first store.import(&world, &change)
 //! let change = Change::new("Мастер", Timestamp(0), "первая карта");
 //! # let _ = change;
-//! # Ok::<(), orthoframe::store::StoreError>(())
+//! # Ok::<(), orthoframe_store::StoreError>(())
 //! ```
 //!
 //! [`World`]: crate::map::World
@@ -29,6 +29,9 @@
 //! trace. Observations, the robot's pose, and what it opened, switched or carried never change the map. What the
 //! papers' tables lack stands in marked columns and tables. After a failed journal write nothing more is written
 //! until the store is opened again.
+
+use orthoframe_map as map;
+use orthoframe_units as units;
 
 mod behind;
 mod cell;

@@ -4,8 +4,8 @@
 //! [`ground`] turns the two into a [`Task`] of numbered facts and operators, all that a planner sees.
 //!
 //! ```
-//! use orthoframe::strips::Scenario;
-//! use orthoframe::units::Source;
+//! use orthoframe_strips::Scenario;
+//! use orthoframe_units::Source;
 //!
 //! let text = "
 //! Действие: Движение-из_в
@@ -19,8 +19,10 @@
 //! Факты:            ПРОХОД_ИЗ_В_(Комната-В, Комната-Z)";
 //! let task = Scenario::parse(&Source::new("пример", text))?.ground()?;
 //! assert_eq!(task.operators[0].to_string(), "Движение-из_в_(Комната-В, Комната-Z)");
-//! # Ok::<(), orthoframe::strips::RuleFaults>(())
+//! # Ok::<(), orthoframe_strips::RuleFaults>(())
 //! ```
+
+use orthoframe_units as units;
 
 mod attain;
 mod bystander;

@@ -4,7 +4,7 @@
 //! checked once, where they become a [`Cm`] or a [`Deg`]; past that edge they are finite.
 //!
 //! ```
-//! use orthoframe::units::{Deg, Frame, Point};
+//! use orthoframe_units::{Deg, Frame, Point};
 //!
 //! let door = Frame::new(300.0, 0.0, 0.0, Deg::new(90.0).unwrap());
 //! assert_eq!(door.apply(Point::new(10.0, 0.0)), Point::new(300.0, 10.0)); // exact, no 1e-15 left over

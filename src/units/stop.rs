@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// A flag that is raised once and shared by its clones: who works looks at it, whoever holds a clone raises it.
 ///
 /// ```
-/// use orthoframe::units::Stop;
+/// use orthoframe_units::Stop;
 ///
 /// let stop = Stop::new();
 /// let elsewhere = stop.clone();

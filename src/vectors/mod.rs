@@ -18,6 +18,8 @@ mod locate;
 mod model;
 mod motion;
 mod observe;
+pub mod read;
+pub mod scan;
 mod scene;
 mod segment;
 mod synthesis;

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::synonyms::{Synonyms, Vocabulary};
-use crate::exchange::{ImportError, Level, OpeningKind, Report, Room, Survey};
 use crate::map::BaseVector;
 use crate::map::plane::edges;
 use crate::map::{
     Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Orthoframe,
     Permeability, Properties, TypeKind, World,
 };
+use crate::report::{What, Why};
+use crate::synonyms::{Synonyms, Vocabulary};
 use crate::units::{
     AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, PlaceId, Point, TypeId, capitalized,
 };
+use crate::{ImportError, Level, OpeningKind, Report, Room, Survey};
 
 use super::names::{self, Names, letters};
 use super::openings::{self, Placed};

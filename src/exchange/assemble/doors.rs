@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::{Level, Opening, OpeningKind};
 use crate::map::{
     Door, DoorKind, DoorLeaf, DoorState, DoorStatus, Forms, Gender, HingeSide, MapLink, OpensTo,
     Permeability, SideRef, TypeKind,
 };
+use crate::report::{What, Why};
 use crate::units::{AreaId, Cm, Deg, DoorId, Point, TypeId};
+use crate::{Level, Opening, OpeningKind};
 
 use super::build::{Doors, Maker, Storey, door_height};
 use super::names;

@@ -3,11 +3,11 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::{Kind, Part, Report};
 use crate::map::plane::{bounds, doubled_area};
 use crate::map::{Face, Item, ItemLink, Permeability, SideRef};
+use crate::report::{What, Why};
 use crate::units::{Cm, Deg, Frame, Point, Vector};
+use crate::{Kind, Part, Report};
 
 use super::names::letters;
 use super::ring::{Ring, clean_part, overlay};
@@ -255,6 +255,6 @@ mod tests {
         let built = build(&kind, None, &mut report);
         let area: f64 = built.bodies.iter().map(|b| doubled_area(&b.corners) / 2.0).sum();
         assert!((area - 6000.0).abs() < 1.0, "{area}");
-        assert_eq!(report.count(crate::exchange::Deed::Mended), 1);
+        assert_eq!(report.count(crate::Deed::Mended), 1);
     }
 }

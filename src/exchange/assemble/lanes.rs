@@ -3,10 +3,10 @@
 //! A lane makes nothing. One that leaves all rooms, or leads through a wall where no opening is, tells that the drawing
 //! and the lanes disagree: the report says where.
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::{Lane, Level};
 use crate::map::plane::{bounds, edges, meeting};
+use crate::report::{What, Why};
 use crate::units::{Point, Vector};
+use crate::{Lane, Level};
 
 use super::build::{Maker, Storey};
 use super::index::Index;

@@ -4,11 +4,11 @@
 //! floor of the doorway belongs to the other room. So both rooms have the very same side, and leaves have the room
 //! that they need. A passage stands in the face of its first side.
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::{Level, Opening, OpeningKind, Report};
 use crate::map::OpensTo;
 use crate::map::plane::bounds;
+use crate::report::{What, Why};
 use crate::units::{Point, Vector};
+use crate::{Level, Opening, OpeningKind, Report};
 
 use super::index::Index;
 use super::ring::{Region, common, is_sound};

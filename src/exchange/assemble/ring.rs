@@ -16,40 +16,40 @@ use crate::map::plane::{bounds, doubled_area, edges, meeting, near_pairs, segmen
 use crate::units::{Point, Vector};
 
 /// A closed chain of corners, without the closing one.
-pub(in crate::exchange) type Ring = Vec<Point>;
+pub(crate) type Ring = Vec<Point>;
 
 /// Corners nearer than this are one, cm; twice what the map's checks call the same place.
-pub(in crate::exchange) const NEAR: f64 = 0.1;
+pub(crate) const NEAR: f64 = 0.1;
 /// Sides of one ring nearer than this meet, cm: more than what is lost when a place is told from another corner, and twice what
 /// [`pieces`] takes for the same place.
 const TOUCHING: f64 = 2e-3;
 /// A corner that stands out from the line between its neighbours by less is none, cm.
 const STRAIGHT: f64 = 1e-4;
 /// Floor smaller than this is none, cm².
-pub(in crate::exchange) const LEAST_AREA: f64 = 400.0;
+pub(crate) const LEAST_AREA: f64 = 400.0;
 
 /// A connected piece of floor.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(in crate::exchange) struct Region {
-    pub(in crate::exchange) outer: Ring,
-    pub(in crate::exchange) holes: Vec<Ring>,
+pub(crate) struct Region {
+    pub(crate) outer: Ring,
+    pub(crate) holes: Vec<Ring>,
 }
 
 impl Region {
-    pub(in crate::exchange) fn rings(&self) -> impl Iterator<Item = &Ring> {
+    pub(crate) fn rings(&self) -> impl Iterator<Item = &Ring> {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    pub(in crate::exchange) fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         self.rings().map(|ring| doubled_area(ring)).sum::<f64>() / 2.0
     }
 
-    pub(in crate::exchange) fn contains(&self, p: Point) -> bool {
+    pub(crate) fn contains(&self, p: Point) -> bool {
         // Even-odd over all rings: a point in a hole is within two of them.
         self.rings().filter(|ring| crate::map::plane::contains(ring, p)).count() % 2 == 1
     }
 
-    pub(in crate::exchange) fn border_distance(&self, p: Point) -> f64 {
+    pub(crate) fn border_distance(&self, p: Point) -> f64 {
         self.rings()
             .flat_map(|ring| edges(ring))
             .map(|edge| segment_distance(p, edge))
@@ -59,14 +59,14 @@ impl Region {
 
 /// A cleaned outline and whether anything but points without meaning had to go.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::exchange) struct Cleaned {
-    pub(in crate::exchange) region: Region,
-    pub(in crate::exchange) was_crossed: bool,
-    pub(in crate::exchange) bad_holes: usize,
+pub(crate) struct Cleaned {
+    pub(crate) region: Region,
+    pub(crate) was_crossed: bool,
+    pub(crate) bad_holes: usize,
 }
 
 /// Makes a region of an outline of any rotation with any dirt; None when nothing of it is floor.
-pub(in crate::exchange) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Option<Cleaned> {
+pub(crate) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Option<Cleaned> {
     let outer = tidy(outline);
     let mut rings = Vec::with_capacity(holes.len());
     let mut bad_holes = 0;
@@ -97,7 +97,7 @@ pub(in crate::exchange) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Opt
 }
 
 /// The outline of a part of a thing: simple, counter-clockwise, of any size that is one.
-pub(in crate::exchange) fn clean_part(outline: &[Point]) -> Option<Ring> {
+pub(crate) fn clean_part(outline: &[Point]) -> Option<Ring> {
     let ring = tidy(outline);
     let ring = if is_simple(&ring) {
         ring
@@ -112,7 +112,7 @@ pub(in crate::exchange) fn clean_part(outline: &[Point]) -> Option<Ring> {
 }
 
 /// Without the closing point, repeated corners, corners on a straight line, and spikes.
-pub(in crate::exchange) fn tidy(points: &[Point]) -> Ring {
+pub(crate) fn tidy(points: &[Point]) -> Ring {
     let mut ring: Ring = points.to_vec();
     loop {
         let before = ring.len();
@@ -152,7 +152,7 @@ fn is_straight(a: Point, p: Point, b: Point) -> bool {
     longest <= 0.0 || u.perp(&v).abs() / longest < STRAIGHT
 }
 
-pub(in crate::exchange) fn counter_clockwise(mut ring: Ring) -> Ring {
+pub(crate) fn counter_clockwise(mut ring: Ring) -> Ring {
     if doubled_area(&ring) < 0.0 {
         ring.reverse();
     }
@@ -160,7 +160,7 @@ pub(in crate::exchange) fn counter_clockwise(mut ring: Ring) -> Ring {
 }
 
 /// Whether no two sides meet but neighbours in their common corner.
-pub(in crate::exchange) fn is_simple(ring: &[Point]) -> bool {
+pub(crate) fn is_simple(ring: &[Point]) -> bool {
     let sides: Vec<_> = edges(ring).collect();
     let boxes: Vec<_> = sides.iter().map(|&(a, b)| bounds([a, b])).collect();
     let n = sides.len();
@@ -195,7 +195,7 @@ fn meet(one: (Point, Point), other: (Point, Point), touching: f64) -> bool {
 }
 
 /// Whether no ring of a region meets another.
-pub(in crate::exchange) fn is_sound(region: &Region) -> bool {
+pub(crate) fn is_sound(region: &Region) -> bool {
     if !region.rings().all(|ring| is_simple(ring)) || doubled_area(&region.outer) <= 0.0 {
         return false;
     }
@@ -230,7 +230,7 @@ fn points(contour: &[[f64; 2]]) -> Ring {
 }
 
 /// A boolean operation; no ring of the result touches itself or another in more than points.
-pub(in crate::exchange) fn overlay(
+pub(crate) fn overlay(
     subject: &[Ring],
     clip: &[Ring],
     rule: OverlayRule,
@@ -268,7 +268,7 @@ fn region(shape: &[Contour]) -> Option<Region> {
 }
 
 /// The largest sound region, when it is floor at all.
-pub(in crate::exchange) fn largest(regions: Vec<Region>) -> Option<Region> {
+pub(crate) fn largest(regions: Vec<Region>) -> Option<Region> {
     floors(regions).into_iter().next()
 }
 
@@ -298,7 +298,7 @@ fn unpinched(region: Region) -> Vec<Region> {
 }
 
 /// What lies within `margin` of a line, its ends squared; counter-clockwise.
-pub(in crate::exchange) fn band((a, b): (Point, Point), margin: f64) -> Ring {
+pub(crate) fn band((a, b): (Point, Point), margin: f64) -> Ring {
     let along = (b - a).try_normalize(NEAR).unwrap_or(Vector::x()) * margin;
     let left = Vector::new(-along.y, along.x);
     let (a, b) = (a - along, b + along);
@@ -339,7 +339,7 @@ fn pinches(rings: &[Ring]) -> Vec<Ring> {
 }
 
 /// The floor of `region` outside of `others`.
-pub(in crate::exchange) fn subtract(region: &Region, others: &[Ring]) -> Vec<Region> {
+pub(crate) fn subtract(region: &Region, others: &[Ring]) -> Vec<Region> {
     let rings: Vec<Ring> = region.rings().cloned().collect();
     let both: Vec<Region> = overlay(&rings, others, OverlayRule::Difference, FillRule::NonZero);
     both
@@ -347,7 +347,7 @@ pub(in crate::exchange) fn subtract(region: &Region, others: &[Ring]) -> Vec<Reg
 
 /// The common floor of two regions, cm², and the length of its border, cm. Two walls that cross at a hair's breadth
 /// have a sliver in common that is no floor and yet counts.
-pub(in crate::exchange) fn common(one: &Region, other: &Region) -> (f64, f64) {
+pub(crate) fn common(one: &Region, other: &Region) -> (f64, f64) {
     let rings = |r: &Region| r.rings().cloned().collect::<Vec<_>>();
     let shapes = shapes(&rings(one), &rings(other), OverlayRule::Intersect, FillRule::NonZero);
     let (mut area, mut around) = (0.0, 0.0);
@@ -364,10 +364,7 @@ pub(in crate::exchange) fn common(one: &Region, other: &Region) -> (f64, f64) {
 
 /// A region with holes as pieces without, cut by upright slits from its holes to the next ring above and below.
 /// Pieces share their cuts exactly. `is_closed` tells of sides that no slit may end on: doors.
-pub(in crate::exchange) fn pieces(
-    region: &Region,
-    is_closed: impl Fn(Point, Point) -> bool,
-) -> Vec<Ring> {
+pub(crate) fn pieces(region: &Region, is_closed: impl Fn(Point, Point) -> bool) -> Vec<Ring> {
     if region.holes.is_empty() {
         return vec![region.outer.clone()];
     }

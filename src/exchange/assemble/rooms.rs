@@ -1,8 +1,8 @@
 //! Rooms of one level: their outlines cleaned, and no two of them in one place.
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::{Level, Report, Room};
 use crate::map::plane::{bounds, edges};
+use crate::report::{What, Why};
+use crate::{Level, Report, Room};
 
 use super::index::Index;
 use super::ring::{self, Region, Ring, band, clean, common, overlay, subtract};

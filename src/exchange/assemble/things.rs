@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::exchange::report::{What, Why};
-use crate::exchange::synonyms::{Meaning, Vocabulary};
-use crate::exchange::{Kind, Level, Spot, Thing};
 use crate::map::plane::{bounds, doubled_area, edges, meeting};
 use crate::map::{BaseVector, Forms, Object, Place, Properties, Replica, TypeKind};
+use crate::report::{What, Why};
+use crate::synonyms::{Meaning, Vocabulary};
 use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitalized};
+use crate::{Kind, Level, Spot, Thing};
 
 use super::build::{Maker, Storey};
 use super::index::Index;

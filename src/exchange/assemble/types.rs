@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::exchange::synonyms::Meaning;
 use crate::map::{Forms, Gender, TypeEntry, TypeKind, TypeLists};
+use crate::synonyms::Meaning;
 use crate::units::TypeId;
 
 /// The type lists, and which meanings they hold.

@@ -2,7 +2,7 @@
 //!
 //! Coordinates are metres in the Domain's frame, which the member `units` says; there is no place on the globe in a
 //! map. Each floor is a `level` with its ordinal, counted from the base Map's height. Names stand in both languages.
-//! What this program writes it also reads: see [`crate::exchange::geojson`].
+//! What this program writes it also reads: see [`crate::geojson`].
 
 use serde_json::{Map as Members, Value, json};
 

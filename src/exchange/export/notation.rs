@@ -25,7 +25,7 @@ mod tests {
     #[test]
     fn every_notation_reads_back_as_the_same_world() {
         for name in ["rb2", "box", "room"] {
-            let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let path = format!("{}/../../maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
             let world = World::load(path).expect("the examples are sound");
             for format in [Format::Toml, Format::Json, Format::Yaml] {
                 let text = to_map_file(&world, format);

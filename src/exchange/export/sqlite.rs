@@ -14,7 +14,7 @@ use rusqlite::types::{Value, ValueRef};
 use rusqlite::{Connection, OpenFlags};
 use thiserror::Error;
 
-use crate::exchange::LARGEST;
+use crate::LARGEST;
 use crate::map::World;
 use crate::store::{Cell, Column, Key, Kind, Origin, Reader, Row, Sheet, StoreError, Table};
 

@@ -1,9 +1,9 @@
 //! Doors and windows: a line from jamb to jamb, a leaf as a thin polygon, or a point to be set into the nearest wall.
 
-use crate::exchange::{Opening, OpeningKind, ReadError, outline};
 use crate::geometry::nearest_on_segment;
 use crate::map::{DoorKind, DoorStatus};
 use crate::units::{Cm, Point};
+use crate::{Opening, OpeningKind, ReadError, outline};
 
 use super::classify::Class;
 use super::feature::{FORMAT, Feature, Shape};

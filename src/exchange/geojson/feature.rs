@@ -12,8 +12,8 @@ use serde::de::{Deserializer, IgnoredAny, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use crate::exchange::{ReadError, Remark};
 use crate::units::Source;
+use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "GeoJSON";
 /// Features of one file.
@@ -232,7 +232,7 @@ fn shape(raw: &RawGeometry<'_>) -> Result<Shape, String> {
 }
 
 /// A fault of the JSON text with its place.
-pub(in crate::exchange) fn json_fault(source: &Source, error: &serde_json::Error) -> ReadError {
+pub(crate) fn json_fault(source: &Source, error: &serde_json::Error) -> ReadError {
     let text = source.text();
     let start = |line: usize| {
         let mut ends = text.match_indices('\n').map(|(at, _)| at + 1);

@@ -4,7 +4,7 @@
 //! member that all agree on. So: what the file says outright, else degrees when the whole lies within their range
 //! and is no larger than a town, else by the size of a room.
 
-use crate::exchange::outline;
+use crate::outline;
 use crate::units::Point;
 
 use super::feature::{Position, Surroundings};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::exchange::Level;
+use crate::Level;
 use crate::units::Cm;
 
 use super::classify::Class;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::exchange::{Lift, shafts};
+use crate::{Lift, shafts};
 
 use super::classify::Class;
 use super::feature::Feature;

@@ -6,16 +6,16 @@
 //! room. Coordinates may be degrees, metres, centimetres or millimetres; what was assumed stands in the remarks.
 //!
 //! ```
-//! use orthoframe::exchange::geojson;
-//! use orthoframe::units::Source;
+//! use orthoframe_exchange::geojson;
+//! use orthoframe_units::Source;
 //!
 //! let text = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "id": "r1",
 //!     "properties": {"name": "Кухня", "level": "0"},
 //!     "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]]]}}]}"#;
 //! let survey = geojson::read(&Source::new("flat.geojson", text))?;
 //! assert_eq!(survey.levels[0].rooms[0].name, "Кухня");
-//! assert_eq!(survey.levels[0].rooms[0].outline[2], orthoframe::units::Point::new(400.0, 300.0));
-//! # Ok::<(), orthoframe::exchange::ReadError>(())
+//! assert_eq!(survey.levels[0].rooms[0].outline[2], orthoframe_units::Point::new(400.0, 300.0));
+//! # Ok::<(), orthoframe_exchange::ReadError>(())
 //! ```
 
 mod classify;

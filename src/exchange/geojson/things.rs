@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::exchange::{Kind, Part, Thing, outline};
 use crate::map::Permeability;
 use crate::units::{Cm, Deg, Point};
+use crate::{Kind, Part, Thing, outline};
 
 use super::feature::Feature;
 use super::{Reader, properties};

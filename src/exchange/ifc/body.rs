@@ -13,9 +13,9 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use nalgebra::{Point3, Vector3};
 
-use crate::exchange::assemble::ring::{Region, Ring, overlay};
-use crate::exchange::outline;
+use crate::assemble::ring::{Region, Ring, overlay};
 use crate::geometry::convex_hull;
+use crate::outline;
 use crate::units::{Point, Vector};
 
 use super::curve::{Line, Rings};

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::exchange::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
 use crate::units::{Cm, Point};
+use crate::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
 
 use super::classes::{self, Becomes};
 use super::place::Place;
@@ -346,9 +346,9 @@ impl<'a> Reader<'a> {
             }
             for opening in &level.openings {
                 let what = match opening.what {
-                    crate::exchange::OpeningKind::Door { .. } => What::Door,
-                    crate::exchange::OpeningKind::Window => What::Window,
-                    crate::exchange::OpeningKind::Passage => What::Passage,
+                    crate::OpeningKind::Door { .. } => What::Door,
+                    crate::OpeningKind::Window => What::Window,
+                    crate::OpeningKind::Passage => What::Passage,
                 };
                 self.lose(what, &opening.source, text);
             }

@@ -12,9 +12,9 @@ use std::collections::{HashMap, HashSet};
 
 use nalgebra::{Point3, Vector3};
 
-use crate::exchange::{Deed, Opening, OpeningKind, What};
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Properties};
 use crate::units::{Cm, Point, Vector};
+use crate::{Deed, Opening, OpeningKind, What};
 
 use super::body::Body;
 use super::building::{Reader, source};

@@ -7,9 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::exchange::{Deed, Opening, OpeningKind, What, outline};
 use crate::map::Properties;
 use crate::units::{Cm, Point, Vector};
+use crate::{Deed, Opening, OpeningKind, What, outline};
 
 use super::body::Body;
 use super::building::{Reader, source};

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
-use crate::exchange::{Deed, ReadError, Room, What, outline};
 use crate::map::Properties;
 use crate::units::Cm;
+use crate::{Deed, ReadError, Room, What, outline};
 
 use super::body::{Body, together};
 use super::building::{Reader, source};

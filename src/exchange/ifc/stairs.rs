@@ -13,13 +13,13 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::exchange::assemble::ring::{
+use crate::assemble::ring::{
     LEAST_AREA, Region, clean, common, counter_clockwise, largest, overlay,
 };
-use crate::exchange::shafts::vertical;
-use crate::exchange::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
 use crate::map::Properties;
+use crate::shafts::vertical;
 use crate::units::{Cm, Point, Vector};
+use crate::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
 
 use super::body::{Body, rings, together};
 use super::building::{Reader, source};

@@ -17,8 +17,8 @@ use nom::error::{Error, ErrorKind};
 use nom::multi::many0_count;
 use nom::sequence::{delimited, preceded};
 
-use crate::exchange::{ReadError, Remark};
 use crate::units::Source;
+use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "IFC";
 const DEEPEST: usize = 32;

@@ -7,10 +7,10 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::exchange::assemble::ring::{Region, Ring, common};
-use crate::exchange::{Deed, Kind, Part, Thing, What, outline};
+use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
 use crate::units::{Cm, Deg, Point};
+use crate::{Deed, Kind, Part, Thing, What, outline};
 
 use super::body::{Body, area, hull, rings, together};
 use super::building::{Reader, source};

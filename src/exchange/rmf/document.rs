@@ -2,14 +2,14 @@
 
 use serde_json::Value;
 
-use crate::exchange::ReadError;
+use crate::ReadError;
 use crate::units::{Cm, Point, Source, Vector};
 
 use super::{FORMAT, METRE};
 
 /// The whole text as one value; nesting, nodes and aliases are limited.
 pub(super) fn parse(source: &Source) -> Result<Value, ReadError> {
-    crate::exchange::yaml::parse(source, FORMAT, "здания")
+    crate::yaml::parse(source, FORMAT, "здания")
 }
 
 pub(super) fn text<'v>(value: &'v Value, field: &str) -> Option<&'v str> {

@@ -3,11 +3,11 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::exchange::assemble::ring::{self, Region, Ring};
-use crate::exchange::{Room, Spot};
+use crate::assemble::ring::{self, Region, Ring};
 use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
 use crate::units::{Cm, Point};
+use crate::{Room, Spot};
 
 use super::faces::{Face, Plan};
 use super::{METRE, WALL};

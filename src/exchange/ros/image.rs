@@ -1,6 +1,6 @@
 //! The picture of a grid: PGM, plain (P2) and binary (P5), or PNG. Rows run downwards.
 
-use crate::exchange::ReadError;
+use crate::ReadError;
 
 use super::{FORMAT, MOST_CELLS};
 

@@ -8,10 +8,10 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::exchange::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
 use crate::geometry::convex_hull;
 use crate::map::{Permeability, Properties};
 use crate::units::{Cm, Deg, Point, Vector};
+use crate::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
 
 use super::Sheet;
 use super::doorways::{Cut, doorways};

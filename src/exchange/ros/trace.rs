@@ -3,8 +3,8 @@
 use crate::units::{Point, Vector};
 
 use super::grid::Grid;
-use crate::exchange::outline;
 use crate::geometry::nearest_on_segment;
+use crate::outline;
 
 /// A border may stray from its wall by this, in cells.
 const STRAY: f64 = 2.2;

@@ -1,6 +1,6 @@
 //! Colours and materials in words: properties ЦВЕТ and МАТЕРИАЛ.
 
-use crate::exchange::synonyms::parts;
+use crate::synonyms::parts;
 
 /// A colour whose channels differ by less has no hue.
 const HUE: f64 = 0.12;

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::exchange::{ReadError, Remark};
 use crate::units::{Cm, Point, Source};
+use crate::{ReadError, Remark};
 
 /// Metres to centimetres.
 pub(super) const METRE: f64 = 100.0;

@@ -41,7 +41,7 @@ pub(super) fn area(ring: &[Point]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exchange::scene::shape::rectangle;
+    use crate::scene::shape::rectangle;
 
     #[test]
     fn tiles_side_by_side_are_one_floor() {

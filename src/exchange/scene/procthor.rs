@@ -11,9 +11,9 @@ use std::ops::RangeInclusive;
 
 use serde_json::Value;
 
-use crate::exchange::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
 use crate::units::{Cm, Deg, Point, Source};
+use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};

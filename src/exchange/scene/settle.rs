@@ -1,6 +1,6 @@
 //! Things set down on what is beneath them: a box is off by some centimetres, and nothing hovers.
 
-use crate::exchange::Feet;
+use crate::Feet;
 
 use super::shape::{Build, Crate, Neighbours, SAME_LEVEL, STANDS, SUNK, around, holder, levels};
 

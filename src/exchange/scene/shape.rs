@@ -17,7 +17,7 @@
 
 use std::collections::HashMap;
 
-use crate::exchange::Part;
+use crate::Part;
 use crate::map::Permeability;
 use crate::units::{Cm, Point};
 

@@ -1,10 +1,10 @@
-//! Boxes with words → kinds and things of a [`Survey`](crate::exchange::Survey).
+//! Boxes with words → kinds and things of a [`Survey`](crate::Survey).
 
 use std::collections::BTreeMap;
 
-use crate::exchange::{Feet, Kind, Thing};
 use crate::map::Properties;
 use crate::units::{Cm, Deg, Point};
+use crate::{Feet, Kind, Thing};
 
 use super::settle;
 use super::shape::{self, Build, Crate};

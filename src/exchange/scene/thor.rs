@@ -6,9 +6,9 @@
 
 use serde_json::Value;
 
-use crate::exchange::{Level, ReadError, Remark, Room, Spot, Survey};
 use crate::map::Properties;
 use crate::units::{Cm, Deg, Point, Source};
+use crate::{Level, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
 use super::json::{angles, length, list, parse, plan, remark, text, triple};

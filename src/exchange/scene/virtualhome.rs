@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::exchange::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
 use crate::units::{Cm, Point, Source};
+use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
 use super::json::{length, list, parse, remark, text};

@@ -8,7 +8,7 @@ use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::roles::{cases_after, choose, direction, question, within};
 use super::vocabulary::{Haunt, Role, Verb};
 use super::{Command, Facing, Listener, Misheard, Placement, Relation, Thing, gathered};
-use crate::language::words::{Case, Hit};
+use crate::words::{Case, Hit};
 
 /// Reads a sentence into commands. See [`Listener::hear`].
 pub(super) fn commands<T: Clone + Eq + Hash>(

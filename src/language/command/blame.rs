@@ -8,8 +8,8 @@ use super::Misheard;
 use super::assemble::{Clause, Reader};
 use super::grammar::{Argument, Reference};
 use super::vocabulary::verbs;
-use crate::language::words::{Language, word_keys};
 use crate::units::{Source, nearest_name};
+use crate::words::{Language, word_keys};
 
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     pub(super) fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {

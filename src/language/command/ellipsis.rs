@@ -9,8 +9,8 @@ use std::ops::Range;
 use super::spoken::{Said, is_adjective};
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::{Meaning, Role, Verb};
-use crate::language::command::Relation;
-use crate::language::words::Language;
+use crate::command::Relation;
+use crate::words::Language;
 
 /// What stands between two marks or joints, without the joint.
 struct Segment {
@@ -282,7 +282,7 @@ fn kind_is_told(said: &Said, at: usize, verb: Verb) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::language::command::gathered;
+    use crate::command::gathered;
 
     #[test]
     fn what_is_left_out_is_said_again() {

@@ -4,7 +4,7 @@ use super::Relation;
 use super::spoken::Said;
 use super::verbs::Sort;
 use super::vocabulary::{Meaning, Verb};
-use crate::language::words::Language;
+use crate::words::Language;
 
 /// "Search the bedroom for the medicine".
 pub(super) fn searched(said: &Said) -> Option<String> {

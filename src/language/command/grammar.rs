@@ -19,8 +19,8 @@ use nom::multi::{many0, many1};
 use nom::{IResult, Input, Needed, Parser};
 
 use super::vocabulary::{Haunt, Link, Meaning, Verb, longest};
-use crate::language::words::{FormIndex, Hit, is_hyphen, word_ranges};
 use crate::units::name_key;
+use crate::words::{FormIndex, Hit, is_hyphen, word_ranges};
 
 /// A sentence cut into words: their places in the text and their keys.
 pub(super) struct Sentence<'t> {

@@ -2,8 +2,8 @@
 
 use super::vocabulary::{Meaning, Verb, longest};
 use super::{Listener, Misheard, spoken, time, verbs};
-use crate::language::words::{phrase_at, word_keys, word_ranges};
 use crate::units::Source;
+use crate::words::{phrase_at, word_keys, word_ranges};
 
 /// Whether a text is longer than anything that is said to a robot in one breath. The readers look at each word beside
 /// the others, so that what is longer is refused before it is read.
@@ -21,12 +21,12 @@ pub fn in_time(text: &str) -> Option<String> {
 }
 
 /// Whether a word tells what another than the robot does: «придёт».
-pub(in crate::language) fn is_of_another(word: &str) -> bool {
+pub(crate) fn is_of_another(word: &str) -> bool {
     time::is_of_another(word)
 }
 
 /// What a text waits for, behind "wait until": the words before it, and those that begin the claim.
-pub(in crate::language) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
+pub(crate) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
     let phrase = |n: usize| {
         let all = time::UNTIL.iter();
         all.filter_map(|until| phrase_at(keys, n, until)).max()
@@ -60,13 +60,13 @@ pub fn without_clock(text: &str) -> Result<(), Misheard> {
 }
 
 /// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.
-pub(in crate::language) fn says_whither(word: &str) -> bool {
+pub(crate) fn says_whither(word: &str) -> bool {
     let found = longest(&std::iter::once(word));
     found.is_some_and(|(_, meaning)| spoken::says_whither(meaning))
 }
 
 /// Whether a text names a place of the robot's own: «на базу».
-pub(in crate::language) fn has_haunt(text: &str) -> bool {
+pub(crate) fn has_haunt(text: &str) -> bool {
     let keys = word_keys(text);
     (0..keys.len()).any(|n| {
         let found = longest(&keys[n..].iter().map(String::as_str));

@@ -3,9 +3,9 @@
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use crate::language::question::Unanswered;
-use crate::language::words::{Language, alternatives};
+use crate::question::Unanswered;
 use crate::units::{Source, capitalized};
+use crate::words::{Language, alternatives};
 
 /// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
 #[derive(Debug, Clone, Error, Diagnostic)]

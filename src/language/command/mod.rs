@@ -7,8 +7,8 @@
 //! three different errors ([`Misheard`]); a negation is refused, and «стоп» stops whatever else was said.
 //!
 //! ```
-//! use orthoframe::language::command::{Command, Listener};
-//! use orthoframe::language::{FormIndex, NounPhrase, WordHints};
+//! use orthoframe_language::command::{Command, Listener};
+//! use orthoframe_language::{FormIndex, NounPhrase, WordHints};
 //! let mut index = FormIndex::default();
 //! for name in ["Лекарство", "Комната-Y", "Дверь-ВZ"] {
 //!     index.insert(&NounPhrase::parse(name, &WordHints::default()), name);
@@ -31,11 +31,11 @@ mod time;
 mod verbs;
 mod vocabulary;
 
-pub(in crate::language) use hints::{awaited, has_haunt, is_of_another, says_whither};
+pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
 pub use misheard::Misheard;
-pub(in crate::language) use spoken::lost;
-pub(in crate::language) use verbs::{
+pub(crate) use spoken::lost;
+pub(crate) use verbs::{
     Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words,
     without_verbs,
 };
@@ -81,7 +81,7 @@ pub struct Placement<T> {
 }
 
 impl<T> Placement<T> {
-    pub(crate) fn new(relation: Relation, anchor: T) -> Self {
+    pub fn new(relation: Relation, anchor: T) -> Self {
         Self { relation, anchor, within: None, and: None }
     }
 }
@@ -288,7 +288,7 @@ mod tests {
         let phrase = |name| NounPhrase::parse(name, &WordHints::default());
         for name in NAMES {
             index.insert(&phrase(name), name);
-            if let Some(english) = crate::language::english::name_of(name) {
+            if let Some(english) = crate::english::name_of(name) {
                 index.insert_english(&english, name);
             }
         }

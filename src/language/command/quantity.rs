@@ -5,7 +5,7 @@ use super::ellipsis::object;
 use super::spoken::{Said, state_at};
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::Meaning;
-use crate::language::words::Language;
+use crate::words::Language;
 
 /// «всё со стола», "everything on the table", «то, что лежит на столе»: all things that are there.
 pub(super) fn everything(said: &Said) -> Option<String> {

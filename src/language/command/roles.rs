@@ -4,7 +4,7 @@
 use super::grammar::{Argument, Reference};
 use super::vocabulary::{Link, Role, Verb};
 use super::{Placement, Relation};
-use crate::language::words::{Case, Hit};
+use crate::words::{Case, Hit};
 
 /// All that a name may mean in these cases.
 pub(super) fn choose<T: Clone>(hits: &[Hit<'_, T>], cases: &[Case]) -> Vec<T> {

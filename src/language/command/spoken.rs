@@ -11,7 +11,7 @@ use super::going;
 use super::quantity;
 use super::time;
 use super::vocabulary::{Meaning, Role, Verb, longest};
-use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
+use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// A text, the places of its words and their keys.
 pub(super) struct Said {
@@ -166,7 +166,7 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
 }
 
 /// The words that stand in the first of two texts more often than in the second.
-pub(in crate::language) fn lost(before: &[String], after: &[String]) -> Vec<String> {
+pub(crate) fn lost(before: &[String], after: &[String]) -> Vec<String> {
     let mut left: Vec<&String> = after.iter().collect();
     let mut is_lost = |key: &&String| match left.iter().position(|other| other == key) {
         Some(at) => {

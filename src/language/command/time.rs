@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::ellipsis::first_word;
 use super::spoken::Said;
 use super::vocabulary::{Meaning, Verb, longest};
-use crate::language::words::Language;
+use crate::words::Language;
 
 const BEFORE: [&str; 11] = [
     "before",
@@ -342,7 +342,7 @@ fn of_verb(said: &Said, at: usize) -> Option<(usize, String)> {
 
 #[cfg(test)]
 mod tests {
-    use crate::language::command::gathered;
+    use crate::command::gathered;
 
     #[test]
     fn orders_follow_in_time() {

@@ -6,12 +6,12 @@ use std::ops::Range;
 use super::is_too_long;
 use super::spoken;
 use super::vocabulary::{Meaning, Verb, longest, verbs};
-use crate::language::words::word_ranges;
 use crate::units::name_key;
+use crate::words::word_ranges;
 
 /// What a verb does with the things that are named with it, for who finds out which things are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::language) enum Sort {
+pub(crate) enum Sort {
     /// The robot goes to what is named.
     Go,
     /// Something is fetched; "on" and "in" tell where it is.
@@ -104,13 +104,13 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
 /// The text as the grammars read it: relative clauses as mere places («книгу, которая лежит на столе» is «книгу на
 /// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
 #[must_use]
-pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
+pub(crate) fn gathered(text: &str) -> Cow<'_, str> {
     gathered_of(text).0
 }
 
 /// The text as [`gathered`] has it, and the words that it left out because they are not meant: «не красную».
 #[must_use]
-pub(in crate::language) fn gathered_of(text: &str) -> (Cow<'_, str>, Vec<String>) {
+pub(crate) fn gathered_of(text: &str) -> (Cow<'_, str>, Vec<String>) {
     if is_too_long(text) {
         return (Cow::Borrowed(text), Vec::new());
     }
@@ -387,7 +387,7 @@ fn found(text: &str) -> Vec<Found> {
 
 /// The clauses of a text: where each verb begins, and of which sort it is.
 #[must_use]
-pub(in crate::language) fn clauses(text: &str) -> Vec<(usize, Sort)> {
+pub(crate) fn clauses(text: &str) -> Vec<(usize, Sort)> {
     found(text).into_iter().map(|f| (f.at.start, Sort::of(f.verb))).collect()
 }
 
@@ -437,7 +437,7 @@ pub(super) fn forbids(text: &str) -> bool {
 /// The text with the verbs that begin its clauses blanked out, and a semicolon for each, every other word where it was:
 /// in "Open the lab door" the first word orders, in "Close the open door" the third describes.
 #[must_use]
-pub(in crate::language) fn without_verbs(text: &str) -> String {
+pub(crate) fn without_verbs(text: &str) -> String {
     let mut blanked = text.to_owned();
     for Found { joined, .. } in found(text) {
         let blank = format!(";{}", " ".repeat(joined.len().saturating_sub(1)));
@@ -448,19 +448,19 @@ pub(in crate::language) fn without_verbs(text: &str) -> String {
 
 /// Whether a word means something in a command by itself.
 #[must_use]
-pub(in crate::language) fn is_known(keys: &[String], at: usize) -> bool {
+pub(crate) fn is_known(keys: &[String], at: usize) -> bool {
     meaning_at(keys, at).is_some()
 }
 
 /// Whether a preposition of commands stands at a word.
 #[must_use]
-pub(in crate::language) fn link_at(keys: &[String], at: usize) -> bool {
+pub(crate) fn link_at(keys: &[String], at: usize) -> bool {
     at < keys.len() && matches!(meaning_at(keys, at), Some((_, Meaning::Link(_))))
 }
 
 /// How many words at the beginning of some are politeness.
 #[must_use]
-pub(in crate::language) fn small_words(keys: &[String]) -> usize {
+pub(crate) fn small_words(keys: &[String]) -> usize {
     match longest(&keys.iter().map(String::as_str)) {
         Some((taken, Meaning::Filler)) => taken,
         _ => 0,
@@ -469,7 +469,7 @@ pub(in crate::language) fn small_words(keys: &[String]) -> usize {
 
 /// How many words before one are a preposition of commands.
 #[must_use]
-pub(in crate::language) fn link_before(keys: &[String], at: usize) -> usize {
+pub(crate) fn link_before(keys: &[String], at: usize) -> usize {
     let is_link = |from: usize| matches!(meaning_at(keys, from), Some((taken, Meaning::Link(_))) if from + taken == at);
     (1..=3.min(at)).rev().find(|n| is_link(at - n)).unwrap_or(0)
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::Relation;
-use crate::language::words::ordering_verb;
+use crate::words::ordering_verb;
 
 /// What a word or phrase does in a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

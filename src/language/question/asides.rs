@@ -3,8 +3,8 @@
 //!
 //! Invariant: only a line of nothing else is an aside.
 
-use crate::language::words::word_keys;
 use crate::units::name_key;
+use crate::words::word_keys;
 
 /// A line that means something only after what was said before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -2,7 +2,7 @@
 //! place with a thing, made beds. The first rules of [`super::rephrase`].
 
 use super::rephrase::{Rule, Words};
-use crate::language::words::{Case, Language, NounPhrase, WordHints, phrase_at};
+use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
 pub(super) const RULES: [Rule; 12] = [
     framed,

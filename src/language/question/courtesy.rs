@@ -3,7 +3,7 @@
 //! Invariant: only a sentence of nothing else is one.
 
 use super::Query;
-use crate::language::words::word_keys;
+use crate::words::word_keys;
 
 /// What politeness answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

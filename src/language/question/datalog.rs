@@ -1,7 +1,7 @@
 //! A query as a rule of the relations' Datalog, so that a person learns to write it.
 
-use crate::language::words::Language;
 use crate::map::{DoorStatus, Entity};
+use crate::words::Language;
 
 use super::knowledge::{Knowledge, bases};
 use super::lexicon::Extension;

@@ -8,10 +8,10 @@ use super::outlive::{self, Departed};
 use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
-use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Case, Language, alternatives, enumerate, everyday};
 use crate::map::Entity;
 use crate::units::AreaId;
+use crate::words::russian::{self, Preposition};
+use crate::words::{Case, Language, alternatives, enumerate, everyday};
 
 /// Why a question has no answer.
 #[derive(Debug, Clone, PartialEq, Eq)]

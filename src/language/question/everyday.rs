@@ -7,10 +7,8 @@ use std::ops::Range;
 
 use super::lexicon::{Lexicon, Meaning};
 use super::vocabulary;
-use crate::language::words::{
-    Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges,
-};
 use crate::units::name_key;
+use crate::words::{Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges};
 
 /// Words that ask and are often mistyped; a letter off is still that word.
 const ASKING: [&str; 14] = [
@@ -211,7 +209,7 @@ fn other_words(
     let own = !everyday::same_things(&key).is_empty();
     let whole = |word: &str| {
         let hits = lexicon.nouns.find(word);
-        !own || hits.iter().any(|hit| hit.spelling != crate::language::Spelling::Part)
+        !own || hits.iter().any(|hit| hit.spelling != crate::Spelling::Part)
     };
     if let Some(word) = small.iter().find(|word| is_name(word, lexicon) && whole(word)) {
         return Some((1, word.clone()));

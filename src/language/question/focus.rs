@@ -12,8 +12,8 @@ use super::lexicon::{Extension, KindId, Meaning};
 use super::mark::{Mark, Pronoun};
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Answer, Doubt, Memory, vocabulary};
-use crate::language::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 use crate::map::Entity;
+use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 
 /// So many exchanges back a description is still understood by what was spoken of.
 const RECENT: usize = 4;

@@ -6,8 +6,8 @@ use super::query::Best;
 use super::{
     Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several, vocabulary,
 };
-use crate::language::words::{Gender, Language, word_keys};
 use crate::map::Entity;
+use crate::words::{Gender, Language, word_keys};
 
 impl Asker<'_> {
     /// «А чайник?» after a question about something else: the same question about the kettle.

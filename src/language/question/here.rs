@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use crate::language::words::{word_keys, word_ranges};
+use crate::words::{word_keys, word_ranges};
 
 /// After these "here" is not where things are.
 const PLACED: [&str; 13] =

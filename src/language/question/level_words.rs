@@ -3,7 +3,7 @@
 use super::knowledge::{Knowledge, Level};
 use super::lexicon::lower_first;
 use super::query::{Noun, Rel, Side, Thing};
-use crate::language::words::{Case, Gender, Number, russian};
+use crate::words::{Case, Gender, Number, russian};
 
 /// «второй», "second": places that people count by words.
 const ORDINALS: [(&str, &str); 9] = [

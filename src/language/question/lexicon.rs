@@ -5,12 +5,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::language::names::{english_name, hints, hints_of_type};
-use crate::language::words::{
-    FormIndex, Language, NounPhrase, Number, WordHints, english, everyday,
-};
 use crate::map::{Entity, Permeability, TypeEntry, World};
+use crate::names::{english_name, hints, hints_of_type};
 use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
+use crate::words::{FormIndex, Language, NounPhrase, Number, WordHints, english, everyday};
 
 use super::purposes;
 use super::values::Values;
@@ -358,8 +356,7 @@ impl Lexicon {
         }
         let phrase = NounPhrase::parse("лифт", &WordHints::default());
         for word in ["лифт", "lift", "elevator"] {
-            let is_kind =
-                |hit: &crate::language::words::Hit<'_, Meaning>| matches!(hit.id, Meaning::Kind(_));
+            let is_kind = |hit: &crate::words::Hit<'_, Meaning>| matches!(hit.id, Meaning::Kind(_));
             if self.nouns.find(word).iter().any(is_kind) {
                 continue;
             }
@@ -530,7 +527,7 @@ impl Lexicon {
         let kind = self.kind(id);
         match language {
             Language::Russian => {
-                lower_first(&kind.phrase.form(crate::language::Case::Nominative, Number::Plural))
+                lower_first(&kind.phrase.form(crate::Case::Nominative, Number::Plural))
             }
             Language::English => english::plural(&kind.english),
         }

@@ -1,7 +1,7 @@
 //! What the words of a question do in it, whichever words they are.
 
 use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
-use crate::language::report::Detail;
+use crate::report::Detail;
 
 /// What a word or phrase does in a question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

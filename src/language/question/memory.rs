@@ -5,8 +5,8 @@
 use super::outlive::{Departed, Stamp};
 use super::query::{Query, Thing};
 use super::{Answer, Fact, focus, settle};
-use crate::language::words::Language;
 use crate::units::Bilingual;
+use crate::words::Language;
 
 /// What was said so far in a dialogue.
 #[derive(Debug, Clone, Default)]

@@ -57,12 +57,12 @@ pub use settle::{Settled, Strict};
 pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 
-use crate::language::command::is_too_long;
-use crate::language::report::Detail;
-use crate::language::words::{Language, everyday as everyday_words, phrase_at, word_keys};
+use crate::command::is_too_long;
 use crate::map::World;
+use crate::report::Detail;
 use crate::semantics::Relations;
 use crate::units::{AreaId, MapId, Pose, ReplicaId};
+use crate::words::{Language, everyday as everyday_words, phrase_at, word_keys};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;

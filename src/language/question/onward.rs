@@ -6,7 +6,7 @@ use super::grammar::{Item, Sentence};
 use super::lexicon::Extension;
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Detail, Dimension, Noun, Passing, Query, Rel, Thing};
-use crate::language::words::word_keys;
+use crate::words::word_keys;
 
 /// What is asked of a way that was told.
 #[derive(Default)]

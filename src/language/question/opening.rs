@@ -3,7 +3,7 @@
 use super::mark::Mark;
 use super::query::Rel;
 use super::vocabulary::longest;
-use crate::language::words::word_keys;
+use crate::words::word_keys;
 
 /// Whether these words, in [`name_key`](crate::units::name_key) form, begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::Asker;
 use super::several::sentences;
-use crate::language::command::{self, is_command, is_order};
-use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
+use crate::command::{self, is_command, is_order};
+use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
 const MARKS: [char; 8] = [',', ';', '.', '!', ':', '–', '—', '?'];

@@ -5,8 +5,8 @@
 
 use super::speech;
 use super::{Answer, Doubt, Memory, Thing, Unanswered};
-use crate::language::report::Named;
-use crate::language::words::{Case, Language, WordHints, english, enumerate};
+use crate::report::Named;
+use crate::words::{Case, Language, WordHints, english, enumerate};
 
 /// To which state of which map something belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,9 +6,9 @@
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
-use crate::language::words::english::plural;
-use crate::language::words::{Language, NounPhrase, WordHints};
 use crate::units::name_key;
+use crate::words::english::plural;
+use crate::words::{Language, NounPhrase, WordHints};
 
 /// What part things of a sort have in what is done, after the thematic roles of verbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

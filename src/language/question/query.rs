@@ -3,8 +3,8 @@
 //! A [`Noun`] is a conjunctive query in the shape of a tree: a kind or names, values of properties, and relations to
 //! other such trees. [`Query`] puts on top what is asked: the place, the number, whether there is one, a measure.
 
-use crate::language::report::Detail;
 use crate::map::Entity;
+use crate::report::Detail;
 use crate::units::{AreaId, ReplicaId};
 
 pub(super) use super::compared::{Closeness, Dimension, Extreme, Quantity, Sized};

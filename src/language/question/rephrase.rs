@@ -6,8 +6,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::constructions;
-use crate::language::words::{Language, phrase_at, word_ranges};
 use crate::units::name_key;
+use crate::words::{Language, phrase_at, word_ranges};
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {

@@ -2,7 +2,7 @@
 
 use super::grammar::Sentence;
 use super::{Asker, Head, Memory, Noun, Query, Thing};
-use crate::language::words::word_keys;
+use crate::words::word_keys;
 
 /// «Это все?», which a noun may follow.
 const ALL: [&str; 9] = [

@@ -5,8 +5,8 @@ use super::mark::Mark;
 use super::{
     Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, several,
 };
-use crate::language::command::is_too_long;
-use crate::language::words::{Language, word_keys};
+use crate::command::is_too_long;
+use crate::words::{Language, word_keys};
 
 impl Asker<'_> {
     /// «Где ваза и какого она цвета?»: two questions in one sentence, the second knowing the first. None where the

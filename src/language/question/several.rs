@@ -2,7 +2,7 @@
 
 use super::mark::Mark;
 use super::vocabulary;
-use crate::language::words::{word_keys, word_ranges};
+use crate::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
 pub(super) fn parts(text: &str) -> Option<Vec<&str>> {

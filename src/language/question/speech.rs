@@ -1,14 +1,14 @@
 //! Names, places, numbers and lists inside an answer, in both languages.
 
-use crate::language::names::named;
-use crate::language::report::Named;
-use crate::language::words::length;
-use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{
+use crate::map::Entity;
+use crate::names::named;
+use crate::report::Named;
+use crate::units::capitalized;
+use crate::words::length;
+use crate::words::russian::{self, Preposition};
+use crate::words::{
     Case, Gender, Language, NounPhrase, Number, WordHints, alternatives, english, enumerate,
 };
-use crate::map::Entity;
-use crate::units::capitalized;
 
 use super::knowledge::{Frame, Knowledge};
 use super::lexicon::{Extension, KindId, lower_first};

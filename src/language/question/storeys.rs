@@ -5,10 +5,10 @@
 
 use std::borrow::Cow;
 
-use crate::language::names::english_name;
-use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 use crate::map::{Entity, World};
+use crate::names::english_name;
 use crate::units::MapId;
+use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// A word, whether it means the storey above, and whether it says whither.
 const WORDS: [(&str, bool, bool); 26] = [

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::language::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
 use crate::map::{DoorStatus, World};
 use crate::units::name_key;
+use crate::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
 
 /// What a property says of a thing.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use super::mark::{Mark, Pronoun};
 use super::query::{Closeness, Dimension, Extreme, Rel};
 use super::uses;
-use crate::language::report::Detail;
+use crate::report::Detail;
 use crate::units::name_key;
 
 const WORDS: &[(Mark, &str)] = &[

@@ -1,7 +1,7 @@
 //! «Почему?»: the proof of a fact in words, down to what was measured; «Почему нет?»: what it lacks.
 
 use crate::facts::{Because, Premise, Proof, Value, WhyNot};
-use crate::language::words::{Case, Gender, Language, Number, enumerate};
+use crate::words::{Case, Gender, Language, Number, enumerate};
 
 use super::answer::Draft;
 use super::compared::Extreme;
@@ -9,8 +9,8 @@ use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
 use super::query::{Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
-use crate::language::words::length;
 use crate::map::Entity;
+use crate::words::length;
 
 /// Measurements said in one sentence, at most.
 const SAID: usize = 4;

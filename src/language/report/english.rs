@@ -1,7 +1,7 @@
 //! A position in English: "in Room V at the door leading from Room V to Room Z".
 
 use super::{Beside, Doorway, Facing, Mark, Named, Opening, Position, Spot};
-use crate::language::words::PlaceSense::{Inside, Upon};
+use crate::words::PlaceSense::{Inside, Upon};
 
 impl Position {
     pub(super) fn english(&self, spot: Option<&Spot>) -> String {

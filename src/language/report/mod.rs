@@ -7,8 +7,8 @@
 //! Invariant: the sentence depends on the values alone; every name in it stands in a form of its own.
 //!
 //! ```
-//! use orthoframe::language::Language;
-//! use orthoframe::language::report::{Doorway, Named, Position, Spot};
+//! use orthoframe_language::Language;
+//! use orthoframe_language::report::{Doorway, Named, Position, Spot};
 //! let (here, there) = (Named::plain("Комната-В"), Named::plain("Комната-Z"));
 //! let position = Position::new(here.clone(), [Spot::InMiddle, Spot::AtDoor(Doorway::door(here, there))]);
 //! assert_eq!(
@@ -190,7 +190,7 @@ mod tests {
     use expect_test::{Expect, expect};
 
     use super::*;
-    use crate::language::words::WordHints;
+    use crate::words::WordHints;
 
     fn check(position: &Position, expected: &Expect) {
         expected.assert_eq(&format!(

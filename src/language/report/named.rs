@@ -1,6 +1,6 @@
 //! Names and doorways as a report and a way in words tell them: the values, without sentences.
 
-use crate::language::words::{Case, Language, NounPhrase, PlaceSense, WordHints, english, russian};
+use crate::words::{Case, Language, NounPhrase, PlaceSense, WordHints, english, russian};
 
 /// A name of the map in both languages.
 #[derive(Debug, Clone, PartialEq, Eq)]

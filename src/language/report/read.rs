@@ -7,8 +7,8 @@
 //! (a property test over whole maps shows it); no text makes it panic.
 //!
 //! ```
-//! use orthoframe::language::{FormIndex, WordHints};
-//! use orthoframe::language::report::read::{SaidSpot, read};
+//! use orthoframe_language::{FormIndex, WordHints};
+//! use orthoframe_language::report::read::{SaidSpot, read};
 //! let mut index = FormIndex::default();
 //! index.insert_name("Комната-В", &WordHints::default(), 1);
 //! index.insert_name("Комната-Z", &WordHints::default(), 2);

@@ -1,8 +1,8 @@
 //! A position in Russian: «в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z».
 
 use super::{Beside, Doorway, Facing, Mark, Named, Opening, Position, Spot};
-use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Case, Gender, NounPhrase, Number, WordHints};
+use crate::words::russian::{self, Preposition};
+use crate::words::{Case, Gender, NounPhrase, Number, WordHints};
 
 impl Position {
     pub(super) fn russian(&self, spot: Option<&Spot>) -> String {

@@ -1,7 +1,7 @@
 //! English around a name: articles, plurals, possessives, and English for the Russian names of a house.
 //!
 //! ```
-//! use orthoframe::language::english;
+//! use orthoframe_language::english;
 //! assert_eq!(english::with_article("kitchen"), "the kitchen");
 //! assert_eq!(english::with_article("Room-B"), "Room-B");
 //! assert_eq!(english::name_of("Комната-В").as_deref(), Some("Room-B"));

@@ -39,7 +39,7 @@ impl Case {
     /// The case by its Russian or English name, whole or by the first letters that the map file may use.
     ///
     /// ```
-    /// use orthoframe::language::Case;
+    /// use orthoframe_language::Case;
     /// assert_eq!(Case::named("родительный"), Some(Case::Genitive));
     /// assert_eq!(Case::named("gen"), Some(Case::Genitive));
     /// assert_eq!(Case::named("звательный"), None);

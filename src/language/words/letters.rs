@@ -43,7 +43,7 @@ pub(crate) fn runs(text: &str) -> Vec<Run<'_>> {
 /// The places of the words in a text, as the index and the grammars count them.
 ///
 /// ```
-/// use orthoframe::language::word_ranges;
+/// use orthoframe_language::word_ranges;
 /// assert_eq!(word_ranges("«Дверь-В», да"), [2..12, 13..15, 19..23]);
 /// ```
 #[must_use]

@@ -1,30 +1,11 @@
-//! Lists as people say them, and the two languages.
-
-use std::cmp::Ordering;
+//! Lists as people say them.
 
 pub use crate::units::Language;
-
-impl Language {
-    /// The language that a text is written in. Names are no evidence: the small words decide, then the first letter.
-    #[must_use]
-    pub fn of(text: &str) -> Self {
-        let words =
-            || text.split(|c: char| !c.is_alphabetic()).filter_map(|word| word.chars().next());
-        let small =
-            |latin: bool| words().filter(|c| c.is_lowercase() && c.is_ascii() == latin).count();
-        let first_is_latin = words().next().is_some_and(|c| c.is_ascii());
-        match small(true).cmp(&small(false)) {
-            Ordering::Greater => Self::English,
-            Ordering::Equal if first_is_latin => Self::English,
-            _ => Self::Russian,
-        }
-    }
-}
 
 /// «A, B и C» or "A, B and C".
 ///
 /// ```
-/// use orthoframe::language::{Language, enumerate};
+/// use orthoframe_language::{Language, enumerate};
 /// assert_eq!(enumerate(&["стол", "стул", "диван"], Language::Russian), "стол, стул и диван");
 /// assert_eq!(enumerate(&["table", "chair"], Language::English), "table and chair");
 /// ```

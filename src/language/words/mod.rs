@@ -7,7 +7,7 @@
 //! Invariant: no text makes this folder panic, and a name's nominative is the name.
 //!
 //! ```
-//! use orthoframe::language::{Case, Language, NounPhrase, WordHints, enumerate, russian};
+//! use orthoframe_language::{Case, Language, NounPhrase, WordHints, enumerate, russian};
 //! let name = |name| NounPhrase::parse(name, &WordHints::default());
 //! assert_eq!(russian::where_at(&name("шкаф")), "в шкафу");
 //! assert_eq!(russian::with(russian::Preposition::U, Case::Genitive, &name("Дверь-ВZ")), "у Двери-ВZ");

@@ -7,7 +7,7 @@
 //! Invariant: the nominative in the name's own number is the name itself, letter for letter.
 //!
 //! ```
-//! use orthoframe::language::{Case, NounPhrase, WordHints};
+//! use orthoframe_language::{Case, NounPhrase, WordHints};
 //! let room = NounPhrase::parse("Комната-В", &WordHints::default());
 //! assert_eq!(room.case(Case::Genitive), "Комнаты-В");
 //! let desk = NounPhrase::parse("Письменный стол", &WordHints::default());

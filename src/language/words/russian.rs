@@ -1,7 +1,7 @@
 //! Russian around a name: prepositions that sound right before it, numbers that agree with it.
 //!
 //! ```
-//! use orthoframe::language::{NounPhrase, WordHints, russian};
+//! use orthoframe_language::{NounPhrase, WordHints, russian};
 //! let name = |name| NounPhrase::parse(name, &WordHints::default());
 //! assert_eq!(russian::where_at(&name("Комната-В")), "в Комнате-В");
 //! assert_eq!(russian::whence(&name("Кухня")), "с Кухни");

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use crate::map::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
-use crate::map::{BaseVector, Orthoframe, TypeKind};
+use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
 use crate::units::{Bilingual, Cm, Point};
+use crate::{BaseVector, Orthoframe, TypeKind};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};
 use super::{Checker, TOLERANCE, at};

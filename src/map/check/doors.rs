@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::fault::{MORE_THAN_0, MapError, Record, Spot};
-use crate::map::{
+use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
+use crate::units::{AreaId, Bilingual, Cm};
+use crate::{
     Door, DoorKind, DoorMount, DoorState, DoorStatus, OpensTo, Permeability, SideRef, TypeKind,
 };
-use crate::units::{AreaId, Bilingual, Cm};
 
 use super::group::{Group, PlacedSide};
 use super::{Checker, TOLERANCE, area_title};

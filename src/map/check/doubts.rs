@@ -11,11 +11,11 @@ use std::ops::ControlFlow;
 
 use miette::Diagnostic;
 
-use crate::map::fault::{Fault, MapError, Record, Spot};
-use crate::map::{
+use crate::fault::{Fault, MapError, Record, Spot};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
+use crate::{
     Area, Mark, Permeability, Properties, Replica, TypeKind, World, is_dark, is_on, is_open,
 };
-use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
 
 use super::group::{Body, bodies_of, is_hollow};
 use super::placed::place;
@@ -62,7 +62,7 @@ const OPERATOR: [&str; 2] = ["оператор", "operator"];
 ///
 /// ```
 /// use std::collections::BTreeSet;
-/// use orthoframe::map::{World, doubts};
+/// use orthoframe_map::{World, doubts};
 ///
 /// let mut world = World::load("maps/rb2.toml").unwrap();
 /// assert!(doubts(&world, &BTreeSet::new()).is_empty());

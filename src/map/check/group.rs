@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use crate::map::fault::{MapError, Record, Spot};
-use crate::map::{
+use crate::fault::{MapError, Record, Spot};
+use crate::units::{Bilingual, Cm, Deg, Frame, Point};
+use crate::{
     BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind, World,
 };
-use crate::units::{Bilingual, Cm, Deg, Frame, Point};
 
 use super::base::is_good_id;
 use super::plane::{Bounds, bounds, intersection, middle, near_pairs, touch};

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
-use crate::map::fault::{MapError, Record, Spot};
-use crate::map::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
+use crate::fault::{MapError, Record, Spot};
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame};
+use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
 use super::group::{
     Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,

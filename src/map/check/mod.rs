@@ -9,7 +9,7 @@ mod group;
 mod maps;
 mod names;
 mod placed;
-pub(crate) mod plane;
+pub mod plane;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,7 +32,7 @@ const MOST_OVERLAPS: usize = 20;
 /// Every fault of a world, warnings included.
 ///
 /// ```
-/// use orthoframe::map::{World, check};
+/// use orthoframe_map::{World, check};
 ///
 /// let mut world = World::load("maps/rb2.toml").unwrap();
 /// assert!(check(&world).is_empty());

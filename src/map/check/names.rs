@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::map::fault::{MapError, Record, Spot};
-use crate::map::{Entity, TypeKind, World};
+use crate::fault::{MapError, Record, Spot};
 use crate::units::{Bilingual, name_key};
+use crate::{Entity, TypeKind, World};
 
 use super::Checker;
 

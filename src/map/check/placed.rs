@@ -1,8 +1,8 @@
 //! What stands in an Area (M4): replicas within its walls, places on its floor; and the robot's own numbers.
 
-use crate::map::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
-use crate::map::{Replica, RobotProfile, World};
+use crate::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
 use crate::units::{AreaId, Bilingual, Cm, Frame, Point};
+use crate::{Replica, RobotProfile, World};
 
 use super::group::Body;
 use super::plane::{

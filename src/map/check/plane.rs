@@ -10,15 +10,15 @@ use robust::{Coord, orient2d};
 use crate::units::{Point, Vector};
 
 /// An axis-parallel box: least and greatest corner.
-pub(crate) type Bounds = (Point, Point);
+pub type Bounds = (Point, Point);
 
-pub(crate) fn bounds(points: impl IntoIterator<Item = Point>) -> Bounds {
+pub fn bounds(points: impl IntoIterator<Item = Point>) -> Bounds {
     let empty = (Point::new(f64::MAX, f64::MAX), Point::new(f64::MIN, f64::MIN));
     points.into_iter().fold(empty, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
 /// Calls `visit` for every pair of boxes that come within `margin` of each other, until it breaks.
-pub(crate) fn near_pairs(
+pub fn near_pairs(
     boxes: &[Bounds],
     margin: f64,
     mut visit: impl FnMut(usize, usize) -> ControlFlow<()>,
@@ -36,12 +36,12 @@ pub(crate) fn near_pairs(
     }
 }
 
-pub(crate) fn edges(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
+pub fn edges(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]))
 }
 
 /// Twice the area, positive when counter-clockwise.
-pub(crate) fn doubled_area(corners: &[Point]) -> f64 {
+pub fn doubled_area(corners: &[Point]) -> f64 {
     let Some(&o) = corners.first() else { return 0.0 };
     edges(corners).map(|(a, b)| (a - o).perp(&(b - o))).sum()
 }
@@ -60,7 +60,7 @@ fn between(a: Point, b: Point, p: Point) -> bool {
 }
 
 /// A point common to two segments, touching included; exact but for the rounding of the point itself.
-pub(crate) fn meeting((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<Point> {
+pub fn meeting((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<Point> {
     let (ta, tb) = (turn(c, d, a), turn(c, d, b));
     let (tc, td) = (turn(a, b, c), turn(a, b, d));
     let splits = |s: f64, t: f64| (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0);
@@ -84,19 +84,19 @@ pub(crate) fn meeting((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<
     }
 }
 
-pub(crate) fn segment_distance(p: Point, (a, b): (Point, Point)) -> f64 {
+pub fn segment_distance(p: Point, (a, b): (Point, Point)) -> f64 {
     let along: Vector = b - a;
     let square = along.norm_squared();
     let t = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
     (p - (a + along * t)).norm()
 }
 
-pub(crate) fn border_distance(polygon: &[Point], p: Point) -> f64 {
+pub fn border_distance(polygon: &[Point], p: Point) -> f64 {
     edges(polygon).map(|edge| segment_distance(p, edge)).fold(f64::INFINITY, f64::min)
 }
 
 /// Even-odd rule: a ray to +x crosses the border an odd number of times.
-pub(crate) fn contains(polygon: &[Point], p: Point) -> bool {
+pub fn contains(polygon: &[Point], p: Point) -> bool {
     edges(polygon)
         .filter(|(a, b)| {
             (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
@@ -107,7 +107,7 @@ pub(crate) fn contains(polygon: &[Point], p: Point) -> bool {
 }
 
 /// Whether two polygons come within `margin` of each other.
-pub(crate) fn touch(p: &[Point], q: &[Point], margin: f64) -> bool {
+pub fn touch(p: &[Point], q: &[Point], margin: f64) -> bool {
     let near = |p: &[Point], q: &[Point]| p.iter().any(|&c| border_distance(q, c) <= margin);
     let within = |p: &[Point], q: &[Point]| p.first().is_some_and(|&c| contains(q, c));
     near(p, q)
@@ -124,9 +124,9 @@ fn contour(polygon: &[Point]) -> Contour {
 }
 
 /// What a boolean operation left: its area and its outlines.
-pub(crate) struct Rest {
-    pub(crate) area: f64,
-    pub(crate) outlines: Vec<Vec<Point>>,
+pub struct Rest {
+    pub area: f64,
+    pub outlines: Vec<Vec<Point>>,
 }
 
 fn rest(subject: &Vec<Contour>, clip: &Vec<Contour>, rule: OverlayRule) -> Rest {
@@ -145,18 +145,18 @@ fn rest(subject: &Vec<Contour>, clip: &Vec<Contour>, rule: OverlayRule) -> Rest 
 }
 
 /// The common part of two polygons.
-pub(crate) fn intersection(p: &[Point], q: &[Point]) -> Rest {
+pub fn intersection(p: &[Point], q: &[Point]) -> Rest {
     rest(&vec![contour(p)], &vec![contour(q)], OverlayRule::Intersect)
 }
 
 /// What of a polygon lies outside all the others.
-pub(crate) fn difference(p: &[Point], others: &[Vec<Point>]) -> Rest {
+pub fn difference(p: &[Point], others: &[Vec<Point>]) -> Rest {
     let others: Vec<_> = others.iter().map(|q| contour(q)).collect();
     rest(&vec![contour(p)], &others, OverlayRule::Difference)
 }
 
 /// Centre of the corners: good enough to point at.
-pub(crate) fn middle(polygon: &[Point]) -> Point {
+pub fn middle(polygon: &[Point]) -> Point {
     let sum: Vector = polygon.iter().map(|p| p.coords).sum();
     (sum / polygon.len().max(1) as f64).into()
 }

@@ -679,7 +679,7 @@ pub struct MapErrors {
 }
 
 impl MapErrors {
-    pub(crate) fn of(error: MapError) -> Self {
+    pub fn of(error: MapError) -> Self {
         Self { source: None, faults: vec![Fault::new(error, Vec::new())] }
     }
 

@@ -13,7 +13,7 @@ use serde::de::{
 };
 
 use super::node::{Entry, Misprint, Node, Span, Value};
-use crate::map::fault::MapError;
+use crate::fault::MapError;
 use crate::units::{Bilingual, nearest_name};
 
 /// Faults of one table after which its reading ends.

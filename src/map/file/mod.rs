@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     fn example(name: &str) -> World {
-        let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../../maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         World::load(path).expect("the examples are sound")
     }
 

@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::Format;
 use super::misprint::in_both;
-use crate::map::fault::MapError;
+use crate::fault::MapError;
 use crate::units::Bilingual;
 
 /// Bytes of the text.

@@ -11,12 +11,12 @@ use super::schema::{
     AreaFile, DoorFile, FORMAT, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile,
     TypeFile,
 };
-use crate::map::fault::{Fault, MapError, Record, Spot};
-use crate::map::{TypeKind, TypeLists, World};
+use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{
     AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key,
     nearest_name,
 };
+use crate::{TypeKind, TypeLists, World};
 
 const SECTIONS: [&str; 9] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map"];

@@ -9,15 +9,15 @@ use super::schema::{
     ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile, SideTraitsFile,
     StatusFile, TypeFile,
 };
-use crate::map::fault::{MORE_THAN_0, MapError, Record, Spot};
-use crate::map::{
-    Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
-    DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
-    Permeability, Place, Replica, RobotProfile, SideRef, TypeEntry, TypeKind,
-};
+use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
     TypeId, nearest_name,
+};
+use crate::{
+    Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
+    DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
+    Permeability, Place, Replica, RobotProfile, SideRef, TypeEntry, TypeKind,
 };
 
 impl Reader<'_> {

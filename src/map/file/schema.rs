@@ -15,8 +15,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::decode::MODEST_NUMBER;
 use super::text::{Lines, Printed, line};
-use crate::map::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 use crate::units::Cm;
+use crate::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 
 /// The only format that this version reads and writes.
 pub(super) const FORMAT: u32 = 1;

@@ -11,7 +11,7 @@ use super::schema::{
     At, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile, StatusFile,
     Table,
 };
-use crate::map::Gender;
+use crate::Gender;
 
 /// A record whose fields can be printed line by line.
 pub(super) trait Lines {

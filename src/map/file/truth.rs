@@ -9,10 +9,10 @@ use std::collections::BTreeSet;
 use super::edit::edit_judged;
 use super::node::{self, Value};
 use super::{Format, NextIds, locate, read, report};
-use crate::map::counterpart::Counterparts;
-use crate::map::fault::{Fault, MapError, MapErrors, Record, Spot};
-use crate::map::{Entity, World};
+use crate::counterpart::Counterparts;
+use crate::fault::{Fault, MapError, MapErrors, Record, Spot};
 use crate::units::{ReplicaId, Source};
+use crate::{Entity, World};
 
 /// What a text says is really so.
 #[derive(Debug, Clone)]

@@ -8,11 +8,11 @@ use super::schema::{
     SideFile, SideTraitsFile, Table, TypeFile, TypesFile,
 };
 use super::text::{Lines, key};
-use crate::map::{
+use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
+use crate::{
     Area, BaseVector, DomainMap, Door, DoorMount, DoorState, DoorStatus, Face, Item, ItemLink, Map,
     MapLink, Object, Orthoframe, Place, Replica, SideRef, TypeEntry, TypeKind, World,
 };
-use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
 
 /// The types of the file, from which any notation can be written.
 pub(super) fn to_file(world: &World) -> MapFile {
@@ -407,7 +407,7 @@ impl Writer<'_> {
 
     fn plan(&self, map: &Map, id: Option<u32>) -> PlanFile {
         let marks = base_marks(&map.items.iter().map(|i| i.is_base).collect::<Vec<_>>());
-        let item = |(item, base): (&crate::map::MapItem, bool)| PlanItemFile {
+        let item = |(item, base): (&crate::MapItem, bool)| PlanItemFile {
             area: self.area_key(item.area),
             at: frame_offset(&item.frame),
             angle: angle(item.frame.angle),

@@ -21,21 +21,21 @@ const APART: f64 = 2.0;
 
 /// A side of an Area, in the frame of its Map.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::semantics) struct Side {
-    pub(in crate::semantics) area: AreaId,
+pub(crate) struct Side {
+    pub(crate) area: AreaId,
     /// Places of the item in its Area and of the side in that item's base.
-    pub(in crate::semantics) item: usize,
-    pub(in crate::semantics) side: usize,
-    pub(in crate::semantics) ends: (Point, Point),
+    pub(crate) item: usize,
+    pub(crate) side: usize,
+    pub(crate) ends: (Point, Point),
     thread: Footprint,
 }
 
 /// All sides that bound the Areas of the Maps.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(in crate::semantics) struct Borders {
+pub(crate) struct Borders {
     walls: BTreeMap<AreaId, Vec<Side>>,
     /// Doors, passages and windows that can be gone through, in the order of Areas, items and sides.
-    pub(in crate::semantics) open: Vec<Side>,
+    pub(crate) open: Vec<Side>,
     open_of: BTreeMap<AreaId, Vec<usize>>,
     /// Of each Area its middle, and its narrower side, cm.
     middles: BTreeMap<AreaId, (Point, f64)>,
@@ -132,13 +132,13 @@ impl Measurements {
     }
 
     /// The narrower side of an Area along its own axes.
-    pub(in crate::semantics) fn narrow_side(&self, area: AreaId) -> Option<i64> {
+    pub(crate) fn narrow_side(&self, area: AreaId) -> Option<i64> {
         self.borders.middles.get(&area).map(|(_, narrow)| tenths(*narrow))
     }
 
     /// Where two walls of an Area meet: their places among its walls, and how far the second turns from the first,
     /// inwards positive.
-    pub(in crate::semantics) fn corners(&self, area: AreaId) -> Vec<(usize, usize, i64)> {
+    pub(crate) fn corners(&self, area: AreaId) -> Vec<(usize, usize, i64)> {
         let walls = self.borders.walls.get(&area).map_or(&[][..], Vec::as_slice);
         let way = |side: &Side| (side.ends.1 - side.ends.0).try_normalize(1e-9);
         let mut found = Vec::new();

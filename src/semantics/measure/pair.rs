@@ -258,7 +258,7 @@ fn below(a: &Body, kind: &Kind, index: usize, block: &Block) -> Option<Below> {
 }
 
 /// Common height of two things as a share of the lower one; none when one ends where the other begins.
-pub(in crate::semantics) fn level(a: &Body, b: &Body) -> Option<i64> {
+pub(crate) fn level(a: &Body, b: &Body) -> Option<i64> {
     let common = a.top.min(b.top) - a.bottom.max(b.bottom);
     let lower = (a.top - a.bottom).min(b.top - b.bottom);
     if lower <= 0.0 {
@@ -269,7 +269,7 @@ pub(in crate::semantics) fn level(a: &Body, b: &Body) -> Option<i64> {
 }
 
 /// Shortest distance in space, and the way in the plan between the two nearest Orthoframes.
-pub(in crate::semantics) fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
+pub(crate) fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
     let mut best: Option<(f64, Gap)> = None;
     for p in &a.blocks {
         for q in &b.blocks {

@@ -11,11 +11,11 @@ use super::Measurements;
 
 /// The floor of one Area, ready for measuring.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::semantics) struct Room {
-    pub(in crate::semantics) id: AreaId,
-    pub(in crate::semantics) map: MapId,
-    pub(in crate::semantics) parts: Vec<(Footprint, f64, f64)>,
-    pub(in crate::semantics) bounds: Bounds,
+pub(crate) struct Room {
+    pub(crate) id: AreaId,
+    pub(crate) map: MapId,
+    pub(crate) parts: Vec<(Footprint, f64, f64)>,
+    pub(crate) bounds: Bounds,
 }
 impl Measurements {
     /// The Area whose base holds a point of a Map; the lowest id where bases meet.
@@ -27,12 +27,7 @@ impl Measurements {
     }
 
     /// The Areas of a Map whose bounds may meet these, in the order of their ids.
-    pub(in crate::semantics) fn rooms_near(
-        &self,
-        map: MapId,
-        bounds: &Bounds,
-        found: &mut Vec<AreaId>,
-    ) {
+    pub(crate) fn rooms_near(&self, map: MapId, bounds: &Bounds, found: &mut Vec<AreaId>) {
         match self.room_grid.get(&map) {
             Some(grid) => grid.near(bounds, found),
             None => found.clear(),

@@ -7,10 +7,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::facts::{FactError, Value};
+use crate::feed::{Cell, Feed};
 use crate::map::{Door, Entity, Replica, World};
-use crate::semantics::feed::{Cell, Feed};
-use crate::semantics::names::Subject;
-use crate::semantics::openings::openings;
+use crate::names::Subject;
+use crate::openings::openings;
 use crate::units::{DoorId, MapId, ReplicaId};
 
 use super::rows::{note, tuple};

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
 use crate::map::{Entity, Profile};
-use crate::semantics::measure::Measurements;
-use crate::semantics::names::{Subject, Symbols};
-use crate::semantics::openings::Opening;
-use crate::semantics::thresholds::Thresholds;
+use crate::measure::Measurements;
+use crate::names::{Subject, Symbols};
+use crate::openings::Opening;
+use crate::thresholds::Thresholds;
 use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};

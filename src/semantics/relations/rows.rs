@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use foldhash::fast::RandomState;
 
 use crate::facts::{Database, FactError, Known, Loader, Program, RelationId, Value};
-use crate::semantics::feed::{Cell, Sink};
+use crate::feed::{Cell, Sink};
 
 pub(super) fn tuple(cells: &[Cell<'_>]) -> Vec<Value> {
     cells.iter().map(|&c| c.into()).collect()
@@ -19,13 +19,13 @@ pub(super) fn note(kept: &mut Option<FactError>, fault: FactError) {
 }
 
 /// Rows on their way into the database; the first that does not fit is kept.
-pub(in crate::semantics) struct Rows {
-    pub(in crate::semantics) database: Database,
-    pub(in crate::semantics) fault: Option<FactError>,
+pub(crate) struct Rows {
+    pub(crate) database: Database,
+    pub(crate) fault: Option<FactError>,
 }
 
 impl Rows {
-    pub(in crate::semantics) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
+    pub(crate) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
         if let Err(fault) = self.database.insert(relation, &tuple(cells)) {
             note(&mut self.fault, fault);
         }

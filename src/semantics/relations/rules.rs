@@ -6,9 +6,9 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
-use crate::semantics::measure::Reach;
-use crate::semantics::measured::{MEASURED, Measured, Order};
-use crate::semantics::thresholds::{self, ThresholdFault};
+use crate::measure::Reach;
+use crate::measured::{MEASURED, Measured, Order};
+use crate::thresholds::{self, ThresholdFault};
 use crate::units::{FileFault, Source};
 
 /// The rule text that the crate brings along.

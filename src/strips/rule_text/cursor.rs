@@ -4,10 +4,10 @@ use miette::SourceSpan;
 
 use super::heading::{HEADINGS, Heading};
 use super::{Parsed, Parser};
-use crate::strips::check::perhaps;
-use crate::strips::error::{RuleError, RuleFault};
-use crate::strips::syntax::Name;
-use crate::strips::token::TokenKind;
+use crate::check::perhaps;
+use crate::error::{RuleError, RuleFault};
+use crate::syntax::Name;
+use crate::token::TokenKind;
 use crate::units::{Bilingual, name_key, nearest_name};
 
 /// What stands before a colon.

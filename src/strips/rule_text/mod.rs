@@ -22,12 +22,12 @@ mod heading;
 use cursor::Ahead;
 use heading::Heading;
 
-use crate::strips::error::{RuleError, RuleFault};
-use crate::strips::syntax::{
+use crate::error::{RuleError, RuleFault};
+use crate::syntax::{
     ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, PhraseText,
     Signature, Term,
 };
-use crate::strips::token::{Token, TokenKind, tokens};
+use crate::token::{Token, TokenKind, tokens};
 use crate::units::{Language, Source, name_key};
 
 /// Beyond this many faults a text is not a rule file, and nobody reads on.

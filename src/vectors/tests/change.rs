@@ -113,7 +113,7 @@ fn a_thing_that_came_apart_grows_the_tree() {
     let hinge = Vector2::new(0.0, 0.0);
     let mut scene = Scene::<2>::new(Equality::at(0.999));
     scene.add(&Model::of_contour(cupboard()));
-    let mut look = |scene: &mut Scene<2>, place: &Transition<2>, door: f64, rng: &mut Rng| {
+    let look = |scene: &mut Scene<2>, place: &Transition<2>, door: f64, rng: &mut Rng| {
         let mut seen = cupboard();
         seen[4] = seen[4].moved(&rigid(&about(hinge, door)));
         let view = Model::of_contour(noisy(&moved(&seen, place), 0.5, rng));

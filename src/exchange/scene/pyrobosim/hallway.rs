@@ -2,11 +2,11 @@
 
 use serde_json::Value;
 
-use crate::exchange::OpeningKind;
-use crate::exchange::scene::json::{length, list, text};
-use crate::exchange::scene::plane;
-use crate::exchange::scene::procthor::contains;
+use crate::OpeningKind;
 use crate::map::{DoorKind, DoorStatus};
+use crate::scene::json::{length, list, text};
+use crate::scene::plane;
+use crate::scene::procthor::contains;
 use crate::units::{Point, Vector};
 
 use super::record::{centroid, pair};

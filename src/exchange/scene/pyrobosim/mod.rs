@@ -12,11 +12,11 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::exchange::{
-    Kind, Level, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
-};
 use crate::map::{Permeability, Properties};
 use crate::units::{Cm, Frame, Point, Source};
+use crate::{
+    Kind, Level, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
+};
 
 use super::json::{length, list, remark, text};
 use super::plane;
@@ -76,7 +76,7 @@ pub fn read_pyrobosim(
 }
 
 fn yaml(source: &Source) -> Result<Value, ReadError> {
-    crate::exchange::yaml::parse(source, FORMAT, "мира")
+    crate::yaml::parse(source, FORMAT, "мира")
 }
 
 /// What a location or an object of one category looks like.

@@ -2,10 +2,10 @@
 
 use serde_json::Value;
 
-use crate::exchange::scene::colour;
-use crate::exchange::scene::json::{length, list, text};
-use crate::exchange::scene::shape::rectangle;
 use crate::map::Properties;
+use crate::scene::colour;
+use crate::scene::json::{length, list, text};
+use crate::scene::shape::rectangle;
 use crate::units::{Cm, Deg, Frame, Point, Vector};
 
 /// Corners of a circle.

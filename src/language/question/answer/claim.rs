@@ -4,13 +4,13 @@
 
 use super::Draft;
 use super::property::status_word;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
-use crate::language::question::values::{Property, ValueId};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::words::{Case, Number, enumerate};
 use crate::map::{DoorStatus, Entity};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
+use crate::question::values::{Property, ValueId};
+use crate::question::{Doubt, Fact, Said};
+use crate::words::{Case, Number, enumerate};
 
 impl Knowledge<'_> {
     /// Whether a claim holds of a thing, with the fact that says so or would have to.
@@ -309,7 +309,7 @@ impl Knowledge<'_> {
                             (true, [only]) => self.value(filter.value, *only),
                             (true, _) => self.lexicon().values.predicate(
                                 filter.value,
-                                crate::language::Gender::Masculine,
+                                crate::Gender::Masculine,
                                 Number::Plural,
                             ),
                             (false, _) => format!("{} {}", self.is(things), entry.english),
@@ -463,13 +463,12 @@ impl Knowledge<'_> {
             }
             Claim::Kind(noun) => {
                 let (phrase, english) = self.kind_phrase(noun);
-                let name =
-                    crate::language::question::lexicon::lower_first(&phrase.case(Case::Nominative));
+                let name = crate::question::lexicon::lower_first(&phrase.case(Case::Nominative));
                 match (holds, self.is_russian()) {
                     (true, true) => format!("– это {name}"),
                     (false, true) => format!("– не {name}"),
-                    (true, false) => format!("is {}", crate::language::english::a(&english)),
-                    (false, false) => format!("is not {}", crate::language::english::a(&english)),
+                    (true, false) => format!("is {}", crate::english::a(&english)),
+                    (false, false) => format!("is not {}", crate::english::a(&english)),
                 }
             }
         })
@@ -497,16 +496,13 @@ impl Knowledge<'_> {
         }
         let ending = match self.gender(room) {
             (_, Number::Plural) => "ы",
-            (crate::language::Gender::Feminine, _) => "а",
-            (crate::language::Gender::Neuter, _) => "о",
+            (crate::Gender::Feminine, _) => "а",
+            (crate::Gender::Neuter, _) => "о",
             _ => "",
         };
         let not = if holds { "" } else { "не " };
         let form = self.form(other, Case::Instrumental);
-        let with = crate::language::words::russian::preposition(
-            crate::language::words::russian::Preposition::S,
-            &form,
-        );
+        let with = crate::words::russian::preposition(crate::words::russian::Preposition::S, &form);
         let directly = if holds { "" } else { " напрямую" };
         let stem = match ending {
             "" => "соединён",
@@ -516,11 +512,7 @@ impl Knowledge<'_> {
     }
 
     /// The value that a thing has of the property asked about.
-    pub(in crate::language::question) fn own_value(
-        &self,
-        thing: Thing,
-        asked: ValueId,
-    ) -> Option<String> {
+    pub(in crate::question) fn own_value(&self, thing: Thing, asked: ValueId) -> Option<String> {
         let values = &self.lexicon().values;
         let all = self.values(thing);
         let same = all.iter().find(|(_, v, _)| v.is_some_and(|v| values.is(v, asked)));

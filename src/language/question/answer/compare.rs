@@ -3,13 +3,13 @@
 //! Invariant: what cannot be measured is not compared; equal ones are said to be equal.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::lower_first;
-use crate::language::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
-use crate::language::question::values::Property;
-use crate::language::question::{Doubt, Said};
-use crate::language::words::russian::{self, Counted};
-use crate::language::words::{Case, area, length};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::lower_first;
+use crate::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
+use crate::question::values::Property;
+use crate::question::{Doubt, Said};
+use crate::words::russian::{self, Counted};
+use crate::words::{Case, area, length};
 
 impl Knowledge<'_> {
     pub(super) fn say_best(&self, noun: &Noun, found: Vec<Thing>) -> Draft {
@@ -93,7 +93,7 @@ impl Knowledge<'_> {
     }
 
     /// «выше 2 м», "wider than 80 cm"
-    pub(in crate::language::question) fn size_words(&self, size: Sized) -> String {
+    pub(in crate::question) fn size_words(&self, size: Sized) -> String {
         let than = match size.extreme {
             Extreme::Biggest | Extreme::Smallest => area(size.than as f64, self.language),
             _ => length(size.than as f64, self.language),
@@ -540,11 +540,10 @@ impl Knowledge<'_> {
         };
         let yes = if x.is_some() { x == y } else { first == second };
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
-        let words =
-            |t: Thing, v: Option<crate::language::question::values::ValueId>, text: &str| match v {
-                Some(v) => self.value_of(property, v, t),
-                None => text.to_lowercase(),
-            };
+        let words = |t: Thing, v: Option<crate::question::values::ValueId>, text: &str| match v {
+            Some(v) => self.value_of(property, v, t),
+            None => text.to_lowercase(),
+        };
         let dash = self.pick("", "is ");
         let text = format!(
             "{head}{} {dash}{}, {} {dash}{}",

@@ -3,10 +3,10 @@
 //! Invariant: what is asked of each room is answered of each, not of all together.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Head, Noun, Rel, Thing};
-use crate::language::question::{Doubt, Said};
-use crate::language::words::enumerate;
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Head, Noun, Rel, Thing};
+use crate::question::{Doubt, Said};
+use crate::words::enumerate;
 
 impl Knowledge<'_> {
     /// The description without its «на каждом столе», how things lie to these, and the tables.

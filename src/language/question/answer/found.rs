@@ -3,13 +3,13 @@
 //! Invariant: the things of the answer are those that the description finds, whatever the sentence leaves out.
 
 use super::Draft;
-use crate::language::question::knowledge::{Frame, Held, Knowledge};
-use crate::language::question::lexicon::{Extension, KindId};
-use crate::language::question::query::{Extreme, Head, Noun, Rel, Thing};
-use crate::language::question::{Doubt, Said};
-use crate::language::words::length;
-use crate::language::words::{Language, enumerate, russian};
 use crate::map::Entity;
+use crate::question::knowledge::{Frame, Held, Knowledge};
+use crate::question::lexicon::{Extension, KindId};
+use crate::question::query::{Extreme, Head, Noun, Rel, Thing};
+use crate::question::{Doubt, Said};
+use crate::words::length;
+use crate::words::{Language, enumerate, russian};
 
 impl Knowledge<'_> {
     pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -131,7 +131,7 @@ impl Knowledge<'_> {
         (found.is_empty() && away).then(|| match self.is_russian() {
             true => format!(
                 "у {} нет лицевой стороны, а с моего места туда не видно",
-                self.form(anchor, crate::language::Case::Genitive)
+                self.form(anchor, crate::Case::Genitive)
             ),
             false => format!(
                 "{} has no front side, and I cannot see there from where I am",
@@ -150,7 +150,7 @@ impl Knowledge<'_> {
         Some(match self.is_russian() {
             true => {
                 let verb = if several { "открывают" } else { "открывает" };
-                format!("{list} {verb} {}", self.form(door, crate::language::Case::Accusative))
+                format!("{list} {verb} {}", self.form(door, crate::Case::Accusative))
             }
             false if several => format!("{list} open {}", self.name(door)),
             false => format!("{} opens {}", self.name(key), self.name(door)),
@@ -376,9 +376,7 @@ impl Knowledge<'_> {
                     let (phrase, english) = self.kind_phrase(noun);
                     match self.language {
                         Language::Russian => russian::count(number as u64, &phrase),
-                        Language::English => {
-                            crate::language::words::english::count(number as u64, &english)
-                        }
+                        Language::English => crate::words::english::count(number as u64, &english),
                     }
                 }
                 false => self.counted(noun, number),

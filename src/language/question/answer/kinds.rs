@@ -5,11 +5,11 @@
 use std::collections::BTreeMap;
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::lower_first;
-use crate::language::question::query::Noun;
-use crate::language::question::{Doubt, Said};
-use crate::language::words::{Case, NounPhrase, Number, WordHints, english, enumerate, russian};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::lower_first;
+use crate::question::query::Noun;
+use crate::question::{Doubt, Said};
+use crate::words::{Case, NounPhrase, Number, WordHints, english, enumerate, russian};
 
 impl Knowledge<'_> {
     /// "There are 3 kinds: a bed, 2 bedside tables and a wardrobe."

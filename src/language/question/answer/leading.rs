@@ -3,12 +3,12 @@
 //! Invariant: a passage is told beside doors, never as one.
 
 use super::grouped;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Noun, Rel, Thing};
-use crate::language::words::enumerate;
 use crate::map::Entity;
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Noun, Rel, Thing};
 use crate::units::AreaId;
+use crate::words::enumerate;
 
 impl Knowledge<'_> {
     /// «В Коридор можно попасть из Комнаты-В и из Комнаты-Y.»

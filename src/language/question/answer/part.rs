@@ -3,10 +3,10 @@
 //! Invariant: a thing whose parts the map does not tell is said to be so, and not to have none.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Noun, Rel, Restriction, Thing};
-use crate::language::question::{Doubt, Said};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Noun, Rel, Restriction, Thing};
+use crate::question::{Doubt, Said};
 
 impl Knowledge<'_> {
     /// The owner of the parts that a description asks for, and how many there are; none when it asks for no parts.
@@ -111,7 +111,7 @@ impl Knowledge<'_> {
         let at = self.place(Rel::At, &[owner]);
         let text = match (number, self.is_russian()) {
             (None, true) => {
-                let of = self.form(owner, crate::language::Case::Genitive);
+                let of = self.form(owner, crate::Case::Genitive);
                 format!("части {of} на карте не описаны")
             }
             (None, false) => format!("the map does not tell the parts of {name}"),

@@ -3,13 +3,13 @@
 //! Invariant: doors that are shut on a way are named.
 
 use super::Draft;
-use crate::language::question::knowledge::{Knowledge, Limits, Passage};
-use crate::language::question::query::{Noun, Passing, Rel, Thing};
-use crate::language::question::{Doubt, Said};
-use crate::language::report::Detail;
-use crate::language::words::english;
 use crate::map::Entity;
+use crate::question::knowledge::{Knowledge, Limits, Passage};
+use crate::question::query::{Noun, Passing, Rel, Thing};
+use crate::question::{Doubt, Said};
+use crate::report::Detail;
 use crate::units::AreaId;
+use crate::words::english;
 
 impl Knowledge<'_> {
     pub(super) fn passing(

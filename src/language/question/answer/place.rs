@@ -3,17 +3,17 @@
 //! Invariant: every place that is said rests on a fact that is handed out with it.
 
 use super::{Draft, grouped};
-use crate::language::question::knowledge::{Held, Knowledge};
-use crate::language::question::query::{Extreme, Filter, Noun, Rel, Thing};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::report::{Detail, Named};
-use crate::language::words::length;
-use crate::language::words::{Case, enumerate, russian};
 use crate::map::Entity;
+use crate::question::knowledge::{Held, Knowledge};
+use crate::question::query::{Extreme, Filter, Noun, Rel, Thing};
+use crate::question::{Doubt, Fact, Said};
+use crate::report::{Detail, Named};
 use crate::units::AreaId;
+use crate::words::length;
+use crate::words::{Case, enumerate, russian};
 
 impl Knowledge<'_> {
-    pub(in crate::language::question) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
+    pub(in crate::question) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let mut found = self.definite(noun)?;
         self.one_of_each_lift(noun, &mut found);
         let mut facts = Vec::new();
@@ -51,11 +51,7 @@ impl Knowledge<'_> {
     }
 
     /// «на Столе-1 в Комнате-В»
-    pub(in crate::language::question) fn short_place(
-        &self,
-        thing: Thing,
-        facts: &mut Vec<Fact>,
-    ) -> String {
+    pub(in crate::question) fn short_place(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
         if let Some(holder) = thing.replica().and_then(|id| self.senses.holder(id)) {
             let hand = self.in_hand(&holder);
             let carrier = thing.replica().and_then(|id| self.senses.carrier(id));
@@ -96,7 +92,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a thing lies in or on what bears it. What sinks into a sofa lies on it all the same.
-    pub(in crate::language::question) fn on_or_in(&self, thing: Thing, support: Thing) -> Rel {
+    pub(in crate::question) fn on_or_in(&self, thing: Thing, support: Thing) -> Rel {
         let holds = |rel: Rel| self.tuple(rel, thing, support).map(|(relation, _, _)| relation);
         let carried = thing.replica().is_some_and(|id| self.senses.holder(id).is_some());
         let has = |wanted| support.replica().is_some_and(|id| self.world.has_trait(id, wanted));
@@ -599,7 +595,7 @@ impl Knowledge<'_> {
     }
 
     fn is_of_storeys(&self, noun: &Noun) -> bool {
-        let storeys = crate::language::question::lexicon::Extension::Storeys;
+        let storeys = crate::question::lexicon::Extension::Storeys;
         noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == storeys)
     }
 

@@ -3,23 +3,19 @@
 //! Invariant: a property that the map does not give is said to be missing, never guessed.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::{Extension, KindId};
-use crate::language::question::query::{Head, Noun, Rel, Thing};
-use crate::language::question::speech::sentence;
-use crate::language::question::values::{Property, ValueId};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::words::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::{Extension, KindId};
+use crate::question::query::{Head, Noun, Rel, Thing};
+use crate::question::speech::sentence;
+use crate::question::values::{Property, ValueId};
+use crate::question::{Doubt, Fact, Said};
 use crate::units::name_key;
+use crate::words::{Case, Language, enumerate};
 
 impl Knowledge<'_> {
     /// The map's own name of a property.
-    pub(in crate::language::question) fn property_name(
-        &self,
-        thing: Thing,
-        property: &Property,
-    ) -> String {
+    pub(in crate::question) fn property_name(&self, thing: Thing, property: &Property) -> String {
         let find = |properties: &crate::map::Properties| {
             properties.keys().find(|name| Property::of(name) == *property).cloned()
         };
@@ -160,7 +156,7 @@ impl Knowledge<'_> {
     }
 
     /// That a thing has a value, as a clause; none of properties that have no words of their own.
-    pub(in crate::language::question) fn value_words(
+    pub(in crate::question) fn value_words(
         &self,
         thing: Thing,
         property: &Property,
@@ -239,7 +235,7 @@ impl Knowledge<'_> {
         let kind = self.kind_name(thing).filter(same);
         parts.push(match (kind, self.is_russian()) {
             (Some(kind), true) => format!("{name} – {kind}"),
-            (Some(kind), false) => format!("{name} is {}", crate::language::english::a(&kind)),
+            (Some(kind), false) => format!("{name} is {}", crate::english::a(&kind)),
             (None, _) => String::new(),
         });
         parts.retain(|part| !part.is_empty());
@@ -319,13 +315,13 @@ impl Knowledge<'_> {
         let Thing::Entity(Entity::Door(id)) = thing else { return self.kind_name(thing) };
         let entry = self.world.types.door.get(self.world.doors.get(&id)?.door_type)?;
         Some(match self.is_russian() || entry.name_en.is_empty() {
-            true => crate::language::question::lexicon::lower_first(&entry.name),
+            true => crate::question::lexicon::lower_first(&entry.name),
             false => entry.name_en.clone(),
         })
     }
 
     /// «стул», "chair": the type of a thing.
-    pub(in crate::language::question) fn kind_name(&self, thing: Thing) -> Option<String> {
+    pub(in crate::question) fn kind_name(&self, thing: Thing) -> Option<String> {
         let entry = match thing {
             Thing::Entity(Entity::Replica(id)) => {
                 let object = self.world.objects.get(&self.world.replicas.get(&id)?.object)?;
@@ -346,7 +342,7 @@ impl Knowledge<'_> {
             _ => None,
         }?;
         Some(match self.is_russian() || entry.name_en.is_empty() {
-            true => crate::language::question::lexicon::lower_first(&entry.name),
+            true => crate::question::lexicon::lower_first(&entry.name),
             false => entry.name_en.clone(),
         })
     }

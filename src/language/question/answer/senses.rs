@@ -3,15 +3,15 @@
 //! Invariant: what was not seen is told as being by the map.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::lexicon::lower_first;
-use crate::language::question::query::{Noun, Rel, Thing};
-use crate::language::question::{Courtesy, speech};
-use crate::language::question::{Doubt, Said};
-use crate::language::report::Detail;
-use crate::language::words::{Case, Number, enumerate};
 use crate::map::{DoorStatus, Entity};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::lexicon::lower_first;
+use crate::question::query::{Noun, Rel, Thing};
+use crate::question::{Courtesy, speech};
+use crate::question::{Doubt, Said};
+use crate::report::Detail;
+use crate::words::{Case, Number, enumerate};
 
 impl Knowledge<'_> {
     pub(super) fn last_seen(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -97,8 +97,8 @@ impl Knowledge<'_> {
             true => {
                 let verb = match (number, gender) {
                     (Number::Plural, _) => "находились",
-                    (_, crate::language::Gender::Feminine) => "находилась",
-                    (_, crate::language::Gender::Neuter) => "находилось",
+                    (_, crate::Gender::Feminine) => "находилась",
+                    (_, crate::Gender::Neuter) => "находилось",
                     _ => "находился",
                 };
                 format!("до {until} {name} {verb} {place}")

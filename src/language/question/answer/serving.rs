@@ -5,16 +5,14 @@
 use std::collections::BTreeSet;
 
 use super::{Draft, grouped};
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::lower_first;
-use crate::language::question::purposes::{self, Role};
-use crate::language::question::query::{Asked, Head, Noun, Query, Thing};
-use crate::language::question::uses;
-use crate::language::question::{Doubt, Said};
-use crate::language::words::{
-    Case, NounPhrase, Number, WordHints, alternatives, english, enumerate,
-};
 use crate::map::Entity;
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::lower_first;
+use crate::question::purposes::{self, Role};
+use crate::question::query::{Asked, Head, Noun, Query, Thing};
+use crate::question::uses;
+use crate::question::{Doubt, Said};
+use crate::words::{Case, NounPhrase, Number, WordHints, alternatives, english, enumerate};
 
 /// So many things are told each with its own place.
 const FEW: usize = 4;
@@ -176,7 +174,7 @@ impl Knowledge<'_> {
     }
 
     /// «чашки и кружки – вещи для питья»: why what was found serves.
-    pub(in crate::language::question) fn why_serving(&self, query: &Query) -> Option<Draft> {
+    pub(in crate::question) fn why_serving(&self, query: &Query) -> Option<Draft> {
         let Query::Serving { sort, of, .. } = query else { return None };
         let found = self.find(of, true).ok().filter(|found| !found.is_empty())?;
         let text = self.told_of_kinds(&found, &[*sort]);

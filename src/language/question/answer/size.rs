@@ -4,12 +4,12 @@
 //! Invariant: the number of the answer is the measure that the sentence says.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Dimension, Noun, Thing};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::words::{Case, Number, enumerate};
-use crate::language::words::{area, length};
 use crate::map::Entity;
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Dimension, Noun, Thing};
+use crate::question::{Doubt, Fact, Said};
+use crate::words::{Case, Number, enumerate};
+use crate::words::{area, length};
 
 impl Knowledge<'_> {
     /// «90×30×190 см»
@@ -237,21 +237,16 @@ impl Knowledge<'_> {
                 let english = match (part.name_en.is_empty(), kind) {
                     (false, _) => part.name_en.clone(),
                     (true, Some(kind)) if !kind.name_en.is_empty() => kind.name_en.clone(),
-                    _ => crate::language::english::name_of(&title).unwrap_or_else(|| title.clone()),
+                    _ => crate::english::name_of(&title).unwrap_or_else(|| title.clone()),
                 };
-                let phrase = crate::language::NounPhrase::parse(
-                    &title,
-                    &crate::language::WordHints::default(),
-                );
+                let phrase = crate::NounPhrase::parse(&title, &crate::WordHints::default());
                 Some(match (self.is_russian(), *n) {
-                    (true, 1) => crate::language::question::lexicon::lower_first(
-                        &phrase.case(Case::Genitive),
-                    ),
-                    (true, n) => genitive_count(n, &phrase),
-                    (false, 1) => crate::language::english::with_article(&english.to_lowercase()),
-                    (false, n) => {
-                        crate::language::english::count(n as u64, &english.to_lowercase())
+                    (true, 1) => {
+                        crate::question::lexicon::lower_first(&phrase.case(Case::Genitive))
                     }
+                    (true, n) => genitive_count(n, &phrase),
+                    (false, 1) => crate::english::with_article(&english.to_lowercase()),
+                    (false, n) => crate::english::count(n as u64, &english.to_lowercase()),
                 })
             })
             .collect();
@@ -270,12 +265,11 @@ fn dimension_is_flat(dimension: Dimension) -> bool {
 }
 
 /// «двух полок», as after «состоит из».
-fn genitive_count(n: usize, phrase: &crate::language::NounPhrase) -> String {
+fn genitive_count(n: usize, phrase: &crate::NounPhrase) -> String {
     const WORDS: [&str; 11] =
         ["", "", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти"];
-    let plural = crate::language::question::lexicon::lower_first(
-        &phrase.form(Case::Genitive, Number::Plural),
-    );
+    let plural =
+        crate::question::lexicon::lower_first(&phrase.form(Case::Genitive, Number::Plural));
     match WORDS.get(n) {
         Some(word) => format!("{word} {plural}"),
         None => format!("{n} {plural}"),

@@ -3,11 +3,11 @@
 //! Invariant: of light one does not ask which.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Thing};
-use crate::language::question::values::ValueId;
-use crate::language::question::{Doubt, Said};
-use crate::language::words::enumerate;
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Noun, Rel, Thing};
+use crate::question::values::ValueId;
+use crate::question::{Doubt, Said};
+use crate::words::enumerate;
 
 impl Knowledge<'_> {
     /// «да, в Кухне включена Лампа-1», «нет, Лампа-1 выключена»: of light one does not ask which.

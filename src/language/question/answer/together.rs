@@ -3,11 +3,11 @@
 //! Invariant: only what the map gives of each is compared.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Noun, Rel, Thing};
-use crate::language::question::values::Property;
-use crate::language::question::{Doubt, Said};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Noun, Rel, Thing};
+use crate::question::values::Property;
+use crate::question::{Doubt, Said};
 
 impl Knowledge<'_> {
     /// All things that several descriptions mean, each once.

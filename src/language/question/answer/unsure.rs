@@ -3,11 +3,11 @@
 //! Invariant: an answer all of whose things are in doubt affirms and denies nothing.
 
 use super::Draft;
-use crate::language::question::Said;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Query, Thing};
-use crate::language::words::enumerate;
 use crate::map::Entity;
+use crate::question::Said;
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Query, Thing};
+use crate::words::enumerate;
 
 /// So many facts of an answer are looked at.
 const FACTS: usize = 60;

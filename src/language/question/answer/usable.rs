@@ -3,12 +3,12 @@
 //! Invariant: a seat on which something stands is none, and nothing is put where its base does not fit.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::purposes;
-use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing, Use};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::words::Case;
-use crate::language::words::area;
+use crate::question::knowledge::Knowledge;
+use crate::question::purposes;
+use crate::question::query::{Head, Noun, Rel, Restriction, Thing, Use};
+use crate::question::{Doubt, Fact, Said};
+use crate::words::Case;
+use crate::words::area;
 
 impl Knowledge<'_> {
     pub(super) fn free(&self, noun: &Noun) -> Result<Draft, Doubt> {

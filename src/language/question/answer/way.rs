@@ -3,13 +3,13 @@
 //! Invariant: a way is the one that the robot would drive; how far without a way is said to be a straight line.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Extreme, Noun, Rel, Thing};
-use crate::language::question::{Doubt, Fact, Said};
-use crate::language::report::Detail;
-use crate::language::words::{Case, russian};
-use crate::language::words::{duration, length};
 use crate::map::Entity;
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Extreme, Noun, Rel, Thing};
+use crate::question::{Doubt, Fact, Said};
+use crate::report::Detail;
+use crate::words::{Case, russian};
+use crate::words::{duration, length};
 
 impl Knowledge<'_> {
     pub(super) fn leads(&self, noun: &Noun) -> Result<Draft, Doubt> {

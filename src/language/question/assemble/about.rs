@@ -4,11 +4,11 @@
 
 use super::Frame;
 use super::Spot;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
-use crate::language::question::values::{Property, ValueId};
-use crate::language::report::Detail;
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
+use crate::question::values::{Property, ValueId};
+use crate::report::Detail;
 
 impl Frame<'_, '_> {
     pub(super) fn of_robot(&self) -> Option<Query> {

@@ -4,10 +4,10 @@
 
 use super::Frame;
 use super::Spot;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
-use crate::language::question::values::ValueId;
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
+use crate::question::values::ValueId;
 
 impl Frame<'_, '_> {
     /// A noun with all places, values and superlatives of the sentence, but for the places left out.

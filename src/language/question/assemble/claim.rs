@@ -5,9 +5,9 @@
 use super::Frame;
 use super::Spot;
 use super::Subject;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
-use crate::language::question::values::ValueId;
+use crate::question::mark::Mark;
+use crate::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
+use crate::question::values::ValueId;
 
 impl Frame<'_, '_> {
     pub(super) fn why(&self) -> Query {
@@ -286,7 +286,7 @@ impl Frame<'_, '_> {
         let places = claims.iter().all(|c| matches!(c, Claim::Related(_)));
         let later = self.spots.iter().all(|s| s.at < first.at) && !self.spots.is_empty();
         let general = subject.head.named.is_empty() && subject.head.things.is_none();
-        if self.sentence.language == crate::language::Language::Russian
+        if self.sentence.language == crate::Language::Russian
             && places
             && later
             && general

@@ -5,12 +5,12 @@
 use super::Frame;
 use super::Spot;
 use super::Subject;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{
     Best, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
 };
-use crate::language::words::Language;
+use crate::words::Language;
 
 impl Frame<'_, '_> {
     /// «В какой комнате больше всего стульев?», "Which table has the most books?"

@@ -4,12 +4,12 @@
 //! not understood.
 
 use super::{Frame, Subject};
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::purposes::{self, Role};
-use crate::language::question::query::{Asked, Head, Noun, Query, Rel, Restriction};
-use crate::language::question::uses;
-use crate::language::words::Language;
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::purposes::{self, Role};
+use crate::question::query::{Asked, Head, Noun, Query, Rel, Restriction};
+use crate::question::uses;
+use crate::words::Language;
 
 impl Frame<'_, '_> {
     /// The deed that a sentence speaks of, and its place there.

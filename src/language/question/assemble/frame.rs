@@ -7,15 +7,15 @@ use super::Referent;
 use super::Spot;
 use super::Subject;
 use super::things;
-use crate::language::question::Doubt;
-use crate::language::question::grammar::{Item, Phrase, Sentence};
-use crate::language::question::lexicon::{Extension, Lexicon};
-use crate::language::question::mark::{Mark, Pronoun};
-use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Side, Thing};
-use crate::language::question::uses;
-use crate::language::question::values::{Property, ValueId};
-use crate::language::report::Detail;
-use crate::language::words::everyday;
+use crate::question::Doubt;
+use crate::question::grammar::{Item, Phrase, Sentence};
+use crate::question::lexicon::{Extension, Lexicon};
+use crate::question::mark::{Mark, Pronoun};
+use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Side, Thing};
+use crate::question::uses;
+use crate::question::values::{Property, ValueId};
+use crate::report::Detail;
+use crate::words::everyday;
 
 /// Whether a sentence names one place only, from which something is told.
 fn is_only_from(items: &[Item]) -> bool {
@@ -328,7 +328,7 @@ impl<'s, 't> Frame<'s, 't> {
         while words.start > 0 {
             let gap =
                 self.sentence.words[words.start - 1].end..self.sentence.words[words.start].start;
-            if !self.sentence.text[gap].chars().all(crate::language::words::is_hyphen) {
+            if !self.sentence.text[gap].chars().all(crate::words::is_hyphen) {
                 break;
             }
             words.start -= 1;
@@ -369,7 +369,7 @@ impl<'s, 't> Frame<'s, 't> {
             return Doubt::Unknown { reference: self.sentence.said(&whole).to_owned(), near };
         }
         let before_noun = matches!(next, Some(Item::Noun(_)));
-        if near.is_empty() && (before_noun || !crate::language::words::may_be_noun(said)) {
+        if near.is_empty() && (before_noun || !crate::words::may_be_noun(said)) {
             return Doubt::not_understood(said);
         }
         if before_noun && near.is_empty() {

@@ -3,9 +3,9 @@
 //! Invariant: every room and door that is named is an end of the way, on it, or not on it.
 
 use super::Frame;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Extreme, Head, Noun, Passing, Query, Rel};
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Extreme, Head, Noun, Passing, Query, Rel};
 
 impl Frame<'_, '_> {
     /// «Можно ли попасть из кухни в спальню, минуя коридор?», "How many doors are there on the way to the bedroom?"

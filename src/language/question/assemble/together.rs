@@ -3,8 +3,8 @@
 //! Invariant: at least two things are compared, or one description of several.
 
 use super::Frame;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Claim, Noun, Query, Rel, Restriction};
+use crate::question::mark::Mark;
+use crate::question::query::{Claim, Noun, Query, Rel, Restriction};
 
 impl Frame<'_, '_> {
     /// «Лекарство и кровать в одной комнате?», "Is the battery on the same desk as the lamp?", "What else is in the

@@ -3,12 +3,12 @@
 //! Invariant: nothing that tells one answer from another is dropped in silence.
 
 use super::Frame;
-use crate::language::question::lexicon::{Extension, KindId};
-use crate::language::question::mark::Mark;
-use crate::language::question::purposes::{self, Role};
-use crate::language::question::query::{Claim, Head, Noun, Query, Rel, Sized};
-use crate::language::question::uses;
-use crate::language::question::values::{Property, ValueId};
+use crate::question::lexicon::{Extension, KindId};
+use crate::question::mark::Mark;
+use crate::question::purposes::{self, Role};
+use crate::question::query::{Claim, Head, Noun, Query, Rel, Sized};
+use crate::question::uses;
+use crate::question::values::{Property, ValueId};
 
 /// What the nouns and claims of a query speak of.
 #[derive(Default)]

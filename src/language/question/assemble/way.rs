@@ -5,9 +5,9 @@
 use super::Frame;
 use super::Spot;
 use super::Subject;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{
     Best, Claim, Closeness, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
 };
 

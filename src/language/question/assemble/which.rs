@@ -4,11 +4,9 @@
 
 use super::Frame;
 use super::Subject;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{
-    Best, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
-};
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing};
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {

@@ -4,10 +4,10 @@
 //! Invariant: the words that are read are those that the caller takes.
 
 use super::{Found, Parsed, Phrase, Sentence, Tok, Token, Tokens, fail};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Filter, Head, Noun, Rel};
-use crate::language::question::values::ValueId;
-use crate::language::words::{Case, Language, Number};
+use crate::question::mark::Mark;
+use crate::question::query::{Filter, Head, Noun, Rel};
+use crate::question::values::ValueId;
+use crate::words::{Case, Language, Number};
 
 impl Sentence<'_> {
     /// «рядом с красной»: a value for the noun that has been said.

@@ -4,10 +4,10 @@
 
 use super::tokens::number_of;
 use super::{Sentence, Tok, Token};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Extreme, Rel, Sized};
-use crate::language::question::vocabulary;
-use crate::language::words::phrase_at;
+use crate::question::mark::Mark;
+use crate::question::query::{Extreme, Rel, Sized};
+use crate::question::vocabulary;
+use crate::words::phrase_at;
 
 /// Units of length in cm.
 const UNITS: [(&str, f64); 4] = [

@@ -33,9 +33,9 @@ use super::lexicon::{KindId, Lexicon};
 use super::mark::{Mark, Pronoun};
 use super::query::{Best, Filter, Head, Noun, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
-use crate::language::words::{Case, Language, Number, Readings};
 use crate::map::Entity;
 use crate::units::name_key;
+use crate::words::{Case, Language, Number, Readings};
 
 pub(super) use tokens::number_of;
 

@@ -3,9 +3,9 @@
 //! Invariant: a word that says something of the noun, and does not tell which one is meant, is no modifier.
 
 use super::{Parsed, Sentence, Tok, Token, Tokens, fail};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Extreme, Quantity, Rel};
-use crate::language::question::values::ValueId;
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Extreme, Quantity, Rel};
+use crate::question::values::ValueId;
 
 #[derive(Debug, Clone)]
 pub(super) enum Modifier {

@@ -7,9 +7,9 @@ use nom::Parser;
 use nom::multi::many0;
 
 use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Closeness, Extreme, Head, Noun, Rel, Restriction};
-use crate::language::words::{Case, Language};
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Closeness, Extreme, Head, Noun, Rel, Restriction};
+use crate::words::{Case, Language};
 
 impl Sentence<'_> {
     /// A noun with the superlative of distance behind it: behind a comma, a relative pronoun, or in English at once.

@@ -6,9 +6,9 @@ use nom::Parser;
 use nom::multi::many0;
 
 use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction};
-use crate::language::words::Language;
+use crate::question::mark::Mark;
+use crate::question::query::{Filter, Head, Noun, Rel, Restriction};
+use crate::words::Language;
 
 impl Sentence<'_> {
     /// A noun with the relative clause behind it, where there is one.

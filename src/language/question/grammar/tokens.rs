@@ -1,16 +1,16 @@
 //! A sentence cut into tokens: which words are a name, a value, a property, a number, or a word of the vocabulary.
 
 use super::{Found, Sentence, Tok, Token};
-use crate::language::question::compared::quantity;
-use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Extreme, Quantity, Rel};
-use crate::language::question::uses;
-use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary;
-use crate::language::words::{Language, word_ranges};
 use crate::map::Entity;
+use crate::question::compared::quantity;
+use crate::question::lexicon::{Extension, Lexicon, Meaning};
+use crate::question::mark::Mark;
+use crate::question::query::{Extreme, Quantity, Rel};
+use crate::question::uses;
+use crate::question::values::ValueId;
+use crate::question::vocabulary;
 use crate::units::name_key;
+use crate::words::{Language, word_ranges};
 
 impl<'t> Sentence<'t> {
     pub(in super::super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
@@ -371,7 +371,7 @@ impl<'t> Sentence<'t> {
             }
             found.readings.push(hit.readings);
         }
-        if is_kind && hits.iter().all(|h| h.spelling == crate::language::Spelling::Part) {
+        if is_kind && hits.iter().all(|h| h.spelling == crate::Spelling::Part) {
             found.named.clear();
         }
         found

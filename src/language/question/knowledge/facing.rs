@@ -3,15 +3,15 @@
 //! Invariant: where that person stands is said in the answer, and is the robot's place or the middle of the room.
 
 use super::{Frame, Knowledge};
-use crate::language::question::Doubt;
-use crate::language::question::query::{Noun, Rel, Side, Thing};
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::query::{Noun, Rel, Side, Thing};
 use crate::units::Point;
 use std::collections::HashSet;
 
 impl Knowledge<'_> {
     /// Where one stands who faces a thing, and whether that is the robot's own place.
-    pub(in crate::language::question) fn standpoint(&self, faced: Thing) -> Option<(Point, bool)> {
+    pub(in crate::question) fn standpoint(&self, faced: Thing) -> Option<(Point, bool)> {
         let area = self.area_of(faced)?;
         let (map, _) = self.point(faced)?;
         let robot = self.senses.robot().filter(|(own, _)| *own == map);
@@ -24,7 +24,7 @@ impl Knowledge<'_> {
 
     /// On which of two opposite sides of another a thing is rather than on the other, though it is mostly before or beside
     /// it: of the other's own front, else as the robot sees it.
-    pub(in crate::language::question) fn rather(
+    pub(in crate::question) fn rather(
         &self,
         sides: [Rel; 2],
         thing: Thing,

@@ -3,16 +3,16 @@
 //! Invariant: several where one is meant, and none at all, are doubts, never a choice.
 
 use super::Knowledge;
-use crate::language::question::Doubt;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::units::{AreaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 impl Knowledge<'_> {
     /// What the head alone may mean.
-    pub(in crate::language::question) fn base(&self, head: &Head) -> Vec<Thing> {
+    pub(in crate::question) fn base(&self, head: &Head) -> Vec<Thing> {
         if let Some(things) = &head.things {
             return things.clone();
         }
@@ -30,12 +30,12 @@ impl Knowledge<'_> {
     }
 
     /// "Things" in general.
-    pub(in crate::language::question) fn is_anything(&self, head: &Head) -> bool {
+    pub(in crate::question) fn is_anything(&self, head: &Head) -> bool {
         head.anything
             || head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Things)
     }
 
-    pub(in crate::language::question) fn is_floor(&self, noun: &Noun) -> bool {
+    pub(in crate::question) fn is_floor(&self, noun: &Noun) -> bool {
         let kinds = &noun.head.kinds;
         kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Floor)
             && noun.head.named.is_empty()
@@ -45,11 +45,7 @@ impl Knowledge<'_> {
     ///
     /// # Errors
     /// An anchor that may be several things, or none.
-    pub(in crate::language::question) fn find(
-        &self,
-        noun: &Noun,
-        loose: bool,
-    ) -> Result<Vec<Thing>, Doubt> {
+    pub(in crate::question) fn find(&self, noun: &Noun, loose: bool) -> Result<Vec<Thing>, Doubt> {
         if self.is_walls(noun) {
             // The map has walls, but no list of them: «нет стен» would be untrue.
             return Err(Doubt::NotUnderstood { words: noun.text.clone() });
@@ -269,7 +265,7 @@ impl Knowledge<'_> {
     ///
     /// # Errors
     /// Several where one is meant; none at all.
-    pub(in crate::language::question) fn definite(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
+    pub(in crate::question) fn definite(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
         let found = self.find(noun, false)?;
         if found.is_empty() {
             return Err(self.none_such(noun));
@@ -285,7 +281,7 @@ impl Knowledge<'_> {
 
     /// # Errors
     /// As [`Self::definite`]; several things are always one too many.
-    pub(in crate::language::question) fn one(&self, noun: &Noun) -> Result<Thing, Doubt> {
+    pub(in crate::question) fn one(&self, noun: &Noun) -> Result<Thing, Doubt> {
         let found = self.find(noun, false)?;
         match found[..] {
             [only] => Ok(only),
@@ -294,11 +290,11 @@ impl Knowledge<'_> {
         }
     }
 
-    pub(in crate::language::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
+    pub(in crate::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
         Doubt::Ambiguous { reference: noun.text.clone(), candidates: found.to_vec() }
     }
 
-    pub(in crate::language::question) fn none_such(&self, noun: &Noun) -> Doubt {
+    pub(in crate::question) fn none_such(&self, noun: &Noun) -> Doubt {
         Doubt::NoneSuch { noun: Box::new(noun.clone()) }
     }
 
@@ -350,7 +346,7 @@ impl Knowledge<'_> {
 
     /// # Errors
     /// Several where one is meant; none at all.
-    pub(in crate::language::question) fn anchors(
+    pub(in crate::question) fn anchors(
         &self,
         restriction: &Restriction,
         noun: &Noun,
@@ -411,7 +407,7 @@ impl Knowledge<'_> {
     }
 
     /// The two things between which something is: of several that fit, the one in the room of the other.
-    pub(in crate::language::question) fn ends_between(
+    pub(in crate::question) fn ends_between(
         &self,
         restriction: &Restriction,
     ) -> Result<Vec<Thing>, Doubt> {
@@ -545,11 +541,7 @@ impl Knowledge<'_> {
     }
 
     /// How many of some things a room holds, or a thing bears.
-    pub(in crate::language::question) fn having(
-        &self,
-        counted: &HashSet<Thing>,
-        thing: Thing,
-    ) -> usize {
+    pub(in crate::question) fn having(&self, counted: &HashSet<Thing>, thing: Thing) -> usize {
         let rel = if self.is_place(thing) { Rel::In } else { Rel::On };
         self.related(rel, thing).iter().filter(|t| counted.contains(t)).count()
     }
@@ -559,7 +551,7 @@ impl Knowledge<'_> {
     }
 
     /// Things in the order in which the robot sees them, from the left or from the right.
-    pub(in crate::language::question) fn outermost(
+    pub(in crate::question) fn outermost(
         &self,
         found: &[Thing],
         extreme: Extreme,

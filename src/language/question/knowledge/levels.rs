@@ -4,20 +4,20 @@
 //! the next one.
 
 use super::Knowledge;
-use crate::language::question::Doubt;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Best, Extreme, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Best, Extreme, Noun, Rel, Restriction, Thing};
 use std::collections::HashSet;
 
 /// One of the parts of a kind that a thing has above each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::language::question) struct Level {
-    pub(in crate::language::question) owner: Thing,
+pub(in crate::question) struct Level {
+    pub(in crate::question) owner: Thing,
     /// Counted from the lowest, from 0.
-    pub(in crate::language::question) place: usize,
+    pub(in crate::question) place: usize,
     /// How many there are.
-    pub(in crate::language::question) of: usize,
+    pub(in crate::question) of: usize,
     /// Where it begins and where the next one does, cm above the Map's zero.
     heights: (f64, f64),
 }
@@ -27,7 +27,7 @@ impl Knowledge<'_> {
     ///
     /// # Errors
     /// Several things have such parts; none of the parts is that one.
-    pub(in crate::language::question) fn level_of(
+    pub(in crate::question) fn level_of(
         &self,
         restriction: &Restriction,
     ) -> Result<Option<Level>, Doubt> {
@@ -86,11 +86,7 @@ impl Knowledge<'_> {
     }
 
     /// On which of its support's parts of a kind a thing is; none where the map does not tell it.
-    pub(in crate::language::question) fn level_under(
-        &self,
-        thing: Thing,
-        part: &Noun,
-    ) -> Option<Level> {
+    pub(in crate::question) fn level_under(&self, thing: Thing, part: &Noun) -> Option<Level> {
         let owner = *self
             .support_chain(thing)
             .iter()
@@ -125,7 +121,7 @@ impl Knowledge<'_> {
         Some(Level { owner, place, of: heights.len(), heights: heights_of })
     }
 
-    pub(in crate::language::question) fn has_part_kinds(&self, noun: &Noun) -> bool {
+    pub(in crate::question) fn has_part_kinds(&self, noun: &Noun) -> bool {
         let part = |k: &_| matches!(self.lexicon().kind(*k).extension, Extension::Part(_));
         noun.head.kinds.iter().any(part)
     }

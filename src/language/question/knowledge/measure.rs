@@ -3,14 +3,14 @@
 //! Invariant: things on different Maps have no distance.
 
 use super::Knowledge;
-use crate::language::question::query::{Extreme, Thing};
-use crate::language::question::values::Property;
 use crate::map::Entity;
+use crate::question::query::{Extreme, Thing};
+use crate::question::values::Property;
 use crate::units::{AreaId, MapId, Point};
 
 impl Knowledge<'_> {
     /// The room in which a thing is.
-    pub(in crate::language::question) fn area_of(&self, thing: Thing) -> Option<AreaId> {
+    pub(in crate::question) fn area_of(&self, thing: Thing) -> Option<AreaId> {
         match thing {
             Thing::Entity(Entity::Replica(id)) => self.relations.area_of(id),
             Thing::Entity(Entity::Area(id)) => Some(id),
@@ -28,7 +28,7 @@ impl Knowledge<'_> {
     }
 
     /// Where a thing is on its Map.
-    pub(in crate::language::question) fn point(&self, thing: Thing) -> Option<(MapId, Point)> {
+    pub(in crate::question) fn point(&self, thing: Thing) -> Option<(MapId, Point)> {
         match thing {
             Thing::Entity(Entity::Replica(id)) => self.relations.centre(id),
             Thing::Entity(Entity::Area(id)) => self.relations.area_centre(id),
@@ -53,7 +53,7 @@ impl Knowledge<'_> {
     }
 
     /// Straight distance between two things of one Map, cm: between surfaces, where both have any.
-    pub(in crate::language::question) fn distance(&self, a: Thing, b: Thing) -> Option<f64> {
+    pub(in crate::question) fn distance(&self, a: Thing, b: Thing) -> Option<f64> {
         let segment = |t: Thing| match t {
             Thing::Window(n) => Some(self.lexicon().windows[n as usize].ends),
             _ => self.gate(t).map(|g| g.ends),
@@ -88,11 +88,7 @@ impl Knowledge<'_> {
     }
 
     /// «Выше всех» by their place; by their size, where all begin equally high or have no such measure.
-    pub(in crate::language::question) fn settled(
-        &self,
-        extreme: Extreme,
-        things: &[Thing],
-    ) -> Extreme {
+    pub(in crate::question) fn settled(&self, extreme: Extreme, things: &[Thing]) -> Extreme {
         let equal = self.relations.thresholds().level_equal;
         if extreme == extreme.of_size() {
             return extreme;
@@ -104,11 +100,7 @@ impl Knowledge<'_> {
     }
 
     /// What a superlative compares of a thing; more is more of it.
-    pub(in crate::language::question) fn measure(
-        &self,
-        extreme: Extreme,
-        thing: Thing,
-    ) -> Option<f64> {
+    pub(in crate::question) fn measure(&self, extreme: Extreme, thing: Thing) -> Option<f64> {
         if matches!(extreme, Extreme::Heaviest | Extreme::Lightest) {
             let told = self.values(thing).into_iter().find(|(p, _, _)| *p == Property::Weight)?;
             return kilograms(&told.2);

@@ -3,14 +3,14 @@
 //! Invariant: what a kind means is said here, whoever asks.
 
 use super::Knowledge;
-use crate::language::question::lexicon::{Extension, Lexicon};
-use crate::language::question::query::Thing;
 use crate::map::Entity;
+use crate::question::lexicon::{Extension, Lexicon};
+use crate::question::query::Thing;
 use crate::units::{ObjectId, ReplicaId};
 
 impl Knowledge<'_> {
     /// Everything of a kind.
-    pub(in crate::language::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
+    pub(in crate::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
         let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));
         let of_object = |object: ObjectId| {
             let all = self.world.replicas.values().filter(move |r| r.object == object);

@@ -17,10 +17,10 @@ pub(super) use walls::Held;
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};
 use super::{Memory, Senses};
-use crate::language::words::Language;
 use crate::map::{DoorKind, Entity, Permeability, World};
 use crate::semantics::{Relations, Subject};
 use crate::units::{AreaId, Point, ReplicaId, TypeId};
+use crate::words::Language;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::OnceLock;
 

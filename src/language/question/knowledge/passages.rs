@@ -4,37 +4,37 @@
 
 use super::Gate;
 use super::Knowledge;
-use crate::language::question::query::Thing;
 use crate::map::{DoorStatus, Entity};
+use crate::question::query::Thing;
 use crate::units::AreaId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A step from one room to the next: by a door or passage, or by a lift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::language::question) struct Crossing {
-    pub(in crate::language::question) by: Thing,
-    pub(in crate::language::question) into: AreaId,
+pub(in crate::question) struct Crossing {
+    pub(in crate::question) by: Thing,
+    pub(in crate::question) into: AreaId,
 }
 
 /// The room in which a passage begins, and its crossings in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::language::question) struct Passage {
-    pub(in crate::language::question) start: AreaId,
-    pub(in crate::language::question) crossings: Vec<Crossing>,
+pub(in crate::question) struct Passage {
+    pub(in crate::question) start: AreaId,
+    pub(in crate::question) crossings: Vec<Crossing>,
 }
 
 /// What a passage must keep to.
 #[derive(Debug, Clone, Default)]
-pub(in crate::language::question) struct Limits {
+pub(in crate::question) struct Limits {
     /// Rooms and doors that are not on it; it may begin and end in such a room.
-    pub(in crate::language::question) avoiding: Vec<Thing>,
+    pub(in crate::question) avoiding: Vec<Thing>,
     /// No door is to be opened on it.
-    pub(in crate::language::question) open_only: bool,
+    pub(in crate::question) open_only: bool,
 }
 
 impl Knowledge<'_> {
     /// Rooms in which a thing is, or which it joins.
-    pub(in crate::language::question) fn rooms_of(&self, thing: Thing) -> Vec<AreaId> {
+    pub(in crate::question) fn rooms_of(&self, thing: Thing) -> Vec<AreaId> {
         if let Thing::Entity(Entity::Map(id)) = thing {
             let items = self.world.maps.get(&id).into_iter().flat_map(|map| &map.items);
             return items.map(|item| item.area).collect();
@@ -46,7 +46,7 @@ impl Knowledge<'_> {
     }
 
     /// The doors and passages that join two Areas.
-    pub(in crate::language::question) fn gates_between(
+    pub(in crate::question) fn gates_between(
         &self,
         a: AreaId,
         b: AreaId,
@@ -55,7 +55,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a door is shut.
-    pub(in crate::language::question) fn is_shut(&self, gate: Thing) -> bool {
+    pub(in crate::question) fn is_shut(&self, gate: Thing) -> bool {
         self.statuses(gate).iter().any(|(status, _)| *status != DoorStatus::Open)
     }
 
@@ -73,7 +73,7 @@ impl Knowledge<'_> {
     }
 
     /// The passage from one of some rooms to one of others; none where what is asked leaves no way.
-    pub(in crate::language::question) fn passage(
+    pub(in crate::question) fn passage(
         &self,
         from: &[AreaId],
         to: &[AreaId],
@@ -120,7 +120,7 @@ impl Knowledge<'_> {
     }
 
     /// The passage that leads through rooms and doors in their order.
-    pub(in crate::language::question) fn passage_through(
+    pub(in crate::question) fn passage_through(
         &self,
         from: &[AreaId],
         to: &[AreaId],
@@ -159,18 +159,18 @@ impl Knowledge<'_> {
 
 impl Passage {
     /// The room in which it ends.
-    pub(in crate::language::question) fn end(&self) -> AreaId {
+    pub(in crate::question) fn end(&self) -> AreaId {
         self.crossings.last().map_or(self.start, |last| last.into)
     }
 
     /// Whether it comes into no room twice.
-    pub(in crate::language::question) fn is_straight(&self) -> bool {
+    pub(in crate::question) fn is_straight(&self) -> bool {
         let rooms = self.crossings.iter().map(|c| c.into).chain([self.start]);
         rooms.collect::<BTreeSet<_>>().len() == self.crossings.len() + 1
     }
 
     /// The rooms between its first and its last.
-    pub(in crate::language::question) fn between(&self) -> Vec<AreaId> {
+    pub(in crate::question) fn between(&self) -> Vec<AreaId> {
         let inner = self.crossings.len().saturating_sub(1);
         self.crossings.iter().take(inner).map(|c| c.into).collect()
     }

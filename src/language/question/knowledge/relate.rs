@@ -5,15 +5,15 @@
 use super::Frame;
 use super::Knowledge;
 use super::bases;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Rel, Thing};
 use crate::map::{Entity, Mark};
+use crate::question::lexicon::Extension;
+use crate::question::query::{Rel, Thing};
 use crate::units::{AreaId, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
 impl Knowledge<'_> {
     /// What lies to a thing as a preposition says.
-    pub(in crate::language::question) fn related(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+    pub(in crate::question) fn related(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
         let near = self.relations.thresholds();
         match (rel, anchor) {
             (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
@@ -102,13 +102,13 @@ impl Knowledge<'_> {
     }
 
     /// Whether both are furniture of one room and stand so near that one is at the other.
-    pub(in crate::language::question) fn stands_at(&self, x: Thing, y: Thing) -> bool {
+    pub(in crate::question) fn stands_at(&self, x: Thing, y: Thing) -> bool {
         let at = self.pairs("STANDS_AT").and_then(|pairs| pairs.forward.get(&x));
         at.is_some_and(|others| others.contains(&y))
     }
 
     /// How things lie to what «там» means: on what bears them, else in it.
-    pub(in crate::language::question) fn there(&self, anchor: Thing) -> Rel {
+    pub(in crate::question) fn there(&self, anchor: Thing) -> Rel {
         let on = |id: ReplicaId| {
             !self.by_relation(Rel::On, Thing::Entity(Entity::Replica(id))).is_empty()
         };
@@ -139,7 +139,7 @@ impl Knowledge<'_> {
     }
 
     /// The door that a key opens.
-    pub(in crate::language::question) fn opened_by(&self, key: Thing) -> Option<Thing> {
+    pub(in crate::question) fn opened_by(&self, key: Thing) -> Option<Thing> {
         let (_, door) = Mark::KeyOf.of(&self.world.replicas.get(&key.replica()?)?.properties)?;
         let is_door = |entity: &Entity| matches!(entity, Entity::Door(_));
         self.world.find(door).into_iter().find(is_door).map(Thing::Entity)
@@ -179,7 +179,7 @@ impl Knowledge<'_> {
     }
 
     /// The tuple that makes a relation hold: its name in the rule text and its arguments in order.
-    pub(in crate::language::question) fn tuple(
+    pub(in crate::question) fn tuple(
         &self,
         rel: Rel,
         x: Thing,
@@ -268,7 +268,7 @@ impl Knowledge<'_> {
     }
 
     /// From whose side left and right of a thing are told.
-    pub(in crate::language::question) fn frame(&self, anchor: Thing) -> Frame {
+    pub(in crate::question) fn frame(&self, anchor: Thing) -> Frame {
         match anchor.replica() {
             Some(id) if self.relations.has_front(id) => Frame::Own,
             _ => Frame::Viewer,
@@ -321,7 +321,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a relation holds of two things; being on and in is passed on by what stands between.
-    pub(in crate::language::question) fn holds(&self, rel: Rel, x: Thing, y: Thing) -> bool {
+    pub(in crate::question) fn holds(&self, rel: Rel, x: Thing, y: Thing) -> bool {
         if self.related(rel, y).contains(&x) {
             return true;
         }
@@ -333,7 +333,7 @@ impl Knowledge<'_> {
     }
 
     /// What a thing lies on or in itself, and on what it lies by that, the nearest first.
-    pub(in crate::language::question) fn borne_by(&self, thing: Thing) -> Vec<Thing> {
+    pub(in crate::question) fn borne_by(&self, thing: Thing) -> Vec<Thing> {
         let mut chain = self.support_chain(thing);
         let mut is_first = true;
         chain.retain(|under| {
@@ -343,7 +343,7 @@ impl Knowledge<'_> {
     }
 
     /// What a thing stands on or lies in, what that stands on, and so on.
-    pub(in crate::language::question) fn support_chain(&self, thing: Thing) -> Vec<Thing> {
+    pub(in crate::question) fn support_chain(&self, thing: Thing) -> Vec<Thing> {
         let mut chain = Vec::new();
         let mut at = thing.replica();
         while let Some(id) = at.and_then(|id| self.relations.support_of(id)) {

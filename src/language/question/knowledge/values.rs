@@ -3,15 +3,15 @@
 //! Invariant: what a thing itself says goes before what its object says.
 
 use super::{Gate, Knowledge};
-use crate::language::question::query::{Filter, Rel, Thing};
-use crate::language::question::values::{Property, ValueId};
 use crate::map::{DoorKind, DoorStatus, Entity, Properties};
+use crate::question::query::{Filter, Rel, Thing};
+use crate::question::values::{Property, ValueId};
 use crate::units::DoorId;
 use std::collections::BTreeSet;
 
 impl Knowledge<'_> {
     /// All values of a thing, with the map's own words for them.
-    pub(in crate::language::question) fn values(
+    pub(in crate::question) fn values(
         &self,
         thing: Thing,
     ) -> Vec<(Property, Option<ValueId>, String)> {
@@ -51,10 +51,7 @@ impl Knowledge<'_> {
     }
 
     /// States of a door, or of the doors of a thing.
-    pub(in crate::language::question) fn statuses(
-        &self,
-        thing: Thing,
-    ) -> Vec<(DoorStatus, DoorId)> {
+    pub(in crate::question) fn statuses(&self, thing: Thing) -> Vec<(DoorStatus, DoorId)> {
         match thing {
             Thing::Entity(Entity::Door(id)) => match self.world.doors.get(&id) {
                 Some(door) if door.kind != DoorKind::Passage => vec![(door.state.status, id)],
@@ -76,7 +73,7 @@ impl Knowledge<'_> {
         }
     }
 
-    pub(in crate::language::question) fn has_value(&self, thing: Thing, wanted: ValueId) -> bool {
+    pub(in crate::question) fn has_value(&self, thing: Thing, wanted: ValueId) -> bool {
         let values = &self.lexicon().values;
         let own = self.values(thing);
         if own.iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted))) {
@@ -112,7 +109,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether the map tells of a thing what a filter asks.
-    pub(in crate::language::question) fn tells(&self, thing: Thing, filter: &Filter) -> bool {
+    pub(in crate::question) fn tells(&self, thing: Thing, filter: &Filter) -> bool {
         let values = &self.lexicon().values;
         let entry = values.entry(filter.value);
         if entry.is_emptiness() || thing.replica().is_none() {
@@ -127,7 +124,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a thing has one of a filter's values, or by what the map tells none where that is asked.
-    pub(in crate::language::question) fn fits(&self, thing: Thing, filter: &Filter) -> bool {
+    pub(in crate::question) fn fits(&self, thing: Thing, filter: &Filter) -> bool {
         if filter.negated && !self.tells(thing, filter) {
             return false;
         }
@@ -149,7 +146,7 @@ impl Knowledge<'_> {
 
 impl Knowledge<'_> {
     /// How the map calls a property.
-    pub(in crate::language::question) fn property_names(&self, property: &Property) -> Vec<String> {
+    pub(in crate::question) fn property_names(&self, property: &Property) -> Vec<String> {
         let named = |p: &Properties| -> Vec<String> {
             p.keys().filter(|name| Property::of(name) == *property).cloned().collect()
         };
@@ -160,7 +157,7 @@ impl Knowledge<'_> {
     }
 
     /// How the map spells a value.
-    pub(in crate::language::question) fn spellings(&self, value: ValueId) -> Vec<String> {
+    pub(in crate::question) fn spellings(&self, value: ValueId) -> Vec<String> {
         let replicas = self.world.replicas.values().map(|r| &r.properties);
         let objects = self.world.objects.values().map(|o| &o.properties);
         let doors = self.world.doors.values().map(|d| &d.properties);

@@ -3,16 +3,16 @@
 //! Invariant: walls are the impermeable sides of the room's own Orthoframes; what stands at them the rules say.
 
 use super::Knowledge;
-use crate::language::question::Doubt;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Noun, Rel, Thing};
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::lexicon::Extension;
+use crate::question::query::{Noun, Rel, Thing};
 use crate::units::{AreaId, Point};
 use std::collections::{BTreeSet, HashSet};
 
 /// How a room holds a thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::language::question) enum Held {
+pub(in crate::question) enum Held {
     OnWall,
     /// On the floor, and there near two walls that meet.
     InCorner,
@@ -23,7 +23,7 @@ pub(in crate::language::question) enum Held {
 
 impl Knowledge<'_> {
     /// Whether a noun means walls or corners, which have no names of their own.
-    pub(in crate::language::question) fn is_walls(&self, noun: &Noun) -> bool {
+    pub(in crate::question) fn is_walls(&self, noun: &Noun) -> bool {
         let is_wall = |e: &Extension| matches!(e, Extension::Walls | Extension::Corners);
         noun.head.named.is_empty()
             && !noun.head.kinds.is_empty()
@@ -85,7 +85,7 @@ impl Knowledge<'_> {
     }
 
     /// The relation and the room that make a thing stand at walls or on the floor, where a noun means these.
-    pub(in crate::language::question) fn stands_in(
+    pub(in crate::question) fn stands_in(
         &self,
         rel: Rel,
         thing: Thing,
@@ -106,7 +106,7 @@ impl Knowledge<'_> {
     }
 
     /// How a thing that nothing bears is held by its room: on the floor, on a wall, or in no way that is known.
-    pub(in crate::language::question) fn held_by_room(&self, thing: Thing) -> Option<Held> {
+    pub(in crate::question) fn held_by_room(&self, thing: Thing) -> Option<Held> {
         thing.replica().filter(|id| self.relations.support_of(*id).is_none())?;
         let held = [
             ("ON_WALL", Held::OnWall),
@@ -119,7 +119,7 @@ impl Knowledge<'_> {
 
     /// The walls at which a thing stands, each by what opens in it: doors, passages and windows. None where it stands
     /// at no wall.
-    pub(in crate::language::question) fn own_walls(&self, thing: Thing) -> Option<Vec<Thing>> {
+    pub(in crate::question) fn own_walls(&self, thing: Thing) -> Option<Vec<Thing>> {
         let area = self.area_of(thing).filter(|_| self.stands_so("AT_WALL", thing))?;
         let (measured, near) = (self.relations.measurements(), self.relations.thresholds());
         let walls: Vec<(Point, Point)> = measured.walls(area).collect();

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::Settler;
-use crate::language::question::Doubt;
-use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::question::Doubt;
+use crate::question::grammar::{Item, Phrase};
+use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 
 impl Settler<'_, '_> {

@@ -26,10 +26,10 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
-use crate::language::command::{self, Sort};
-use crate::language::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
+use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::units::AreaId;
+use crate::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
 pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
@@ -76,7 +76,7 @@ impl Asker<'_> {
             return Ok(Settled { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
         let (gathered, not_meant) = command::gathered_of(text);
-        let language = crate::language::words::Language::of(text);
+        let language = crate::words::Language::of(text);
         let misread = |doubt: Doubt| {
             Misread(Box::new(self.knowledge(language, &Memory::default()).unanswered(doubt)))
         };
@@ -215,7 +215,7 @@ impl Asker<'_> {
         let object = object.and_then(|object| self.world.objects.get(&object));
         let kind = object.and_then(|object| self.world.types.object.get(object.object_type));
         if let (Some(said), Some(kind)) = (said.filter(|said| ends(said + 2)), kind) {
-            let hints = crate::language::names::hints_of_type(kind);
+            let hints = crate::names::hints_of_type(kind);
             let noun = NounPhrase::parse(&kind.name.to_lowercase(), &hints).case(Case::Accusative);
             text.insert_str(words[said + 1].end, &format!(" {noun}"));
         }

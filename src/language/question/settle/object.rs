@@ -5,18 +5,18 @@ use std::ops::Range;
 use super::Settler;
 use super::choice::with;
 use super::place::Spot;
-use crate::language::command::Sort;
-use crate::language::question::Doubt;
-use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thing};
-use crate::language::question::values::ValueId;
-use crate::language::words::{Language, Number};
+use crate::command::Sort;
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::grammar::{Item, Phrase};
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::Extension;
+use crate::question::mark::Mark;
+use crate::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thing};
+use crate::question::values::ValueId;
 use crate::semantics::lifts;
 use crate::units::{AreaId, DoorId};
+use crate::words::{Language, Number};
 
 /// The thing that is taken of several that were named, and the words that named them.
 pub(super) type Chosen = (Thing, Range<usize>);

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use super::choice::{is_described, with};
 use super::{Edit, Settler};
-use crate::language::command::{self, Sort};
-use crate::language::question::Doubt;
-use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing};
-use crate::language::words::{Case, Language};
+use crate::command::{self, Sort};
 use crate::map::Entity;
+use crate::question::Doubt;
+use crate::question::grammar::{Item, Phrase};
+use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
+use crate::words::{Case, Language};
 
 /// A place that was said: the preposition, what follows it, and the places that tell where that is.
 pub(super) struct Spot<'i> {

@@ -3,19 +3,19 @@
 use std::ops::Range;
 
 use super::Settler;
-use crate::language::command;
-use crate::language::question::assemble;
-use crate::language::question::grammar::{Item, Sentence};
-use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
-use crate::language::question::{Aside, Asker, Memory, aside};
-use crate::language::words::{Case, Language, word_keys, word_ranges};
+use crate::command;
 use crate::map::Entity;
+use crate::question::assemble;
+use crate::question::grammar::{Item, Sentence};
+use crate::question::knowledge::Knowledge;
+use crate::question::query::{Best, Extreme, Head, Noun, Thing};
+use crate::question::{Aside, Asker, Memory, aside};
 use crate::units::name_key;
+use crate::words::{Case, Language, word_keys, word_ranges};
 
 /// A command that waits for the person to say which thing was meant.
 #[derive(Debug, Clone)]
-pub(in crate::language::question) struct Waiting {
+pub(in crate::question) struct Waiting {
     pub(super) text: String,
     /// Bytes of the description.
     pub(super) at: Range<usize>,
@@ -25,7 +25,7 @@ pub(in crate::language::question) struct Waiting {
 
 /// A command that was understood, for what amends it.
 #[derive(Debug, Clone)]
-pub(in crate::language::question) struct Ordered {
+pub(in crate::question) struct Ordered {
     pub(super) text: String,
     /// Bytes of what it was done to, and the things.
     pub(super) object: Option<(Range<usize>, Vec<Thing>)>,
@@ -171,9 +171,8 @@ impl Asker<'_> {
     fn there_too(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
         const TOO: [&str; 5] = ["тоже", "также", "too", "also", "as well"];
         let keys = word_keys(text);
-        let too = (0..keys.len()).find_map(|n| {
-            TOO.iter().find_map(|too| crate::language::words::phrase_at(&keys, n, too))
-        });
+        let too = (0..keys.len())
+            .find_map(|n| TOO.iter().find_map(|too| crate::words::phrase_at(&keys, n, too)));
         let (object, _) = ordered.object.as_ref()?;
         if too.is_none() || ordered.goal.is_some() || text.contains('?') {
             return None;

@@ -2,12 +2,12 @@
 //! «Нет, в спальню», "not that one, the red one", «а теперь на кухню».
 
 use super::{Ordered, Settler};
-use crate::language::command::{self, Sort};
-use crate::language::question::grammar::{Item, Sentence};
-use crate::language::question::mark::Mark;
-use crate::language::question::vocabulary;
-use crate::language::question::{Asker, Memory, Thing};
-use crate::language::words::{Case, Language, NounPhrase, word_keys, word_ranges};
+use crate::command::{self, Sort};
+use crate::question::grammar::{Item, Sentence};
+use crate::question::mark::Mark;
+use crate::question::vocabulary;
+use crate::question::{Asker, Memory, Thing};
+use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
 
 /// What is said before an amendment.
 const BEFORE: [&str; 41] = [
@@ -267,7 +267,7 @@ impl Asker<'_> {
         Some(match language {
             Language::English if !kind.name_en.is_empty() => kind.name_en.to_lowercase(),
             _ => {
-                let hints = crate::language::names::hints_of_type(kind);
+                let hints = crate::names::hints_of_type(kind);
                 let noun = NounPhrase::parse(&kind.name.to_lowercase(), &hints);
                 noun.case(Case::Accusative)
             }

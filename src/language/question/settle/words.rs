@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::Settler;
 use super::choice::with;
 use super::place::Spot;
-use crate::language::command::{self, Sort};
-use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::mark::Mark;
-use crate::language::question::query::{Noun, Rel, Restriction};
-use crate::language::question::values::ValueId;
+use crate::command::{self, Sort};
+use crate::question::grammar::{Item, Phrase};
+use crate::question::mark::Mark;
+use crate::question::query::{Noun, Rel, Restriction};
+use crate::question::values::ValueId;
 
 impl Settler<'_, '_> {
     /// «чашку белую»: the value behind its noun.

@@ -7,7 +7,7 @@
 //! Invariant: every form that [`NounPhrase::all_forms`] gives is found again.
 //!
 //! ```
-//! use orthoframe::language::{FormIndex, NounPhrase, WordHints};
+//! use orthoframe_language::{FormIndex, NounPhrase, WordHints};
 //! let mut index = FormIndex::default();
 //! for (id, name) in ["Комната-В", "Комната-Z", "Кресло у окна"].into_iter().enumerate() {
 //!     index.insert(&NounPhrase::parse(name, &WordHints::default()), id);

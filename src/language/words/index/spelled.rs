@@ -3,14 +3,14 @@
 //! Invariant: two spellings of one name have one key.
 
 use super::Spelling;
-use crate::language::words::letters::cyrillic_twin;
+use crate::words::letters::cyrillic_twin;
 use unicode_normalization::UnicodeNormalization;
 
 /// «Стул-17» is «Стул» and «-17», «Палата-3-б» is «Палата» and «-3-б»: the tag holds digits, capitals and single
 /// letters, which no case changes. A name without a word of small letters before its tag has none.
 pub(super) fn split_tag(name: &str) -> (&str, &str) {
-    let runs = crate::language::words::letters::runs(name);
-    let is_tag = |run: &crate::language::words::letters::Run<'_>| {
+    let runs = crate::words::letters::runs(name);
+    let is_tag = |run: &crate::words::letters::Run<'_>| {
         let letters = run.text.chars().count();
         let digits = run.text.starts_with(|c: char| c.is_ascii_digit());
         let capitals = letters <= 3 && run.text.chars().all(|c| c.is_uppercase() || c.is_numeric());

@@ -3,8 +3,8 @@
 //! Invariant: they see the letters alone; what letters cannot tell stands in the word list.
 
 use super::Noun;
-use crate::language::words::adjective::{Adjective, drop_last, is_vowel};
-use crate::language::words::grammar::{Case, Evidence, Number};
+use crate::words::adjective::{Adjective, drop_last, is_vowel};
+use crate::words::grammar::{Case, Evidence, Number};
 
 impl Noun {
     /// Whether it has one form only: «кафе».

@@ -16,9 +16,9 @@ use super::endings::looks_plural;
 use super::endings::masculine_stem;
 use super::endings::sure_if;
 use super::endings::zero_ending;
-use crate::language::words::adjective::{Adjective, drop_last, is_vowel};
-use crate::language::words::grammar::{Animacy, Case, Evidence, Gender, Number};
-use crate::language::words::lexicon;
+use crate::words::adjective::{Adjective, drop_last, is_vowel};
+use crate::words::grammar::{Animacy, Case, Evidence, Gender, Number};
+use crate::words::lexicon;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {

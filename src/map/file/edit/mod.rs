@@ -25,9 +25,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::node::{self, Span, Value};
 use super::read::{self, Draft};
 use super::{Format, LIMIT, report, write};
-use crate::map::fault::{Fault, MapError};
-use crate::map::{Entity, MapErrors, TypeKind, World, check};
+use crate::fault::{Fault, MapError};
 use crate::units::{ReplicaId, Source};
+use crate::{Entity, MapErrors, TypeKind, World, check};
 
 pub use tree::kinds;
 
@@ -98,8 +98,8 @@ pub struct EditReading {
 /// form, for one; it may be a function that finds nothing.
 ///
 /// ```
-/// use orthoframe::map::{Format, NextIds, World, edit};
-/// use orthoframe::units::Source;
+/// use orthoframe_map::{Format, NextIds, World, edit};
+/// use orthoframe_units::Source;
 ///
 /// let world = World::load("maps/rb2.toml").unwrap();
 /// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");

@@ -2,10 +2,10 @@
 
 use super::word::{Done, Outcome, Step, misprint, table, text_of};
 use super::{GROUPS, Steps};
-use crate::map::fault::MapError;
-use crate::map::file::decode::shortened;
-use crate::map::file::edit::tree::{Handle, Kind};
-use crate::map::file::node::{Entry, Node, Value};
+use crate::fault::MapError;
+use crate::file::decode::shortened;
+use crate::file::edit::tree::{Handle, Kind};
+use crate::file::node::{Entry, Node, Value};
 
 impl Steps<'_> {
     pub(super) fn bind(&mut self, step: &Step<'_>) -> Done {

@@ -13,12 +13,12 @@ use std::collections::BTreeSet;
 
 use super::NextIds;
 use super::tree::{Kind, Tree};
-use crate::map::fault::MapError;
-use crate::map::file::decode::{NUMBER, likely, shortened};
-use crate::map::file::node::{Misprint, Node, Span, Value};
-use crate::map::file::schema::FORMAT;
-use crate::map::{Entity, World};
+use crate::fault::MapError;
+use crate::file::decode::{NUMBER, likely, shortened};
+use crate::file::node::{Misprint, Node, Span, Value};
+use crate::file::schema::FORMAT;
 use crate::units::ReplicaId;
+use crate::{Entity, World};
 
 use word::{Done, Step, misprint, text_of, unknown_field, wrong_kind};
 

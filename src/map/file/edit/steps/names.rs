@@ -2,11 +2,11 @@
 
 use super::Steps;
 use super::word::{Outcome, Step, misprint, text_of};
-use crate::map::Entity;
-use crate::map::fault::MapError;
-use crate::map::file::decode::{likely, shortened};
-use crate::map::file::edit::tree::{Handle, Kind};
-use crate::map::file::node::{Node, Value};
+use crate::Entity;
+use crate::fault::MapError;
+use crate::file::decode::{likely, shortened};
+use crate::file::edit::tree::{Handle, Kind};
+use crate::file::node::{Node, Value};
 
 impl Steps<'_> {
     /// What a name means among some kinds: as the map or this file spells it, else in another form.

@@ -2,11 +2,11 @@
 
 use super::Steps;
 use super::word::{misprint, table, unknown_field};
-use crate::map::TypeKind;
-use crate::map::fault::MapError;
-use crate::map::file::decode::shortened;
-use crate::map::file::edit::tree::{Kind, entry};
-use crate::map::file::node::{Entry, Node, Span, Value};
+use crate::TypeKind;
+use crate::fault::MapError;
+use crate::file::decode::shortened;
+use crate::file::edit::tree::{Kind, entry};
+use crate::file::node::{Entry, Node, Span, Value};
 
 impl Steps<'_> {
     pub(super) fn fresh_id(&mut self, kind: Kind, span: &Span) -> Entry {

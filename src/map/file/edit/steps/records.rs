@@ -2,9 +2,9 @@
 
 use super::word::{Done, Step, misprint, text_of};
 use super::{GROUPS, Steps};
-use crate::map::fault::MapError;
-use crate::map::file::edit::tree::{Handle, Kind};
-use crate::map::file::node::{Entry, Node, Value};
+use crate::fault::MapError;
+use crate::file::edit::tree::{Handle, Kind};
+use crate::file::node::{Entry, Node, Value};
 use crate::units::Bilingual;
 
 impl Steps<'_> {

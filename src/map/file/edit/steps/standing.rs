@@ -2,9 +2,9 @@
 
 use super::Steps;
 use super::word::{Done, Outcome, Step, misprint, table};
-use crate::map::fault::MapError;
-use crate::map::file::edit::tree::{Handle, Kind, entry};
-use crate::map::file::node::{Entry, Node, Value};
+use crate::fault::MapError;
+use crate::file::edit::tree::{Handle, Kind, entry};
+use crate::file::node::{Entry, Node, Value};
 
 impl Steps<'_> {
     /// Where an Area stands on a Map.

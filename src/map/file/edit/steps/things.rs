@@ -2,10 +2,10 @@
 
 use super::word::{Done, Step, misprint, number, numbers, table, written, wrong_kind};
 use super::{Steps, VERBS};
-use crate::map::fault::MapError;
-use crate::map::file::decode::{BOOLEAN, shortened};
-use crate::map::file::edit::tree::{Handle, Kind, entry};
-use crate::map::file::node::{Entry, Node, Value};
+use crate::fault::MapError;
+use crate::file::decode::{BOOLEAN, shortened};
+use crate::file::edit::tree::{Handle, Kind, entry};
+use crate::file::node::{Entry, Node, Value};
 use crate::units::ReplicaId;
 
 impl Steps<'_> {

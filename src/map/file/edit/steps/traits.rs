@@ -2,10 +2,10 @@
 
 use super::Steps;
 use super::word::{Done, Outcome, Step, misprint, number, table, text_of};
-use crate::map::fault::MapError;
-use crate::map::file::decode::shortened;
-use crate::map::file::edit::tree::{Kind, entry};
-use crate::map::file::node::{Entry, Node, Value};
+use crate::fault::MapError;
+use crate::file::decode::shortened;
+use crate::file::edit::tree::{Kind, entry};
+use crate::file::node::{Entry, Node, Value};
 
 /// Kinds that have properties.
 const PROPERTIED: &[Kind] =

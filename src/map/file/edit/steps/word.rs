@@ -1,10 +1,10 @@
 //! One step of an edit file as it stands: its verb, its fields, and what is wrong with them.
 
-use crate::map::fault::MapError;
-use crate::map::file::decode::{
+use crate::fault::MapError;
+use crate::file::decode::{
     LIST, NOTHING, NUMBER, TABLE, TEXT, TWO_OR_THREE, a_number, a_text, likely, shortened,
 };
-use crate::map::file::node::{Entry, Misprint, Node, Span, Value};
+use crate::file::node::{Entry, Misprint, Node, Span, Value};
 use crate::units::Bilingual;
 
 /// A step's work, or its fault.

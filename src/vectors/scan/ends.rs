@@ -1,0 +1,203 @@
+//! Where a run of points ends, and why (SPEC V2): corners, free ends, and ends at which only the view ends.
+//!
+//! ```text
+//!        behind ····x                 x: the beam beside the run's last point, and where it went
+//!    ______     ···/                  beyond the line  → the face ends here: free
+//!   /      \===o  /                   short of it      → something hides the rest: occluded
+//! run      the ends                   no return        → nobody knows: out of range
+//! ```
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::extract::{Hit, Run};
+use super::line::{Line, ROUGHNESS};
+use super::sensor::Sensor;
+use crate::segment::{Covariance, Cut, End, Segment, Truth};
+
+/// Sine of the least angle between two faces that make a corner.
+const FLAT: f64 = 0.12;
+/// Deviations that tell "beyond the line" and "short of it" from "on it".
+const CLEAR: f64 = 4.0;
+
+/// One end of a run on its way to be the end of a segment: its errors are `lever` times the line's error across itself
+/// at `place`, and what has covariance `own` besides.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
+    end: End,
+    point: Vector2<f64>,
+    place: f64,
+    lever: Vector2<f64>,
+    own: Matrix2<f64>,
+}
+
+/// The segments of the runs, in their order.
+pub(crate) fn segments(
+    sensor: &Sensor,
+    ranges: &[f64],
+    hits: &[Hit],
+    runs: &[Run],
+    into: &mut Vec<Segment<2>>,
+) {
+    let mut joined: Option<Tip> = None;
+    let closing = match (runs.first(), runs.last()) {
+        (Some(first), Some(last)) if sensor.is_closed() && runs.len() > 2 => {
+            corner(sensor, ranges, hits, last, first)
+        }
+        _ => None,
+    };
+    for (index, run) in runs.iter().enumerate() {
+        let start = if index == 0 { closing.map(|(_, second)| second) } else { joined };
+        let start = start.unwrap_or_else(|| tip(sensor, ranges, hits, run, false));
+        let next = match runs.get(index + 1) {
+            Some(next) => corner(sensor, ranges, hits, run, next),
+            None => closing,
+        };
+        joined = next.map(|(_, second)| second);
+        let end = next.map_or_else(|| tip(sensor, ranges, hits, run, true), |(first, _)| first);
+        into.push(segment(&run.line, &start, &end));
+    }
+}
+
+fn segment(line: &Line, start: &Tip, end: &Tip) -> Segment<2> {
+    let of =
+        |tip: &Tip| tip.own + tip.lever * tip.lever.transpose() * line.across(tip.place, tip.place);
+    let cross = start.lever * end.lever.transpose() * line.across(start.place, end.place);
+    let covariance = Covariance { start: of(start), end: of(end), cross };
+    Segment { start: start.point, end: end.point, ends: [start.end, end.end], covariance }
+}
+
+/// Where two runs that follow each other meet, as the end of the first and the start of the second.
+fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Option<(Tip, Tip)> {
+    let (last, first) = (&hits[a.to - 1], &hits[b.from]);
+    let count = sensor.count() as u32;
+    let gap = (first.beam + count - last.beam) % count;
+    if gap > 2 {
+        return None;
+    }
+    let (one, two) = (&a.line, &b.line);
+    let sine = one.direction.perp(&two.direction);
+    if sine.abs() < FLAT {
+        return None;
+    }
+    let apart = two.centre - one.centre;
+    let (place, second_place) =
+        (apart.perp(&two.direction) / sine, apart.perp(&one.direction) / sine);
+    let point = one.at(place);
+    // Between the beams beside the border, one beam of tolerance on each side.
+    let low = sensor.directions[((last.beam + count - 1) % count) as usize];
+    let high = sensor.directions[((first.beam + 1) % count) as usize];
+    let open = !sensor.is_closed();
+    let inner = (open && last.beam == 0) || low.perp(&point) >= 0.0;
+    let outer = (open && first.beam + 1 == count) || point.perp(&high) >= 0.0;
+    let ahead = point.dot(&(last.p + first.p)) > 0.0;
+    let order = place > one.place(hits[a.from].p) && second_place < two.place(hits[b.to - 1].p);
+    if !(inner && outer && ahead && order) {
+        return None;
+    }
+    if gap == 2 {
+        // A return that no line took lies between: the faces meet only if it went no farther than their corner.
+        let between = ranges[((last.beam + 1) % count) as usize];
+        let room = (first.p - last.p).norm() + CLEAR * sensor.noise.along(between).sqrt();
+        if sensor.returned(between) && (between - point.norm()).abs() > room {
+            return None;
+        }
+    }
+    // N x = d with N of both normals: an error of the first line moves the corner along the second, and conversely.
+    let slide_one = -two.direction / sine;
+    let slide_two = one.direction / sine;
+    let own_one = slide_two * slide_two.transpose() * two.across(second_place, second_place);
+    let own_two = slide_one * slide_one.transpose() * one.across(place, place);
+    // Two points make a line, but not a face: where it meets another is a vertex of the contour and no more.
+    let bend = CLEAR * CLEAR * (one.turning() + two.turning());
+    let end = if one.count > 2.0 && two.count > 2.0 && sine * sine > bend {
+        End::True(Truth::Corner)
+    } else {
+        End::Cut(Cut::Unclear)
+    };
+    Some((
+        Tip { end, point, place, lever: slide_one, own: own_one },
+        Tip { end, point, place: second_place, lever: slide_two, own: own_two },
+    ))
+}
+
+/// The end of a run that meets no other: of its last point, or of its first.
+fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) -> Tip {
+    let line = &run.line;
+    let hit = if after { &hits[run.to - 1] } else { &hits[run.from] };
+    let beam = hit.beam as usize;
+    let count = sensor.count().min(ranges.len());
+    let place = likeliest(sensor, line, hit);
+    let u = sensor.directions[beam];
+    let (forth, side) = (u.dot(&line.direction), u.perp(&line.direction));
+    let bearing = sensor.noise.bearing * hit.r;
+    let mut along =
+        sensor.noise.along(hit.r).mul_add(forth * forth, bearing * bearing * side * side);
+    // Nothing was seen farther than half a beam beside the last one.
+    let half = if after { 0.5 * sensor.step } else { -0.5 * sensor.step };
+    let border = Vector2::new((-u.y).mul_add(half, u.x), u.x.mul_add(half, u.y));
+    let farthest = line.range(border);
+    let place = match line.place(border * farthest) {
+        limit if farthest > 0.0 && after => place.min(limit),
+        limit if farthest > 0.0 => place.max(limit),
+        _ => place,
+    };
+    let mut place_of_end = place;
+    let beside = |steps: usize| match (after, sensor.is_closed() && count == sensor.count()) {
+        (true, true) => Some((beam + steps) % count),
+        (false, true) => Some((beam + count - steps) % count),
+        (true, false) => Some(beam + steps).filter(|beam| *beam < count),
+        (false, false) => beam.checked_sub(steps),
+    };
+    // One beam farther than the line is a spike; two are a view past it.
+    let back = |beam: usize| {
+        let (found, on_line) = (ranges[beam], line.range(sensor.directions[beam]));
+        (found - on_line).abs() < CLEAR * sensor.noise.along(found).sqrt()
+    };
+    let end = match beside(1) {
+        None => End::Cut(Cut::Field),
+        // A single lost return says nothing: the next one is asked.
+        Some(next) => {
+            let next = if sensor.returned(ranges[next]) { Some(next) } else { beside(2) };
+            match next.filter(|next| sensor.returned(ranges[*next])) {
+                None => End::Cut(Cut::Range),
+                Some(next) => {
+                    let (found, on_line) = (ranges[next], line.range(sensor.directions[next]));
+                    let noise = CLEAR * sensor.noise.along(found).sqrt();
+                    let reach = line.place(sensor.directions[next] * on_line);
+                    let gap = if after { reach - place } else { place - reach };
+                    if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise {
+                        End::Cut(Cut::Occluded)
+                    } else if on_line > 0.0
+                        && gap > 0.0
+                        && found > on_line + noise
+                        && !beside(2).is_some_and(|second| back(second))
+                    {
+                        // The face ends somewhere between two beams.
+                        let between = (u + sensor.directions[next]).normalize();
+                        place_of_end = line.place(between * line.range(between));
+                        along += gap * gap / 12.0 + (place_of_end - 0.5 * (place + reach)).powi(2);
+                        End::True(Truth::Free)
+                    } else {
+                        End::Cut(Cut::Unclear)
+                    }
+                }
+            }
+        }
+    };
+    let t = line.direction;
+    let own = t * t.transpose() * along;
+    Tip { end, point: line.at(place_of_end), place: place_of_end, lever: line.normal(), own }
+}
+
+/// Where on the line a hit most likely was: along its beam it errs more than across it.
+fn likeliest(sensor: &Sensor, line: &Line, hit: &Hit) -> f64 {
+    let u = sensor.directions[hit.beam as usize];
+    let (n, t) = (line.normal(), line.direction);
+    let bearing = sensor.noise.bearing * hit.r;
+    let (along, across) = (sensor.noise.along(hit.r), bearing * bearing);
+    // C n of the hit's covariance C = along·u uᵀ + across·(1 − u uᵀ) + roughness, over nᵀ C n.
+    let (un, ut) = (u.dot(&n), u.dot(&t));
+    let own = (along - across).mul_add(un * un, across + ROUGHNESS * ROUGHNESS);
+    let slide = (along - across) * un * ut / own;
+    line.place(hit.p) - slide * n.dot(&(hit.p - line.centre))
+}

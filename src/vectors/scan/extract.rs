@@ -1,0 +1,395 @@
+//! From the ranges of one scan to runs of points, each of them one straight line.
+//!
+//! 1. Returns become points; a single spike or a single lost return tears no line.
+//! 2. Breakpoints adapt to the range (Borges and Aldon 2004): from a point at range r the next may lie as far as a face
+//!    seen under at least λ would have it, r·sin Δφ / sin(λ − Δφ), and three deviations of noise.
+//! 3. Between breakpoints, iterative end-point fit: the point farthest from the chord splits, where its distance is
+//!    more than noise explains.
+//! 4. A point at a border goes to the line that it lies nearer to; neighbours that one line explains as well are one,
+//!    over a breakpoint too (a wall seen at a grazing angle is torn by its own perspective).
+
+use nalgebra::Vector2;
+
+use super::ends;
+use super::line::{Line, Sums};
+use super::sensor::Sensor;
+use crate::segment::Segment;
+
+/// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
+const OBLIQUE: f64 = 0.175;
+/// A point this many deviations off its chord splits it.
+const SPLIT: f64 = 4.0;
+/// What joining two lines may cost, in squared deviations.
+const JOIN: f64 = 25.0;
+/// A last point this many deviations off its line is none of it.
+const TRIM: f64 = 2.0;
+/// Fewest points of a segment.
+const FEWEST: usize = 2;
+
+/// One return.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hit {
+    pub(crate) p: Vector2<f64>,
+    pub(crate) r: f64,
+    pub(crate) beam: u32,
+}
+
+/// The points `from..to`, seen as one straight line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Run {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    pub(crate) line: Line,
+}
+
+/// Finds segments in scans; keeps its buffers from scan to scan.
+#[derive(Debug, Default, Clone)]
+pub struct Extractor {
+    pub(crate) hits: Vec<Hit>,
+    pub(crate) sums: Vec<Sums>,
+    clusters: Vec<usize>,
+    chords: Vec<(usize, usize)>,
+    pub(crate) runs: Vec<Run>,
+    spikes: Vec<u32>,
+    segments: Vec<Segment<2>>,
+}
+
+impl Extractor {
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The segments of a scan, counter-clockwise, in the sensor's frame. `ranges` are cm, one a beam; one that is not a
+    /// number or outside the sensor's reach is no return. Beams without a range, or ranges without a beam, are passed
+    /// over.
+    pub fn segments(&mut self, sensor: &Sensor, ranges: &[f64]) -> &[Segment<2>] {
+        let closed = sensor.is_closed() && ranges.len() >= sensor.count();
+        self.find(sensor, ranges, if closed { seam(sensor, ranges) } else { 0 });
+        if closed && self.runs.len() > 1 && self.seam_cuts(sensor) {
+            let start = self.surest_border();
+            self.find(sensor, ranges, start);
+        }
+        self.trim(sensor);
+        self.runs.retain(|run| run.to - run.from >= FEWEST);
+        self.bridge();
+        self.segments.clear();
+        ends::segments(sensor, ranges, &self.hits, &self.runs, &mut self.segments);
+        &self.segments
+    }
+
+    /// Steps 1 to 4, beginning at a beam.
+    fn find(&mut self, sensor: &Sensor, ranges: &[f64], start: usize) {
+        self.gather(sensor, ranges, start);
+        self.split(sensor);
+        self.settle(sensor);
+        self.merge(sensor);
+        self.share_out(sensor);
+    }
+
+    /// The first and the last line may be one: what begins and ends at the seam is near, or lies on one line.
+    fn seam_cuts(&self, sensor: &Sensor) -> bool {
+        let (first, last) = (&self.runs[0], &self.runs[self.runs.len() - 1]);
+        let gap = (self.hits[first.from].p - self.hits[last.to - 1].p).norm();
+        let facing = first.line.direction.dot(&last.line.direction) > 0.9;
+        let off = last.line.direction.perp(&(first.line.centre - last.line.centre)).abs();
+        gap < 0.2f64.mul_add(self.hits[first.from].r, 10.0) || (facing && off < 20.0)
+    }
+
+    /// The beam at which the line begins whose direction differs most from the line before it, both long: a border that
+    /// was found, not one that the seam made.
+    fn surest_border(&self) -> usize {
+        let long = |run: &Run| if run.to - run.from > 3 { 1.0 } else { 0.1 };
+        let turn = |at: &usize| {
+            let (a, b) = (&self.runs[*at - 1], &self.runs[*at]);
+            a.line.direction.perp(&b.line.direction).abs() * long(a) * long(b)
+        };
+        let at = (1..self.runs.len()).max_by(|a, b| turn(a).total_cmp(&turn(b))).unwrap_or(0);
+        self.hits[self.runs[at].from].beam as usize
+    }
+
+    /// Beams whose returns lie off the segment that the last scan's neighbours of theirs make: single spikes over which a
+    /// line goes on.
+    #[must_use]
+    pub fn bridged(&self) -> &[u32] {
+        &self.spikes
+    }
+
+    /// Spikes that no run bridges are forgotten.
+    fn bridge(&mut self) {
+        let (hits, runs) = (&self.hits, &self.runs);
+        self.spikes.retain(|spike| {
+            runs.iter().any(|run| {
+                let (first, last) = (hits[run.from].beam, hits[run.to - 1].beam);
+                if first <= last {
+                    first < *spike && *spike < last
+                } else {
+                    *spike > first || *spike < last
+                }
+            })
+        });
+    }
+
+    /// Steps 1 and 2: hits, their sums, and where the clusters begin.
+    fn gather(&mut self, sensor: &Sensor, ranges: &[f64], start: usize) {
+        self.hits.clear();
+        self.sums.clear();
+        self.clusters.clear();
+        self.spikes.clear();
+        self.sums.push(Sums::default());
+        let count = sensor.count().min(ranges.len());
+        let range = |beam: usize| ranges[if beam >= count { beam - count } else { beam }];
+        let wider = |beams: f64| {
+            let turn = beams * sensor.step;
+            turn.sin() / (OBLIQUE.max(1.5 * turn) - turn).sin()
+        };
+        let reach = [0.0, wider(1.0), wider(2.0)];
+        for place in start..start + count {
+            let beam = if place >= count { place - count } else { place };
+            let r = range(beam);
+            if !sensor.returned(r) {
+                continue;
+            }
+            if place > start && place + 1 < start + count {
+                let (before, after) = (range(place - 1), range(place + 1));
+                if is_spike(sensor, before, r, after) {
+                    self.spikes.push(beam as u32);
+                    continue;
+                }
+            }
+            let p = sensor.directions[beam] * r;
+            let torn = self.hits.last().is_none_or(|last| {
+                let before = if last.beam as usize > beam {
+                    last.beam as usize
+                } else {
+                    last.beam as usize + count
+                };
+                let gap = (beam + count - before) % count;
+                let gap = if gap == 0 { count } else { gap };
+                if gap > 2 {
+                    return true;
+                }
+                let far = last.r.min(r).mul_add(reach[gap], 3.0 * sensor.noise.along(r).sqrt());
+                (p - last.p).norm_squared() > far * far
+            });
+            if torn {
+                self.clusters.push(self.hits.len());
+            }
+            let sums = self.sums[self.hits.len()].and(p, r);
+            self.sums.push(sums);
+            self.hits.push(Hit { p, r, beam: beam as u32 });
+        }
+        self.clusters.push(self.hits.len());
+    }
+
+    /// Step 3.
+    fn split(&mut self, sensor: &Sensor) {
+        self.runs.clear();
+        for pair in 0..self.clusters.len() - 1 {
+            let (from, to) = (self.clusters[pair], self.clusters[pair + 1]);
+            self.chords.clear();
+            self.chords.push((from, to));
+            while let Some((from, to)) = self.chords.pop() {
+                match farthest(&self.hits[from..to], sensor) {
+                    Some(at) => {
+                        // The vertex goes to what follows; step 4 may give it back.
+                        self.chords.push((from + at, to));
+                        self.chords.push((from, from + at));
+                    }
+                    None => self.runs.push(self.run(from, to, sensor)),
+                }
+            }
+        }
+    }
+
+    fn run(&self, from: usize, to: usize, sensor: &Sensor) -> Run {
+        let mut line = Line::through(&self.sums, from, to, &sensor.noise);
+        if (self.hits[to - 1].p - self.hits[from].p).dot(&line.direction) < 0.0 {
+            line.direction = -line.direction;
+        }
+        Run { from, to, line }
+    }
+
+    /// Step 4, first half: points at the borders.
+    fn settle(&mut self, sensor: &Sensor) {
+        for left in 0..self.runs.len().saturating_sub(1) {
+            let (a, b) = (self.runs[left], self.runs[left + 1]);
+            if a.to != b.from || a.to - a.from < 3 || b.to - b.from < 3 {
+                continue;
+            }
+            let off =
+                |run: &Run, p: Vector2<f64>| run.line.direction.perp(&(p - run.line.centre)).abs();
+            let mut border = a.to;
+            while border + 2 < b.to && off(&a, self.hits[border].p) < off(&b, self.hits[border].p) {
+                border += 1;
+            }
+            if border == a.to {
+                while border > a.from + 2
+                    && off(&b, self.hits[border - 1].p) < off(&a, self.hits[border - 1].p)
+                {
+                    border -= 1;
+                }
+            }
+            if border != a.to {
+                self.runs[left] = self.run(a.from, border, sensor);
+                self.runs[left + 1] = self.run(border, b.to, sensor);
+            }
+        }
+    }
+
+    /// A few points between two longer lines, each of which lies on one of the two, are no line of their own: the
+    /// border was found some points beside the corner.
+    fn share_out(&mut self, sensor: &Sensor) {
+        let mut kept = 0;
+        let mut next = 0;
+        while next < self.runs.len() {
+            let run = self.runs[next];
+            let (from, to) = (run.from, run.to);
+            let sides = (kept > 0 && next + 1 < self.runs.len() && to - from < 4)
+                .then(|| (self.runs[kept - 1], self.runs[next + 1]))
+                .filter(|(a, b)| a.to - a.from > 3 && b.to - b.from > 3 && !self.is_torn(a, &run))
+                .filter(|(_, b)| !self.is_torn(&run, b));
+            let on = |run: &Run, at: usize| {
+                let off = run.line.direction.perp(&(self.hits[at].p - run.line.centre));
+                off * off < SPLIT * SPLIT * run.line.expected
+            };
+            let border = sides.and_then(|(a, b)| {
+                let of_a = (from..to).take_while(|at| on(&a, *at)).count();
+                (from + of_a..to).all(|at| on(&b, at)).then_some(from + of_a)
+            });
+            match (border, sides) {
+                (Some(border), Some((a, b))) => {
+                    self.runs[kept - 1] = self.run(a.from, border, sensor);
+                    self.runs[next + 1] = self.run(border, b.to, sensor);
+                }
+                _ => {
+                    self.runs[kept] = run;
+                    kept += 1;
+                }
+            }
+            next += 1;
+        }
+        self.runs.truncate(kept);
+    }
+
+    /// Points at the ends that lie off the line by more than noise belong to no line: half a beam on each of two faces.
+    fn trim(&mut self, sensor: &Sensor) {
+        for index in 0..self.runs.len() {
+            let Run { mut from, mut to, line } = self.runs[index];
+            let limit = TRIM * TRIM * line.variance();
+            let off = |p: Vector2<f64>| {
+                let across = line.direction.perp(&(p - line.centre));
+                across * across > limit
+            };
+            while to - from > FEWEST && off(self.hits[from].p) {
+                from += 1;
+            }
+            while to - from > FEWEST && off(self.hits[to - 1].p) {
+                to -= 1;
+            }
+            if to - from < self.runs[index].to - self.runs[index].from {
+                self.runs[index] = self.run(from, to, sensor);
+            }
+        }
+    }
+
+    /// Too little on either side of a breakpoint to say that a line goes on over it: the greater of the two must be
+    /// longer than the gap. Three points beside a far fourth lie on some line always.
+    fn is_torn(&self, a: &Run, b: &Run) -> bool {
+        if self.clusters.binary_search(&b.from).is_err() {
+            return false;
+        }
+        let length = |run: &Run| {
+            let count = run.to - run.from;
+            if count < 4 { 0.0 } else { (self.hits[run.to - 1].p - self.hits[run.from].p).norm() }
+        };
+        let gap = (self.hits[b.from].p - self.hits[a.to - 1].p).norm();
+        gap > length(a).max(length(b))
+    }
+
+    /// Step 4, second half: neighbours that are one line.
+    fn merge(&mut self, sensor: &Sensor) {
+        let mut kept: usize = 0;
+        for next in 0..self.runs.len() {
+            let mut run = self.runs[next];
+            while kept > 0 {
+                let before = self.runs[kept - 1];
+                let beams = self.hits[run.from].beam.wrapping_sub(self.hits[before.to - 1].beam);
+                if run.to - before.from < 4 || beams > 2 {
+                    break;
+                }
+                if self.is_torn(&before, &run) {
+                    break;
+                }
+                let joint = self.run(before.from, run.to, sensor);
+                let cost = |line: &Line| line.sse / line.expected;
+                if cost(&joint.line) - cost(&before.line) - cost(&run.line) > JOIN {
+                    break;
+                }
+                run = joint;
+                kept -= 1;
+            }
+            self.runs[kept] = run;
+            kept += 1;
+        }
+        self.runs.truncate(kept);
+    }
+}
+
+/// Where to begin a closed scan: at its greatest jump, so that the beginning cuts no line.
+fn seam(sensor: &Sensor, ranges: &[f64]) -> usize {
+    let value = |beam: usize| {
+        let r = ranges[beam];
+        if sensor.returned(r) { r } else { sensor.farthest * 2.0 }
+    };
+    let count = sensor.count();
+    let jump = |beam: &usize| {
+        let before = if *beam == 0 { count - 1 } else { *beam - 1 };
+        (value(*beam) - value(before)).abs()
+    };
+    (0..count).max_by(|a, b| jump(a).total_cmp(&jump(b))).unwrap_or(0)
+}
+
+/// A return far from both its neighbours, which lie near each other.
+fn is_spike(sensor: &Sensor, before: f64, r: f64, after: f64) -> bool {
+    let (down, up) = (r - before, r - after);
+    if down * up <= 0.0 || !sensor.returned(before) || !sensor.returned(after) {
+        return false;
+    }
+    let apart = (before - after).abs();
+    let noise = 3.0 * sensor.noise.along(r).sqrt();
+    let least = down.abs().min(up.abs());
+    least > 4.0 * (apart + noise) && apart < before.mul_add(2.0 * sensor.step, noise)
+}
+
+/// The point farthest from the chord between the ends, if it is farther off than noise explains.
+fn farthest(hits: &[Hit], sensor: &Sensor) -> Option<usize> {
+    if hits.len() < 3 {
+        return None;
+    }
+    let (first, last) = (hits[0].p, hits[hits.len() - 1].p);
+    let chord = last - first;
+    let (mut best, mut off) = (0, 0.0);
+    for (at, hit) in hits.iter().enumerate().skip(1).take(hits.len() - 2) {
+        let across = chord.perp(&(hit.p - first)).abs();
+        if across > off {
+            (best, off) = (at, across);
+        }
+    }
+    if off == 0.0 {
+        return None;
+    }
+    // All three points err: the two ends together by at most as much again.
+    let (hit, square) = (hits[best], chord.norm_squared());
+    let noise = &sensor.noise;
+    let facing = if square > 0.0 {
+        let turn = chord.perp(&sensor.directions[hit.beam as usize]);
+        turn * turn / square
+    } else {
+        1.0
+    };
+    let bearing = noise.bearing * hit.r;
+    let variance = noise.along(hit.r).mul_add(facing, bearing * bearing * (1.0 - facing))
+        + super::line::ROUGHNESS * super::line::ROUGHNESS;
+    (off * off > SPLIT * SPLIT * 1.5 * variance * square).then_some(best)
+}

@@ -1,0 +1,129 @@
+//! Lines through runs of points, in constant time each, with their uncertainty.
+//!
+//! Sums over the points before each point are kept, so that the moments of a run are differences of two of them.
+//! The line minimises the squared distances across it (total least squares): its direction t is the greater axis of
+//! the scatter S, tan 2θ = 2 S_xy / (S_xx − S_yy), and what remains is the smaller eigenvalue,
+//! SSE = ½ (S_xx + S_yy − √((S_xx − S_yy)² + 4 S_xy²)).
+
+use nalgebra::Vector2;
+
+use super::sensor::Noise;
+
+/// Deviation of a wall from its plane, in cm: what no sensor is to blame for.
+pub(crate) const ROUGHNESS: f64 = 0.5;
+
+/// Sums over a run of points: number, x, y, x², xy, y², 1/r².
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sums {
+    x: f64,
+    y: f64,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    inverse: f64,
+}
+
+impl Sums {
+    pub(crate) fn and(&self, p: Vector2<f64>, r: f64) -> Self {
+        Self {
+            x: self.x + p.x,
+            y: self.y + p.y,
+            xx: p.x.mul_add(p.x, self.xx),
+            xy: p.x.mul_add(p.y, self.xy),
+            yy: p.y.mul_add(p.y, self.yy),
+            inverse: self.inverse + 1.0 / (r * r),
+        }
+    }
+}
+
+/// A line by total least squares.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Line {
+    pub(crate) count: f64,
+    pub(crate) centre: Vector2<f64>,
+    pub(crate) direction: Vector2<f64>,
+    /// Squared distances along the line from the centre, summed, in cm².
+    pub(crate) spread: f64,
+    /// Squared distances across the line, summed, in cm².
+    pub(crate) sse: f64,
+    /// Mean variance of one point across the line, as the sensor's noise has it, in cm².
+    pub(crate) expected: f64,
+}
+
+impl Line {
+    /// Through the points `from..to`, at least one.
+    pub(crate) fn through(sums: &[Sums], from: usize, to: usize, noise: &Noise) -> Self {
+        let (a, b) = (&sums[from], &sums[to]);
+        let count = (to - from) as f64;
+        let share = 1.0 / count;
+        let centre = Vector2::new((b.x - a.x) * share, (b.y - a.y) * share);
+        let xx = (b.xx - a.xx) - centre.x * centre.x * count;
+        let xy = (b.xy - a.xy) - centre.x * centre.y * count;
+        let yy = (b.yy - a.yy) - centre.y * centre.y * count;
+        let (sum, difference) = (xx + yy, xx - yy);
+        let root = (4.0 * xy).mul_add(xy, difference * difference).sqrt();
+        let direction = half_turn(difference, 2.0 * xy, root);
+        let sse = (0.5 * (sum - root)).max(0.0);
+        let spread = (0.5 * (sum + root)).max(1e-12);
+        // n·u of a point at distance r is d / r, with d the distance of the line: no sum over angles is needed.
+        let d = direction.perp(&centre);
+        let inverse = (b.inverse - a.inverse) * share;
+        let squares = ((b.xx - a.xx) + (b.yy - a.yy)) * share;
+        let facing = (d * d * inverse).min(1.0);
+        let along = noise.along(squares.sqrt());
+        let bearing = noise.bearing * noise.bearing;
+        let across = bearing.mul_add((squares - d * d).max(0.0), ROUGHNESS * ROUGHNESS);
+        Self { count, centre, direction, spread, sse, expected: along.mul_add(facing, across) }
+    }
+
+    /// To the left of the direction.
+    pub(crate) fn normal(&self) -> Vector2<f64> {
+        Vector2::new(-self.direction.y, self.direction.x)
+    }
+
+    /// Place along the line, from the centre.
+    pub(crate) fn place(&self, p: Vector2<f64>) -> f64 {
+        (p - self.centre).dot(&self.direction)
+    }
+
+    pub(crate) fn at(&self, place: f64) -> Vector2<f64> {
+        self.centre + self.direction * place
+    }
+
+    /// Where the beam along `u` meets the line: its range; infinite or negative where it does not.
+    pub(crate) fn range(&self, u: Vector2<f64>) -> f64 {
+        let n = self.normal();
+        n.dot(&self.centre) / n.dot(&u)
+    }
+
+    /// Variance of one point across the line, in cm²: what the noise expects, or what is found where that is more.
+    pub(crate) fn variance(&self) -> f64 {
+        let found = if self.count > 2.0 { self.sse / (self.count - 2.0) } else { 0.0 };
+        self.expected.max(found)
+    }
+
+    /// Variance of the line's direction, in rad².
+    pub(crate) fn turning(&self) -> f64 {
+        self.variance() / self.spread
+    }
+
+    /// Covariance of the line's errors across itself at the places `a` and `b`.
+    pub(crate) fn across(&self, a: f64, b: f64) -> f64 {
+        self.variance() * (1.0 / self.count + a * b / self.spread)
+    }
+}
+
+/// The unit vector at half the angle of (cos2·root, sin2·root), the greater axis.
+fn half_turn(difference: f64, twice: f64, root: f64) -> Vector2<f64> {
+    if root <= 0.0 {
+        return Vector2::new(1.0, 0.0);
+    }
+    // Of the two forms the one without cancellation.
+    let (x, y) = if difference >= 0.0 {
+        (root + difference, twice)
+    } else {
+        (twice.abs(), (root - difference).copysign(twice))
+    };
+    let length = x.hypot(y);
+    Vector2::new(x / length, y / length)
+}

@@ -1,0 +1,163 @@
+//! A range sensor: where its beams point, how far they reach, and how much they err.
+
+use miette::Diagnostic;
+use nalgebra::Vector2;
+use thiserror::Error;
+
+/// No sensor of this kind reaches farther, in cm: beyond it sums of squares lose what noise tells.
+const FARTHEST: f64 = 100_000.0;
+/// Beams of one turn that are still told apart.
+const MOST_BEAMS: usize = 1 << 16;
+
+/// What a sensor cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Error, Diagnostic)]
+pub enum SensorError {
+    /// Angles or the number of beams make no field of view.
+    #[error("{count} лучей через {step} рад от {first} рад – это не поле зрения")]
+    #[diagnostic(
+        code(vectors::sensor_field),
+        help("шаг больше нуля, лучей от 0 до 65536, вместе не больше полного оборота")
+    )]
+    Field { first: f64, step: f64, count: usize },
+    /// Nearest and farthest range make no interval.
+    #[error("дальность от {nearest} до {farthest} см невозможна")]
+    #[diagnostic(code(vectors::sensor_reach), help("0 ≤ ближняя < дальняя ≤ 100 000 см"))]
+    Reach { nearest: f64, farthest: f64 },
+    /// A deviation is no positive number.
+    #[error("погрешность {0} невозможна")]
+    #[diagnostic(code(vectors::sensor_noise), help("дальность: больше 0 см; доля и угол: от 0"))]
+    Noise(f64),
+}
+
+/// Deviations of one measurement: √(range² + (share·r)²) cm along the beam, `bearing` rad across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// In cm; what a resolution of the ranges adds is in it.
+    pub range: f64,
+    /// Of the range.
+    pub share: f64,
+    /// In rad.
+    pub bearing: f64,
+}
+
+impl Default for Noise {
+    /// A SICK LMS as the logs of mobile robots have it: 1 cm of noise, ranges in whole centimetres.
+    fn default() -> Self {
+        Self { range: 1.0, share: 0.0, bearing: 0.001 }
+    }
+}
+
+impl Noise {
+    /// Variance along the beam at range `r`, in cm².
+    #[must_use]
+    pub fn along(&self, r: f64) -> f64 {
+        (self.share * r).mul_add(self.share * r, self.range * self.range)
+    }
+}
+
+/// Beams in one plane, counter-clockwise, evenly spaced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    pub(crate) directions: Vec<Vector2<f64>>,
+    pub(crate) first: f64,
+    pub(crate) step: f64,
+    pub(crate) nearest: f64,
+    pub(crate) farthest: f64,
+    pub(crate) noise: Noise,
+    closed: bool,
+}
+
+impl Sensor {
+    /// `count` beams, the first at `first` rad, each `step` rad further counter-clockwise; `reach` is the nearest and
+    /// the farthest range in cm: what is not between them is no return.
+    ///
+    /// # Errors
+    /// [`SensorError`].
+    pub fn new(
+        first: f64,
+        step: f64,
+        count: usize,
+        reach: (f64, f64),
+        noise: Noise,
+    ) -> Result<Self, SensorError> {
+        let turn = step * count.saturating_sub(1) as f64;
+        let field = first.is_finite() && step > 0.0 && turn <= std::f64::consts::TAU + 1e-6;
+        if !field || first.abs() > 100.0 || count > MOST_BEAMS {
+            return Err(SensorError::Field { first, step, count });
+        }
+        let (nearest, farthest) = reach;
+        if !(nearest >= 0.0 && nearest < farthest && farthest <= FARTHEST) {
+            return Err(SensorError::Reach { nearest, farthest });
+        }
+        let fault = [
+            (noise.range, noise.range > 0.0 && noise.range <= FARTHEST),
+            (noise.share, (0.0..=1.0).contains(&noise.share)),
+            (noise.bearing, (0.0..=1.0).contains(&noise.bearing)),
+        ];
+        if let Some((value, _)) = fault.into_iter().find(|(_, holds)| !holds) {
+            return Err(SensorError::Noise(value));
+        }
+        let direction = |beam: usize| {
+            let (sin, cos) = (step.mul_add(beam as f64, first)).sin_cos();
+            Vector2::new(cos, sin)
+        };
+        let directions = (0..count).map(direction).collect();
+        let closed = count > 2 && std::f64::consts::TAU - turn <= 1.5 * step;
+        Ok(Self { directions, first, step, nearest, farthest, noise, closed })
+    }
+
+    /// Number of beams.
+    #[must_use]
+    pub const fn count(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// Unit vectors of the beams.
+    #[must_use]
+    pub fn directions(&self) -> &[Vector2<f64>] {
+        &self.directions
+    }
+
+    /// Bearing of a beam, in rad.
+    #[must_use]
+    pub fn bearing(&self, beam: usize) -> f64 {
+        self.step.mul_add(beam as f64, self.first)
+    }
+
+    /// Angle between neighbouring beams, in rad.
+    #[must_use]
+    pub const fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Nearest and farthest range, in cm.
+    #[must_use]
+    pub const fn reach(&self) -> (f64, f64) {
+        (self.nearest, self.farthest)
+    }
+
+    #[must_use]
+    pub const fn noise(&self) -> Noise {
+        self.noise
+    }
+
+    /// The same beams with another noise.
+    ///
+    /// # Errors
+    /// [`SensorError::Noise`].
+    pub fn with_noise(self, noise: Noise) -> Result<Self, SensorError> {
+        Self::new(self.first, self.step, self.count(), self.reach(), noise)
+    }
+
+    /// The last beam borders on the first: all around is seen.
+    #[must_use]
+    pub const fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Whether a range is a return. NaN and infinities are none.
+    #[must_use]
+    pub fn returned(&self, range: f64) -> bool {
+        range > self.nearest && range < self.farthest
+    }
+}
