@@ -20,7 +20,7 @@ const OWN: f64 = 20.0;
 /// Parts that one thing falls into at one step.
 const MOST: usize = 8;
 /// Candidate motions looked at per part.
-const CANDIDATES: usize = 96;
+const CANDIDATES: usize = 48;
 
 /// Segments that moved as one.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,16 +69,21 @@ const fn parameters<const D: usize>() -> u32 {
     if D == 2 { 3 } else { 6 }
 }
 
-/// Squared distance of every pair under a motion, at most [`CAP`], and its degrees of freedom.
+/// Squared distance of a pair under a motion, at most [`CAP`], and its degrees of freedom.
+fn distance<const D: usize>(
+    (before, after): &(Segment<D>, Segment<D>),
+    motion: &Motion<D>,
+) -> (f64, u32) {
+    let residual = Residual::between(&before.moved(motion), after);
+    residual.map_or((CAP, 2 * D as u32), |r| (r.squared().min(CAP), r.freedom))
+}
+
+/// Of every pair.
 fn squared<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     motion: &Motion<D>,
 ) -> Vec<(f64, u32)> {
-    let one = |(before, after): &(Segment<D>, Segment<D>)| {
-        let residual = Residual::between(&before.moved(motion), after);
-        residual.map_or((CAP, 2 * D as u32), |r| (r.squared().min(CAP), r.freedom))
-    };
-    pairs.iter().map(one).collect()
+    pairs.iter().map(|pair| distance(pair, motion)).collect()
 }
 
 /// The motion of some pairs together, from a first one.
@@ -130,40 +135,77 @@ where
     let runs = (count * (count + 1) / 2) as f64;
     let law = ChiSquared::new(f64::from(parameters::<D>())).expect("a motion has parameters");
     let least = law.inverse_cdf(1.0 - FALSE_SPLIT / runs);
-    let mut best = Split { motions: Vec::new(), labels: vec![0; count], squared: vec![CAP; count] };
+    let mut best = first(pairs, next, guess);
     while best.motions.len() < MOST {
+        // Where what is known explains well, little can be gained.
+        let poor: Vec<usize> =
+            (0..count).filter(|&k| best.squared[k] > f64::from(2 * D as u32)).collect();
         let gain = |motion: &Motion<D>| -> f64 {
-            squared(pairs, motion).iter().zip(&best.squared).map(|(r, l)| (l - r.0).max(0.0)).sum()
+            poor.iter().map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
         };
-        let mut candidates = candidates(pairs, next, &best.squared);
-        if best.motions.is_empty() {
-            candidates.push(*guess);
-        }
+        let candidates = candidates(pairs, next, &best.squared);
         let found =
             candidates.into_iter().map(|m| (gain(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, mut motion)) = found else { break };
         // What it explains better than those before, it is fitted to.
         for _ in 0..3 {
-            let better =
-                |(k, r): (usize, &(f64, u32))| (r.0 < best.squared[k].min(OWN)).then_some(k);
-            let own: Vec<usize> =
-                squared(pairs, &motion).iter().enumerate().filter_map(better).collect();
+            let own: Vec<usize> = poor
+                .iter()
+                .copied()
+                .filter(|&k| distance(&pairs[k], &motion).0 < best.squared[k].min(OWN))
+                .collect();
             let Some(next) = fitted(pairs, &own, &motion).filter(|m| gain(m) >= gain(&motion))
             else {
                 break;
             };
             motion = next;
         }
+        // Neighbours that it takes along, and the others' better fit, can add to that, but not so much.
+        if gain(&motion) < 0.7 * least {
+            break;
+        }
         let mut motions = best.motions.clone();
         motions.push(motion);
         let more = settle(pairs, next, motions);
         let saved = best.squared.iter().sum::<f64>() - more.squared.iter().sum::<f64>();
-        if !best.motions.is_empty() && saved < least {
+        if saved < least {
             break;
         }
         best = more;
     }
     best
+}
+
+/// The motion that explains most: the guess, where it explains more than half, else the best of the candidates.
+fn first<const D: usize>(
+    pairs: &[(Segment<D>, Segment<D>)],
+    next: &[Option<usize>],
+    guess: &Motion<D>,
+) -> Split<D>
+where
+    Euclid<D>: Space<D>,
+{
+    let explains =
+        |motion: &Motion<D>| -> f64 { squared(pairs, motion).iter().map(|r| CAP - r.0).sum() };
+    let own = |motion: &Motion<D>| -> Vec<usize> {
+        squared(pairs, motion)
+            .iter()
+            .enumerate()
+            .filter(|(_, r)| r.0 < OWN)
+            .map(|(k, _)| k)
+            .collect()
+    };
+    let mut motion = *guess;
+    let mut members = own(&motion);
+    if 2 * members.len() <= pairs.len() {
+        let mut all = candidates(pairs, next, &vec![CAP; pairs.len()]);
+        all.push(*guess);
+        let found = all.into_iter().map(|m| (explains(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
+        motion = found.map_or(*guess, |f| f.1);
+        members = own(&motion);
+    }
+    motion = fitted(pairs, &members, &motion).unwrap_or(motion);
+    settle(pairs, next, vec![motion])
 }
 
 /// Assigns pairs to motions and fits the motions to their pairs, in turn.
@@ -180,16 +222,21 @@ where
     };
     let mut now = costs(&motions);
     let mut labels = assign(&now, next);
+    let mut fitted_to: Vec<Vec<usize>> = vec![Vec::new(); motions.len()];
     // Assignment and fit both lower one sum, up to what the caps hide: it settles, or nearly.
     for _ in 0..6 {
         for (m, motion) in motions.iter_mut().enumerate() {
             let own: Vec<usize> =
                 (0..pairs.len()).filter(|&k| labels[k] == m && now[m][k] < OWN).collect();
+            if own == fitted_to[m] {
+                continue;
+            }
             if let Some(better) = fitted(pairs, &own, motion) {
                 *motion = better;
+                now[m] = squared(pairs, motion).into_iter().map(|r| r.0).collect();
             }
+            fitted_to[m] = own;
         }
-        now = costs(&motions);
         let again = assign(&now, next);
         if again == labels {
             break;
