@@ -17,6 +17,8 @@ const FALSE_SPLIT: f64 = 0.001;
 const CAP: f64 = 36.0;
 /// A squared distance within which a segment may belong to a motion that is still being fitted.
 const OWN: f64 = 20.0;
+/// A squared distance, per coordinate, from which on a segment is poorly explained: one in twenty by chance.
+const POOR: f64 = 2.4;
 /// Parts that one thing falls into at one step.
 const MOST: usize = 8;
 /// Candidate motions looked at per part.
@@ -107,7 +109,8 @@ where
         }
         let (next, step) = fit.step()?;
         motion = next;
-        if step < 0.01 {
+        // A tenth of a deviation decides nothing here.
+        if step < 0.1 {
             break;
         }
     }
@@ -139,7 +142,7 @@ where
     while best.motions.len() < MOST {
         // Where what is known explains well, little can be gained.
         let poor: Vec<usize> =
-            (0..count).filter(|&k| best.squared[k] > f64::from(2 * D as u32)).collect();
+            (0..count).filter(|&k| best.squared[k] > POOR * (2 * D) as f64).collect();
         let gain = |motion: &Motion<D>| -> f64 {
             poor.iter().map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
         };
@@ -187,24 +190,14 @@ where
 {
     let explains =
         |motion: &Motion<D>| -> f64 { squared(pairs, motion).iter().map(|r| CAP - r.0).sum() };
-    let own = |motion: &Motion<D>| -> Vec<usize> {
-        squared(pairs, motion)
-            .iter()
-            .enumerate()
-            .filter(|(_, r)| r.0 < OWN)
-            .map(|(k, _)| k)
-            .collect()
-    };
+    let fitting = squared(pairs, guess).iter().filter(|r| r.0 < OWN).count();
     let mut motion = *guess;
-    let mut members = own(&motion);
-    if 2 * members.len() <= pairs.len() {
+    if 2 * fitting <= pairs.len() {
         let mut all = candidates(pairs, next, &vec![CAP; pairs.len()]);
         all.push(*guess);
         let found = all.into_iter().map(|m| (explains(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
         motion = found.map_or(*guess, |f| f.1);
-        members = own(&motion);
     }
-    motion = fitted(pairs, &members, &motion).unwrap_or(motion);
     settle(pairs, next, vec![motion])
 }
 
@@ -319,7 +312,7 @@ where
     Euclid<D>: Space<D>,
 {
     let mut order: Vec<usize> =
-        (0..pairs.len()).filter(|&k| left[k] > f64::from(2 * D as u32 - 2)).collect();
+        (0..pairs.len()).filter(|&k| left[k] > POOR * (2 * D) as f64).collect();
     order.sort_by(|&a, &b| left[b].total_cmp(&left[a]));
     // Evenly among those that are explained equally badly.
     let stride = order.len().div_ceil(CANDIDATES / 3).max(1);
