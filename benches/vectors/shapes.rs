@@ -8,7 +8,7 @@ use orthoframe_vectors::{Cut, End, Model, Motion, Segment};
 
 /// How things are shaped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A ring of segments of any turn.
     Generic,
     /// A ring of right angles.
@@ -16,13 +16,13 @@ pub enum Kind {
 }
 
 /// A normal deviate (Box and Muller).
-pub fn normal(rng: &mut Rng) -> f64 {
+pub(crate) fn normal(rng: &mut Rng) -> f64 {
     let (u, v) = (1.0 - rng.f64(), rng.f64());
     (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
 }
 
 /// The corners of thing number `number`, `count` of them; faces of some 20 to 150 cm.
-pub fn corners(kind: Kind, number: u64, count: usize) -> Vec<Vector2<f64>> {
+pub(crate) fn corners(kind: Kind, number: u64, count: usize) -> Vec<Vector2<f64>> {
     let mut rng = Rng::with_seed(number.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5eed);
     match kind {
         Kind::Generic => {
@@ -65,7 +65,7 @@ pub fn corners(kind: Kind, number: u64, count: usize) -> Vec<Vector2<f64>> {
 }
 
 /// Thing number `number` without errors.
-pub fn thing(kind: Kind, number: u64, count: usize) -> Vec<Segment<2>> {
+pub(crate) fn thing(kind: Kind, number: u64, count: usize) -> Vec<Segment<2>> {
     ring(&corners(kind, number, count), 0.01)
 }
 
@@ -76,7 +76,7 @@ fn ring(corners: &[Vector2<f64>], sigma: f64) -> Vec<Segment<2>> {
 }
 
 /// The stored model of thing number `number`: known to `sigma` cm, and off by as much.
-pub fn stored(kind: Kind, number: u64, count: usize, sigma: f64) -> Model<2> {
+pub(crate) fn stored(kind: Kind, number: u64, count: usize, sigma: f64) -> Model<2> {
     let mut rng = Rng::with_seed(number ^ 0xabcd_ef01);
     let noisy: Vec<Vector2<f64>> = corners(kind, number, count)
         .into_iter()
@@ -87,7 +87,7 @@ pub fn stored(kind: Kind, number: u64, count: usize, sigma: f64) -> Model<2> {
 
 /// What hides a part of a thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hiding {
+pub(crate) enum Hiding {
     /// One side is turned away: what is seen is one run of the contour, its ends cut.
     Side,
     /// Things stand before it, here and there.
@@ -96,7 +96,7 @@ pub enum Hiding {
 
 /// A view of a thing from somewhere, each end with error `sigma`, a share of its segments hidden; and the motion that
 /// carries the view back into the thing's frame.
-pub fn view(
+pub(crate) fn view(
     thing: &[Segment<2>],
     hidden: f64,
     hiding: Hiding,
@@ -147,7 +147,7 @@ pub fn view(
 }
 
 /// Thing number `number` in space: a bent chain of `count` bars.
-pub fn chain(number: u64, count: usize, sigma: f64) -> Model<3> {
+pub(crate) fn chain(number: u64, count: usize, sigma: f64) -> Model<3> {
     let mut rng = Rng::with_seed(number ^ 0x3d);
     let mut at = Vector3::zeros();
     let segments = (0..count)
@@ -163,7 +163,7 @@ pub fn chain(number: u64, count: usize, sigma: f64) -> Model<3> {
 }
 
 /// A view of a run of bars from somewhere in space.
-pub fn view_of_chain(
+pub(crate) fn view_of_chain(
     thing: &Model<3>,
     seen: usize,
     sigma: f64,

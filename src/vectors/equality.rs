@@ -51,8 +51,8 @@ pub struct Residual<const D: usize> {
     pub freedom: u32,
     /// Along the segment, for start and end: whether the place of the end was compared.
     pub compared: [bool; 2],
-    /// ln |R| over what was measured.
-    log_determinant: f64,
+    /// |R|, with [`UNMEASURED`] for each coordinate that was not.
+    determinant: f64,
 }
 
 impl<const D: usize> Residual<D> {
@@ -100,15 +100,14 @@ impl<const D: usize> Residual<D> {
         let second = rest.try_inverse()?;
         cross = -(inverse * cross * second);
         let first = inverse + gain.transpose() * second * gain;
-        let unmeasured = f64::from(2 * D as u32 - freedom) * UNMEASURED.ln();
-        let log_determinant = log_volume(&r[0]) + log_volume(&rest) - unmeasured;
+        let determinant = determinant(&r[0]) * determinant(&rest);
         Some(Self {
             start: x[0],
             end: x[1],
             information: [first, second, cross],
             freedom,
             compared,
-            log_determinant,
+            determinant,
         })
     }
 
@@ -131,17 +130,18 @@ impl<const D: usize> Residual<D> {
     #[must_use]
     pub fn log_density(&self) -> f64 {
         let turns = f64::from(self.freedom) * std::f64::consts::TAU.ln();
-        -0.5 * (self.squared() + turns + self.log_determinant)
+        let unmeasured = f64::from(2 * D as u32 - self.freedom) * UNMEASURED.ln();
+        -0.5 * (self.squared() + turns + self.determinant.max(f64::MIN_POSITIVE).ln() - unmeasured)
     }
 }
 
-/// ln |m| of a positive matrix, by elimination: nalgebra's own determinant asks for bounds that `D` cannot give.
-fn log_volume<const D: usize>(m: &SMatrix<f64, D, D>) -> f64 {
+/// |m| of a positive matrix, by elimination: nalgebra's own determinant asks for bounds that `D` cannot give.
+fn determinant<const D: usize>(m: &SMatrix<f64, D, D>) -> f64 {
     let mut m = *m;
-    let mut sum = 0.0;
+    let mut product = 1.0;
     for k in 0..D {
         let pivot = m[(k, k)].max(f64::MIN_POSITIVE);
-        sum += pivot.ln();
+        product *= pivot;
         for i in k + 1..D {
             let factor = m[(i, k)] / pivot;
             for j in k..D {
@@ -150,7 +150,7 @@ fn log_volume<const D: usize>(m: &SMatrix<f64, D, D>) -> f64 {
             }
         }
     }
-    sum
+    product
 }
 
 /// By what the residual of two segments is measured.

@@ -47,11 +47,6 @@ impl<const D: usize> Locator<D> {
         Self { cell, entries, directory, shift }
     }
 
-    /// Side of a cell, in cm.
-    pub(crate) const fn cell(&self) -> f64 {
-        self.cell
-    }
-
     /// Adds to `found` every segment that passes within `reach` of `point`, and some others; sorted, each once.
     pub(crate) fn near(&self, point: &SVector<f64, D>, reach: f64, found: &mut Vec<u32>) {
         let low = point.map(|x| ((x - reach) / self.cell - 0.5).floor() as i64);

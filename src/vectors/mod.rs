@@ -51,7 +51,7 @@ pub use identify::{
 pub use invariants::{Pair, Ratio, Triple, Turn};
 pub use model::{Membership, Model};
 pub use motion::{Euclid, Motion, Space, Transition};
-pub use observe::{Image, Loss, Observation, Sensor, project};
+pub use observe::{Image, Loss, Observation, Observer, project};
 pub use polyline::{Course, polyline};
 pub use scene::{
     Body, Change, Leaf, Node, Odometry, Owner, Part, Report, Scene, Thing, TreeNode, Writes,

@@ -202,30 +202,47 @@ where
         }
     }
 
-    /// Derivative of a moved point by the parameters.
-    fn jacobian(&self, point: &SVector<f64, D>) -> SMatrix<f64, D, PARAMETERS> {
+    /// Derivative of a moved point by each parameter that is fitted, and that parameter's place.
+    fn derivatives(
+        &self,
+        point: &SVector<f64, D>,
+    ) -> ([(usize, SVector<f64, D>); PARAMETERS], usize) {
         let lever = point - self.pivot;
-        let mut j = SMatrix::<f64, D, PARAMETERS>::zeros();
+        let mut all = [(0, SVector::zeros()); PARAMETERS];
+        let mut count = 0;
+        let mut push = |place: usize, derivative: SVector<f64, D>| {
+            all[count] = (place, derivative);
+            count += 1;
+        };
         for axis in 0..Euclid::<D>::TURNS {
-            j.set_column(axis, &Euclid::swing(axis, &lever));
+            push(axis, Euclid::swing(axis, &lever));
         }
         for k in 0..D {
-            j[(k, SHIFT + k)] = 1.0;
+            push(SHIFT + k, SVector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 }));
         }
         if self.scaled {
-            j.set_column(SCALE, &lever);
+            push(SCALE, lever);
         }
-        j
+        (all, count)
     }
 
     /// Takes in what a segment, already moved, differs by from its match.
     pub(crate) fn add(&mut self, moved: &Segment<D>, residual: &Residual<D>) {
-        let (p, q) = (self.jacobian(&moved.start), self.jacobian(&moved.end));
+        let ((p, count), (q, _)) = (self.derivatives(&moved.start), self.derivatives(&moved.end));
         let [first, second, cross] = &residual.information;
-        let (pt, qt) = (p.transpose(), q.transpose());
-        let (wp, wq) = (pt * first + qt * cross.transpose(), pt * cross + qt * second);
-        self.information += wp * p + wq * q;
-        self.gradient += wp * residual.start + wq * residual.end;
+        for j in 0..count {
+            let place = p[j].0;
+            let start = first * p[j].1 + cross * q[j].1;
+            let end = cross.transpose() * p[j].1 + second * q[j].1;
+            self.gradient[place] += start.dot(&residual.start) + end.dot(&residual.end);
+            for i in 0..=j {
+                let sum = p[i].1.dot(&start) + q[i].1.dot(&end);
+                self.information[(p[i].0, place)] += sum;
+                if i < j {
+                    self.information[(place, p[i].0)] += sum;
+                }
+            }
+        }
     }
 
     /// The motion after one step, and how far the step went in σ; `None` where the residuals leave it open.

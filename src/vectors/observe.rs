@@ -27,9 +27,9 @@ pub enum Loss {
     Range,
 }
 
-/// A sensor at the origin: the operator O.
+/// An observer at the origin and the sensor that it sees with: the operator O.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sensor<const D: usize> {
+pub struct Observer<const D: usize> {
     /// Middle of the field of view, a unit vector.
     pub axis: SVector<f64, D>,
     /// Half the field of view, in rad; π sees all around.
@@ -138,7 +138,7 @@ impl Shadow {
     }
 }
 
-impl<const D: usize> Sensor<D> {
+impl<const D: usize> Observer<D> {
     /// One that sees all around, without limits: the ideal observation, μ ≡ Pr M.
     #[must_use]
     pub fn ideal() -> Self {
@@ -359,7 +359,7 @@ mod tests {
         #[test]
         fn turning_does_not_act_on_a_round_sensor(segments in segments(), angle in -3.1..3.1) {
             let model = Model::of_contour(segments);
-            let sensor = Sensor { range: (20.0, 250.0), resolution: 0.05, ..Sensor::ideal() };
+            let sensor = Observer { range: (20.0, 250.0), resolution: 0.05, ..Observer::ideal() };
             let turned = model.moved(&Motion::<2>::from_parts(Vector2::zeros().into(), Rotation2::new(angle), 1.0));
             let before = sensor.observe(&model.whole_images());
             let after = sensor.observe(&turned.whole_images());
@@ -379,11 +379,11 @@ mod tests {
             at([-100.0, 0.0, 0.0], [-100.0, 0.0, 50.0]),
             at([200.0, 0.0, 0.0], [2000.0, 0.0, 10.0]),
         ]);
-        let sensor = Sensor {
+        let sensor = Observer {
             half_field: std::f64::consts::FRAC_PI_4,
             range: (10.0, 1000.0),
             resolution: 0.002,
-            ..Sensor::ideal()
+            ..Observer::ideal()
         };
         let seen = sensor.observe(&model.whole_images());
         let wall =

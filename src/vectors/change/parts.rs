@@ -1,8 +1,8 @@
 //! Sets of segments that moved rigidly, each by itself (SPEC V18; paper 3, section 4: S₁ and S₂ of fig. 2).
 //!
 //! Motions are added one by one, each the one that explains most of what those before leave unexplained, as long as
-//! the gain is more than chance would give among all runs of the contour. Then each segment goes where it fits best,
-//! with a preference for its neighbours' part, and every motion is fitted again.
+//! the gain is more than chance would give among all runs of the contour. Each segment goes where it fits best, a border
+//! between neighbours having its price, and every motion is fitted to its own.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -11,16 +11,18 @@ use crate::{
     motion::{Fit, motion_of},
 };
 
-/// Chance that a thing which moved as one is taken apart.
-const FALSE_SPLIT: f64 = 0.003;
-/// A residual beyond which it is all the same: the segment is elsewhere.
-const CAP: f64 = 100.0;
-/// Price of a border between two neighbours, as a squared distance.
-const BORDER: f64 = 4.0;
+/// Chance that a thing which moved as one is taken apart, as far as its errors are what they are said to be.
+const FALSE_SPLIT: f64 = 0.001;
+/// A squared distance beyond which it is all the same: the segment is elsewhere.
+const CAP: f64 = 36.0;
+/// A squared distance within which a segment may belong to a motion that is still being fitted.
+const OWN: f64 = 20.0;
+/// A squared distance, per coordinate, from which on a segment is poorly explained: one in twenty by chance.
+const POOR: f64 = 2.4;
 /// Parts that one thing falls into at one step.
 const MOST: usize = 8;
 /// Candidate motions looked at per part.
-const CANDIDATES: usize = 96;
+const CANDIDATES: usize = 48;
 
 /// Segments that moved as one.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,24 +64,28 @@ where
             return vec![RigidPart { members: all, motion }];
         }
     }
-    let motions = split(pairs, next, guess);
-    gather(pairs, next, motions, equality)
+    parts_of(pairs, split(pairs, next, guess), equality)
 }
 
 const fn parameters<const D: usize>() -> u32 {
     if D == 2 { 3 } else { 6 }
 }
 
-/// Squared distance of every pair under a motion, at most [`CAP`], and its degrees of freedom.
+/// Squared distance of a pair under a motion, at most [`CAP`], and its degrees of freedom.
+fn distance<const D: usize>(
+    (before, after): &(Segment<D>, Segment<D>),
+    motion: &Motion<D>,
+) -> (f64, u32) {
+    let residual = Residual::between(&before.moved(motion), after);
+    residual.map_or((CAP, 2 * D as u32), |r| (r.squared().min(CAP), r.freedom))
+}
+
+/// Of every pair.
 fn squared<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     motion: &Motion<D>,
 ) -> Vec<(f64, u32)> {
-    let one = |(before, after): &(Segment<D>, Segment<D>)| {
-        let residual = Residual::between(&before.moved(motion), after);
-        residual.map_or((CAP, 2 * D as u32), |r| (r.squared().min(CAP), r.freedom))
-    };
-    pairs.iter().map(one).collect()
+    pairs.iter().map(|pair| distance(pair, motion)).collect()
 }
 
 /// The motion of some pairs together, from a first one.
@@ -103,19 +109,28 @@ where
         }
         let (next, step) = fit.step()?;
         motion = next;
-        if step < 0.01 {
+        // A tenth of a deviation decides nothing here.
+        if step < 0.1 {
             break;
         }
     }
     Some(motion)
 }
 
-/// Motions that together explain the pairs, the one that explains most first.
+/// Motions, and which pair belongs to which.
+struct Split<const D: usize> {
+    motions: Vec<Motion<D>>,
+    labels: Vec<usize>,
+    /// Squared distance of each pair under its motion.
+    squared: Vec<f64>,
+}
+
+/// Motions that together explain the pairs: one more as long as it explains more than chance would.
 fn split<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     next: &[Option<usize>],
     guess: &Motion<D>,
-) -> Vec<Motion<D>>
+) -> Split<D>
 where
     Euclid<D>: Space<D>,
 {
@@ -123,41 +138,168 @@ where
     let runs = (count * (count + 1) / 2) as f64;
     let law = ChiSquared::new(f64::from(parameters::<D>())).expect("a motion has parameters");
     let least = law.inverse_cdf(1.0 - FALSE_SPLIT / runs);
-    let mut left = vec![CAP; count];
-    let mut motions: Vec<Motion<D>> = Vec::new();
-    while motions.len() < MOST {
+    let mut best = first(pairs, next, guess);
+    while best.motions.len() < MOST {
+        // Where what is known explains well, little can be gained.
+        let poor: Vec<usize> =
+            (0..count).filter(|&k| best.squared[k] > POOR * (2 * D) as f64).collect();
         let gain = |motion: &Motion<D>| -> f64 {
-            squared(pairs, motion).iter().zip(&left).map(|(r, l)| (l - r.0).max(0.0)).sum()
+            poor.iter().map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
         };
-        let mut candidates = candidates(pairs, next, &left);
-        if motions.is_empty() {
-            candidates.push(*guess);
-        }
-        let best = candidates.into_iter().map(|m| (gain(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, mut motion)) = best else { break };
+        let candidates = candidates(pairs, next, &best.squared);
+        let found =
+            candidates.into_iter().map(|m| (gain(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, mut motion)) = found else { break };
         // What it explains better than those before, it is fitted to.
         for _ in 0..3 {
-            let own: Vec<usize> = squared(pairs, &motion)
+            let own: Vec<usize> = poor
                 .iter()
-                .enumerate()
-                .filter(|(k, r)| r.0 < left[*k])
-                .map(|(k, _)| k)
+                .copied()
+                .filter(|&k| distance(&pairs[k], &motion).0 < best.squared[k].min(OWN))
                 .collect();
-            let Some(better) = fitted(pairs, &own, &motion).filter(|m| gain(m) >= gain(&motion))
+            let Some(next) = fitted(pairs, &own, &motion).filter(|m| gain(m) >= gain(&motion))
             else {
                 break;
             };
-            motion = better;
+            motion = next;
         }
-        if !motions.is_empty() && gain(&motion) < least {
+        // Neighbours that it takes along, and the others' better fit, can add to that, but not so much.
+        if gain(&motion) < 0.7 * least {
             break;
         }
-        for (l, r) in left.iter_mut().zip(squared(pairs, &motion)) {
-            *l = l.min(r.0);
-        }
+        let mut motions = best.motions.clone();
         motions.push(motion);
+        let more = settle(pairs, next, motions);
+        let saved = best.squared.iter().sum::<f64>() - more.squared.iter().sum::<f64>();
+        if saved < least {
+            break;
+        }
+        best = more;
     }
-    motions
+    best
+}
+
+/// The motion that explains most: the guess, where it explains more than half, else the best of the candidates.
+fn first<const D: usize>(
+    pairs: &[(Segment<D>, Segment<D>)],
+    next: &[Option<usize>],
+    guess: &Motion<D>,
+) -> Split<D>
+where
+    Euclid<D>: Space<D>,
+{
+    let explains =
+        |motion: &Motion<D>| -> f64 { squared(pairs, motion).iter().map(|r| CAP - r.0).sum() };
+    let fitting = squared(pairs, guess).iter().filter(|r| r.0 < OWN).count();
+    let mut motion = *guess;
+    if 2 * fitting <= pairs.len() {
+        let mut all = candidates(pairs, next, &vec![CAP; pairs.len()]);
+        all.push(*guess);
+        let found = all.into_iter().map(|m| (explains(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
+        motion = found.map_or(*guess, |f| f.1);
+    }
+    settle(pairs, next, vec![motion])
+}
+
+/// Assigns pairs to motions and fits the motions to their pairs, in turn.
+fn settle<const D: usize>(
+    pairs: &[(Segment<D>, Segment<D>)],
+    next: &[Option<usize>],
+    mut motions: Vec<Motion<D>>,
+) -> Split<D>
+where
+    Euclid<D>: Space<D>,
+{
+    let costs = |motions: &[Motion<D>]| -> Vec<Vec<f64>> {
+        motions.iter().map(|m| squared(pairs, m).into_iter().map(|r| r.0).collect()).collect()
+    };
+    let mut now = costs(&motions);
+    let mut labels = assign(&now, next);
+    let mut fitted_to: Vec<Vec<usize>> = vec![Vec::new(); motions.len()];
+    // Assignment and fit both lower one sum, up to what the caps hide: it settles, or nearly.
+    for _ in 0..6 {
+        for (m, motion) in motions.iter_mut().enumerate() {
+            let own: Vec<usize> =
+                (0..pairs.len()).filter(|&k| labels[k] == m && now[m][k] < OWN).collect();
+            if own == fitted_to[m] {
+                continue;
+            }
+            if let Some(better) = fitted(pairs, &own, motion) {
+                *motion = better;
+                now[m] = squared(pairs, motion).into_iter().map(|r| r.0).collect();
+            }
+            fitted_to[m] = own;
+        }
+        let again = assign(&now, next);
+        if again == labels {
+            break;
+        }
+        labels = again;
+    }
+    let squared = labels.iter().enumerate().map(|(k, &m)| now[m][k]).collect();
+    Split { motions, labels, squared }
+}
+
+/// The labels that cost least together, each border between neighbours priced: exact along every contour (Viterbi),
+/// a ring walked twice.
+fn assign(costs: &[Vec<f64>], next: &[Option<usize>]) -> Vec<usize> {
+    let count = next.len();
+    // Where a border runs is one choice among so many.
+    let border = 2.0 * (count as f64).ln().max(1.0);
+    let mut labels = vec![0; count];
+    let mut done = vec![false; count];
+    let mut is_next = vec![false; count];
+    next.iter().flatten().for_each(|&n| is_next[n] = true);
+    for first in (0..count).filter(|&k| !is_next[k]).chain(0..count) {
+        if done[first] {
+            continue;
+        }
+        let mut walk = vec![first];
+        let mut at = first;
+        while let Some(n) = next[at].filter(|&n| n != first && !done[n]) {
+            done[at] = true;
+            walk.push(n);
+            at = n;
+        }
+        done[at] = true;
+        let length = walk.len();
+        let ring = next[at] == Some(first) && length > 2;
+        if ring {
+            walk.extend_from_within(..);
+        }
+        let chosen = viterbi(costs, &walk, border);
+        // Of a ring's two rounds, the halves that have something on both sides.
+        for (step, &k) in walk.iter().enumerate() {
+            if !ring || (step >= length / 2 && step < length / 2 + length) {
+                labels[k] = chosen[step];
+            }
+        }
+    }
+    labels
+}
+
+fn viterbi(costs: &[Vec<f64>], walk: &[usize], border: f64) -> Vec<usize> {
+    let cheapest = |sums: &[f64]| {
+        let best = sums.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+        best.map_or((0, 0.0), |(m, &sum)| (m, sum))
+    };
+    let mut sums: Vec<f64> = costs.iter().map(|c| c[walk[0]]).collect();
+    let mut from: Vec<Vec<usize>> = Vec::with_capacity(walk.len());
+    for &k in &walk[1..] {
+        let (best, least) = cheapest(&sums);
+        let step: Vec<usize> =
+            (0..sums.len()).map(|m| if sums[m] <= least + border { m } else { best }).collect();
+        sums = (0..sums.len()).map(|m| sums[m].min(least + border) + costs[m][k]).collect();
+        from.push(step);
+    }
+    let mut label = cheapest(&sums).0;
+    let mut labels = vec![label];
+    for step in from.iter().rev() {
+        label = step[label];
+        labels.push(label);
+    }
+    labels.reverse();
+    labels
 }
 
 /// Motions that single segments, two and three neighbours ask for; those that are explained worst first.
@@ -170,7 +312,7 @@ where
     Euclid<D>: Space<D>,
 {
     let mut order: Vec<usize> =
-        (0..pairs.len()).filter(|&k| left[k] > f64::from(2 * D as u32 - 2)).collect();
+        (0..pairs.len()).filter(|&k| left[k] > POOR * (2 * D) as f64).collect();
     order.sort_by(|&a, &b| left[b].total_cmp(&left[a]));
     // Evenly among those that are explained equally badly.
     let stride = order.len().div_ceil(CANDIDATES / 3).max(1);
@@ -193,61 +335,18 @@ where
     found
 }
 
-/// Each pair to the motion under which it fits, neighbours together; motions fitted again.
-fn gather<const D: usize>(
+/// The parts of a split, without what is far beyond its errors: that is not explained, only nearest.
+fn parts_of<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
-    next: &[Option<usize>],
-    mut motions: Vec<Motion<D>>,
+    split: Split<D>,
     equality: &Equality,
-) -> Vec<RigidPart<D>>
-where
-    Euclid<D>: Space<D>,
-{
-    let count = pairs.len();
-    let mut previous = vec![None; count];
-    for (k, n) in next.iter().enumerate() {
-        if let Some(n) = n {
-            previous[*n] = Some(k);
-        }
-    }
-    let mut label = vec![0; count];
-    for round in 0..4 {
-        let costs: Vec<Vec<(f64, u32)>> = motions.iter().map(|m| squared(pairs, m)).collect();
-        if round == 0 {
-            for (k, l) in label.iter_mut().enumerate() {
-                *l = (0..motions.len())
-                    .min_by(|&a, &b| costs[a][k].0.total_cmp(&costs[b][k].0))
-                    .unwrap_or(0);
-            }
-        }
-        for _ in 0..3 {
-            for k in 0..count {
-                let price = |m: usize| {
-                    let beside = [next[k], previous[k]]
-                        .into_iter()
-                        .flatten()
-                        .filter(|&n| label[n] != m)
-                        .count();
-                    costs[m][k].0 + BORDER * beside as f64
-                };
-                label[k] =
-                    (0..motions.len()).min_by(|&a, &b| price(a).total_cmp(&price(b))).unwrap_or(0);
-            }
-        }
-        for (m, motion) in motions.iter_mut().enumerate() {
-            let own: Vec<usize> =
-                (0..count).filter(|&k| label[k] == m && costs[m][k].0 < CAP).collect();
-            if let Some(better) = fitted(pairs, &own, motion) {
-                *motion = better;
-            }
-        }
-    }
+) -> Vec<RigidPart<D>> {
     let mut parts: Vec<RigidPart<D>> = Vec::new();
-    for (m, motion) in motions.into_iter().enumerate() {
+    for (m, motion) in split.motions.into_iter().enumerate() {
         let own = squared(pairs, &motion);
-        // Far beyond its errors a segment is not explained, only nearest.
-        let fits = |k: usize| own[k].0 <= 2.0 * equality.radius(own[k].1).powi(2);
-        let members: Vec<usize> = (0..count).filter(|&k| label[k] == m && fits(k)).collect();
+        let fits = |k: usize| own[k].0 <= (1.5 * equality.radius(own[k].1).powi(2)).min(CAP - 1.0);
+        let members: Vec<usize> =
+            (0..pairs.len()).filter(|&k| split.labels[k] == m && fits(k)).collect();
         if !members.is_empty() {
             parts.push(RigidPart { members, motion });
         }

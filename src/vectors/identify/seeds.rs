@@ -34,6 +34,10 @@ where
         let mut best: Option<(usize, f64, Vec<Correspondence>)> = None;
         let mut tried: HashSet<[Correspondence; 2]> = HashSet::new();
         for link in link::links_of_view(self.view, options.reach) {
+            // No other motion can explain more than what explains most.
+            if best.as_ref().is_some_and(|b| 2 * b.0 > self.view.len()) {
+                break;
+            }
             for (key, swapped) in self.index.keys(&link) {
                 let mut candidates: Vec<Posting> = Vec::new();
                 self.index.table.find(&key, counters, |posting| candidates.push(*posting));

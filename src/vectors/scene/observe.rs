@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 
 use super::{Body, Part, Scene, middle, rigid};
 use crate::{
-    Difference, Euclid, Model, Motion, Residual, RigidPart, Segment, Sensor, Space, ThingId,
+    Difference, Euclid, Model, Motion, Observer, Residual, RigidPart, Segment, Space, ThingId,
     Transition, change::aligned, difference, project, radius, rigid_parts,
 };
 
@@ -293,7 +293,7 @@ where
 impl Scene<2> {
     /// Counts what of the map should have been in a view, and was (V9): what no nearer segment hides and the sensor
     /// delivers for more than half of its length. What the sensor loses counts neither way (V7).
-    pub fn witness(&mut self, report: &Report<2>, sensor: &Sensor<2>) {
+    pub fn witness(&mut self, report: &Report<2>, sensor: &Observer<2>) {
         let (expected, owners) = self.expected();
         let images = sensor.observe(&project(&expected.whole_images(), &Vector2::zeros()));
         let mut visible = vec![0.0; expected.len()];
