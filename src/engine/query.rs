@@ -11,7 +11,7 @@ use crate::semantics::{Relations, Subject};
 use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
 
 use super::sight::things_in_view;
-use super::surroundings::Surroundings;
+use super::known::Known;
 use super::{Error, State};
 
 /// What a question found.
@@ -105,7 +105,7 @@ type Rows = fn(&Asked<'_>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option
 struct Asked<'e> {
     declaration: Source,
     ways: Vec<(u32, f64)>,
-    around: Surroundings<'e>,
+    around: &'e Known,
     relations: &'e Relations,
     rows: Rows,
 }
@@ -162,7 +162,7 @@ fn distance(
             tell(&row);
         }
     };
-    let world = asked.around.world().ok()?;
+    let world = asked.around.world();
     let all = || world.replicas.keys().copied();
     match (&known[0], &known[1]) {
         (Some(_), Some(_)) => tell_of(thing(0)?, thing(1)?),
@@ -180,7 +180,7 @@ fn distance(
 
 fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {
     let place = asked.entity(known[0].as_ref())?;
-    let (world, located) = (asked.around.world().ok()?, asked.around.locate_entity(place).ok()?);
+    let (world, located) = (asked.around.world(), asked.around.locate_entity(place).ok()?);
     let floor = asked.around.floor(located.map).ok()?;
     let stands = floor.scene().area_at(located.at);
     let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
@@ -204,7 +204,7 @@ fn way(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value]
         return None;
     }
     let floor = around.floor(from.map).ok()?;
-    let route = floor.route(around.world().ok()?, from.at, to.target, Method::Shortest).ok()?;
+    let route = floor.route(around.world(), from.at, to.target, Method::Shortest).ok()?;
     tell(&[known[0].clone()?, known[1].clone()?, length(route.length)?]);
     Some(())
 }
