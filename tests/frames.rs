@@ -241,8 +241,8 @@ fn an_observation_is_taken_and_given_in_the_frame_of_the_map() {
 
     let dir = tempfile::tempdir().expect("a directory");
     let mut world = crate::worlds::rb2();
-    // The file of the map has the flat elsewhere, and turned.
-    let moved = Frame::new(-3100.0, -540.0, 0.0, Deg::of(90.0));
+    // The file of the map has the flat turned.
+    let moved = Frame::new(0.0, 0.0, 0.0, Deg::of(90.0));
     for item in world.maps.values_mut().flat_map(|map| &mut map.items) {
         item.frame = moved.compose(&item.frame);
     }

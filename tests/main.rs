@@ -15,6 +15,7 @@ mod doubts;
 mod drawings;
 mod exports;
 mod facts;
+#[expect(dead_code, reason = "some of it serves the tests of the rules' crate alone")]
 mod facts_naive;
 mod files;
 mod floor_cases;

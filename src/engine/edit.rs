@@ -198,7 +198,7 @@ impl State {
         let ids_are_unique = self.reader.is_some();
         Arc::make_mut(&mut self.changes).note(&before, &after, changed.as_deref(), ids_are_unique);
         match changed {
-            Some(changed) => Arc::make_mut(surveyed).follow(&before, after, &changed),
+            Some(changed) => Arc::make_mut(surveyed).follow(&before, &after, &changed),
             None => {
                 let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
                 *surveyed = Arc::new(Known::surveyed(rules, after, derived));
@@ -209,10 +209,10 @@ impl State {
 
 impl Known {
     /// Takes over a map that differs in these replicas alone.
-    fn follow(&mut self, before: &World, after: Arc<World>, changed: &[ReplicaId]) {
+    fn follow(&mut self, before: &World, after: &Arc<World>, changed: &[ReplicaId]) {
         self.mind.take();
         self.forms.take();
-        self.world = Arc::clone(&after);
+        self.world = Arc::clone(after);
         let mut followed = changed.len() <= MOST_FOLLOWED;
         if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
             let relations = Arc::make_mut(relations);
@@ -224,7 +224,7 @@ impl Known {
                         map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
                     });
                 // A rule that fails now fails again, and is told, when they are derived anew.
-                followed = followed && only_moved && relations.update(&after, id).unwrap_or(false);
+                followed = followed && only_moved && relations.update(after, id).unwrap_or(false);
             }
             // Rules of the user's own may let doors join by what stands about.
             if openings != *relations.openings() {
@@ -246,7 +246,7 @@ impl Known {
                     .filter(|id| is_on(before.replicas.get(id)) || is_on(after.replicas.get(id)))
                     .collect();
                 if !own.is_empty() {
-                    floor.rebuild(&after, &own);
+                    floor.rebuild(after, &own);
                 }
             }
         }

@@ -10,8 +10,8 @@ use crate::map::Entity;
 use crate::semantics::{Relations, Subject};
 use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
 
-use super::sight::things_in_view;
 use super::known::Known;
+use super::sight::things_in_view;
 use super::{Error, State};
 
 /// What a question found.

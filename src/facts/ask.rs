@@ -42,6 +42,7 @@ use crate::units::Source;
 
 /// Why a question has no answers.
 #[derive(Debug, Clone, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum AskError {
     /// It reads well and means nothing, or does not read.
     #[error(transparent)]

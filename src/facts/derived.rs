@@ -9,6 +9,7 @@ use super::program::{Kind, Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::stored::{Starting, Stored};
 use super::syntax::Span;
+use super::value::MAX_TEXT;
 use super::word::{Note, Value, Word, Words};
 
 /// All relations of a program after evaluation, input facts included.
@@ -52,8 +53,8 @@ impl Derived {
         }
     }
 
-    /// Warnings about rules in which a number came out otherwise than with Soufflé: beyond 32 bits, or rounded to
-    /// millionths. At most one for each rule.
+    /// Warnings about rules in which a value came out otherwise than with Soufflé: a number beyond 32 bits or rounded to
+    /// millionths, a text too long to be kept. At most one for each rule.
     #[must_use]
     pub fn notes(&self) -> Vec<FileFaults> {
         let fault = |(at, note): &(Span, Note)| {
@@ -62,6 +63,7 @@ impl Derived {
                 Note::Rounded(number) => {
                     RuleError::Rounded { number: number.to_string(), at: (*at).into() }
                 }
+                Note::LongText => RuleError::LongText { limit: MAX_TEXT, at: (*at).into() },
             };
             (at.file, fault)
         };

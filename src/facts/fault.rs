@@ -141,6 +141,18 @@ pub enum RuleError {
         #[label("здесь")]
         at: SourceSpan,
     },
+    /// A rule joins texts to one that is too long to be kept.
+    #[error("текст длиннее {limit} байт не хранится: строки с ним пропущены")]
+    #[diagnostic(
+        code(facts::long_text),
+        severity(Warning),
+        help("рекурсивное правило с cat растит текст без конца; ограничьте его: strlen(x) < 1000")
+    )]
+    LongText {
+        limit: usize,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     /// A regular expression that matches nothing because it is none.
     #[error("«{pattern}» – не регулярное выражение: ничто ему не отвечает")]
     #[diagnostic(code(facts::pattern), severity(Warning), help("{why}"))]
@@ -295,6 +307,7 @@ impl RuleError {
             | Self::Hint { at, .. }
             | Self::Wide { at, .. }
             | Self::Rounded { at, .. }
+            | Self::LongText { at, .. }
             | Self::Pattern { at, .. }
             | Self::Arity { at, .. }
             | Self::Types { at, .. }

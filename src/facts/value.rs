@@ -238,7 +238,11 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
     match (functor, args) {
         (Functor::Concatenate, [a, b]) => {
             let joined = text(a, variable, words)? + &text(b, variable, words)?;
-            (joined.len() <= MAX_TEXT).then_some(joined)
+            if joined.len() > MAX_TEXT {
+                words.note(Note::LongText);
+                return None;
+            }
+            Some(joined)
         }
         (Functor::Part, [whole, from, length]) => {
             let whole = text(whole, variable, words)?;
@@ -317,7 +321,7 @@ pub(super) fn numbers(
 }
 
 /// Longer texts are no values: a recursive rule with `cat` would fill the memory.
-const MAX_TEXT: usize = 1 << 16;
+pub(super) const MAX_TEXT: usize = 1 << 16;
 
 /// Whether two words of one kind compare so.
 pub(super) fn holds(op: Comparison, is_number: bool, a: Word, b: Word, words: &Words) -> bool {

@@ -143,17 +143,19 @@ pub(super) struct Words {
     shapes: Arc<[Shape]>,
     /// What `autoinc()` gives next.
     counter: i64,
-    /// The first number since [`Self::take_note`] that Soufflé would have computed otherwise.
+    /// The first value since [`Self::take_note`] that Soufflé would have computed otherwise.
     note: Option<Note>,
 }
 
-/// A number that Soufflé would have computed otherwise.
+/// A value that Soufflé would have computed otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Note {
     /// Beyond the 32 bits that it counts with.
     Wide(i64),
     /// Rounded to millionths here, binary there.
     Rounded(Decimal),
+    /// Longer than a text may be here; the row that it belongs to is left out.
+    LongText,
 }
 
 impl Words {

@@ -173,8 +173,8 @@ impl Pairs<'_> {
         };
         let boxes: Vec<Bounds> = self.open.iter().map(around).collect();
         let (buckets, mut near) = (Buckets::of(&boxes), Vec::new());
-        for i in 0..self.open.len() {
-            buckets.meeting(&boxes[i], &mut near);
+        for (i, own) in boxes.iter().enumerate() {
+            buckets.meeting(own, &mut near);
             for &j in near.iter().filter(|&&j| j as usize > i) {
                 let j = j as usize;
                 let faces = self.open[i].as_ref().zip(self.open[j].as_ref());

@@ -69,6 +69,8 @@ fn boundary(text: &str, at: usize) -> usize {
 
 /// Bytes of the text that are shown beside one fault.
 const LONGEST_EXCERPT: usize = 4000;
+/// Bytes of a line that is shown whole; of a longer one, what stands beside the fault.
+const LONGEST_LINE: usize = 600;
 const EXCERPT_MARGIN: usize = 200;
 
 /// The text, for excerpts beside the faults. A line may be a whole file long: then only what is near is shown.
@@ -81,7 +83,8 @@ impl SourceCode for Source {
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let inner = self.text.as_ref().read_span(span, lines_before, lines_after)?;
         let name = self.name.to_string();
-        if inner.data().len() <= LONGEST_EXCERPT {
+        let fits = |line: &[u8]| line.len() <= LONGEST_LINE;
+        if inner.data().len() <= LONGEST_EXCERPT && inner.data().split(|&b| b == b'\n').all(fits) {
             let (_, column) = self.position(inner.span().offset());
             let (line, data, place) = (inner.line(), inner.data(), *inner.span());
             // miette's own count begins with the text; by it excerpts far apart would seem to meet.
@@ -104,6 +107,19 @@ impl SourceCode for Source {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_file_on_one_line_no_more_is_shown_than_stands_beside_the_fault() {
+        let text = format!("{}ошибка{}", "а, ".repeat(500), " я,".repeat(500));
+        let source = Source::new("map.json", text.as_str());
+        let at = text.find("ошибка").expect("it is there");
+        let contents = source.read_span(&(at, "ошибка".len()).into(), 1, 1).unwrap();
+        assert!(contents.data().len() < LONGEST_LINE);
+        let shown = std::str::from_utf8(contents.data()).expect("whole characters");
+        assert!(shown.contains("ошибка"));
+        let left = shown[..shown.find("ошибка").unwrap_or(0)].chars().count();
+        assert_eq!(contents.column() + left, 1500);
+    }
 
     #[test]
     fn columns_count_characters() {

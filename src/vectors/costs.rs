@@ -3,6 +3,9 @@
 //! The formulas, and beside them the procedures that they count, run literally. What the index does is counted by
 //! [`Counters`](crate::Counters).
 
+/// Two segments of a model, by their places in it, the lower first.
+pub type SegmentPair = (usize, usize);
+
 /// Characteristics of a model of M segments: M lengths, 2M inclinations, M(M − 1) angles between them.
 #[must_use]
 pub const fn characteristics(m: u64) -> u64 {
@@ -39,8 +42,8 @@ pub const fn approximate(m: u64) -> u128 {
 pub fn removing(
     m1: usize,
     m2: usize,
-    mut equal: impl FnMut((usize, usize), (usize, usize)) -> bool,
-) -> (u64, Vec<((usize, usize), (usize, usize))>) {
+    mut equal: impl FnMut(SegmentPair, SegmentPair) -> bool,
+) -> (u64, Vec<(SegmentPair, SegmentPair)>) {
     let list = |m: usize| (0..m).flat_map(move |i| (i + 1..m).map(move |j| (i, j)));
     let mut left: Vec<_> = list(m2).collect();
     let (mut comparisons, mut found) = (0, Vec::new());

@@ -51,10 +51,12 @@ impl Client {
         serde_json::from_slice(&bytes).unwrap()
     }
 
+    #[expect(clippy::needless_pass_by_value, reason = "messages are written where they are sent")]
     fn tell(&mut self, method: &str, params: Value) {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
     }
 
+    #[expect(clippy::needless_pass_by_value, reason = "messages are written where they are sent")]
     fn ask(&mut self, method: &str, params: Value) -> Value {
         self.next += 1;
         let id = self.next;

@@ -29,6 +29,10 @@ pub struct Placement<const D: usize> {
 
 /// Whether a view is known (V20).
 #[derive(Debug, Clone, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one answer a view, and the one placement is what is wanted of it"
+)]
 pub enum Identification<const D: usize> {
     /// One thing, one place.
     Unique(Placement<D>),

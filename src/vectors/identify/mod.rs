@@ -2,12 +2,12 @@
 //!
 //! The observation's invariants lead to candidates, a candidate to a motion, and under the motion the whole view is
 //! held against the whole stored model. The paper compares every pair of the view with every pair of the tree; here a
-//! hash of invariants ([`link`]) names the candidates. A few links suffice, and nothing is missed by it: where at most
+//! hash of invariants (`link`) names the candidates. A few links suffice, and nothing is missed by it: where at most
 //! e segments of a view may be foreign to a thing, of e + 1 links that share no segment one is the thing's own.
 //!
 //! # Invariants
 //!
-//! What is answered was verified against the full model ([`verify`]); the hash decides only what is looked at. The
+//! What is answered was verified against the full model (`verify`); the hash decides only what is looked at. The
 //! answers are those of [`exhaustive`], which looks at everything.
 
 mod answer;
@@ -223,7 +223,7 @@ where
 
     /// The links to ask for: the cheapest that share no segment, not even one between, one more than segments may be
     /// foreign; all of them, where there are not as many.
-    fn plan(&self, view: &Model<D>) -> (Vec<(f64, Link, Vec<(Key, bool)>)>, bool) {
+    fn plan(&self, view: &Model<D>) -> (Vec<Priced>, bool) {
         let cost = |keys: &[(Key, bool)]| -> f64 {
             keys.iter()
                 .map(|(key, _)| key.cells() + self.table.count(key.kind) as f64 * key.share())
@@ -296,18 +296,17 @@ where
     }
 }
 
+/// A link with what it costs to ask for its keys.
+type Priced = (f64, Link, Vec<(Key, bool)>);
+
 /// Which `wanted` certain links of a view share no segment and cost least together; `None` where there are not as many.
-fn cheapest(
-    segments: usize,
-    links: &[(f64, Link, Vec<(Key, bool)>)],
-    wanted: usize,
-) -> Option<Vec<usize>> {
+fn cheapest(segments: usize, links: &[Priced], wanted: usize) -> Option<Vec<usize>> {
     // best[c][k]: least cost of c links among the first k segments, and the link that ends there, if one does.
     let mut best = vec![vec![(f64::INFINITY, None); segments + 1]; wanted + 1];
     best[0].fill((0.0, None));
     for k in 1..=segments {
-        for c in 1..=wanted {
-            best[c][k] = (best[c][k - 1].0, None);
+        for row in &mut best[1..] {
+            row[k] = (row[k - 1].0, None);
         }
         for (l, (cost, link, _)) in links.iter().enumerate() {
             if link.certain && link.b + 1 == k && link.a < link.b {

@@ -121,7 +121,7 @@ where
             };
             pairs.push((k, stored, reversed));
             // Each of the first ones turns the motion; later ones hardly do.
-            if pairs.len() < 8 || pairs.len() % 4 == 0 {
+            if pairs.len() < 8 || pairs.len().is_multiple_of(4) {
                 let fit = self.fitted(motion, pivot, &pairs);
                 motion = fit.step()?.0;
                 (turn, shift) = fit.deviations()?;
@@ -261,8 +261,8 @@ where
             let after = self.view.next(k).filter(|_| self.view.is_joined(k));
             let met =
                 [before, after].map(|other| other.is_some_and(|other| of_view[other].is_some()));
-            for side in 0..2 {
-                if residual.compared[side] && !met[side] {
+            for (compared, met) in residual.compared.iter().zip(met) {
+                if *compared && !met {
                     sum += (2.0 * stored.length() / (root * sigma)).ln().max(0.0);
                 }
             }

@@ -24,6 +24,7 @@ const LARGEST: u32 = 16_384;
 
 /// What no picture can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum PictureError {
     /// Its sides and the number of its pixels disagree, or a side is too long.
     #[error("картинка {width}×{height} не складывается из {pixels} точек")]
@@ -72,8 +73,7 @@ impl Picture {
             let class = if *value <= border { &mut dark } else { &mut light };
             *class = (class.0 + 1, class.1 + u64::from(*value));
         }
-        let mean =
-            |(count, sum): (u64, u64)| if count == 0 { u64::from(border) } else { sum / count };
+        let mean = |(count, sum): (u64, u64)| sum.checked_div(count).unwrap_or(u64::from(border));
         u8::midpoint(mean(dark) as u8, mean(light) as u8)
     }
 

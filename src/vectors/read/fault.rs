@@ -10,6 +10,7 @@ use crate::scan::SensorError;
 
 /// One fault of a log, at its place.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum LogFault {
     #[error("формат журнала не узнан")]
     #[diagnostic(

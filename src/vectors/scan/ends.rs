@@ -146,7 +146,7 @@ fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) ->
                     } else if on_line > 0.0
                         && gap > 0.0
                         && found > on_line + noise
-                        && !beside(2).is_some_and(|second| back(second))
+                        && !beside(2).is_some_and(back)
                     {
                         // The face ends somewhere between two beams.
                         let between = (u + sensor.directions[next]).normalize();

@@ -11,6 +11,7 @@ const MOST_BEAMS: usize = 1 << 16;
 
 /// What a sensor cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
 pub enum SensorError {
     /// Angles or the number of beams make no field of view.
     #[error("{count} лучей через {step} рад от {first} рад – это не поле зрения")]

@@ -139,6 +139,21 @@ pub(super) struct KnownOpening {
     pub(super) is_passage: bool,
     /// The Areas that it is of; one for a door that leads out of the map.
     pub(super) areas: Vec<AreaId>,
+    /// The pairs of Areas between which one goes through it, by the rules; the lower id first.
+    joins: Vec<[AreaId; 2]>,
+}
+
+impl KnownOpening {
+    /// The Areas to which one comes through it from this one.
+    pub(super) fn beyond(&self, area: AreaId) -> impl Iterator<Item = AreaId> + '_ {
+        let pairs = self.joins.iter().filter(move |pair| pair.contains(&area));
+        pairs.map(move |&[a, b]| if a == area { b } else { a })
+    }
+
+    /// Whether one goes through it from one of these Areas to the other.
+    pub(super) fn joins(&self, a: AreaId, b: AreaId) -> bool {
+        self.joins.contains(&[a.min(b), a.max(b)])
+    }
 }
 
 /// What is looked up once a map: nouns, relations both ways, doors. It belongs to one state of the relations.
@@ -246,10 +261,16 @@ impl Knowledge<'_> {
                     name: opening.name.clone(),
                     is_passage: kind.map_or(opening.is_passage(), |kind| kind == DoorKind::Passage),
                     areas: Vec::new(),
+                    joins: Vec::new(),
                 });
                 for area in opening.all_areas() {
                     if !noun.areas.contains(&area) {
                         noun.areas.push(area);
+                    }
+                }
+                for pair in &opening.joins {
+                    if !noun.joins.contains(pair) {
+                        noun.joins.push(*pair);
                     }
                 }
             }

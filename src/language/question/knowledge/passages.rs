@@ -51,7 +51,7 @@ impl Knowledge<'_> {
         a: AreaId,
         b: AreaId,
     ) -> impl Iterator<Item = &KnownOpening> {
-        self.openings().iter().filter(move |g| g.areas.contains(&a) && g.areas.contains(&b))
+        self.openings().iter().filter(move |g| g.joins(a, b))
     }
 
     /// Whether a door is shut.
@@ -60,11 +60,10 @@ impl Knowledge<'_> {
     }
 
     fn crossings(&self, from: AreaId) -> Vec<Crossing> {
-        let gates = self.openings().iter().filter(|g| g.areas.contains(&from));
-        let beyond = gates.flat_map(|g| {
-            let others = g.areas.iter().filter(|a| **a != from);
-            others.map(|into| Crossing { by: g.thing, into: *into })
-        });
+        let beyond = self
+            .openings()
+            .iter()
+            .flat_map(|g| g.beyond(from).map(|into| Crossing { by: g.thing, into }));
         let lifts = self.world.domain.lifts.iter().map(|(_, stops)| stops);
         let here = lifts.filter(|stops| stops.iter().any(|s| s.area == from));
         let rides = here.flatten().filter(|s| s.area != from);

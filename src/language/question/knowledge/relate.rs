@@ -37,9 +37,8 @@ impl Knowledge<'_> {
                 all.filter(|t| !inside.contains(t)).collect()
             }
             (Rel::Near | Rel::NextTo, Thing::Entity(Entity::Area(area))) => {
-                let gates = self.openings().iter().filter(|g| g.areas.contains(&area));
                 let rooms: BTreeSet<AreaId> =
-                    gates.flat_map(|g| &g.areas).copied().filter(|a| *a != area).collect();
+                    self.openings().iter().flat_map(|g| g.beyond(area)).collect();
                 rooms.into_iter().map(|a| Thing::Entity(Entity::Area(a))).collect()
             }
             (
