@@ -27,7 +27,7 @@
 //!   (`Operator::interferes`, which graph, solver, extraction, shortening and replay share in meaning).
 //!   Grounding drops only what cannot change the fewest number of parallel steps, so a fact that always holds
 //!   stays where operators interfere through it; assumptions are never dropped as always true.
-//! - *Where what stands.* [`graph`], [`mutex`] and [`extract`] are the paper's algorithm, whole and alone
+//! - *Where what stands.* `graph`, `mutex` and `extract` are the paper's algorithm, whole and alone
 //!   ([`solve_plainly`]). `proof` answers the same question quickly, `portfolio` finds plans that need not be the
 //!   shortest; neither is needed to understand the other.
 //! - *Large tasks.* Only the operators are planned with that some shortest plan may need (`graphplan/proof/needed`):

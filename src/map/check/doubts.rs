@@ -71,6 +71,7 @@ const OPERATOR: [&str; 2] = ["оператор", "operator"];
 /// use std::collections::BTreeSet;
 /// use orthoframe_map::{World, doubts};
 ///
+/// # std::env::set_current_dir("../..").unwrap();
 /// let mut world = World::load("maps/rb2.toml").unwrap();
 /// assert!(doubts(&world, &BTreeSet::new()).is_empty());
 /// world.robot.speed = 0.6;

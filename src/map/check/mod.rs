@@ -34,6 +34,7 @@ const MOST_OVERLAPS: usize = 20;
 /// ```
 /// use orthoframe_map::{World, check};
 ///
+/// # std::env::set_current_dir("../..").unwrap();
 /// let mut world = World::load("maps/rb2.toml").unwrap();
 /// assert!(check(&world).is_empty());
 /// let chair = *world.replicas.keys().next().unwrap();

@@ -1,5 +1,7 @@
 //! What moved and what came apart: the two cases of the paper's fig. 2, and how often they are told rightly.
 
+#![expect(clippy::print_stdout, reason = "a table of what was measured")]
+
 #[path = "../../../benches/vectors/shapes.rs"]
 mod shapes;
 

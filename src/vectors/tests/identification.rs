@@ -1,5 +1,7 @@
 //! Knowing things again: against looking at everything, and how often it is right.
 
+#![expect(clippy::print_stdout, reason = "a table of what was measured")]
+
 #[path = "../../../benches/vectors/shapes.rs"]
 mod shapes;
 

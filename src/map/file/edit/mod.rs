@@ -101,6 +101,7 @@ pub struct EditReading {
 /// use orthoframe_map::{Format, NextIds, World, edit};
 /// use orthoframe_units::Source;
 ///
+/// # std::env::set_current_dir("../..").unwrap();
 /// let world = World::load("maps/rb2.toml").unwrap();
 /// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
 /// let done = edit(&world, &text, Format::Toml, NextIds::after(&world), &|_| Vec::new());
