@@ -97,15 +97,19 @@ fn product(clause: &Clause, declared: &Declared, faults: &mut Found) {
             group[root] = to;
         });
     }
+    let mut uses = vec![0_usize; clause.variables.len()];
+    used_variables(&clause.body, None, &mut |v| uses[v as usize] += 1);
+    clause.args.iter().for_each(|arg| arg.for_each_variable(&mut |v| uses[v as usize] += 1));
     let mut open: Option<(usize, usize)> = None;
     for literal in &clause.body {
         let Literal::Atom(atom) = literal else { continue };
-        // An atom of which nothing is asked but that there is one costs one look.
-        let mut variables = atom.args.iter().filter_map(|term| match term {
-            Term::Variable(v) => Some(*v as usize),
+        // An atom of which nothing is asked but that there is one makes no pairs: one that another branch of the rule asks
+        // more of; a variable that the whole rule names once is told of by itself.
+        let asked = atom.args.iter().find_map(|term| match term {
+            Term::Variable(v) => (uses[*v as usize] > 1).then_some(*v as usize),
             _ => None,
         });
-        let Some(v) = variables.next() else { continue };
+        let Some(v) = asked else { continue };
         let (root, relation) = (find(&group, v), atom.relation.index());
         match open {
             None => open = Some((root, relation)),

@@ -96,7 +96,7 @@ impl SourceCode for Source {
         let text = &self.text;
         let line_start = text[..span.offset()].rfind('\n').map_or(0, |at| at + 1);
         let start = boundary(text, span.offset().saturating_sub(EXCERPT_MARGIN)).max(line_start);
-        let end = boundary(text, span.offset() + span.len().min(EXCERPT_MARGIN) + EXCERPT_MARGIN);
+        let end = boundary(text, span.offset() + span.len().min(LONGEST_EXCERPT) + EXCERPT_MARGIN);
         let (line, column) = self.position(start);
         let lines = text[start..end].lines().count();
         let (data, place) = (&text.as_bytes()[start..end], (start, end - start).into());
