@@ -54,7 +54,7 @@ impl Named {
     pub(super) fn task(self, init: &[FactId], goal: &[FactId]) -> Task {
         let Self { facts, operators } = self;
         let (init, goal) = (sorted(init), sorted(goal));
-        let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+        let task = Task { facts, operators, init, goal, ..Task::default() };
         task.check_invariants();
         task
     }
@@ -174,7 +174,7 @@ pub(super) fn random_task_with_objects(seed: u64) -> Task {
     init.extend((0..FLAGS as u32).map(|flag| FactId((PREDICATES * OBJECTS) as u32 + flag)));
     let wanted = 2 + random.below(3);
     let goal = random.facts(wanted, facts.len());
-    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+    let task = Task { facts, operators, init, goal, ..Task::default() };
     task.check_invariants();
     task
 }

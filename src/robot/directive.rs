@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::map::DoorStatus;
 use crate::semantics::predicate;
-use crate::strips::{Domain, Operator, SchemaAtom, SchemaTerm};
+use crate::strips::{Domain, FactId, Operator, Schema, SchemaAtom, SchemaTerm, Task};
 use crate::units::name_key;
 
 /// A step of a plan: the action's name, its arguments, and all its effects.
@@ -77,6 +77,28 @@ pub enum Deed {
     Call(String),
 }
 
+/// With what comes about under conditions, of which the operator knows that they hold.
+fn with_conditional(
+    mut effects: Vec<Effect>,
+    schema: &Schema,
+    task: &Task,
+    facts: &[FactId],
+) -> Vec<Effect> {
+    if schema.conditional.is_empty() {
+        return effects;
+    }
+    for fact in facts.iter().map(|&id| task.fact(id)).filter(|fact| !fact.negated) {
+        let effect = Effect {
+            predicate: name_key(&fact.predicate),
+            args: fact.args.iter().map(ToString::to_string).collect(),
+        };
+        if !effects.contains(&effect) {
+            effects.push(effect);
+        }
+    }
+    effects
+}
+
 impl Directive {
     /// The directive that an operator of a task stands for, with the effects that its rule gives it
     /// (a task keeps only those that matter to its goal).
@@ -84,7 +106,7 @@ impl Directive {
     /// # Panics
     /// When the operator was not grounded from this domain.
     #[must_use]
-    pub fn of(domain: &Domain, operator: &Operator) -> Self {
+    pub fn of(domain: &Domain, task: &Task, operator: &Operator) -> Self {
         let schema = domain
             .schemas()
             .iter()
@@ -104,8 +126,18 @@ impl Directive {
         Self {
             action: Arc::clone(&operator.name),
             args: operator.args.clone(),
-            adds: schema.add_effects.iter().map(ground).collect(),
-            deletes: schema.del_effects.iter().map(ground).collect(),
+            adds: with_conditional(
+                schema.add_effects.iter().map(ground).collect(),
+                schema,
+                task,
+                &operator.add_effects,
+            ),
+            deletes: with_conditional(
+                schema.del_effects.iter().map(ground).collect(),
+                schema,
+                task,
+                &operator.del_effects,
+            ),
             needs: schema.preconditions.iter().map(ground).collect(),
         }
     }

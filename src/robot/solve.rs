@@ -300,14 +300,32 @@ fn grounded(
     Ok(task.ok_or_else(|| reached.get().expect("a limit stopped it")))
 }
 
+/// Of a goal that can be met in several ways, the way that the plan takes; the operator that only says so is no step.
+fn settle(task: &mut Task, outcome: &mut Outcome) {
+    if task.goal_steps == 0 {
+        return;
+    }
+    match outcome {
+        Outcome::Plan(plan) => task.settle_goal(&mut plan.steps),
+        Outcome::NoPlan { .. } => {}
+        Outcome::LimitReached(known) => {
+            known.at_least = known.at_least.saturating_sub(1);
+            if let Some(plan) = &mut known.plan {
+                task.settle_goal(&mut plan.steps);
+            }
+        }
+    }
+}
+
 fn told(
     domain: &Domain,
     problem: &Problem,
-    task: Task,
-    outcome: Outcome,
+    mut task: Task,
+    mut outcome: Outcome,
     wanted: Wanted,
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
+    settle(&mut task, &mut outcome);
     let is_shortest = wanted != Wanted::Any;
     let assumptions = outcome.plan().map_or_else(Vec::new, |plan| {
         plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()

@@ -11,17 +11,20 @@ use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::domain::{
-    ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
+    ANY_KIND, Domain, Formula, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
     SchemaCost, SchemaTerm,
 };
 use super::error::{Place, RuleError, RuleFault};
 use super::phrase::phrases;
-use super::slip::atom_of;
-use super::syntax::{ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Term};
+use super::syntax::{
+    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Term,
+};
 use crate::units::{Bilingual, Language, name_key, nearest_name};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
-pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
+///
+/// Beside them, what of the goal is no plain fact.
+pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> (Domain, Vec<Formula>) {
     let domain = kinds(document, faults);
     let (functions, actions) = (HashMap::new(), HashMap::new());
     let mut checker = Checker { domain, constants: None, functions, actions, faults };
@@ -36,9 +39,14 @@ pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain
     for action in &document.actions {
         checker.schema(action);
     }
+    for rule in &document.derived {
+        checker.derived(rule);
+    }
+    checker.derived_is_sound(document);
+    let goal = checker.goal(document);
     let mut domain = checker.domain;
     domain.phrases = Arc::new(phrases(document, &domain, faults));
-    domain
+    (domain, goal)
 }
 
 pub(super) fn hint<'a>(
@@ -89,6 +97,7 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         predicates: Vec::new(),
         predicate_index: HashMap::new(),
         schemas: Vec::new(),
+        derived: Vec::new(),
         phrases: Arc::default(),
         introduced: HashMap::new(),
     };
@@ -109,7 +118,9 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         }
     }
     if document.types.is_none() {
-        let in_actions = document.actions.iter().flat_map(|a| &a.parameters).flat_map(|p| &p.kinds);
+        let derived = document.derived.iter().flat_map(|rule| &rule.parameters);
+        let parameters = document.actions.iter().flat_map(|a| &a.parameters).chain(derived);
+        let in_actions = parameters.flat_map(|p| &p.kinds);
         let in_signatures = document.predicates.iter().flat_map(|s| s.args.iter().flatten());
         let in_objects = document.objects.iter().flat_map(|o| &o.kinds);
         for name in in_actions.chain(in_signatures).chain(in_objects) {
@@ -143,19 +154,19 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
     domain
 }
 
-struct Checker<'a> {
-    domain: Domain,
+pub(super) struct Checker<'a> {
+    pub(super) domain: Domain,
     /// Where every object must be declared: those that are, with their types.
     constants: Option<BTreeMap<String, (String, KindSet)>>,
     /// Declared functions by key, with their numbers of arguments.
     functions: HashMap<String, usize>,
     /// Where each action is, by key.
     actions: HashMap<String, Place>,
-    faults: &'a mut Vec<RuleFault>,
+    pub(super) faults: &'a mut Vec<RuleFault>,
 }
 
 /// The variables of one action.
-type Scope = HashMap<String, (u32, KindSet)>;
+pub(super) type Scope = HashMap<String, (u32, KindSet)>;
 
 impl Checker<'_> {
     fn kind(&mut self, name: &Name) -> Option<KindId> {
@@ -181,7 +192,7 @@ impl Checker<'_> {
     }
 
     /// An empty list, or one whose every name is unknown, is any object.
-    fn kind_set(&mut self, names: &[Name]) -> KindSet {
+    pub(super) fn kind_set(&mut self, names: &[Name]) -> KindSet {
         let kinds: KindSet = names.iter().filter_map(|name| self.kind(name)).collect();
         if kinds.is_empty() { vec![ANY_KIND] } else { kinds }
     }
@@ -297,30 +308,26 @@ impl Checker<'_> {
     fn infer_predicates(&mut self, document: &Document) {
         let declared = self.domain.predicates.len();
         let arities = arities(document);
-        for action in &document.actions {
-            let kinds_of: HashMap<String, &[Name]> =
-                action.parameters.iter().map(|p| (p.variable.key(), p.kinds.as_slice())).collect();
-            let in_conditions = action.precondition.iter().filter_map(atom_of);
-            for atom in in_conditions.chain(&action.add).chain(&action.del) {
-                if arities.get(&atom.predicate.key()) != Some(&atom.args.len()) {
-                    continue;
-                }
-                let args: Vec<Option<KindSet>> = atom
-                    .args
-                    .iter()
-                    .map(|term| {
-                        let names = match kinds_of.get(&term.name.key()) {
-                            Some(names) if term.is_variable => names,
-                            _ => term.kind.as_slice(),
-                        };
-                        let kinds: KindSet =
-                            names.iter().filter_map(|name| self.domain.kind(&name.text)).collect();
-                        (!kinds.is_empty()).then_some(kinds)
-                    })
-                    .collect();
-                self.infer_from(atom, &args, declared);
+        each_atom(document, &mut |atom, bound| {
+            if arities.get(&atom.predicate.key()) != Some(&atom.args.len()) {
+                return;
             }
-        }
+            let args: Vec<Option<KindSet>> = atom
+                .args
+                .iter()
+                .map(|term| {
+                    let by_name = |p: &&&Parameter| p.variable.key() == term.name.key();
+                    let names = match bound.iter().rev().find(by_name) {
+                        Some(parameter) if term.is_variable => parameter.kinds.as_slice(),
+                        _ => term.kind.as_slice(),
+                    };
+                    let kinds: KindSet =
+                        names.iter().filter_map(|name| self.domain.kind(&name.text)).collect();
+                    (!kinds.is_empty()).then_some(kinds)
+                })
+                .collect();
+            self.infer_from(atom, &args, declared);
+        });
     }
 
     fn infer_from(&mut self, atom: &Atom, args: &[Option<KindSet>], declared: usize) {
@@ -365,36 +372,15 @@ impl Checker<'_> {
             return;
         }
         self.actions.insert(name.key(), name.at.clone());
-        let mut scope = Scope::new();
-        let mut parameters = Vec::new();
-        for parameter in &action.parameters {
-            let kinds = self.kind_set(&parameter.kinds);
-            let variable = &parameter.variable;
-            if scope.insert(variable.key(), (parameters.len() as u32, kinds.clone())).is_some() {
-                let known = action.parameters.iter().find(|p| p.variable.key() == variable.key());
-                self.duplicate(
-                    ("параметр", "the parameter"),
-                    variable,
-                    known.map(|p| p.variable.at.clone()),
-                );
-            }
-            parameters.push(kinds);
-        }
-        let mut schema = Schema {
-            name: name.text.clone(),
-            parameters,
-            parameter_names: action.parameters.iter().map(|p| p.variable.text.clone()).collect(),
-            preconditions: Vec::new(),
-            negative_preconditions: Vec::new(),
-            equal: Vec::new(),
-            different: Vec::new(),
-            add_effects: Vec::new(),
-            del_effects: Vec::new(),
-            renewed: Vec::new(),
-            cost: Vec::new(),
-        };
+        let mut schema = Schema::new(&name.text);
+        let scope = self.parameters(&action.parameters, &mut schema);
         self.precondition(action, &scope, &mut schema);
         self.effects(action, &scope, &mut schema);
+        for part in &action.conditional {
+            if let Some(effect) = self.conditional(action, &scope, part) {
+                schema.conditional.push(effect);
+            }
+        }
         for cost in &action.cost {
             if let (CostTerm::Function(atom), true) = (cost, self.constants.is_some()) {
                 self.function(atom);
@@ -410,7 +396,28 @@ impl Checker<'_> {
         self.domain.schemas.push(schema);
     }
 
-    fn precondition(&mut self, action: &ActionText, scope: &Scope, schema: &mut Schema) {
+    /// The variables of a rule, numbered.
+    pub(super) fn parameters(&mut self, parameters: &[Parameter], schema: &mut Schema) -> Scope {
+        let mut scope = Scope::new();
+        for parameter in parameters {
+            let kinds = self.kind_set(&parameter.kinds);
+            let variable = &parameter.variable;
+            let number = schema.parameters.len() as u32;
+            if scope.insert(variable.key(), (number, kinds.clone())).is_some() {
+                let known = parameters.iter().find(|p| p.variable.key() == variable.key());
+                self.duplicate(
+                    ("параметр", "the parameter"),
+                    variable,
+                    known.map(|p| p.variable.at.clone()),
+                );
+            }
+            schema.parameters.push(kinds);
+            schema.parameter_names.push(variable.text.clone());
+        }
+        scope
+    }
+
+    pub(super) fn precondition(&mut self, action: &ActionText, scope: &Scope, schema: &mut Schema) {
         for condition in &action.precondition {
             match condition {
                 Condition::Holds { atom, negated } => {
@@ -442,6 +449,7 @@ impl Checker<'_> {
                         pairs.push((left, right));
                     }
                 }
+                compound => schema.formulas.extend(self.formula(action, scope, compound)),
             }
         }
     }
@@ -470,7 +478,12 @@ impl Checker<'_> {
         }
     }
 
-    fn atom(&mut self, action: &ActionText, scope: &Scope, atom: &Atom) -> Option<SchemaAtom> {
+    pub(super) fn atom(
+        &mut self,
+        action: &ActionText,
+        scope: &Scope,
+        atom: &Atom,
+    ) -> Option<SchemaAtom> {
         let name = &atom.predicate;
         let Some(predicate) = self.domain.predicate(&name.text) else {
             let help = hint(&name.text, self.domain.predicates.iter().map(|p| p.name.as_str()))
@@ -538,7 +551,12 @@ impl Checker<'_> {
         terms.into_iter().collect()
     }
 
-    fn term(&mut self, action: &ActionText, scope: &Scope, term: &Term) -> Option<SchemaTerm> {
+    pub(super) fn term(
+        &mut self,
+        action: &ActionText,
+        scope: &Scope,
+        term: &Term,
+    ) -> Option<SchemaTerm> {
         if !term.is_variable {
             if let Some(kind) = &term.kind {
                 self.kind(kind);
@@ -629,20 +647,31 @@ impl Domain {
     }
 }
 
+/// Every atom of the rules, with the variables bound around it.
+fn each_atom<'a>(document: &'a Document, f: &mut dyn FnMut(&'a Atom, &[&'a Parameter])) {
+    for action in &document.actions {
+        action.for_each_atom(&mut |_, atom, bound| f(atom, bound));
+    }
+    for rule in &document.derived {
+        let mut bound: Vec<&Parameter> = rule.parameters.iter().collect();
+        f(&rule.atom, &bound);
+        rule.condition.iter().for_each(|condition| condition.for_each_atom(&mut bound, f));
+    }
+}
+
 /// How many arguments each predicate has by most of its uses; by the first of them where no number leads.
 fn arities(document: &Document) -> HashMap<String, usize> {
-    let in_actions = document.actions.iter().flat_map(|action| {
-        let needs = action.precondition.iter().filter_map(atom_of);
-        needs.chain(&action.add).chain(&action.del)
-    });
-    let stated = document.facts.iter().chain(&document.assumptions).chain(&document.goal);
     let mut counts: HashMap<String, Vec<(usize, usize)>> = HashMap::new();
-    for atom in in_actions.chain(stated.filter_map(atom_of)) {
+    let mut count = |atom: &Atom| {
         let of_predicate = counts.entry(atom.predicate.key()).or_default();
         match of_predicate.iter_mut().find(|(arity, _)| *arity == atom.args.len()) {
             Some((_, count)) => *count += 1,
             None => of_predicate.push((atom.args.len(), 1)),
         }
+    };
+    each_atom(document, &mut |atom, _| count(atom));
+    for condition in document.facts.iter().chain(&document.assumptions).chain(&document.goal) {
+        condition.for_each_atom(&mut Vec::new(), &mut |atom, _| count(atom));
     }
     let most = |counts: Vec<(usize, usize)>| {
         let most = counts.iter().map(|&(_, count)| count).max()?;

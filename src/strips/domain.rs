@@ -79,6 +79,37 @@ pub enum SchemaCost {
     },
 }
 
+/// A condition that is no conjunction of literals; negation stands at literals alone. A variable that a quantifier binds is
+/// numbered as a parameter after all those bound around it.
+#[derive(Debug, Clone)]
+pub enum Formula {
+    Literal {
+        atom: SchemaAtom,
+        negated: bool,
+    },
+    Equal {
+        pair: (SchemaTerm, SchemaTerm),
+        negated: bool,
+    },
+    /// One of the conjunctions holds.
+    Any(Vec<Vec<Formula>>),
+    /// The conjunction holds for every choice of objects, or for some.
+    Quantified {
+        every: bool,
+        variables: Vec<KindSet>,
+        body: Vec<Formula>,
+    },
+}
+
+/// What an action brings about where a condition holds before it, for every choice of objects.
+#[derive(Debug, Clone)]
+pub struct ConditionalEffect {
+    pub variables: Vec<KindSet>,
+    pub condition: Vec<Formula>,
+    pub add_effects: Vec<SchemaAtom>,
+    pub del_effects: Vec<SchemaAtom>,
+}
+
 /// One `Действие` of a rule file.
 #[derive(Debug, Clone)]
 pub struct Schema {
@@ -93,8 +124,44 @@ pub struct Schema {
     pub del_effects: Vec<SchemaAtom>,
     /// Those of `add_effects` that are deleted first, in so many words.
     pub renewed: Vec<SchemaAtom>,
+    /// Preconditions beyond literals.
+    pub formulas: Vec<Formula>,
+    pub conditional: Vec<ConditionalEffect>,
     /// Summed; empty means one.
     pub cost: Vec<SchemaCost>,
+}
+
+impl Schema {
+    /// A schema of no conditions and no effects.
+    pub(super) fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            parameters: Vec::new(),
+            parameter_names: Vec::new(),
+            preconditions: Vec::new(),
+            negative_preconditions: Vec::new(),
+            equal: Vec::new(),
+            different: Vec::new(),
+            add_effects: Vec::new(),
+            del_effects: Vec::new(),
+            renewed: Vec::new(),
+            formulas: Vec::new(),
+            conditional: Vec::new(),
+            cost: Vec::new(),
+        }
+    }
+
+    /// All that it may add or delete, under whatever condition.
+    pub(super) fn changes(&self) -> impl Iterator<Item = &SchemaAtom> {
+        let own = self.add_effects.iter().chain(&self.del_effects);
+        own.chain(self.conditional.iter().flat_map(|e| e.add_effects.iter().chain(&e.del_effects)))
+    }
+
+    /// Whether it has conditions beyond literals, or effects under conditions.
+    #[must_use]
+    pub fn is_beyond_literals(&self) -> bool {
+        !self.formulas.is_empty() || !self.conditional.is_empty()
+    }
 }
 
 /// Checked rules.
@@ -105,6 +172,8 @@ pub struct Domain {
     pub(super) predicates: Vec<Predicate>,
     pub(super) predicate_index: HashMap<String, PredicateId>,
     pub(super) schemas: Vec<Schema>,
+    /// What holds wherever its condition does, one schema a rule; the atom is its only effect.
+    pub(super) derived: Vec<Schema>,
     pub(super) phrases: Arc<Phrases>,
     /// Where each predicate was declared, or else first spoken of as it is understood.
     pub(super) introduced: HashMap<PredicateId, Place>,
@@ -160,9 +229,29 @@ impl Domain {
     /// Whether some action of the rules adds or deletes facts of this predicate.
     #[must_use]
     pub fn is_changed_by_actions(&self, predicate: PredicateId) -> bool {
-        self.schemas.iter().any(|schema| {
-            schema.add_effects.iter().chain(&schema.del_effects).any(|a| a.predicate == predicate)
-        })
+        self.schemas.iter().any(|schema| schema.changes().any(|atom| atom.predicate == predicate))
+    }
+
+    /// Actions, and after them the rules of what is derived.
+    pub(super) fn rules(&self) -> impl Iterator<Item = &Schema> {
+        self.schemas.iter().chain(&self.derived)
+    }
+
+    pub(super) fn rule(&self, number: usize) -> &Schema {
+        let actions = self.schemas.len();
+        if number < actions { &self.schemas[number] } else { &self.derived[number - actions] }
+    }
+
+    /// Whether some rule gives facts of this predicate wherever a condition holds.
+    #[must_use]
+    pub fn is_derived(&self, predicate: PredicateId) -> bool {
+        self.derived.iter().any(|rule| rule.add_effects[0].predicate == predicate)
+    }
+
+    /// Whether the rules have more than literals as conditions and effects: which explanations do not see through.
+    #[must_use]
+    pub fn is_beyond_literals(&self) -> bool {
+        !self.derived.is_empty() || self.schemas.iter().any(Schema::is_beyond_literals)
     }
 
     /// Whether `kind` is `ancestor` or inherits from it.

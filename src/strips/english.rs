@@ -141,6 +141,15 @@ impl RuleError {
             Self::TooManyOperators { megabytes } => format!(
                 "the actions of the rules over these objects do not fit into {megabytes} MiB of memory"
             ),
+            Self::TooManyCases { of, limit } => {
+                format!("the conditions of “{of}” fall into more than {limit} cases")
+            }
+            Self::DerivedStated { name, .. } => format!(
+                "“{name}” is derived by a rule: it can neither be stated nor changed by an action"
+            ),
+            Self::DerivedByAbsence { name, .. } => {
+                format!("“{name}” is derived from “{name}” not being derived")
+            }
             Self::NoPrice { action, more } => {
                 let more = if *more == 0 { String::new() } else { format!(" (and {more} more)") };
                 format!(
@@ -196,6 +205,13 @@ impl RuleError {
             Self::PlanInterference { .. } => "put them into different steps",
             Self::TooManyOperators { .. } => {
                 "give the rules preconditions that tie their parameters together, or use fewer objects"
+            }
+            Self::TooManyCases { .. } => {
+                "divide the action into several, or use fewer objects under “forall” and “when”"
+            }
+            Self::DerivedStated { .. } => "remove this, or the rule that derives it",
+            Self::DerivedByAbsence { .. } => {
+                "break the circle: a negation under a derived predicate must not lead back to it"
             }
             Self::NoPrice { .. } => "give its value in :init: (= (function object …) number)",
             Self::LonelyType { help, .. }

@@ -532,6 +532,39 @@ pub enum RuleError {
     )]
     TooManyOperators { megabytes: usize },
 
+    /// A condition with «or», quantifiers or effects under conditions falls into more cases than anybody plans with.
+    #[error("условия в «{of}» распадаются больше чем на {limit} случаев")]
+    #[diagnostic(
+        code(strips::too_many_cases),
+        help(
+            "разделите действие на несколько или уменьшите число объектов под «для всех» и «если»"
+        )
+    )]
+    TooManyCases { of: String, limit: usize },
+
+    /// What a rule derives is stated, or changed by an action.
+    #[error(
+        "предикат «{name}» выводится правилом, поэтому его нельзя ни утверждать, ни менять действием"
+    )]
+    #[diagnostic(code(strips::derived_stated), help("уберите это или правило вывода"))]
+    DerivedStated {
+        name: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// What is derived rests on its own absence.
+    #[error("«{name}» выводится из того, что «{name}» не выводится")]
+    #[diagnostic(
+        code(strips::derived_by_absence),
+        help("разорвите круг: отрицание под правилом вывода не должно вести к нему же")
+    )]
+    DerivedByAbsence {
+        name: String,
+        #[label("это правило")]
+        at: SourceSpan,
+    },
+
     /// A cost is a function's value, and the problem does not give it.
     #[error(
         "задача не говорит, сколько стоит {action}{}: это считается бесплатным",

@@ -9,7 +9,7 @@ use std::fmt;
 use super::attain::Attainable;
 use super::domain::{Domain, KindId};
 use super::error::RuleFaults;
-use super::ground::Reachability;
+use super::ground::{GOAL_STEP, Reachability};
 use super::lack::{By, Lacks, Wanted, fits};
 use super::phrase::{Phrases, Said, SaidArgument, Wording};
 use super::problem::Problem;
@@ -32,6 +32,8 @@ pub struct Obstacle {
     pub is_met_singly: bool,
     /// Then the needs that do not go together, where that was found out.
     pub clash: Option<Clash>,
+    /// Why was not looked into: the rules have conditions beyond literals.
+    pub is_unexplained: bool,
 }
 
 /// An action two of whose needs exclude each other.
@@ -63,6 +65,21 @@ impl Obstacle {
             format!("цель {goal} недостижима"),
             format!("the goal that {goal} is out of reach"),
         );
+        if self.is_unexplained {
+            if self.goal.name == GOAL_STEP {
+                text = language
+                    .pick(
+                        "цель недостижима ни одним из своих способов",
+                        "the goal is out of reach by any of its ways",
+                    )
+                    .to_owned();
+            }
+            return text
+                + language.pick(
+                    ": ни при каком порядке действий; условия с «или», «для всех» и «если» по частям не разобраны",
+                    ", in whatever order actions are taken; conditions with “or”, “forall” and “when” are not told apart",
+                );
+        }
         if self.is_met_singly {
             text += language.pick(
                 ": всё, что для неё нужно, достижимо порознь, но не вместе",
@@ -179,8 +196,9 @@ pub fn explain_unreachable<'a>(
             help: Vec::new(),
             is_met_singly: false,
             clash: None,
+            is_unexplained: domain.is_beyond_literals(),
         };
-        let Some(wanted) = wanted else { return none };
+        let Some(wanted) = wanted.filter(|_| !none.is_unexplained) else { return none };
         if attainable.can_be(&wanted) {
             return Obstacle { is_met_singly: true, ..none };
         }

@@ -4,12 +4,20 @@
 //! new fact is joined with what was known before it, so that no ground action is found twice. Predicates
 //! that no action changes are looked up and leave no trace in the task; nor do facts that always hold.
 //!
+//! Conditions beyond literals are asked for when the literals are met, again and again until they hold; each case of them
+//! is a ground action of its own ([`super::cases`]). What is derived is reached as by actions, and put in place of itself.
+//!
 //! A negative precondition becomes a fact of its own, kept complementary by every operator that touches the
 //! positive one: the planner knows no negation.
 
 use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
 
-use super::domain::{Domain, KindSet, PredicateId, Schema, SchemaAtom, SchemaCost, SchemaTerm};
+use super::cases::{Body, Case, Cases, Known, MOST_CASES, Objects, TooMany, together};
+use super::domain::{
+    ConditionalEffect, Domain, KindSet, PredicateId, Schema, SchemaAtom, SchemaCost, SchemaTerm,
+};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::problem::{Problem, Standing};
 use super::resolve::{GroundAtom, Resolved, ThingId};
@@ -50,8 +58,10 @@ pub fn ground_while(
         return Err(RuleFault::placeless(RuleError::NoGoal).into());
     }
     let resolved = problem.resolve(domain)?;
-    let reached = Reachability::new(domain, &resolved, may_go_on).saturated();
-    Ok(reached.map(|reached| simplify(draft(domain, &resolved, &reached))))
+    match Reachability::new(domain, &resolved, may_go_on).saturated() {
+        Some(reached) => Ok(Some(simplify(draft(domain, &resolved, &reached)?))),
+        None => Ok(None),
+    }
 }
 
 /// Instances of one schema's parameters.
@@ -98,6 +108,11 @@ pub(super) struct Reachability<'a> {
     may_go_on: &'a dyn Fn(usize) -> bool,
     /// Joins tried so far.
     joins: usize,
+    objects: Objects<'a>,
+    /// Choices of objects whose literals are met, and whose other conditions are not yet.
+    waiting: Vec<Instance>,
+    /// Actions and those of their effects under conditions that may come about still.
+    quiet: Vec<(usize, usize)>,
     /// Whether saturation was told to end before its end.
     stopped: bool,
 }
@@ -114,17 +129,14 @@ impl<'a> Reachability<'a> {
         may_go_on: &'a dyn Fn(usize) -> bool,
     ) -> Self {
         let mut changing = vec![false; domain.predicates.len()];
-        for schema in &domain.schemas {
-            for atom in schema.add_effects.iter().chain(&schema.del_effects) {
-                changing[atom.predicate.index()] = true;
-            }
+        for atom in domain.rules().flat_map(Schema::changes) {
+            changing[atom.predicate.index()] = true;
         }
         let stands = |kinds: &KindSet, thing: usize| {
             kinds.is_empty() || domain.fits(&resolved.things[thing].kinds, kinds)
         };
         let may_stand: Vec<Vec<Vec<bool>>> = domain
-            .schemas
-            .iter()
+            .rules()
             .map(|schema| {
                 let one = |kinds| (0..resolved.things.len()).map(|t| stands(kinds, t)).collect();
                 schema.parameters.iter().map(one).collect()
@@ -153,6 +165,9 @@ impl<'a> Reachability<'a> {
             numbers: HashMap::new(),
             may_go_on,
             joins: 0,
+            objects: Objects::new(domain, resolved),
+            waiting: Vec::new(),
+            quiet: Vec::new(),
             stopped: false,
         }
     }
@@ -180,7 +195,7 @@ impl<'a> Reachability<'a> {
             }
         }
         let domain = self.domain;
-        for (number, schema) in domain.schemas.iter().enumerate() {
+        for (number, schema) in domain.rules().enumerate() {
             if !schema.preconditions.iter().any(|a| self.changing[a.predicate.index()]) {
                 let binding = vec![None; schema.parameters.len()];
                 let open: Vec<usize> = (0..schema.preconditions.len()).collect();
@@ -188,15 +203,64 @@ impl<'a> Reachability<'a> {
             }
         }
         let mut next = 0;
-        while next < self.atoms.len() && !self.stopped {
-            self.ask(next);
-            let atom = self.atoms[next].clone();
-            next += 1;
-            if self.changing[atom.predicate.index()] {
-                self.relations[atom.predicate.index()].insert(&atom.args);
-                self.trigger(&atom);
+        loop {
+            while next < self.atoms.len() && !self.stopped {
+                self.ask(next);
+                let atom = self.atoms[next].clone();
+                next += 1;
+                if self.changing[atom.predicate.index()] {
+                    self.relations[atom.predicate.index()].insert(&atom.args);
+                    self.trigger(&atom);
+                }
+            }
+            self.retry();
+            if self.stopped || next == self.atoms.len() {
+                return;
             }
         }
+    }
+
+    /// Whether a literal may hold once: what does not change is known, what changes may be absent.
+    fn may_hold(&self, atom: &GroundAtom, negated: bool) -> bool {
+        match negated {
+            true => self.changing[atom.predicate.index()] || !self.numbers.contains_key(atom),
+            false => self.numbers.contains_key(atom),
+        }
+    }
+
+    /// Asks again for the conditions that did not hold when the literals beside them were met.
+    fn retry(&mut self) {
+        let domain = self.domain;
+        let mut grown = true;
+        while grown && !self.stopped {
+            self.joins += 1;
+            self.ask(self.joins);
+            let before = (self.atoms.len(), self.instances.len());
+            for instance in std::mem::take(&mut self.waiting) {
+                self.enter(instance);
+            }
+            for (number, effect) in std::mem::take(&mut self.quiet) {
+                let Instance { schema, args } = &self.instances[number];
+                let part = &domain.rule(*schema).conditional[effect];
+                let added = self.may_come(part, args);
+                added.into_iter().for_each(|atom| self.reach(atom));
+                self.quiet.push((number, effect));
+            }
+            grown = before != (self.atoms.len(), self.instances.len());
+        }
+    }
+
+    /// What an effect under a condition may add by now.
+    fn may_come(&self, part: &ConditionalEffect, args: &[ThingId]) -> Vec<GroundAtom> {
+        let holds = |atom: &GroundAtom, negated: bool| self.may_hold(atom, negated);
+        let (mut added, mut binding) = (Vec::new(), args.to_vec());
+        self.objects.each_choice(&part.variables, &mut binding, &mut |binding| {
+            if self.objects.all_hold(&part.condition, binding, &holds) {
+                added.extend(part.add_effects.iter().map(|a| self.objects.ground(a, binding)));
+            }
+            false
+        });
+        added
     }
 
     /// Now and then, whether to go on.
@@ -216,7 +280,7 @@ impl<'a> Reachability<'a> {
     /// Joins a new fact with every precondition that it may satisfy.
     fn trigger(&mut self, atom: &GroundAtom) {
         let domain = self.domain;
-        for (number, schema) in domain.schemas.iter().enumerate() {
+        for (number, schema) in domain.rules().enumerate() {
             for (place, precondition) in schema.preconditions.iter().enumerate() {
                 if precondition.predicate != atom.predicate {
                     continue;
@@ -295,7 +359,7 @@ impl<'a> Reachability<'a> {
         trigger: Option<(usize, &GroundAtom)>,
     ) {
         let domain = self.domain;
-        let rule: &Schema = &domain.schemas[schema];
+        let rule: &Schema = domain.rule(schema);
         self.joins += 1;
         self.ask(self.joins);
         if self.stopped || !self.comparisons_hold(rule, &binding) {
@@ -373,7 +437,7 @@ impl<'a> Reachability<'a> {
         for choice in 0..self.candidates[schema][free].len() {
             let mut binding = binding.clone();
             binding[free] = Some(self.candidates[schema][free][choice]);
-            if !self.stopped && self.comparisons_hold(&domain.schemas[schema], &binding) {
+            if !self.stopped && self.comparisons_hold(domain.rule(schema), &binding) {
                 self.choose_rest(schema, binding);
             }
         }
@@ -393,7 +457,7 @@ impl<'a> Reachability<'a> {
 
     fn emit(&mut self, schema: usize, args: Vec<ThingId>) {
         let domain = self.domain;
-        let rule = &domain.schemas[schema];
+        let rule = domain.rule(schema);
         let denied = rule.negative_preconditions.iter().any(|atom| {
             !self.changing[atom.predicate.index()]
                 && self.numbers.contains_key(&self.instantiate(atom, &args))
@@ -402,11 +466,24 @@ impl<'a> Reachability<'a> {
             return;
         }
         self.ask(self.instances.len());
+        self.enter(Instance { schema, args });
+    }
+
+    /// An instance whose literals are met: as one more action, or to be asked for again.
+    fn enter(&mut self, instance: Instance) {
+        let rule = self.domain.rule(instance.schema);
+        let holds = |atom: &GroundAtom, negated: bool| self.may_hold(atom, negated);
+        if !self.objects.all_hold(&rule.formulas, &mut instance.args.clone(), &holds) {
+            self.waiting.push(instance);
+            return;
+        }
         for atom in &rule.add_effects {
-            let atom = self.instantiate(atom, &args);
+            let atom = self.instantiate(atom, &instance.args);
             self.reach(atom);
         }
-        self.instances.push(Instance { schema, args });
+        let effects = 0..rule.conditional.len();
+        self.quiet.extend(effects.map(|effect| (self.instances.len(), effect)));
+        self.instances.push(instance);
     }
 
     pub(super) fn instantiate(&self, atom: &SchemaAtom, args: &[ThingId]) -> GroundAtom {
@@ -419,7 +496,11 @@ impl<'a> Reachability<'a> {
 }
 
 /// The reached atoms and actions, numbered, still with all that simplification will drop.
-fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Draft {
+fn draft(
+    domain: &Domain,
+    resolved: &Resolved,
+    reached: &Reachability<'_>,
+) -> Result<Draft, RuleFaults> {
     let mut atoms = reached.atoms.clone();
     for (atom, _) in &resolved.goal {
         if !reached.numbers.contains_key(atom) && !atoms.contains(atom) {
@@ -429,36 +510,56 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
     atoms.sort_unstable();
     let numbers: HashMap<&GroundAtom, u32> =
         atoms.iter().enumerate().map(|(number, atom)| (atom, number as u32)).collect();
-    let known = |atoms: &[SchemaAtom], instance: &Instance| -> Vec<u32> {
-        let number = |atom| numbers.get(&reached.instantiate(atom, &instance.args)).copied();
-        atoms.iter().filter_map(number).collect()
-    };
     let mut instances: Vec<&Instance> = reached.instances.iter().collect();
     instances.sort_unstable_by(|a, b| (a.schema, &a.args).cmp(&(b.schema, &b.args)));
-    let names: Vec<std::sync::Arc<str>> =
+    let mut bodies: HashMap<GroundAtom, Vec<Body>> = HashMap::new();
+    for instance in instances.iter().filter(|i| i.schema >= domain.schemas.len()) {
+        let head =
+            reached.instantiate(&domain.rule(instance.schema).add_effects[0], &instance.args);
+        let body = Body { rule: instance.schema, args: instance.args.clone() };
+        bodies.entry(head).or_default().push(body);
+    }
+    let bodies: HashMap<GroundAtom, Rc<[Body]>> =
+        bodies.into_iter().map(|(atom, bodies)| (atom, bodies.into())).collect();
+    let is_derived: Vec<bool> =
+        (0..domain.predicates.len() as u32).map(|p| domain.is_derived(PredicateId(p))).collect();
+    let known = |atom: &GroundAtom| {
+        if is_derived[atom.predicate.index()] {
+            return bodies.get(atom).map_or(Known::Never, |bodies| Known::Derived(bodies.clone()));
+        }
+        match reached.numbers.contains_key(atom) {
+            false => Known::Never,
+            true if !reached.changing[atom.predicate.index()] => Known::Always,
+            true => Known::Changes(numbers[atom]),
+        }
+    };
+    let names: Vec<Arc<str>> =
         resolved.things.iter().map(|thing| thing.name.as_str().into()).collect();
-    let schema_names: Vec<std::sync::Arc<str>> =
+    let schema_names: Vec<Arc<str>> =
         domain.schemas.iter().map(|schema| schema.name.as_str().into()).collect();
-    let operators = instances
-        .into_iter()
-        .map(|instance| {
-            let schema = &domain.schemas[instance.schema];
-            DraftOperator {
-                name: schema_names[instance.schema].clone(),
-                args: instance.args.iter().map(|thing| names[thing.index()].clone()).collect(),
-                preconditions: known(&schema.preconditions, instance),
-                negative: known(&schema.negative_preconditions, instance),
-                add_effects: known(&schema.add_effects, instance),
-                del_effects: known(&schema.del_effects, instance),
-                renewed: known(&schema.renewed, instance),
-                cost: cost(schema, resolved, &instance.args),
-            }
-        })
-        .collect();
-    let predicate_names: Vec<std::sync::Arc<str>> =
+    let drafter =
+        Drafter { domain, reached, numbers: &numbers, is_derived: &is_derived, known: &known };
+    let mut operators = Vec::new();
+    for instance in instances.into_iter().filter(|i| i.schema < domain.schemas.len()) {
+        let schema = &domain.schemas[instance.schema];
+        let drafted = drafter.of_instance(instance).map_err(|TooMany| {
+            let of = schema.name.clone();
+            RuleFault::placeless(RuleError::TooManyCases { of, limit: MOST_CASES })
+        })?;
+        let args: Vec<Arc<str>> =
+            instance.args.iter().map(|thing| names[thing.index()].clone()).collect();
+        let cost = cost(schema, resolved, &instance.args);
+        operators.extend(drafted.into_iter().map(|effects| DraftOperator {
+            name: schema_names[instance.schema].clone(),
+            args: args.clone(),
+            cost,
+            ..effects
+        }));
+    }
+    let predicate_names: Vec<Arc<str>> =
         domain.predicates.iter().map(|predicate| predicate.name.as_str().into()).collect();
     let shown = |predicate: PredicateId| predicate_names[predicate.index()].clone();
-    Draft {
+    let mut draft = Draft {
         init: resolved.facts.iter().map(|(atom, _)| numbers[atom]).collect(),
         assumptions: resolved
             .facts
@@ -466,7 +567,7 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
             .filter(|(_, standing)| *standing == Standing::Assumption)
             .map(|(atom, _)| numbers[atom])
             .collect(),
-        goal: resolved.goal.iter().map(|(atom, negated)| (numbers[atom], *negated)).collect(),
+        goal: Vec::new(),
         impossible: resolved.impossible,
         operators,
         facts: atoms
@@ -476,6 +577,178 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
                 (shown(atom.predicate), args)
             })
             .collect(),
+    };
+    let goals = drafter.goals(resolved).map_err(|TooMany| {
+        let of = "goal".to_owned();
+        RuleFault::placeless(RuleError::TooManyCases { of, limit: MOST_CASES })
+    })?;
+    state_goal(&mut draft, goals);
+    Ok(draft)
+}
+
+/// The fact, and the operators that give it, by which a goal of several ways is met ([`Task::goal_steps`]).
+pub const GOAL_STEP: &str = "GOAL";
+
+/// The goal as one conjunction. Where any of several would do, an action for each meets the one fact that is the goal then.
+fn state_goal(draft: &mut Draft, mut goals: Vec<Case>) {
+    match goals.len() {
+        0 => draft.impossible = true,
+        1 => draft.goal = goals.swap_remove(0),
+        _ => {
+            let met = draft.facts.len() as u32;
+            draft.facts.push((GOAL_STEP.into(), Vec::new()));
+            draft.goal = vec![(met, false)];
+            for case in goals {
+                let part = |absent| {
+                    case.iter().filter(move |(_, negated)| *negated == absent).map(|&(n, _)| n)
+                };
+                draft.operators.push(DraftOperator {
+                    name: GOAL_STEP.into(),
+                    args: Vec::new(),
+                    preconditions: part(false).collect(),
+                    negative: part(true).collect(),
+                    add_effects: vec![met],
+                    del_effects: Vec::new(),
+                    renewed: Vec::new(),
+                    cost: 0,
+                    meets_goal: true,
+                });
+            }
+        }
+    }
+}
+
+/// Makes ground actions of instances.
+struct Drafter<'a> {
+    domain: &'a Domain,
+    reached: &'a Reachability<'a>,
+    numbers: &'a HashMap<&'a GroundAtom, u32>,
+    is_derived: &'a [bool],
+    known: &'a dyn Fn(&GroundAtom) -> Known,
+}
+
+/// A case of an action: when it is, and what it then adds and deletes.
+struct Variant {
+    case: Case,
+    adds: Vec<u32>,
+    dels: Vec<u32>,
+}
+
+impl Drafter<'_> {
+    fn atoms(&self, atoms: &[SchemaAtom], args: &[ThingId]) -> Vec<u32> {
+        let number = |atom| self.numbers.get(&self.reached.objects.ground(atom, args)).copied();
+        atoms.iter().filter_map(number).collect()
+    }
+
+    /// Its cases; name, objects and cost are left to be told.
+    fn of_instance(&self, instance: &Instance) -> Result<Vec<DraftOperator>, TooMany> {
+        let (schema, args) = (self.domain.rule(instance.schema), &instance.args);
+        let derives =
+            |atoms: &[SchemaAtom]| atoms.iter().any(|a| self.is_derived[a.predicate.index()]);
+        let is_plain = !schema.is_beyond_literals()
+            && !derives(&schema.preconditions)
+            && !derives(&schema.negative_preconditions);
+        let nameless = |preconditions, negative| DraftOperator {
+            name: "".into(),
+            args: Vec::new(),
+            preconditions,
+            negative,
+            add_effects: self.atoms(&schema.add_effects, args),
+            del_effects: self.atoms(&schema.del_effects, args),
+            renewed: self.atoms(&schema.renewed, args),
+            cost: 0,
+            meets_goal: false,
+        };
+        if is_plain {
+            let needs = self.atoms(&schema.preconditions, args);
+            return Ok(vec![nameless(needs, self.atoms(&schema.negative_preconditions, args))]);
+        }
+        let cases = Cases::new(&self.reached.objects, self.domain, self.known);
+        let whole = cases.of_rule(instance.schema, args, false)?;
+        let variant = |case| Variant { case, adds: Vec::new(), dels: Vec::new() };
+        let mut variants: Vec<Variant> = whole.into_iter().map(variant).collect();
+        for effect in &schema.conditional {
+            let mut choices = Vec::new();
+            self.reached.objects.each_choice(
+                &effect.variables,
+                &mut args.clone(),
+                &mut |binding| {
+                    choices.push(binding.clone());
+                    false
+                },
+            );
+            for mut choice in choices {
+                variants = self.divided(&cases, effect, &mut choice, variants)?;
+            }
+        }
+        let operators = variants.into_iter().map(|Variant { case, adds, dels }| {
+            let part = |absent| {
+                case.iter().filter(move |(_, negated)| *negated == absent).map(|&(n, _)| n)
+            };
+            let mut operator = nameless(part(false).collect(), part(true).collect());
+            operator.add_effects.extend(adds);
+            operator.del_effects.extend(dels);
+            operator
+        });
+        Ok(operators.collect())
+    }
+
+    /// Each variant where an effect's condition holds, with the effect, and where it does not, without.
+    fn divided(
+        &self,
+        cases: &Cases<'_>,
+        effect: &ConditionalEffect,
+        choice: &mut Vec<ThingId>,
+        variants: Vec<Variant>,
+    ) -> Result<Vec<Variant>, TooMany> {
+        let adds = self.atoms(&effect.add_effects, choice);
+        let dels = self.atoms(&effect.del_effects, choice);
+        if adds.is_empty() && dels.is_empty() {
+            return Ok(variants);
+        }
+        let holds = cases.of_all(&effect.condition, choice, false)?;
+        let fails = cases.of_all(&effect.condition, choice, true)?;
+        let mut divided = Vec::new();
+        for variant in variants {
+            for (conditions, comes) in [(&holds, true), (&fails, false)] {
+                let here = conditions.iter().filter_map(|case| together(&variant.case, case));
+                // Where the variant says already that it is so, nothing is to be divided.
+                for case in cases.without_special(here.collect())? {
+                    let mut one =
+                        Variant { case, adds: variant.adds.clone(), dels: variant.dels.clone() };
+                    if comes {
+                        one.adds.extend(&adds);
+                        one.dels.extend(&dels);
+                    }
+                    divided.push(one);
+                    if divided.len() > MOST_CASES {
+                        return Err(TooMany);
+                    }
+                }
+            }
+        }
+        Ok(divided)
+    }
+
+    /// What is wanted, by cases.
+    fn goals(&self, resolved: &Resolved) -> Result<Vec<Case>, TooMany> {
+        let is_plain = resolved.goal_formulas.is_empty()
+            && !resolved.goal.iter().any(|(atom, _)| self.is_derived[atom.predicate.index()]);
+        if is_plain {
+            let goal = resolved.goal.iter().map(|(atom, negated)| (self.numbers[atom], *negated));
+            return Ok(vec![goal.collect()]);
+        }
+        let cases = Cases::new(&self.reached.objects, self.domain, self.known);
+        let mut all = cases.of_all(&resolved.goal_formulas, &mut Vec::new(), false)?;
+        for (atom, negated) in &resolved.goal {
+            // What nothing reaches is told as such, by its name.
+            let literal = match (self.known)(atom) {
+                Known::Derived(_) => cases.literal(atom, *negated)?,
+                _ => vec![vec![(self.numbers[atom], *negated)]],
+            };
+            all = cases.both(&all, &literal)?;
+        }
+        Ok(all)
     }
 }
 

@@ -149,8 +149,8 @@ impl Scenario {
             let error = |at| RuleError::OtherDomain { wanted: name, found, at };
             warnings.push(wanted.fault(error));
         }
-        let domain = check::domain(&document, &mut faults);
-        let problem = Problem::of(&document, &mut faults);
+        let (domain, goal) = check::domain(&document, &mut faults);
+        let problem = Problem::of(&document, goal, &mut faults);
         problem.check(&domain, &mut faults);
         in_order_of_texts(&mut faults);
         faults.truncate(MOST_FAULTS);

@@ -26,7 +26,9 @@ use orthoframe_units as units;
 
 mod attain;
 mod bystander;
+mod cases;
 mod check;
+mod compound;
 mod domain;
 mod english;
 mod error;
@@ -51,13 +53,13 @@ mod task;
 mod token;
 
 pub use domain::{
-    ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
-    SchemaCost, SchemaTerm,
+    ANY_KIND, ConditionalEffect, Domain, Formula, Kind, KindId, KindSet, Predicate, PredicateId,
+    Schema, SchemaAtom, SchemaCost, SchemaTerm,
 };
 pub use english::EnglishFaults;
 pub use error::{Place, RuleError, RuleFault, RuleFaults};
 pub use explain::{Clash, Missing, Obstacle, explain_unreachable};
-pub use ground::{ground, ground_while, without_price};
+pub use ground::{GOAL_STEP, ground, ground_while, without_price};
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use outline::{Mark, Meaning, outline};
 pub use phrase::{Phrases, Said, SaidArgument, Wording};
@@ -67,5 +69,7 @@ pub use replay::{Broken, Replayed};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
 pub use token::in_quotes;
 
+#[cfg(test)]
+mod adl_tests;
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::rule_text;
-use crate::syntax::{Atom, Condition, Declaration, Name, Term};
+use crate::syntax::{Atom, Condition, Declaration, Name, Parameter, Term};
 use crate::units::{Language, Source};
 
 /// What a name is one of.
@@ -73,13 +73,22 @@ pub fn outline(source: &Source) -> Vec<Mark> {
             .collect();
         let told = format!("{}({})", action.name.text, parameters.join(", "));
         marks.declared(&action.name, Meaning::Action, &told);
-        for parameter in &action.parameters {
-            parameter.kinds.iter().for_each(|kind| marks.used(kind, Meaning::Type));
-        }
+        marks.variables(&action.parameters);
         action.precondition.iter().for_each(|condition| marks.condition(condition));
-        for atom in action.add.iter().chain(&action.del).chain(&action.renewed) {
+        let conditional = action.conditional.iter();
+        let effects = conditional.clone().flat_map(|part| part.add.iter().chain(&part.del));
+        for atom in action.add.iter().chain(&action.del).chain(&action.renewed).chain(effects) {
             marks.atom(atom);
         }
+        for part in conditional {
+            marks.variables(&part.variables);
+            part.condition.iter().for_each(|condition| marks.condition(condition));
+        }
+    }
+    for rule in &document.derived {
+        marks.atom(&rule.atom);
+        marks.variables(&rule.parameters);
+        rule.condition.iter().for_each(|condition| marks.condition(condition));
     }
     let stated = document.facts.iter().chain(&document.assumptions).chain(&document.goal);
     stated.for_each(|condition| marks.condition(condition));
@@ -168,7 +177,16 @@ impl Marks<'_> {
                 self.term(&pair.0);
                 self.term(&pair.1);
             }
+            Condition::Any(cases) => cases.iter().flatten().for_each(|part| self.condition(part)),
+            Condition::Quantified { variables, body, .. } => {
+                self.variables(variables);
+                body.iter().for_each(|part| self.condition(part));
+            }
         }
+    }
+
+    fn variables(&mut self, variables: &[Parameter]) {
+        variables.iter().flat_map(|v| &v.kinds).for_each(|kind| self.used(kind, Meaning::Type));
     }
 
     fn atom(&mut self, atom: &Atom) {

@@ -1,7 +1,7 @@
-//! Planning problems of other people: PDDL with :strips :typing :negative-preconditions :equality :action-costs.
+//! Planning problems of other people: PDDL with :adl :derived-predicates :action-costs.
 //!
 //! Domain and problem become the same [`Document`] that a rule file becomes, and are checked by the same code.
-//! What lies beyond (quantifiers, disjunction, conditional effects, time) is refused by name and place.
+//! What lies beyond (numbers, preferences, constraints) is refused by name and place.
 
 use miette::SourceSpan;
 
@@ -9,7 +9,8 @@ use super::error::{RuleError, RuleFault};
 use super::expression::{Expression, expressions};
 use super::rule_text::MAX_COST;
 use super::syntax::{
-    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Signature, Term,
+    ActionText, Atom, Condition, ConditionalText, CostTerm, Declaration, DerivedText, Document,
+    Name, Parameter, Signature, Term, none_of,
 };
 use crate::units::{Bilingual, Source, name_key};
 
@@ -95,6 +96,7 @@ impl Reader<'_> {
                 }
             }
             Some(":action") => self.action(section),
+            Some(":derived") => self.derived(section),
             Some(":init") => items[1..].iter().for_each(|fact| self.fact(fact)),
             Some(":goal") => {
                 let (mut goal, before) = (Vec::new(), self.faults.len());
@@ -117,8 +119,15 @@ impl Reader<'_> {
 
     /// A promise of more than is read harms nobody who does not make use of it.
     fn requirements(&mut self, items: &[Expression<'_>]) {
-        const READ: [&str; 6] = [
+        const READ: [&str; 13] = [
             ":strips",
+            ":adl",
+            ":disjunctive-preconditions",
+            ":existential-preconditions",
+            ":universal-preconditions",
+            ":quantified-preconditions",
+            ":conditional-effects",
+            ":derived-predicates",
             ":typing",
             ":equality",
             ":negative-preconditions",
@@ -180,15 +189,7 @@ impl Reader<'_> {
         let Some(Expression::Word(name, span)) = items.get(1) else {
             return self.expected(("имя действия", "the name of an action"), section.span());
         };
-        let mut action = ActionText {
-            name: Name::new(name, self.source, *span),
-            parameters: Vec::new(),
-            precondition: Vec::new(),
-            add: Vec::new(),
-            del: Vec::new(),
-            renewed: Vec::new(),
-            cost: Vec::new(),
-        };
+        let mut action = ActionText::new(Name::new(name, self.source, *span));
         let mut rest = items[2..].iter();
         while let Some(key) = rest.next() {
             let Expression::Word(word, span) = key else {
@@ -206,18 +207,7 @@ impl Reader<'_> {
                 continue;
             };
             match word.to_lowercase().as_str() {
-                ":parameters" => {
-                    for Declaration { name, kinds } in self.typed(body.items()) {
-                        if name.text.starts_with('?') {
-                            action.parameters.push(Parameter { kinds, variable: name });
-                        } else {
-                            self.expected(
-                                ("переменная вида «?x»", "a variable such as “?x”"),
-                                name.at.span,
-                            );
-                        }
-                    }
-                }
+                ":parameters" => action.parameters.extend(self.variables(body.items())),
                 ":precondition" => self.condition(body, false, &mut action.precondition),
                 ":effect" => self.effect(body, &mut action),
                 other => self.unsupported(other, *span),
@@ -239,8 +229,27 @@ impl Reader<'_> {
     fn condition(&mut self, part: &Expression<'_>, negated: bool, into: &mut Vec<Condition>) {
         let items = part.items();
         match part.head().as_deref() {
-            Some("and") if !negated => {
-                items[1..].iter().for_each(|p| self.condition(p, false, into))
+            Some("and") => {
+                let mut all = Vec::new();
+                items[1..].iter().for_each(|p| self.condition(p, false, &mut all));
+                if negated { into.push(none_of(all)) } else { into.extend(all) }
+            }
+            Some("or") => {
+                let cases = items[1..].iter().map(|p| self.conjunction(p)).collect();
+                let any = Condition::Any(cases);
+                into.push(if negated { any.negated() } else { any });
+            }
+            Some("imply") if items.len() == 3 => {
+                let (if_so, then) = (self.conjunction(&items[1]), self.conjunction(&items[2]));
+                let implied = Condition::Any(vec![vec![none_of(if_so)], then]);
+                into.push(if negated { implied.negated() } else { implied });
+            }
+            Some(quantifier @ ("forall" | "exists")) if items.len() == 3 => {
+                let variables = self.variables(items[1].items());
+                let body = self.conjunction(&items[2]);
+                let every = quantifier == "forall";
+                let quantified = Condition::Quantified { every, variables, body };
+                into.push(if negated { quantified.negated() } else { quantified });
             }
             Some("not") if items.len() == 2 => self.condition(&items[1], !negated, into),
             Some("=") if matches!(items, [_, Expression::Word(..), Expression::Word(..)]) => {
@@ -248,10 +257,15 @@ impl Reader<'_> {
                     into.push(Condition::Equal { pair: Box::new((left, right)), negated });
                 }
             }
-            Some(
-                what @ ("and" | "or" | "imply" | "forall" | "exists" | "when" | "preference" | "="
-                | "<" | "<=" | ">" | ">="),
-            ) => {
+            Some(what @ ("imply" | "forall" | "exists")) => {
+                let form = match what {
+                    "imply" => ("(imply условие условие)", "(imply condition condition)"),
+                    "forall" => ("(forall (переменные) условие)", "(forall (variables) condition)"),
+                    _ => ("(exists (переменные) условие)", "(exists (variables) condition)"),
+                };
+                self.expected(form, part.span());
+            }
+            Some(what @ ("when" | "preference" | "=" | "<" | "<=" | ">" | ">=")) => {
                 self.unsupported(what, part.head_span());
             }
             Some(_) => {
@@ -262,6 +276,80 @@ impl Reader<'_> {
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
             None => self.expected(("условие в скобках", "a condition in brackets"), part.span()),
         }
+    }
+
+    fn conjunction(&mut self, part: &Expression<'_>) -> Vec<Condition> {
+        let mut all = Vec::new();
+        self.condition(part, false, &mut all);
+        all
+    }
+
+    /// `?a ?b - place`
+    fn variables(&mut self, items: &[Expression<'_>]) -> Vec<Parameter> {
+        let mut variables = Vec::new();
+        for Declaration { name, kinds } in self.typed(items) {
+            if name.text.starts_with('?') {
+                variables.push(Parameter { kinds, variable: name });
+            } else {
+                let what = ("переменная вида «?x»", "a variable such as “?x”");
+                self.expected(what, name.at.span);
+            }
+        }
+        variables
+    }
+
+    /// `(forall (?x - bag) (when (in ?x) (at ?x ?l)))`: effects under a condition, or for every choice of objects.
+    fn conditional(
+        &mut self,
+        part: &Expression<'_>,
+        around: &ConditionalText,
+        action: &mut ActionText,
+    ) {
+        let items = part.items();
+        match part.head().as_deref() {
+            Some("and") => items[1..].iter().for_each(|p| self.conditional(p, around, action)),
+            Some("forall") if items.len() == 3 => {
+                let mut around = around.clone();
+                around.variables.extend(self.variables(items[1].items()));
+                self.conditional(&items[2], &around, action);
+            }
+            Some("when") if items.len() == 3 => {
+                let mut around = around.clone();
+                around.condition.extend(self.conjunction(&items[1]));
+                self.conditional(&items[2], &around, action);
+            }
+            _ => {
+                // What a plain effect would be, with all that stands around it.
+                let mut plain = ActionText::new(action.name.clone());
+                self.effect(part, &mut plain);
+                if !plain.cost.is_empty() {
+                    self.unsupported("increase", part.head_span());
+                }
+                let (add, del) = (plain.add, plain.del);
+                action.conditional.extend(plain.conditional);
+                if !add.is_empty() || !del.is_empty() {
+                    action.conditional.push(ConditionalText { add, del, ..around.clone() });
+                }
+            }
+        }
+    }
+
+    /// `(:derived (above ?x ?y - block) condition)`
+    fn derived(&mut self, section: &Expression<'_>) {
+        let [_, head, condition] = section.items() else {
+            let form = ("(:derived (имя ?x) условие)", "(:derived (name ?x) condition)");
+            return self.expected(form, section.span());
+        };
+        let Some((predicate, rest)) = self.call(head) else { return };
+        let parameters = self.variables(rest);
+        let term = |parameter: &Parameter| Term {
+            kind: None,
+            name: parameter.variable.clone(),
+            is_variable: true,
+        };
+        let atom = Atom { predicate, args: parameters.iter().map(term).collect() };
+        let condition = self.conjunction(condition);
+        self.document.derived.push(DerivedText { parameters, atom, condition });
     }
 
     fn effect(&mut self, part: &Expression<'_>, action: &mut ActionText) {
@@ -282,10 +370,24 @@ impl Reader<'_> {
                     list @ Expression::List(..) => self.atom(list).map(CostTerm::Function),
                 });
             }
-            Some(
-                what @ ("forall" | "when" | "assign" | "decrease" | "scale-up" | "scale-down"),
-            ) => {
+            Some("forall" | "when") if items.len() == 3 => {
+                let nothing = ConditionalText {
+                    variables: Vec::new(),
+                    condition: Vec::new(),
+                    add: Vec::new(),
+                    del: Vec::new(),
+                };
+                self.conditional(part, &nothing, action);
+            }
+            Some(what @ ("assign" | "decrease" | "scale-up" | "scale-down")) => {
                 self.unsupported(what, part.head_span());
+            }
+            Some("forall" | "when") => {
+                let form = (
+                    "(forall (переменные) эффект) или (when условие эффект)",
+                    "(forall (variables) effect) or (when condition effect)",
+                );
+                self.expected(form, part.span());
             }
             Some(_) => action.add.extend(self.atom(part)),
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
@@ -445,28 +547,9 @@ const COSTS_ALONE: (&str, &str) = (
 /// How to say the same without what is not read.
 fn way_round(what: &str) -> (&'static str, &'static str) {
     match what {
-        "or" | "imply" => {
-            ("запишите по действию на каждый случай", "write one action for each case")
-        }
-        "forall" => (
-            "перечислите объекты по одному или запишите по действию на каждый",
-            "name the objects one by one, or write one action for each",
-        ),
-        "exists" => (
-            "добавьте действию параметр вместо «exists»",
-            "give the action one more parameter instead of “exists”",
-        ),
-        "when" => (
-            "разделите действие на два: где условие выполнено и где нет («not»)",
-            "divide the action in two: where the condition holds and where it does not (“not”)",
-        ),
         ":durative-action" => (
             "времени в планах нет: запишите обычное «:action», длительность – как стоимость",
             "plans have no time: write a plain :action, and its duration as a cost",
-        ),
-        ":derived" => (
-            "запишите выведенное в «:init» или добавьте действие, которое его даёт",
-            "write what is derived into :init, or add an action that brings it about",
         ),
         "preference" | ":constraints" => (
             "мягких целей нет: запишите в «:goal» то, что нужно",
@@ -474,13 +557,9 @@ fn way_round(what: &str) -> (&'static str, &'static str) {
         ),
         "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => COSTS_ALONE,
         what if what.starts_with("(increase") => COSTS_ALONE,
-        "and" => (
-            "отрицание перед каждым фактом отдельно: (not (…))",
-            "a negation before each fact by itself: (not (…))",
-        ),
         _ => (
-            "читаются :strips :typing :negative-preconditions :equality :action-costs",
-            ":strips :typing :negative-preconditions :equality :action-costs are read",
+            "читаются :adl :derived-predicates :action-costs и что в них входит",
+            ":adl, :derived-predicates, :action-costs and what they hold are read",
         ),
     }
 }
@@ -540,7 +619,6 @@ mod tests {
             problem:1:53: неизвестный тип «flor»
             problem:2:22: неизвестный предикат «att»
             problem:2:41: «waits»: 1-й аргумент должен быть типа «person или bag», а «ground» – типа «floor»
-            problem:3:26: «or» не поддерживается
             problem:3:49: неизвестный объект «Bob»"#]].assert_eq(&faults.join("\n"));
     }
 

@@ -6,7 +6,7 @@
 use std::collections::HashSet;
 
 use super::check::{hint, text_of};
-use super::domain::{Domain, PredicateId};
+use super::domain::{Domain, Formula, PredicateId};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
@@ -44,6 +44,8 @@ pub struct Problem {
     pub(super) objects: Vec<ObjectStatement>,
     pub(super) facts: Vec<Statement>,
     pub(super) goal: Vec<Statement>,
+    /// What of the goal is no plain fact.
+    pub(super) goal_formulas: Vec<Formula>,
     pub(super) values: Vec<(Atom, u32)>,
     pub(super) objects_closed: bool,
     pub(super) compared: Vec<(Name, Name, bool)>,
@@ -112,6 +114,10 @@ impl Problem {
                     faults.push(pair.0.name.fault(no_plain_fact));
                     continue;
                 }
+                compound => {
+                    faults.extend(compound.first_name().map(|name| name.fault(no_plain_fact)));
+                    continue;
+                }
             };
             if let Err(fault) = Statement::of(atom, false, Standing::Assumption).predicate(domain) {
                 faults.push(fault);
@@ -159,7 +165,10 @@ impl Problem {
 
     #[must_use]
     pub fn has_goal(&self) -> bool {
-        !self.goal.is_empty() || !self.compared.is_empty() || self.goal_is_empty
+        !self.goal.is_empty()
+            || !self.goal_formulas.is_empty()
+            || !self.compared.is_empty()
+            || self.goal_is_empty
     }
 
     /// The names of all objects that a statement mentions, each once, in order.
@@ -217,8 +226,13 @@ impl Problem {
     }
 
     /// The statements of a document.
-    pub(super) fn of(document: &Document, faults: &mut Vec<RuleFault>) -> Self {
+    pub(super) fn of(
+        document: &Document,
+        goal_formulas: Vec<Formula>,
+        faults: &mut Vec<RuleFault>,
+    ) -> Self {
         let mut problem = Self {
+            goal_formulas,
             values: document.values.clone(),
             objects_closed: document.objects_closed,
             goal_is_empty: document.goal_is_empty,
@@ -231,6 +245,13 @@ impl Problem {
                 text: Some(declaration.clone()),
             });
         }
+        for condition in document.facts.iter().chain(&document.assumptions) {
+            if let (Condition::Any(..) | Condition::Quantified { .. }, Some(name)) =
+                (condition, condition.first_name())
+            {
+                faults.push(name.fault(no_plain_fact));
+            }
+        }
         let mut state = |conditions: &[Condition], standing, into: &mut Vec<Statement>| {
             for condition in conditions {
                 match condition {
@@ -241,6 +262,8 @@ impl Problem {
                         let (left, right) = &**pair;
                         problem.compared.push((left.name.clone(), right.name.clone(), *negated));
                     }
+                    // In a goal a formula; nothing else states it.
+                    Condition::Any(..) | Condition::Quantified { .. } => {}
                 }
                 check_ground(condition, faults);
             }
@@ -314,7 +337,7 @@ impl<'p> Stated<'p> {
 }
 
 fn no_plain_fact(at: miette::SourceSpan) -> RuleError {
-    let found = ("отрицание или сравнение", "a negation or a comparison");
+    let found = ("отрицание, сравнение или условие", "a negation, a comparison or a condition");
     RuleError::Syntax { expected: PLAIN_FACT.into(), found: found.into(), at }
 }
 
@@ -322,6 +345,7 @@ fn check_ground(condition: &Condition, faults: &mut Vec<RuleFault>) {
     let terms = match condition {
         Condition::Holds { atom, .. } => atom.args.iter().collect::<Vec<_>>(),
         Condition::Equal { pair, .. } => vec![&pair.0, &pair.1],
+        Condition::Any(..) | Condition::Quantified { .. } => Vec::new(),
     };
     for term in terms.into_iter().filter(|term| term.is_variable) {
         faults.push(

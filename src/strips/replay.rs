@@ -3,10 +3,12 @@
 //! The replay works on the rules themselves, not on a grounded task: it is a second opinion on grounding and on
 //! the planner, and it judges plans of others, who may take steps that the planner would never think of.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, HashSet};
 
+use super::cases::Objects;
 use super::check::{hint, perhaps};
-use super::domain::{Domain, Schema, SchemaAtom, SchemaTerm};
+use super::domain::{Domain, Formula, Schema, SchemaAtom, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::ground::cost;
 use super::plan_text::{Directive, PlanText};
@@ -44,11 +46,14 @@ impl PlanText {
         let resolved = problem.resolve(domain)?;
         let mut state: HashSet<GroundAtom> =
             resolved.facts.iter().map(|(atom, _)| atom.clone()).collect();
+        let objects = Objects::new(domain, &resolved);
         let mut steps: BTreeMap<u32, Vec<&Directive>> = BTreeMap::new();
         for directive in &self.directives {
             steps.entry(directive.step).or_default().push(directive);
         }
-        let replay = Replay { domain, resolved: &resolved, source: &self.source };
+        let replay =
+            Replay { domain, resolved: &resolved, objects: &objects, source: &self.source };
+        replay.derive(&mut state);
         let mut replayed = Replayed { steps: Vec::new(), cost: 0, broken: None };
         let mut steps = steps.into_iter();
         for (step, directives) in steps.by_ref() {
@@ -86,6 +91,7 @@ impl PlanText {
 struct Replay<'a> {
     domain: &'a Domain,
     resolved: &'a Resolved,
+    objects: &'a Objects<'a>,
     source: &'a Source,
 }
 
@@ -110,9 +116,77 @@ impl Replay<'_> {
                 format!("{}{}", if *negated { "НЕ " } else { "" }, self.shown(atom))
             })
             .chain(unequal)
+            .chain(self.unmet_formulas(state))
             .map(|fact| RuleFault::placeless(RuleError::PlanMissesGoal { fact }))
             .collect();
         (!faults.is_empty()).then_some(RuleFaults(faults))
+    }
+
+    /// Conditions of the goal beyond literals that do not hold.
+    fn unmet_formulas(&self, state: &HashSet<GroundAtom>) -> Vec<String> {
+        let holds = |atom: &GroundAtom, negated: bool| state.contains(atom) != negated;
+        let met = |formula: &&Formula| {
+            self.objects.all_hold(std::slice::from_ref(*formula), &mut Vec::new(), &holds)
+        };
+        let unmet = self.resolved.goal_formulas.iter().filter(|formula| !met(formula));
+        unmet.map(|formula| self.written(formula)).collect()
+    }
+
+    /// A condition by the names of its predicates.
+    fn written(&self, formula: &Formula) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        formula.for_each_literal(&mut |atom, _| {
+            let name = self.domain.predicates[atom.predicate.index()].name.as_str();
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        });
+        format!("({} …)", names.join(" "))
+    }
+
+    /// What the rules derive anew: nothing of what was derived before stays for that alone.
+    fn derive(&self, state: &mut HashSet<GroundAtom>) {
+        if self.domain.derived.is_empty() {
+            return;
+        }
+        state.retain(|atom| !self.domain.is_derived(atom.predicate));
+        // Layer by layer: a rule that asks for something to be absent runs when that is known whole.
+        for layer in self.domain.layers() {
+            loop {
+                let before = state.len();
+                for rule in &layer {
+                    let mut news = Vec::new();
+                    self.objects.each_choice(&rule.parameters, &mut Vec::new(), &mut |binding| {
+                        if self.condition_holds(rule, binding, state) {
+                            news.push(self.objects.ground(&rule.add_effects[0], binding));
+                        }
+                        false
+                    });
+                    state.extend(news);
+                }
+                if state.len() == before {
+                    break;
+                }
+            }
+        }
+    }
+
+    fn condition_holds(
+        &self,
+        rule: &Schema,
+        binding: &mut Vec<ThingId>,
+        state: &HashSet<GroundAtom>,
+    ) -> bool {
+        let ground = |atom: &SchemaAtom| self.objects.ground(atom, binding);
+        let equal = |(left, right): &(SchemaTerm, SchemaTerm)| {
+            self.objects.value(left, binding) == self.objects.value(right, binding)
+        };
+        let literals = rule.preconditions.iter().all(|atom| state.contains(&ground(atom)))
+            && !rule.negative_preconditions.iter().any(|atom| state.contains(&ground(atom)))
+            && rule.equal.iter().all(equal)
+            && !rule.different.iter().any(equal);
+        let holds = |atom: &GroundAtom, negated: bool| state.contains(atom) != negated;
+        literals && self.objects.all_hold(&rule.formulas, binding, &holds)
     }
 
     /// Carries out one step and says what it costs.
@@ -156,6 +230,7 @@ impl Replay<'_> {
         }
         let cost = instances.iter().map(|(_, instance)| u64::from(instance.cost)).sum();
         state.extend(instances.into_iter().flat_map(|(_, instance)| instance.adds));
+        self.derive(state);
         Ok(cost)
     }
 
@@ -186,8 +261,14 @@ impl Replay<'_> {
             schema.equal.iter().filter(|(a, b)| value(a) != value(b)).map(|_| "=".to_owned());
         let equal =
             schema.different.iter().filter(|(a, b)| value(a) == value(b)).map(|_| "≠".to_owned());
+        let holds = |atom: &GroundAtom, negated: bool| state.contains(atom) != negated;
+        let unmet = schema.formulas.iter().filter(|formula| {
+            !self.objects.all_hold(std::slice::from_ref(*formula), &mut args.clone(), &holds)
+        });
+        let unmet = unmet.map(|formula| self.written(formula));
         let faults: Vec<RuleFault> = missing
             .chain(present)
+            .chain(unmet)
             .chain(unequal)
             .chain(equal)
             .map(|fact| self.fault(RuleError::PlanPrecondition { fact, at: directive.at }))
@@ -195,9 +276,33 @@ impl Replay<'_> {
         if !faults.is_empty() {
             return Err(RuleFaults(faults));
         }
-        let adds = ground(&schema.add_effects);
+        let mut adds = ground(&schema.add_effects);
         let mut dels = ground(&schema.del_effects);
         dels.extend(ground(&schema.renewed));
+        // An effect under a condition hangs on every literal of it, whether it comes about or not.
+        let (needs, denied) = (RefCell::new(needs), RefCell::new(denied));
+        let asked = |atom: &GroundAtom, negated: bool| {
+            let is_there = state.contains(atom);
+            let rests_on = if is_there { &needs } else { &denied };
+            rests_on.borrow_mut().push(atom.clone());
+            is_there != negated
+        };
+        for formula in &schema.formulas {
+            self.objects.all_hold(std::slice::from_ref(formula), &mut args.clone(), &asked);
+        }
+        for effect in &schema.conditional {
+            self.objects.each_choice(&effect.variables, &mut args.clone(), &mut |binding| {
+                if self.objects.all_hold(&effect.condition, binding, &asked) {
+                    let of = |atoms: &[SchemaAtom]| -> Vec<GroundAtom> {
+                        atoms.iter().map(|atom| self.objects.ground(atom, binding)).collect()
+                    };
+                    adds.extend(of(&effect.add_effects));
+                    dels.extend(of(&effect.del_effects));
+                }
+                false
+            });
+        }
+        let (needs, denied) = (needs.into_inner(), denied.into_inner());
         Ok(Instance { needs, denied, adds, dels, cost: cost(schema, self.resolved, &args) })
     }
 

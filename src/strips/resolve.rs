@@ -3,7 +3,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::check::hint;
-use super::domain::{ANY_KIND, Domain, KindId, KindSet, PredicateId, SchemaTerm};
+use super::domain::{
+    ANY_KIND, Domain, Formula, KindId, KindSet, PredicateId, SchemaAtom, SchemaTerm,
+};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
@@ -40,6 +42,8 @@ pub(super) struct Resolved {
     pub(super) index: HashMap<String, ThingId>,
     pub(super) facts: Vec<(GroundAtom, Standing)>,
     pub(super) goal: Vec<(GroundAtom, bool)>,
+    /// What else is wanted.
+    pub(super) goal_formulas: Vec<Formula>,
     pub(super) values: HashMap<(String, Vec<ThingId>), u32>,
     /// The goal compares two names, and the comparison is false.
     pub(super) impossible: bool,
@@ -58,6 +62,7 @@ impl Problem {
             closed: self.objects_closed,
         };
         resolver.objects(self);
+        let goal_formulas = resolver.formulas(&self.goal_formulas);
         let facts = resolver.facts(&self.facts);
         let goal = resolver.goal(&self.goal);
         let impossible = resolver.comparisons(self);
@@ -69,6 +74,7 @@ impl Problem {
                 index: resolver.index,
                 facts,
                 goal,
+                goal_formulas,
                 values,
                 impossible,
                 withdrawn,
@@ -242,6 +248,26 @@ impl Resolver<'_> {
         goal
     }
 
+    /// The objects that a condition of the goal names are there, or are told of.
+    fn formulas(&mut self, formulas: &[Formula]) -> Vec<Formula> {
+        let mut unknown: Vec<String> = Vec::new();
+        for formula in formulas {
+            formula.for_each_term(&mut |term| {
+                if let SchemaTerm::Constant(name) = term
+                    && !self.index.contains_key(&name_key(name))
+                    && !unknown.contains(name)
+                {
+                    unknown.push(name.clone());
+                }
+            });
+        }
+        for name in unknown {
+            let error = self.unknown_object(&name);
+            self.faults.push(RuleFault::placeless(error((0, 0).into())));
+        }
+        formulas.to_vec()
+    }
+
     fn comparisons(&mut self, problem: &Problem) -> bool {
         let mut impossible = false;
         for (left, right, negated) in &problem.compared {
@@ -321,13 +347,18 @@ impl Resolver<'_> {
     /// Objects that the rules name exist as well, of the types that their places there ask for.
     fn constants_of_rules(&mut self) {
         let domain = self.domain;
-        for schema in &domain.schemas {
-            let atoms = schema
-                .preconditions
-                .iter()
-                .chain(&schema.negative_preconditions)
-                .chain(&schema.add_effects)
-                .chain(&schema.del_effects);
+        for schema in domain.rules() {
+            let needs = schema.preconditions.iter().chain(&schema.negative_preconditions);
+            let mut atoms: Vec<&SchemaAtom> = needs.chain(schema.changes()).collect();
+            let conditions = schema.conditional.iter().flat_map(|effect| &effect.condition);
+            for formula in schema.formulas.iter().chain(conditions) {
+                formula.for_each_literal(&mut |atom, _| atoms.push(atom));
+                formula.for_each_term(&mut |term| {
+                    if let SchemaTerm::Constant(name) = term {
+                        self.introduce(name);
+                    }
+                });
+            }
             for atom in atoms {
                 let signature = &domain.predicates[atom.predicate.index()].args;
                 for (term, wanted) in atom.args.iter().zip(signature) {

@@ -20,6 +20,8 @@ pub(super) struct DraftOperator {
     /// What is deleted and then added: among `add_effects`, and not among `del_effects` once complements are made.
     pub(super) renewed: Vec<u32>,
     pub(super) cost: u32,
+    /// No action: see [`Task::goal_steps`]. Such operators stand last.
+    pub(super) meets_goal: bool,
 }
 
 /// A task before simplification; facts are numbered by their place in `facts`.
@@ -212,6 +214,7 @@ fn renumber(draft: Draft, facts: &[Fact], goal: &[u32], relevant: &[bool]) -> Ta
         ids.dedup();
         ids
     };
+    task.goal_steps = draft.operators.iter().filter(|operator| operator.meets_goal).count();
     task.operators = draft
         .operators
         .into_iter()

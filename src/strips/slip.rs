@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use super::check::{hint, looks_the_same, perhaps};
 use super::error::{RuleError, RuleFault};
-use super::syntax::{ActionText, Atom, Condition, Document, Name};
+use super::syntax::{ActionText, Atom, Condition, Document, Name, Use};
 use crate::units::{Bilingual, name_key};
 
 /// Where a predicate is spoken of.
@@ -88,23 +88,25 @@ fn is_alone(uses: &Uses<'_>, action: &ActionText) -> bool {
 fn uses(document: &Document) -> BTreeMap<String, Uses<'_>> {
     let mut predicates: BTreeMap<String, Uses<'_>> = BTreeMap::new();
     for action in &document.actions {
-        let asked = action.precondition.iter().filter_map(atom_of).chain(&action.del);
-        asked.for_each(|atom| add(&mut predicates, atom, Some(action), true, false));
-        action.add.iter().for_each(|atom| add(&mut predicates, atom, Some(action), false, true));
+        action.for_each_atom(&mut |used, atom, _| {
+            add(&mut predicates, atom, Some(action), used != Use::Added, used == Use::Added);
+        });
     }
-    for fact in document.facts.iter().chain(&document.assumptions).filter_map(atom_of) {
-        add(&mut predicates, fact, None, false, true);
+    for rule in &document.derived {
+        add(&mut predicates, &rule.atom, None, false, true);
+        atoms_of(&rule.condition, &mut |atom| add(&mut predicates, atom, None, true, false));
     }
-    for goal in document.goal.iter().filter_map(atom_of) {
-        add(&mut predicates, goal, None, true, false);
+    for facts in [&document.facts, &document.assumptions] {
+        atoms_of(facts, &mut |atom| add(&mut predicates, atom, None, false, true));
     }
+    atoms_of(&document.goal, &mut |atom| add(&mut predicates, atom, None, true, false));
     predicates
 }
 
-pub(super) fn atom_of(condition: &Condition) -> Option<&Atom> {
-    match condition {
-        Condition::Holds { atom, .. } => Some(atom),
-        Condition::Equal { .. } => None,
+/// Every atom of the conditions.
+fn atoms_of<'a>(conditions: &'a [Condition], f: &mut dyn FnMut(&'a Atom)) {
+    for condition in conditions {
+        condition.for_each_atom(&mut Vec::new(), &mut |atom, _| f(atom));
     }
 }
 

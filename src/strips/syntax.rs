@@ -40,10 +40,94 @@ pub(super) struct Atom {
     pub(super) args: Vec<Term>,
 }
 
+/// A condition; negation stands at atoms and comparisons alone.
 #[derive(Debug, Clone)]
 pub(super) enum Condition {
-    Holds { atom: Atom, negated: bool },
-    Equal { pair: Box<(Term, Term)>, negated: bool },
+    Holds {
+        atom: Atom,
+        negated: bool,
+    },
+    Equal {
+        pair: Box<(Term, Term)>,
+        negated: bool,
+    },
+    /// One of the conjunctions holds.
+    Any(Vec<Vec<Condition>>),
+    /// The conjunction holds for every choice of objects, or for some.
+    Quantified {
+        every: bool,
+        variables: Vec<Parameter>,
+        body: Vec<Condition>,
+    },
+}
+
+impl Condition {
+    /// Its opposite.
+    pub(super) fn negated(self) -> Self {
+        match self {
+            Self::Holds { atom, negated } => Self::Holds { atom, negated: !negated },
+            Self::Equal { pair, negated } => Self::Equal { pair, negated: !negated },
+            // Of each case something fails: one case of so many parts.
+            Self::Any(cases) => Self::Any(vec![cases.into_iter().map(none_of).collect()]),
+            Self::Quantified { every, variables, body } => {
+                Self::Quantified { every: !every, variables, body: vec![none_of(body)] }
+            }
+        }
+    }
+
+    /// Every atom in it, with the variables bound around it, the inner ones last.
+    pub(super) fn for_each_atom<'a>(
+        &'a self,
+        bound: &mut Vec<&'a Parameter>,
+        f: &mut dyn FnMut(&'a Atom, &[&'a Parameter]),
+    ) {
+        match self {
+            Self::Holds { atom, .. } => f(atom, bound),
+            Self::Equal { .. } => {}
+            Self::Any(cases) => cases.iter().flatten().for_each(|c| c.for_each_atom(bound, f)),
+            Self::Quantified { variables, body, .. } => {
+                let before = bound.len();
+                bound.extend(variables);
+                body.iter().for_each(|condition| condition.for_each_atom(bound, f));
+                bound.truncate(before);
+            }
+        }
+    }
+
+    /// The first name in it, for faults.
+    pub(super) fn first_name(&self) -> Option<&Name> {
+        match self {
+            Self::Holds { atom, .. } => Some(&atom.predicate),
+            Self::Equal { pair, .. } => Some(&pair.0.name),
+            Self::Any(cases) => cases.iter().flatten().find_map(Self::first_name),
+            Self::Quantified { variables, body, .. } => variables
+                .first()
+                .map(|parameter| &parameter.variable)
+                .or_else(|| body.iter().find_map(Self::first_name)),
+        }
+    }
+}
+
+/// That a conjunction does not hold.
+pub(super) fn none_of(conjunction: Vec<Condition>) -> Condition {
+    Condition::Any(conjunction.into_iter().map(|condition| vec![condition.negated()]).collect())
+}
+
+/// What an action brings about where a condition holds before it, for every choice of objects.
+#[derive(Debug, Clone)]
+pub(super) struct ConditionalText {
+    pub(super) variables: Vec<Parameter>,
+    pub(super) condition: Vec<Condition>,
+    pub(super) add: Vec<Atom>,
+    pub(super) del: Vec<Atom>,
+}
+
+/// `(:derived (above ?x ?y) condition)`: the atom holds where the condition does, and only there.
+#[derive(Debug, Clone)]
+pub(super) struct DerivedText {
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) atom: Atom,
+    pub(super) condition: Vec<Condition>,
 }
 
 /// A variable with the types it may take; none means any.
@@ -70,7 +154,51 @@ pub(super) struct ActionText {
     pub(super) del: Vec<Atom>,
     /// Deleted, and then added: among `add` alone.
     pub(super) renewed: Vec<Atom>,
+    pub(super) conditional: Vec<ConditionalText>,
     pub(super) cost: Vec<CostTerm>,
+}
+
+impl ActionText {
+    pub(super) fn new(name: Name) -> Self {
+        Self {
+            name,
+            parameters: Vec::new(),
+            precondition: Vec::new(),
+            add: Vec::new(),
+            del: Vec::new(),
+            renewed: Vec::new(),
+            conditional: Vec::new(),
+            cost: Vec::new(),
+        }
+    }
+
+    /// Every atom of its conditions and effects, with the variables bound around it.
+    pub(super) fn for_each_atom<'a>(&'a self, f: &mut dyn FnMut(Use, &'a Atom, &[&'a Parameter])) {
+        let mut bound: Vec<&Parameter> = self.parameters.iter().collect();
+        for condition in &self.precondition {
+            condition.for_each_atom(&mut bound, &mut |atom, bound| f(Use::Asked, atom, bound));
+        }
+        self.add.iter().for_each(|atom| f(Use::Added, atom, &bound));
+        self.del.iter().for_each(|atom| f(Use::Deleted, atom, &bound));
+        for part in &self.conditional {
+            let before = bound.len();
+            bound.extend(&part.variables);
+            for condition in &part.condition {
+                condition.for_each_atom(&mut bound, &mut |atom, bound| f(Use::Asked, atom, bound));
+            }
+            part.add.iter().for_each(|atom| f(Use::Added, atom, &bound));
+            part.del.iter().for_each(|atom| f(Use::Deleted, atom, &bound));
+            bound.truncate(before);
+        }
+    }
+}
+
+/// Whether an action asks for an atom, gives or takes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    Asked,
+    Added,
+    Deleted,
 }
 
 /// A word and the types it is declared with: a type and its parents, an object and its types.
@@ -110,6 +238,7 @@ pub(super) struct Document {
     /// Whether an object must be declared before use (PDDL), or a fact about it is enough.
     pub(super) objects_closed: bool,
     pub(super) actions: Vec<ActionText>,
+    pub(super) derived: Vec<DerivedText>,
     pub(super) facts: Vec<Condition>,
     pub(super) assumptions: Vec<Condition>,
     pub(super) values: Vec<(Atom, u32)>,
@@ -136,6 +265,7 @@ impl Document {
         self.objects.extend(other.objects);
         self.objects_closed |= other.objects_closed;
         self.actions.extend(other.actions);
+        self.derived.extend(other.derived);
         self.facts.extend(other.facts);
         self.assumptions.extend(other.assumptions);
         self.values.extend(other.values);

@@ -94,9 +94,29 @@ pub struct Task {
     pub goal: Vec<FactId>,
     /// Those of `init` that are only assumed (SPEC P2), sorted.
     pub assumptions: Vec<FactId>,
+    /// The last so many operators are no actions: each meets the one fact that is the goal by one of several ways in which
+    /// the goal that was given can be met.
+    pub goal_steps: usize,
 }
 
 impl Task {
+    /// Whether an operator only says that a goal of several ways is met.
+    #[must_use]
+    pub fn is_goal_step(&self, id: OperatorId) -> bool {
+        id.index() + self.goal_steps >= self.operators.len()
+    }
+
+    /// Takes the way by which steps meet a goal of several ways to be the goal; the steps end where it is met.
+    pub fn settle_goal(&mut self, steps: &mut Vec<Vec<OperatorId>>) {
+        let is_met = |step: &Vec<OperatorId>| step.iter().position(|&id| self.is_goal_step(id));
+        let met = steps.iter().enumerate().find_map(|(at, step)| Some((at, step[is_met(step)?])));
+        let Some((at, by)) = met else { return };
+        steps.truncate(at);
+        self.goal = self.operator(by).preconditions.clone();
+        self.operators.truncate(self.operators.len() - self.goal_steps);
+        self.goal_steps = 0;
+    }
+
     #[must_use]
     pub fn fact(&self, id: FactId) -> &Fact {
         &self.facts[id.index()]

@@ -72,6 +72,7 @@ impl Reduced {
             init: own(&task.init),
             goal: own(&task.goal),
             assumptions: own(&task.assumptions),
+            goal_steps: 0,
         };
         for operator in &mut smaller.operators {
             operator.preconditions = own(&operator.preconditions);

@@ -9,13 +9,18 @@
 //!              | ("По-русски:" | "По-английски:") { ["НЕ"] name ["(" [variable {"," variable}] ")"] "=" "«" phrase "»" }
 //!              | "Включить:" path | "Карта:" path
 //! part        := "Параметры:" { [type] variable } | "Предусловие:" { condition }
-//!              | "Эффект+:" { atom } | "Эффект-:" { atom } | "Стоимость:" number
-//! condition   := ["НЕ"] atom | term ("=" | "≠") term
+//!              | "Эффект+:" { effect } | "Эффект-:" { effect } | "Стоимость:" number
+//!              | "Выводится:" atom ["ЕСЛИ" condition]
+//! condition   := ["НЕ"] (atom | "(" condition {"," condition} {"ИЛИ" condition {"," condition}} ")")
+//!              | ("ДЛЯ-ВСЕХ" | "СУЩЕСТВУЕТ") "(" { [type] variable } ")" condition
+//!              | "ЕСЛИ" condition "ТО" condition | term ("=" | "≠") term
+//! effect      := atom | ["ДЛЯ-ВСЕХ" "(" { [type] variable } ")"] ["ЕСЛИ" condition "ТО"] (atom | "(" { atom } ")")
 //! atom        := name "(" [term {"," term}] ")"
 //! ```
 //!
 //! The text is read to its end whatever is wrong with it, so that all faults are told at once.
 
+mod compound;
 mod cursor;
 mod heading;
 
@@ -45,7 +50,8 @@ pub(super) struct RuleText {
 
 pub(super) fn parse(source: &Source) -> RuleText {
     let tokens = tokens(source.text());
-    let mut parser = Parser { source, tokens: &tokens, next: 0, text: RuleText::default() };
+    let mut parser =
+        Parser { source, tokens: &tokens, next: 0, depth: 0, text: RuleText::default() };
     parser.file();
     parser.text
 }
@@ -54,6 +60,8 @@ struct Parser<'a> {
     source: &'a Source,
     tokens: &'a [Token<'a>],
     next: usize,
+    /// Brackets open around the condition that is being read.
+    depth: usize,
     text: RuleText,
 }
 
@@ -62,6 +70,7 @@ type Parsed<T> = Result<T, RuleFault>;
 impl<'a> Parser<'a> {
     fn file(&mut self) {
         while self.next < self.tokens.len() && self.text.faults.len() < MAX_FAULTS {
+            self.depth = 0;
             if let Err(fault) = self.section() {
                 self.text.faults.push(fault);
                 self.skip_to_heading();
@@ -126,6 +135,7 @@ impl<'a> Parser<'a> {
                 Ok(())
             }
             Heading::Predicates => self.signatures(),
+            Heading::Derived => self.derived(),
             Heading::Phrases(language) => self.phrases(language),
             Heading::Include => {
                 let path = self.path()?;
@@ -145,15 +155,7 @@ impl<'a> Parser<'a> {
 
     fn action(&mut self) -> Parsed<()> {
         let name = self.name(("имя действия", "the name of an action"))?;
-        self.text.document.actions.push(ActionText {
-            name,
-            parameters: Vec::new(),
-            precondition: Vec::new(),
-            add: Vec::new(),
-            del: Vec::new(),
-            renewed: Vec::new(),
-            cost: Vec::new(),
-        });
+        self.text.document.actions.push(ActionText::new(name));
         Ok(())
     }
 
@@ -184,12 +186,14 @@ impl<'a> Parser<'a> {
                 self.last_action().precondition.extend(conditions);
             }
             Heading::AddEffect => {
-                let atoms = self.atoms()?;
+                let (atoms, conditional) = self.effects(true)?;
                 self.last_action().add.extend(atoms);
+                self.last_action().conditional.extend(conditional);
             }
             Heading::DelEffect => {
-                let atoms = self.atoms()?;
+                let (atoms, conditional) = self.effects(false)?;
                 self.last_action().del.extend(atoms);
+                self.last_action().conditional.extend(conditional);
             }
             _ => {
                 let cost = self.cost()?;
@@ -212,7 +216,7 @@ impl<'a> Parser<'a> {
         self.text.document.actions.last_mut().expect("a part is read after its action's name")
     }
 
-    fn parameters(&mut self) -> Parsed<Vec<Parameter>> {
+    pub(super) fn parameters(&mut self) -> Parsed<Vec<Parameter>> {
         let mut parameters = Vec::new();
         loop {
             match self.kind() {
@@ -238,7 +242,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Conditions up to a closing bracket, a heading or the end.
-    fn conditions(&mut self) -> Parsed<Vec<Condition>> {
+    pub(super) fn conditions(&mut self) -> Parsed<Vec<Condition>> {
         let mut conditions = Vec::new();
         loop {
             match self.kind() {
@@ -248,26 +252,31 @@ impl<'a> Parser<'a> {
                 Some(TokenKind::Word(_)) if self.heading_ahead().is_some() => {
                     return Ok(conditions);
                 }
+                Some(TokenKind::Word(word)) if is_or(word) || is_then(word) => {
+                    return Ok(conditions);
+                }
+                Some(TokenKind::Open) if self.opens_part() => return Ok(conditions),
+                Some(TokenKind::Open) => conditions.extend(self.group()?),
                 Some(TokenKind::Word(_) | TokenKind::Variable(_) | TokenKind::Not) => {
                     conditions.push(self.condition()?);
                 }
                 None | Some(TokenKind::Close) => return Ok(conditions),
-                Some(TokenKind::Open) if self.opens_part() => return Ok(conditions),
                 _ => return Err(self.expected(PLAIN_FACT)),
             }
         }
     }
 
-    fn condition(&mut self) -> Parsed<Condition> {
+    pub(super) fn condition(&mut self) -> Parsed<Condition> {
         let negated = match self.kind() {
             Some(TokenKind::Not) => true,
-            Some(TokenKind::Word(word)) => {
-                is_not(word) && self.kind_after(1) != Some(TokenKind::Open)
-            }
+            Some(TokenKind::Word(word)) => is_not(word),
             _ => false,
         };
         if negated {
             self.advance();
+        }
+        if let Some(compound) = self.compound()? {
+            return Ok(if negated { compound.negated() } else { compound });
         }
         if matches!(self.kind(), Some(TokenKind::Word(_)))
             && self.kind_after(1) == Some(TokenKind::Open)
@@ -291,32 +300,7 @@ impl<'a> Parser<'a> {
         Ok(Condition::Equal { pair: Box::new((left, right)), negated: negated != differs })
     }
 
-    /// Effects: plain atoms only.
-    fn atoms(&mut self) -> Parsed<Vec<Atom>> {
-        let at = self.here();
-        self.conditions()?
-            .into_iter()
-            .map(|condition| match condition {
-                Condition::Holds { atom, negated: false } => Ok(atom),
-                Condition::Holds { atom, .. } => {
-                    Err(atom.predicate.fault(|at| RuleError::Syntax {
-                        expected: (
-                            "факт без «НЕ»; то, что перестаёт быть верным, пишут в «Эффект-»",
-                            "a fact without “NOT”; what ceases to hold is written under “Effect-:”",
-                        )
-                            .into(),
-                        found: ("отрицание", "a negation").into(),
-                        at,
-                    }))
-                }
-                Condition::Equal { .. } => {
-                    Err(self.expected_at(("факт, а не сравнение", "a fact, and no comparison"), at))
-                }
-            })
-            .collect()
-    }
-
-    fn atom(&mut self) -> Parsed<Atom> {
+    pub(super) fn atom(&mut self) -> Parsed<Atom> {
         let predicate = self.name(("имя предиката", "the name of a predicate"))?;
         let open = self.advance();
         let mut args = Vec::new();
@@ -527,6 +511,18 @@ const SECTION: (&str, &str) =
 pub(super) const PLAIN_FACT: (&str, &str) =
     ("факт вида «ИМЯ_(объект, …)»", "a fact such as “NAME_(object, …)”");
 
+fn is_or(word: &str) -> bool {
+    matches!(name_key(word).as_str(), "или" | "or")
+}
+
+fn is_then(word: &str) -> bool {
+    matches!(name_key(word).as_str(), "то" | "then")
+}
+
+fn is_if(word: &str) -> bool {
+    matches!(name_key(word).as_str(), "если" | "if" | "when")
+}
+
 fn is_not(word: &str) -> bool {
     matches!(name_key(word).as_str(), "не" | "not")
 }
@@ -534,7 +530,8 @@ fn is_not(word: &str) -> bool {
 /// The conditions that a text of its own consists of, such as facts given in an argument.
 pub(super) fn conditions(source: &Source) -> Result<Vec<Condition>, RuleFault> {
     let tokens = tokens(source.text());
-    let mut parser = Parser { source, tokens: &tokens, next: 0, text: RuleText::default() };
+    let mut parser =
+        Parser { source, tokens: &tokens, next: 0, depth: 0, text: RuleText::default() };
     let conditions = parser.conditions()?;
     match parser.kind() {
         None => Ok(conditions),

@@ -1,0 +1,5 @@
+(define (problem home)
+  (:domain briefcase)
+  (:objects cheque book pen - portable office home bank - location)
+  (:init (at cheque home) (at book office) (at pen bank) (is-at home) (in cheque))
+  (:goal (and (at cheque bank) (at book home) (not (in book)) (or (at pen home) (at pen office)))))

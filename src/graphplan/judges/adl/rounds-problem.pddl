@@ -1,0 +1,5 @@
+(define (problem day)
+  (:domain rounds)
+  (:objects hall kitchen study - room cup paper vase - thing)
+  (:init (robot hall) (way hall kitchen) (way hall bin) (way study hall) (closed study) (lies cup kitchen) (lies paper hall) (lies vase study) (fragile cup))
+  (:goal (forall (?r - room) (or (closed ?r) (forall (?t - thing) (and (not (lies ?t ?r)) (not (held ?t))))))))

@@ -1,0 +1,5 @@
+(define (problem four)
+  (:domain towers)
+  (:objects a b c d - block)
+  (:init (on a b) (on b c) (table c) (table d))
+  (:goal (and (above c a) (above d c) (not (table b)))))
