@@ -98,7 +98,7 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
         }
     }
     let actions: usize = replayed.steps.iter().map(|(_, directives)| directives.len()).sum();
-    let (steps, cost) = (replayed.steps.len(), replayed.cost);
+    let (steps, cost) = (replayed.steps.len(), replayed.cost_shown());
     let verdict = match (&replayed.broken, lang) {
         (None, Lang::Ru) => {
             format!("План верен: шагов {steps}, действий {actions}, стоимость {cost}.")

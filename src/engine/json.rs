@@ -126,7 +126,7 @@ pub fn replayed(replayed: &Replayed) -> Value {
     json!({
         "outcome": if broken.is_none() { "sound" } else { "broken" },
         "parallel_steps": replayed.steps.len(),
-        "cost": replayed.cost,
+        "cost": serde_json::from_str::<serde_json::Number>(&replayed.cost_shown()).ok(),
         "steps": steps,
         "broken": broken,
     })

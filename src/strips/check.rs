@@ -98,6 +98,7 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         predicate_index: HashMap::new(),
         schemas: Vec::new(),
         derived: Vec::new(),
+        cost_unit: document.cost_unit(),
         phrases: Arc::default(),
         introduced: HashMap::new(),
     };
@@ -125,6 +126,15 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         let in_objects = document.objects.iter().flat_map(|o| &o.kinds);
         for name in in_actions.chain(in_signatures).chain(in_objects) {
             introduce(&mut domain, name);
+        }
+        let mut of_bound = |_: &Atom, bound: &[&Parameter]| {
+            bound.iter().flat_map(|parameter| &parameter.kinds).for_each(|name| {
+                introduce(&mut domain, name);
+            });
+        };
+        each_atom(document, &mut of_bound);
+        for condition in &document.goal {
+            condition.for_each_atom(&mut Vec::new(), &mut |atom, bound| of_bound(atom, bound));
         }
     }
     let node = |kind: KindId| NodeIndex::new(kind.index());
@@ -386,7 +396,9 @@ impl Checker<'_> {
                 self.function(atom);
             }
             schema.cost.push(match cost {
-                CostTerm::Number(number) => SchemaCost::Number(*number),
+                CostTerm::Number(amount) => {
+                    SchemaCost::Number(amount.in_units(self.domain.cost_unit))
+                }
                 CostTerm::Function(atom) => SchemaCost::Function {
                     name: atom.predicate.key(),
                     args: atom.args.iter().filter_map(|t| self.term(action, &scope, t)).collect(),

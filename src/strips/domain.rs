@@ -174,6 +174,8 @@ pub struct Domain {
     pub(super) schemas: Vec<Schema>,
     /// What holds wherever its condition does, one schema a rule; the atom is its only effect.
     pub(super) derived: Vec<Schema>,
+    /// How many units of cost are one; costs with decimals are counted in thousandths.
+    pub(super) cost_unit: u32,
     pub(super) phrases: Arc<Phrases>,
     /// Where each predicate was declared, or else first spoken of as it is understood.
     pub(super) introduced: HashMap<PredicateId, Place>,
@@ -230,6 +232,12 @@ impl Domain {
     #[must_use]
     pub fn is_changed_by_actions(&self, predicate: PredicateId) -> bool {
         self.schemas.iter().any(|schema| schema.changes().any(|atom| atom.predicate == predicate))
+    }
+
+    /// How many units of an operator's cost are one: a thousand where costs have decimals.
+    #[must_use]
+    pub fn cost_unit(&self) -> u32 {
+        self.cost_unit
     }
 
     /// Actions, and after them the rules of what is derived.

@@ -144,6 +144,9 @@ impl RuleError {
             Self::TooManyCases { of, limit } => {
                 format!("the conditions of “{of}” fall into more than {limit} cases")
             }
+            Self::Durations { .. } => {
+                "actions that last are planned whole, one after another; steps are counted in these actions, and a duration is a cost".to_owned()
+            }
             Self::DerivedStated { name, .. } => format!(
                 "“{name}” is derived by a rule: it can neither be stated nor changed by an action"
             ),
@@ -199,7 +202,9 @@ impl RuleError {
             Self::Include { .. } => {
                 "the path is seen from the folder of the file in which “Include” stands"
             }
-            Self::Cost { .. } => "a cost is a whole number from 0 to 1000000",
+            Self::Cost { .. } => {
+                "a cost is a number from 0 to 1000000 with no more than three decimals"
+            }
             Self::NoGoal => "add a section “Goal: …”, in PDDL “(:goal …)”",
             Self::NoActions => "include a rule file: “Include: ../service-robot.strips”",
             Self::PlanInterference { .. } => "put them into different steps",
@@ -208,6 +213,9 @@ impl RuleError {
             }
             Self::TooManyCases { .. } => {
                 "divide the action into several, or use fewer objects under “forall” and “when”"
+            }
+            Self::Durations { .. } => {
+                "a plan that needs one action to go on within another is not found this way"
             }
             Self::DerivedStated { .. } => "remove this, or the rule that derives it",
             Self::DerivedByAbsence { .. } => {

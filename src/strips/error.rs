@@ -454,7 +454,10 @@ pub enum RuleError {
 
     /// A number that is none, or is negative, or too large.
     #[error("«{text}» – не стоимость")]
-    #[diagnostic(code(strips::cost), help("стоимость – целое число от 0 до 1000000"))]
+    #[diagnostic(
+        code(strips::cost),
+        help("стоимость – число от 0 до 1000000, не больше трёх знаков после точки")
+    )]
     Cost {
         text: String,
         #[label("здесь")]
@@ -541,6 +544,20 @@ pub enum RuleError {
         )
     )]
     TooManyCases { of: String, limit: usize },
+
+    /// Actions that last: each is planned as one, from its start to its end.
+    #[error(
+        "действия с длительностью планируются целиком, одно за другим; шаги считаются по ним самим, длительность – стоимость"
+    )]
+    #[diagnostic(
+        severity(Warning),
+        code(strips::durations),
+        help("план, которому нужно, чтобы одно шло внутри другого, так не находится")
+    )]
+    Durations {
+        #[label("первое такое действие")]
+        at: SourceSpan,
+    },
 
     /// What a rule derives is stated, or changed by an action.
     #[error(

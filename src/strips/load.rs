@@ -11,7 +11,7 @@ use super::pddl;
 use super::problem::Problem;
 use super::rule_text;
 use super::slip::slips;
-use super::syntax::{CostTerm, Document, Name};
+use super::syntax::{Amount, CostTerm, Document, Name};
 use super::task::Task;
 use crate::units::{Bilingual, FileFault, Source, read_text};
 
@@ -117,7 +117,7 @@ impl Scenario {
         // Where some action has a price, one without is free.
         if document.actions.iter().any(|action| !action.cost.is_empty()) {
             for action in document.actions.iter_mut().filter(|action| action.cost.is_empty()) {
-                action.cost.push(CostTerm::Number(0));
+                action.cost.push(CostTerm::Number(Amount::NOTHING));
             }
         }
         let (scenario, faults) = Self::from_document(document, faults);

@@ -30,6 +30,7 @@ mod cases;
 mod check;
 mod compound;
 mod domain;
+mod durative;
 mod english;
 mod error;
 mod exchange;

@@ -7,10 +7,9 @@ use miette::SourceSpan;
 
 use super::error::{RuleError, RuleFault};
 use super::expression::{Expression, expressions};
-use super::rule_text::MAX_COST;
 use super::syntax::{
-    ActionText, Atom, Condition, ConditionalText, CostTerm, Declaration, DerivedText, Document,
-    Name, Parameter, Signature, Term, none_of,
+    ActionText, Amount, Atom, Condition, ConditionalText, CostTerm, Declaration, DerivedText,
+    Document, Name, Parameter, Signature, Term, none_of,
 };
 use crate::units::{Bilingual, Source, name_key};
 
@@ -70,10 +69,10 @@ pub(super) fn read(source: &Source, document: &mut Document, faults: &mut Faults
     faults.extend(own);
 }
 
-struct Reader<'a> {
-    source: &'a Source,
-    document: &'a mut Document,
-    faults: &'a mut Faults,
+pub(super) struct Reader<'a> {
+    pub(super) source: &'a Source,
+    pub(super) document: &'a mut Document,
+    pub(super) faults: &'a mut Faults,
 }
 
 impl Reader<'_> {
@@ -96,6 +95,7 @@ impl Reader<'_> {
                 }
             }
             Some(":action") => self.action(section),
+            Some(":durative-action") => self.durative_action(section),
             Some(":derived") => self.derived(section),
             Some(":init") => items[1..].iter().for_each(|fact| self.fact(fact)),
             Some(":goal") => {
@@ -119,7 +119,7 @@ impl Reader<'_> {
 
     /// A promise of more than is read harms nobody who does not make use of it.
     fn requirements(&mut self, items: &[Expression<'_>]) {
-        const READ: [&str; 13] = [
+        const READ: [&str; 14] = [
             ":strips",
             ":adl",
             ":disjunctive-preconditions",
@@ -128,6 +128,7 @@ impl Reader<'_> {
             ":quantified-preconditions",
             ":conditional-effects",
             ":derived-predicates",
+            ":durative-actions",
             ":typing",
             ":equality",
             ":negative-preconditions",
@@ -213,20 +214,16 @@ impl Reader<'_> {
                 other => self.unsupported(other, *span),
             }
         }
-        // Adding comes after deleting, so an atom in both is added; it is taken for a moment all the same.
-        let key = |atom: &Atom| -> Vec<String> {
-            std::iter::once(&atom.predicate)
-                .chain(atom.args.iter().map(|t| &t.name))
-                .map(Name::key)
-                .collect()
-        };
-        let added: Vec<Vec<String>> = action.add.iter().map(key).collect();
-        (action.renewed, action.del) =
-            action.del.into_iter().partition(|atom| added.contains(&key(atom)));
+        renew(&mut action);
         self.document.actions.push(action);
     }
 
-    fn condition(&mut self, part: &Expression<'_>, negated: bool, into: &mut Vec<Condition>) {
+    pub(super) fn condition(
+        &mut self,
+        part: &Expression<'_>,
+        negated: bool,
+        into: &mut Vec<Condition>,
+    ) {
         let items = part.items();
         match part.head().as_deref() {
             Some("and") => {
@@ -278,14 +275,14 @@ impl Reader<'_> {
         }
     }
 
-    fn conjunction(&mut self, part: &Expression<'_>) -> Vec<Condition> {
+    pub(super) fn conjunction(&mut self, part: &Expression<'_>) -> Vec<Condition> {
         let mut all = Vec::new();
         self.condition(part, false, &mut all);
         all
     }
 
     /// `?a ?b - place`
-    fn variables(&mut self, items: &[Expression<'_>]) -> Vec<Parameter> {
+    pub(super) fn variables(&mut self, items: &[Expression<'_>]) -> Vec<Parameter> {
         let mut variables = Vec::new();
         for Declaration { name, kinds } in self.typed(items) {
             if name.text.starts_with('?') {
@@ -352,7 +349,7 @@ impl Reader<'_> {
         self.document.derived.push(DerivedText { parameters, atom, condition });
     }
 
-    fn effect(&mut self, part: &Expression<'_>, action: &mut ActionText) {
+    pub(super) fn effect(&mut self, part: &Expression<'_>, action: &mut ActionText) {
         let items = part.items();
         match part.head().as_deref() {
             Some("and") => items[1..].iter().for_each(|p| self.effect(p, action)),
@@ -419,11 +416,8 @@ impl Reader<'_> {
         }
     }
 
-    fn number(&mut self, text: &str, at: SourceSpan) -> Option<u32> {
-        let whole = text.split_once('.').map_or(text, |(whole, fraction)| {
-            if fraction.chars().all(|c| c == '0') { whole } else { text }
-        });
-        let number = whole.parse().ok().filter(|&cost| cost <= MAX_COST);
+    pub(super) fn number(&mut self, text: &str, at: SourceSpan) -> Option<Amount> {
+        let number = Amount::parse(text);
         if number.is_none() {
             let error = RuleError::Cost { text: text.chars().take(40).collect(), at };
             self.faults.push(RuleFault::new(self.source, error));
@@ -431,7 +425,7 @@ impl Reader<'_> {
         number
     }
 
-    fn atom(&mut self, expression: &Expression<'_>) -> Option<Atom> {
+    pub(super) fn atom(&mut self, expression: &Expression<'_>) -> Option<Atom> {
         let (predicate, rest) = self.call(expression)?;
         let args: Vec<Term> = rest.iter().filter_map(|term| self.term(term)).collect();
         (args.len() == rest.len()).then_some(Atom { predicate, args })
@@ -521,7 +515,7 @@ impl Reader<'_> {
         declarations
     }
 
-    fn expected(&mut self, expected: (&'static str, &'static str), at: SourceSpan) {
+    pub(super) fn expected(&mut self, expected: (&'static str, &'static str), at: SourceSpan) {
         let (expected, found) = (expected.into(), Bilingual::quoted(&excerpt(self.source, at)));
         self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
     }
@@ -532,7 +526,7 @@ impl Reader<'_> {
         self.faults.push(RuleFault::new(self.source, RuleError::EarlyEnd { next, at }));
     }
 
-    fn unsupported(&mut self, what: &str, at: SourceSpan) {
+    pub(super) fn unsupported(&mut self, what: &str, at: SourceSpan) {
         let help = way_round(what).into();
         let what: String = what.chars().take(40).collect();
         self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, help, at }));
@@ -547,10 +541,6 @@ const COSTS_ALONE: (&str, &str) = (
 /// How to say the same without what is not read.
 fn way_round(what: &str) -> (&'static str, &'static str) {
     match what {
-        ":durative-action" => (
-            "времени в планах нет: запишите обычное «:action», длительность – как стоимость",
-            "plans have no time: write a plain :action, and its duration as a cost",
-        ),
         "preference" | ":constraints" => (
             "мягких целей нет: запишите в «:goal» то, что нужно",
             "there are no soft goals: write into :goal what is needed",
@@ -562,6 +552,20 @@ fn way_round(what: &str) -> (&'static str, &'static str) {
             ":adl, :derived-predicates, :action-costs and what they hold are read",
         ),
     }
+}
+
+/// Adding comes after deleting, so an atom in both is added; it is taken for a moment all the same.
+pub(super) fn renew(action: &mut ActionText) {
+    let added: Vec<Vec<String>> = action.add.iter().map(atom_key).collect();
+    (action.renewed, action.del) = std::mem::take(&mut action.del)
+        .into_iter()
+        .partition(|atom| added.contains(&atom_key(atom)));
+}
+
+/// Equal for atoms that read the same.
+pub(super) fn atom_key(atom: &Atom) -> Vec<String> {
+    let names = std::iter::once(&atom.predicate).chain(atom.args.iter().map(|term| &term.name));
+    names.map(Name::key).collect()
 }
 
 /// A stretch of the text, short enough for a message.

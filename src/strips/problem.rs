@@ -233,7 +233,11 @@ impl Problem {
     ) -> Self {
         let mut problem = Self {
             goal_formulas,
-            values: document.values.clone(),
+            values: document
+                .values
+                .iter()
+                .map(|(atom, amount)| (atom.clone(), amount.in_units(document.cost_unit())))
+                .collect(),
             objects_closed: document.objects_closed,
             goal_is_empty: document.goal_is_empty,
             ..Self::default()

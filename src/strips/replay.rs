@@ -21,8 +21,9 @@ use crate::units::{Bilingual, Source, name_key, nearest_name};
 pub struct Replayed {
     /// The steps that could be carried out, by the numbers that the text gives them.
     pub steps: Vec<(u32, Vec<Directive>)>,
-    /// What they cost together.
+    /// What they cost together, in units of which [`Domain::cost_unit`] are one.
     pub cost: u64,
+    pub cost_unit: u32,
     /// Where the plan breaks; none when it reaches the goal.
     pub broken: Option<Broken>,
 }
@@ -35,6 +36,17 @@ pub struct Broken {
     /// Everything wrong with that step, and what in later ones means nothing to the rules; or the goals that do not
     /// hold.
     pub faults: RuleFaults,
+}
+
+impl Replayed {
+    /// What they cost together, with the decimals that there are.
+    #[must_use]
+    pub fn cost_shown(&self) -> String {
+        match self.cost_unit {
+            1 => self.cost.to_string(),
+            unit => (self.cost as f64 / f64::from(unit)).to_string(),
+        }
+    }
 }
 
 impl PlanText {
@@ -54,7 +66,8 @@ impl PlanText {
         let replay =
             Replay { domain, resolved: &resolved, objects: &objects, source: &self.source };
         replay.derive(&mut state);
-        let mut replayed = Replayed { steps: Vec::new(), cost: 0, broken: None };
+        let mut replayed =
+            Replayed { steps: Vec::new(), cost: 0, cost_unit: domain.cost_unit(), broken: None };
         let mut steps = steps.into_iter();
         for (step, directives) in steps.by_ref() {
             match replay.step(&directives, &mut state) {

@@ -137,10 +137,42 @@ pub(super) struct Parameter {
     pub(super) variable: Name,
 }
 
+/// A cost as a text writes it, in thousandths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Amount(u64);
+
+/// A cost beyond it would overflow the sum over a plan.
+const MAX_COST: u64 = 1_000_000;
+
+impl Amount {
+    pub(super) const NOTHING: Self = Self(0);
+
+    /// None for what is no number from zero to [`MAX_COST`], or has more than three decimals that count.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let (whole, decimals) = text.split_once('.').unwrap_or((text, ""));
+        let decimals = decimals.trim_end_matches('0');
+        let is_number = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        if whole.is_empty() || !is_number(whole) || !is_number(decimals) || decimals.len() > 3 {
+            return None;
+        }
+        let thousandths = format!("{whole}{decimals:0<3}").parse().ok()?;
+        (thousandths <= MAX_COST * 1000).then_some(Self(thousandths))
+    }
+
+    /// In units of which `unit` are one.
+    pub(super) fn in_units(self, unit: u32) -> u32 {
+        u32::try_from(self.0 * u64::from(unit) / 1000).expect("a cost is bounded")
+    }
+
+    fn is_whole(self) -> bool {
+        self.0.is_multiple_of(1000)
+    }
+}
+
 /// What carrying out an action costs.
 #[derive(Debug, Clone)]
 pub(super) enum CostTerm {
-    Number(u32),
+    Number(Amount),
     /// `(road-length ?a ?b)`, looked up in the problem's initial values.
     Function(Atom),
 }
@@ -241,7 +273,7 @@ pub(super) struct Document {
     pub(super) derived: Vec<DerivedText>,
     pub(super) facts: Vec<Condition>,
     pub(super) assumptions: Vec<Condition>,
-    pub(super) values: Vec<(Atom, u32)>,
+    pub(super) values: Vec<(Atom, Amount)>,
     /// Numbers that a problem gives, as declared (PDDL).
     pub(super) functions: Vec<Signature>,
     pub(super) goal: Vec<Condition>,
@@ -255,6 +287,17 @@ pub(super) struct Document {
 }
 
 impl Document {
+    /// How many units of cost are one: one, or a thousand where some cost has decimals.
+    pub(super) fn cost_unit(&self) -> u32 {
+        let costs =
+            self.actions.iter().flat_map(|action| &action.cost).filter_map(|cost| match cost {
+                CostTerm::Number(amount) => Some(*amount),
+                CostTerm::Function(_) => None,
+            });
+        let mut all = costs.chain(self.values.iter().map(|(_, amount)| *amount));
+        if all.all(Amount::is_whole) { 1 } else { 1000 }
+    }
+
     /// Appends what an included file says.
     pub(super) fn include(&mut self, other: Self) {
         if let Some(types) = other.types {

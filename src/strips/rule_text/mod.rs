@@ -29,16 +29,14 @@ use heading::Heading;
 
 use crate::error::{RuleError, RuleFault};
 use crate::syntax::{
-    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, PhraseText,
-    Signature, Term,
+    ActionText, Amount, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter,
+    PhraseText, Signature, Term,
 };
 use crate::token::{Token, TokenKind, tokens};
 use crate::units::{Language, Source, name_key};
 
 /// Beyond this many faults a text is not a rule file, and nobody reads on.
 const MAX_FAULTS: usize = 50;
-/// A cost beyond it would overflow the sum over a plan.
-pub(super) const MAX_COST: u32 = 1_000_000;
 
 /// One file, its includes named but not yet read.
 #[derive(Debug, Default)]
@@ -467,7 +465,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn cost(&mut self) -> Parsed<u32> {
+    fn cost(&mut self) -> Parsed<Amount> {
         if let (Some(TokenKind::Dash), Some(TokenKind::Word(word))) =
             (self.kind(), self.kind_after(1))
         {
@@ -480,7 +478,7 @@ impl<'a> Parser<'a> {
             return Err(self.expected(("число", "a number")));
         };
         let at = self.advance();
-        word.parse().ok().filter(|&cost| cost <= MAX_COST).ok_or_else(|| {
+        Amount::parse(word).ok_or_else(|| {
             RuleFault::new(self.source, RuleError::Cost { text: word.to_owned(), at })
         })
     }
