@@ -107,7 +107,7 @@ pub(super) fn random_task(seed: u64) -> Task {
         operators,
         init: random.facts(held, fact_count),
         goal: random.facts(wanted, fact_count),
-        assumptions: Vec::new(),
+        ..Task::default()
     };
     task.check_invariants();
     task
@@ -200,7 +200,7 @@ pub(super) fn wishes(wishes: u32, tokens: u32) -> Task {
             .collect(),
         init: (wishes..wishes + tokens).map(FactId).collect(),
         goal: (0..wishes).map(FactId).collect(),
-        assumptions: Vec::new(),
+        ..Task::default()
     }
 }
 

@@ -20,20 +20,20 @@ enum Term {
 enum Form {
     Atom(&'static str, Vec<Term>),
     Equal(Term, Term),
-    Not(Box<Form>),
-    And(Vec<Form>),
-    Or(Vec<Form>),
-    Imply(Box<Form>, Box<Form>),
-    ForAll(Box<Form>),
-    Exists(Box<Form>),
+    Not(Box<Self>),
+    And(Vec<Self>),
+    Or(Vec<Self>),
+    Imply(Box<Self>, Box<Self>),
+    ForAll(Box<Self>),
+    Exists(Box<Self>),
 }
 
 #[derive(Debug, Clone)]
 enum Effect {
     Add(&'static str, Vec<Term>),
     Delete(&'static str, Vec<Term>),
-    When(Form, Box<Effect>),
-    ForAll(Box<Effect>),
+    When(Form, Box<Self>),
+    ForAll(Box<Self>),
 }
 
 struct Action {

@@ -14,7 +14,8 @@ use super::domain::{
     ANY_KIND, Domain, Formula, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
     SchemaCost, SchemaTerm,
 };
-use super::error::{Place, RuleError, RuleFault};
+use super::error::{Place, RuleError};
+use super::fault::RuleFault;
 use super::phrase::phrases;
 use super::syntax::{
     ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Term,
@@ -132,7 +133,7 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
                 introduce(&mut domain, name);
             });
         };
-        each_atom(document, &mut of_bound);
+        document.each_atom_of_rules(&mut of_bound);
         for condition in &document.goal {
             condition.for_each_atom(&mut Vec::new(), &mut |atom, bound| of_bound(atom, bound));
         }
@@ -318,7 +319,7 @@ impl Checker<'_> {
     fn infer_predicates(&mut self, document: &Document) {
         let declared = self.domain.predicates.len();
         let arities = arities(document);
-        each_atom(document, &mut |atom, bound| {
+        document.each_atom_of_rules(&mut |atom, bound| {
             if arities.get(&atom.predicate.key()) != Some(&atom.args.len()) {
                 return;
             }
@@ -659,18 +660,6 @@ impl Domain {
     }
 }
 
-/// Every atom of the rules, with the variables bound around it.
-fn each_atom<'a>(document: &'a Document, f: &mut dyn FnMut(&'a Atom, &[&'a Parameter])) {
-    for action in &document.actions {
-        action.for_each_atom(&mut |_, atom, bound| f(atom, bound));
-    }
-    for rule in &document.derived {
-        let mut bound: Vec<&Parameter> = rule.parameters.iter().collect();
-        f(&rule.atom, &bound);
-        rule.condition.iter().for_each(|condition| condition.for_each_atom(&mut bound, f));
-    }
-}
-
 /// How many arguments each predicate has by most of its uses; by the first of them where no number leads.
 fn arities(document: &Document) -> HashMap<String, usize> {
     let mut counts: HashMap<String, Vec<(usize, usize)>> = HashMap::new();
@@ -681,7 +670,7 @@ fn arities(document: &Document) -> HashMap<String, usize> {
             None => of_predicate.push((atom.args.len(), 1)),
         }
     };
-    each_atom(document, &mut |atom, _| count(atom));
+    document.each_atom_of_rules(&mut |atom, _| count(atom));
     for condition in document.facts.iter().chain(&document.assumptions).chain(&document.goal) {
         condition.for_each_atom(&mut Vec::new(), &mut |atom, _| count(atom));
     }

@@ -6,7 +6,8 @@ use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
 use super::check::hint;
-use super::error::{Place, RuleError, RuleFault, RuleFaults};
+use super::error::{Place, RuleError};
+use super::fault::{RuleFault, RuleFaults};
 use super::phrase::Phrases;
 use crate::units::{Bilingual, name_key};
 
@@ -92,12 +93,12 @@ pub enum Formula {
         negated: bool,
     },
     /// One of the conjunctions holds.
-    Any(Vec<Vec<Formula>>),
+    Any(Vec<Vec<Self>>),
     /// The conjunction holds for every choice of objects, or for some.
     Quantified {
         every: bool,
         variables: Vec<KindSet>,
-        body: Vec<Formula>,
+        body: Vec<Self>,
     },
 }
 

@@ -5,8 +5,9 @@
 //! its end leaves. So every plan of such actions is a plan in time. The reverse does not hold: a plan that needs one
 //! action to go on within another is not found, which a warning says. The duration is a cost.
 
-use super::error::{RuleError, RuleFault};
+use super::error::RuleError;
 use super::expression::Expression;
+use super::fault::RuleFault;
 use super::pddl::{Reader, atom_key, renew};
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Name, Term};
 

@@ -4,7 +4,8 @@ use std::fmt;
 
 use miette::Diagnostic;
 
-use super::error::{RuleError, RuleFault, RuleFaults};
+use super::error::RuleError;
+use super::fault::{RuleFault, RuleFaults};
 use crate::units::{Bilingual, English, InEnglish, Language};
 
 fn en(words: &Bilingual) -> &str {

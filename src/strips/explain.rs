@@ -8,8 +8,9 @@ use std::fmt;
 
 use super::attain::Attainable;
 use super::domain::{Domain, KindId};
-use super::error::RuleFaults;
-use super::ground::{GOAL_STEP, Reachability};
+use super::draft::GOAL_STEP;
+use super::fault::RuleFaults;
+use super::ground::Reachability;
 use super::lack::{By, Lacks, Wanted, fits};
 use super::phrase::{Phrases, Said, SaidArgument, Wording};
 use super::problem::Problem;

@@ -9,7 +9,8 @@ use nom::multi::many0_count;
 use nom::sequence::preceded;
 use nom::{IResult, Parser};
 
-use super::error::{RuleError, RuleFault};
+use super::error::RuleError;
+use super::fault::RuleFault;
 use crate::units::{Bilingual, Source};
 
 /// No file of a person nests deeper.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::check;
 use super::domain::Domain;
-use super::error::{RuleError, RuleFault, RuleFaults};
+use super::error::RuleError;
+use super::fault::{RuleFault, RuleFaults};
 use super::ground::ground;
 use super::pddl;
 use super::problem::Problem;

@@ -30,12 +30,14 @@ mod cases;
 mod check;
 mod compound;
 mod domain;
+mod draft;
 mod durative;
 mod english;
 mod error;
 mod exchange;
 mod explain;
 mod expression;
+mod fault;
 mod ground;
 mod lack;
 mod load;
@@ -57,10 +59,12 @@ pub use domain::{
     ANY_KIND, ConditionalEffect, Domain, Formula, Kind, KindId, KindSet, Predicate, PredicateId,
     Schema, SchemaAtom, SchemaCost, SchemaTerm,
 };
+pub use draft::GOAL_STEP;
 pub use english::EnglishFaults;
-pub use error::{Place, RuleError, RuleFault, RuleFaults};
+pub use error::{Place, RuleError};
 pub use explain::{Clash, Missing, Obstacle, explain_unreachable};
-pub use ground::{GOAL_STEP, ground, ground_while, without_price};
+pub use fault::{RuleFault, RuleFaults};
+pub use ground::{ground, ground_while, without_price};
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use outline::{Mark, Meaning, outline};
 pub use phrase::{Phrases, Said, SaidArgument, Wording};

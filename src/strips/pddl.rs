@@ -5,8 +5,9 @@
 
 use miette::SourceSpan;
 
-use super::error::{RuleError, RuleFault};
+use super::error::RuleError;
 use super::expression::{Expression, expressions};
+use super::fault::RuleFault;
 use super::syntax::{
     ActionText, Amount, Atom, Condition, ConditionalText, CostTerm, Declaration, DerivedText,
     Document, Name, Parameter, Signature, Term, none_of,

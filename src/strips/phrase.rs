@@ -7,7 +7,8 @@ use std::fmt;
 
 use super::check::hint;
 use super::domain::Domain;
-use super::error::{RuleError, RuleFault};
+use super::error::RuleError;
+use super::fault::RuleFault;
 use super::syntax::{Document, Name};
 use super::task::{Fact, Operator};
 use crate::units::{Bilingual, Language, name_key};

@@ -7,8 +7,9 @@ use std::path::Path;
 
 use miette::SourceSpan;
 
-use super::error::{RuleError, RuleFault, RuleFaults};
+use super::error::RuleError;
 use super::expression::{Expression, expressions};
+use super::fault::{RuleFault, RuleFaults};
 use super::load::read_source;
 use super::task::{OperatorId, Task};
 use crate::units::{Bilingual, Source};

@@ -7,7 +7,8 @@ use std::collections::HashSet;
 
 use super::check::{hint, text_of};
 use super::domain::{Domain, Formula, PredicateId};
-use super::error::{RuleError, RuleFault, RuleFaults};
+use super::error::RuleError;
+use super::fault::{RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Atom, Condition, Declaration, Document, Name};

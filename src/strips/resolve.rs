@@ -6,7 +6,8 @@ use super::check::hint;
 use super::domain::{
     ANY_KIND, Domain, Formula, KindId, KindSet, PredicateId, SchemaAtom, SchemaTerm,
 };
-use super::error::{RuleError, RuleFault, RuleFaults};
+use super::error::RuleError;
+use super::fault::{RuleFault, RuleFaults};
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
 use crate::units::name_key;

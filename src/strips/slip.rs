@@ -9,7 +9,8 @@
 use std::collections::BTreeMap;
 
 use super::check::{hint, looks_the_same, perhaps};
-use super::error::{RuleError, RuleFault};
+use super::error::RuleError;
+use super::fault::RuleFault;
 use super::syntax::{ActionText, Atom, Condition, Document, Name, Use};
 use crate::units::{Bilingual, name_key};
 

@@ -2,7 +2,8 @@
 
 use miette::SourceSpan;
 
-use super::error::{Place, RuleError, RuleFault};
+use super::error::{Place, RuleError};
+use super::fault::RuleFault;
 use crate::units::{Language, Source, name_key};
 
 /// A word of the text, as written, with its place.
@@ -52,12 +53,12 @@ pub(super) enum Condition {
         negated: bool,
     },
     /// One of the conjunctions holds.
-    Any(Vec<Vec<Condition>>),
+    Any(Vec<Vec<Self>>),
     /// The conjunction holds for every choice of objects, or for some.
     Quantified {
         every: bool,
         variables: Vec<Parameter>,
-        body: Vec<Condition>,
+        body: Vec<Self>,
     },
 }
 
@@ -296,6 +297,18 @@ impl Document {
             });
         let mut all = costs.chain(self.values.iter().map(|(_, amount)| *amount));
         if all.all(Amount::is_whole) { 1 } else { 1000 }
+    }
+
+    /// Every atom of the rules, with the variables bound around it.
+    pub(super) fn each_atom_of_rules<'a>(&'a self, f: &mut dyn FnMut(&'a Atom, &[&'a Parameter])) {
+        for action in &self.actions {
+            action.for_each_atom(&mut |_, atom, bound| f(atom, bound));
+        }
+        for rule in &self.derived {
+            let mut bound: Vec<&Parameter> = rule.parameters.iter().collect();
+            f(&rule.atom, &bound);
+            rule.condition.iter().for_each(|condition| condition.for_each_atom(&mut bound, f));
+        }
     }
 
     /// Appends what an included file says.

@@ -238,7 +238,7 @@ mod tests {
                 .collect(),
             init: [0, 2, 4].map(FactId).into(),
             goal: vec![FactId(1)],
-            assumptions: Vec::new(),
+            ..Task::default()
         }
     }
 

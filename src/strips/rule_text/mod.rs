@@ -27,7 +27,8 @@ mod heading;
 use cursor::Ahead;
 use heading::Heading;
 
-use crate::error::{RuleError, RuleFault};
+use crate::error::RuleError;
+use crate::fault::RuleFault;
 use crate::syntax::{
     ActionText, Amount, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter,
     PhraseText, Signature, Term,
