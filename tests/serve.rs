@@ -507,3 +507,30 @@ fn sessions_outlive_a_kill() {
     let operator = Operator { console: &console, cookie };
     assert_eq!(operator.get("/api/state")["revision"], 2);
 }
+
+/// A judge of another make: what an operator does, done in a real Chromium. `.ci/run` says how it is installed.
+#[test]
+#[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
+fn an_operator_works_in_a_browser() {
+    let root = crate::files::project("");
+    let done = Command::new("python3")
+        .arg(root.join("src/serve/judges/operator.py"))
+        .arg(env!("CARGO_BIN_EXE_ortho"))
+        .env("PYTHONPATH", root.join("target/judges"))
+        .output();
+    let told = done.as_ref().map(|done| {
+        format!(
+            "{}{}",
+            String::from_utf8_lossy(&done.stdout),
+            String::from_utf8_lossy(&done.stderr)
+        )
+    });
+    match done.map(|done| done.status.code()) {
+        Ok(Some(0)) => println!("{}", told.unwrap_or_default()),
+        Ok(Some(77)) | Err(_) => {
+            assert!(std::env::var_os("CI").is_none(), "the browser is missing");
+            println!("skipped: there is no browser");
+        }
+        Ok(_) => panic!("{}", told.unwrap_or_default()),
+    }
+}

@@ -99,7 +99,7 @@ fn things(world: &World, scene: &Scene) -> Vec<Value> {
         let object = &world.objects[&replica.object];
         json!({
             "name": replica.name, "name_en": replica.name_en,
-            "kind": object.name, "kind_en": object.name_en,
+            "kind": object.name, "kind_en": object.name_en, "object": object.key,
             "room": world.areas[&replica.area].name,
             "polygons": placed.prisms.iter().map(|p| outline(&p.polygon)).collect::<Vec<_>>(),
             "z": [round(placed.bottom), round(placed.top)],

@@ -494,7 +494,8 @@ fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Rehears
     let drives =
         |reply: &Reply| matches!(&reply.outcome, Outcome::Task(t) if !t.reports.is_empty());
     let stops = heard.replies.iter().any(|reply| match &reply.outcome {
-        Outcome::Stopped { waited } => !waited,
+        // A robot that drives is stopped, whatever else was meant to be dropped.
+        Outcome::Stopped { .. } => true,
         Outcome::Task(task) => task.stops,
         _ => false,
     });

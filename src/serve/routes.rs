@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::extract::{DefaultBodyLimit, Request, State as Of};
+use axum::extract::{DefaultBodyLimit, Query, Request, State as Of};
 use axum::http::header::{
     CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, LOCATION,
     REFERRER_POLICY, SET_COOKIE, X_CONTENT_TYPE_OPTIONS,
@@ -236,8 +236,19 @@ async fn described() -> impl IntoResponse {
     ([(CONTENT_TYPE, "application/json")], OPENAPI)
 }
 
-async fn happens(Of(house): Of<Arc<House>>, headers: HeaderMap) -> Response {
+/// After which event: a browser that resumes says it in a header, a page that begins anew in its address.
+#[derive(Debug, serde::Deserialize)]
+struct After {
+    after: Option<String>,
+}
+
+async fn happens(
+    Of(house): Of<Arc<House>>,
+    Query(asked): Query<After>,
+    headers: HeaderMap,
+) -> Response {
     let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()).map(str::to_owned);
+    let last = last.or(asked.after).filter(|id| !id.is_empty());
     let events = Arc::clone(&house.events);
     Sse::new(events::stream(events, last.as_deref())).into_response()
 }
