@@ -16,6 +16,9 @@
 #[doc(hidden)]
 pub mod cli;
 pub mod engine;
+#[cfg(feature = "serve")]
+#[doc(hidden)]
+pub mod serve;
 
 pub use engine::{Dialogue, Engine, Error, State};
 

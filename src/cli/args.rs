@@ -203,6 +203,9 @@ pub(super) enum Command {
     Observe(ObserveCommand),
     #[command(flatten)]
     Store(StoreCommand),
+    /// The operator's console in the browser: the map, the robot on it live, talk, tasks, history and editing
+    #[cfg(feature = "serve")]
+    Serve(super::serve::ServeArgs),
     /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
     Draw(DrawArgs),
 }

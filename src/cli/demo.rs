@@ -108,13 +108,13 @@ pub(super) fn perform_scenario(
 }
 
 /// A directory for the time of one run.
-struct Scratch {
+pub(super) struct Scratch {
     dir: std::path::PathBuf,
-    store: std::path::PathBuf,
+    pub(super) store: std::path::PathBuf,
 }
 
 impl Scratch {
-    fn new() -> std::io::Result<Self> {
+    pub(super) fn new() -> std::io::Result<Self> {
         let stamp = std::time::SystemTime::now()
             .duration_since(std::time::UNIX_EPOCH)
             .unwrap_or(Duration::ZERO);
@@ -125,7 +125,7 @@ impl Scratch {
     }
 
     /// The papers' map: the file beside the program's sources, else the copy built in.
-    fn map(&self) -> Result<std::path::PathBuf, Failure> {
+    pub(super) fn map(&self) -> Result<std::path::PathBuf, Failure> {
         let file = Path::new(RB2.0);
         if file.is_file() {
             return Ok(file.to_owned());

@@ -18,6 +18,8 @@ mod observe;
 mod plan;
 mod query;
 mod read;
+#[cfg(feature = "serve")]
+mod serve;
 mod signals;
 mod store;
 mod talk;
@@ -123,6 +125,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Where { at, read: Some(text), .. } => read::run(common, text, at.as_deref()),
         Command::Observe(command) => observe::run(common, command),
         Command::Store(command) => store::run(common, command),
+        #[cfg(feature = "serve")]
+        Command::Serve(args) => serve::run(common, args),
         Command::Draw(args) => draw::run(common, args),
     }
 }

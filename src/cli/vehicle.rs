@@ -66,7 +66,7 @@ pub(super) struct SimulateArgs {
     pace: Option<f64>,
 }
 
-fn pace(text: &str) -> Result<f64, String> {
+pub(super) fn pace(text: &str) -> Result<f64, String> {
     let pace = text.parse::<f64>().ok().filter(|pace| (1e-3..=1e6).contains(pace));
     pace.ok_or_else(|| "a number from 0.001 to 1000000 is wanted, such as 1".to_owned())
 }

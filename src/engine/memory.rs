@@ -152,8 +152,21 @@ impl Engine {
     /// # Errors
     /// The disk refused.
     pub fn remember(&mut self, answer: &TaskAnswer, at: Timestamp) -> Result<(), Error> {
+        match &answer.after {
+            Some(after) => self.remember_after(after, at),
+            None => {
+                self.next().forget_present();
+                Ok(())
+            }
+        }
+    }
+
+    /// Notes in the store how a task that was driven elsewhere left the robot and its world.
+    ///
+    /// # Errors
+    /// The disk refused.
+    pub fn remember_after(&mut self, after: &After, at: Timestamp) -> Result<(), Error> {
         self.next().forget_present();
-        let Some(after) = &answer.after else { return Ok(()) };
         let Some(store) = &mut self.store else { return Ok(()) };
         let seen: Vec<Observation> = after
             .moved

@@ -231,6 +231,13 @@ impl Engine {
         Ok(Self::new(None, OpenReport::default(), Rules::read(rules)?, Some(world)))
     }
 
+    /// An engine without a store on a state that others share: it hears and drives while the writer goes on. What the
+    /// robot does is noted by the writer ([`Engine::remember_after`]), and read here after that.
+    #[must_use]
+    pub fn beside(state: Arc<State>) -> Self {
+        Self { store: None, state, opened: OpenReport::default() }
+    }
+
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction
     /// that is on the disk when this returns.
     ///

@@ -104,6 +104,21 @@ impl Dialogue {
         Self { keeps: false, ..self }
     }
 
+    /// Another dialogue that begins where this one is, with the simulated robot, and leaves this one as it is: what a line
+    /// would come to, before it is meant. It keeps what it does, as a new one.
+    #[must_use]
+    pub fn apart(&self) -> Self {
+        Self {
+            memory: self.memory.clone(),
+            offered: self.offered.clone(),
+            refusal: self.refusal.clone(),
+            language: self.language,
+            keeps: true,
+            wheels: Wheels::Simulated,
+            stop: Stop::new(),
+        }
+    }
+
     /// The simulated robot drives in a world that may differ from what it believes, and leaves it as it then is.
     #[must_use]
     pub fn in_truth(self, truth: World) -> Self {

@@ -1,0 +1,91 @@
+//! `ortho serve`: the operator's console in the browser.
+
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::engine::{Engine, change_now};
+use crate::serve::{Bounds, ServeError, Settings, run as serve};
+
+use super::args::Common;
+use super::commands::{note_repairs, rules_dir, store_dir};
+use super::demo::Scratch;
+use super::fault::Failure;
+use super::signals::stopped_by_signals;
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct ServeArgs {
+    /// Serve this map file, in a store that lasts as long as the program
+    #[arg(long, value_name = "FILE", conflicts_with = "demo")]
+    map: Option<PathBuf>,
+    /// The papers' flat with the simulated robot, in a store that lasts as long as the program unless --store names one
+    #[arg(long)]
+    demo: bool,
+    /// Port; 0 takes a free one
+    #[arg(long, default_value_t = 8430, value_name = "PORT")]
+    port: u16,
+    /// Be reached from other machines at this address of this one; needs --token
+    #[arg(long, value_name = "IP", requires = "token")]
+    listen: Option<IpAddr>,
+    /// Whoever opens http://HOST:PORT/?token=TOKEN may edit and drive; 16 characters or more
+    #[arg(long, env = "ORTHO_TOKEN", hide_env_values = true, value_name = "TOKEN")]
+    token: Option<String>,
+    /// A further name of this machine by which browsers may call it
+    #[arg(long = "host", value_name = "NAME")]
+    hosts: Vec<String>,
+    /// The simulated robot drives so many times as fast as the clock
+    #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = super::vehicle::pace)]
+    pace: f64,
+}
+
+pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> {
+    let lasts = common.store.is_some() || (args.map.is_none() && !args.demo);
+    let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
+    let store = if lasts { store_dir(common) } else { scratch.store.clone() };
+    let rules = rules_dir(common);
+    let is_new = !store.is_dir();
+    let mut engine = match args.map.is_some() || args.demo {
+        true => Engine::open(&store, rules.as_deref())?,
+        false => Engine::open_existing(&store, rules.as_deref())?,
+    };
+    note_repairs(&engine, common.lang);
+    // What a store that lasts has become is not overwritten by what it once began with.
+    if is_new {
+        let map = match &args.map {
+            Some(map) => map.clone(),
+            None => scratch.map()?,
+        };
+        engine.import(&map, &change_now(&common.user, "serve"))?;
+    }
+    let loopback = IpAddr::V4(Ipv4Addr::LOCALHOST);
+    let settings = Settings {
+        listen: SocketAddr::new(args.listen.unwrap_or(loopback), args.port),
+        hosts: args.hosts.clone(),
+        token: args.token.clone(),
+        user: common.user.clone(),
+        rules,
+        sessions: lasts.then(|| beside(&store)),
+        pace: args.pace,
+        is_demo: args.demo,
+        bounds: Bounds::default(),
+    };
+    let told = |address: &str| {
+        let text = common.lang.pick("Откройте в браузере:", "Open in a browser:");
+        // Whoever reads no output can still be served.
+        let _ = say(&format!("{text} {address}"));
+    };
+    match serve(engine, settings, &stopped_by_signals(), told) {
+        Ok(()) => Ok(Answer::Yes),
+        Err(ServeError::Engine(error)) => Err((*error).into()),
+        Err(error) => Err(Failure::output(&std::io::Error::other(error.to_string()))),
+    }
+}
+
+/// `ortho-store` → `ortho-store.sessions`: beside the store, which is its own folder's master.
+fn beside(store: &std::path::Path) -> PathBuf {
+    let mut name = store.as_os_str().to_owned();
+    name.push(".sessions");
+    PathBuf::from(name)
+}

@@ -1,0 +1,396 @@
+//! What is asked and changes something: talk, tasks, edits.
+
+use std::sync::Arc;
+
+use axum::extract::{Path, State as Of};
+use axum::http::StatusCode;
+use axum::{Extension, Json};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now};
+use crate::store::ImportReport;
+use crate::units::Source;
+
+use super::drive::Declined;
+use super::fault::Fault;
+use super::gate::{Role, Session};
+use super::read::{differences, language};
+use super::{House, apart};
+
+type Answer = Result<Json<Value>, Fault>;
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Said {
+    text: String,
+    lang: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Order {
+    before: Option<u64>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Lease {
+    /// `take`, `keep` or `give`.
+    r#do: String,
+}
+
+/// An edit: sections of a map file for what is new, and steps; see docs/cli.md.
+#[derive(Debug, Deserialize)]
+pub(super) struct Edit {
+    /// The revision that it was made on.
+    on: u64,
+    #[serde(default)]
+    reason: String,
+    /// Check and tell what would change; write nothing.
+    #[serde(default)]
+    r#try: bool,
+    #[serde(flatten)]
+    text: serde_json::Map<String, Value>,
+}
+
+/// An undo, a redo, a return.
+#[derive(Debug, Deserialize)]
+pub(super) struct Step {
+    on: u64,
+    #[serde(default)]
+    reason: String,
+    /// What to undo, where that is not the last; what to return to.
+    revision: Option<u64>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Verdict {
+    on: u64,
+    /// `confirm` or `reject`.
+    verdict: String,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Invitation {
+    role: Role,
+    name: String,
+}
+
+/// Hears a line.
+pub(super) async fn say(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(said): Json<Said>,
+) -> Answer {
+    let language = language(said.lang.as_deref());
+    apart(move || house.tasks.say(&session, said.text.trim(), language)).await.map(Json)
+}
+
+/// Says yes to a plan.
+pub(super) async fn confirm(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Path(id): Path<u64>,
+) -> Answer {
+    let asked = Arc::clone(&house);
+    let by = session.clone();
+    match apart(move || Ok(asked.tasks.confirm(&by, id))).await? {
+        Ok(view) => Ok(Json(view)),
+        Err(Declined::Expired(again, revision)) => {
+            let fault = Fault::new(
+                StatusCode::CONFLICT,
+                "serve::expired",
+                "Карта с тех пор изменилась; вот план, каков он теперь.",
+                "The map has changed since; this is the plan as it is now.",
+            );
+            let text = json!(again.replies);
+            let plan = again.plan.map(|plan| {
+                let said = plan["said"].as_str().unwrap_or_default().to_owned();
+                house.tasks.propose_anew(&session, &said, plan, revision)
+            });
+            Err(fault.with("task", json!(plan)).with("replies", text))
+        }
+        Err(declined) => Err(declined.into()),
+    }
+}
+
+impl From<Declined> for Fault {
+    fn from(declined: Declined) -> Self {
+        match declined {
+            Declined::Unknown | Declined::Expired(..) => unknown(),
+            Declined::Leased { holder, seconds } => Self::new(
+                StatusCode::CONFLICT,
+                "serve::leased",
+                &format!("Роботом управляет {holder}; ещё {seconds} с."),
+                &format!("{holder} drives the robot; {seconds} s more."),
+            )
+            .with("holder", json!(holder))
+            .with("seconds", json!(seconds)),
+            Declined::Failed(error) => Self::of(&error, None),
+        }
+    }
+}
+
+fn unknown() -> Fault {
+    Fault::new(
+        StatusCode::NOT_FOUND,
+        "serve::no_such_task",
+        "Такого задания нет: оно уже начато, отменено или забыто.",
+        "There is no such task: it was begun, cancelled or forgotten.",
+    )
+}
+
+/// Drops a plan or a queued task, or stops the one that is driven.
+pub(super) async fn cancel(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Path(id): Path<u64>,
+) -> Answer {
+    if house.tasks.cancel(&session, id) { Ok(Json(house.tasks.view())) } else { Err(unknown()) }
+}
+
+/// Puts a queued task elsewhere in the queue.
+pub(super) async fn reorder(
+    Of(house): Of<Arc<House>>,
+    Path(id): Path<u64>,
+    Json(order): Json<Order>,
+) -> Answer {
+    if house.tasks.reorder(id, order.before) {
+        Ok(Json(house.tasks.view()))
+    } else {
+        Err(unknown())
+    }
+}
+
+/// Stops the robot at once.
+pub(super) async fn stop(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+) -> Json<Value> {
+    Json(json!({ "is_running": house.tasks.stop(&session.name) }))
+}
+
+/// What is driven, what waits, what ended.
+pub(super) async fn tasks(Of(house): Of<Arc<House>>) -> Json<Value> {
+    Json(house.tasks.view())
+}
+
+/// Takes, keeps or gives back the right to drive.
+pub(super) async fn lease(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(lease): Json<Lease>,
+) -> Answer {
+    match lease.r#do.as_str() {
+        "give" => Ok(Json(house.tasks.give_back(&session))),
+        "take" | "keep" => Ok(Json(house.tasks.lease(&session)?)),
+        _ => Err(Fault::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "serve::lease",
+            "Здесь бывает take, keep или give.",
+            "This is take, keep or give.",
+        )),
+    }
+}
+
+/// What came of a change of the map.
+enum Written {
+    Done(Value),
+    /// Others came first; these are their revisions, with what they changed.
+    Stale {
+        revision: u64,
+        theirs: Value,
+    },
+}
+
+/// Does what changes the map, where it still is what the change was made on.
+async fn write(
+    house: &House,
+    on: u64,
+    work: impl FnOnce(&mut Engine) -> Result<Value, Error> + Send + 'static,
+) -> Answer {
+    let written = house.desk.ask(move |engine| {
+        let revision = engine.revision();
+        if revision != on {
+            let theirs = theirs(engine, on)?;
+            return Ok(Written::Stale { revision, theirs });
+        }
+        work(engine).map(Written::Done)
+    });
+    match written.await?.map_err(|error| named(house, &error))? {
+        Written::Done(view) => Ok(Json(view)),
+        Written::Stale { revision, theirs } => Err(Fault::new(
+            StatusCode::CONFLICT,
+            "serve::stale",
+            "Пока вы правили, карту изменили другие; ваша правка не записана и не потеряна.",
+            "While you edited, others changed the map; your edit is neither written nor lost.",
+        )
+        .with("on", json!(on))
+        .with("revision", json!(revision))
+        .with("theirs", theirs)),
+    }
+}
+
+/// The revisions after one, with what each changed.
+fn theirs(engine: &Engine, on: u64) -> Result<Value, Error> {
+    let mut all = Vec::new();
+    for revision in engine.revisions()?.into_iter().filter(|r| r.number > on) {
+        let number = revision.number;
+        let before = When::Revision(number - 1);
+        let changed = engine.diff(before, When::Revision(number))?;
+        all.push(json!({
+            "revision": number, "user": revision.user, "at": revision.at.to_string(),
+            "reason": revision.reason, "differences": differences(&changed),
+        }));
+    }
+    Ok(json!(all))
+}
+
+/// A fault with the names of the map as it is.
+fn named(house: &House, error: &Error) -> Fault {
+    let state = house.desk.state();
+    Fault::of(error, state.world().ok())
+}
+
+fn by(session: &Session, reason: &str) -> Change {
+    change_now(&session.name, reason)
+}
+
+/// Edits the map: one transaction, checked as a whole.
+pub(super) async fn edit(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(edit): Json<Edit>,
+) -> Answer {
+    let change = by(&session, &edit.reason);
+    let mode = if edit.r#try { Mode::DryRun } else { Mode::Commit };
+    let text = Value::Object(edit.text).to_string();
+    write(&house, edit.on, move |engine| {
+        let edited = engine.edit(&Source::new("правка", text), Format::Json, &change, mode)?;
+        let warnings: Vec<Value> = edited
+            .warnings
+            .faults
+            .iter()
+            .map(|fault| json!({ "message": fault.error.to_string() }))
+            .collect();
+        Ok(json!({
+            "outcome": if edited.report.is_some() { "edited" } else { "tried" },
+            "revision": edited.report.as_ref().map(|report| report.revision),
+            "differences": differences(&edited.differences),
+            "left_behind": edited.left_behind,
+            "warnings": warnings,
+        }))
+    })
+    .await
+}
+
+fn reported(outcome: &str, report: &ImportReport) -> Value {
+    json!({
+        "outcome": outcome, "revision": report.revision, "created": report.counts.created,
+        "changed": report.counts.changed, "deleted": report.counts.deleted,
+    })
+}
+
+/// Takes back the last edit that stands, or a certain one.
+pub(super) async fn undo(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(step): Json<Step>,
+) -> Answer {
+    let change = by(&session, &step.reason);
+    write(&house, step.on, move |engine| {
+        Ok(reported("undone", &engine.undo(step.revision, &change)?))
+    })
+    .await
+}
+
+/// Brings back what the last undo took.
+pub(super) async fn redo(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(step): Json<Step>,
+) -> Answer {
+    let change = by(&session, &step.reason);
+    write(&house, step.on, move |engine| Ok(reported("redone", &engine.redo(&change)?))).await
+}
+
+/// Makes the map what it was at a revision.
+pub(super) async fn restore(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(step): Json<Step>,
+) -> Answer {
+    let change = by(&session, &step.reason);
+    write(&house, step.on, move |engine| {
+        let to = When::Revision(step.revision.unwrap_or(step.on));
+        Ok(reported("restored", &engine.return_to(to, &change)?))
+    })
+    .await
+}
+
+/// Says that a thing stands where it is believed to, or where the map has it.
+pub(super) async fn decide(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Path(name): Path<String>,
+    Json(said): Json<Verdict>,
+) -> Answer {
+    let change = by(&session, "");
+    let is_confirmed = match said.verdict.as_str() {
+        "confirm" => true,
+        "reject" => false,
+        _ => {
+            return Err(Fault::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "serve::verdict",
+                "Здесь бывает confirm или reject.",
+                "This is confirm or reject.",
+            ));
+        }
+    };
+    let done = write(&house, said.on, move |engine| {
+        if is_confirmed {
+            return Ok(reported("confirmed", &engine.confirm(&name, &change)?));
+        }
+        engine.reject(&name, &change)?;
+        Ok(json!({ "outcome": "rejected", "revision": engine.revision() }))
+    });
+    let done = done.await?;
+    house.events.tell("known", &json!({}));
+    Ok(done)
+}
+
+/// Puts the robot back to the map's start, in a map as surveyed.
+pub(super) async fn reset(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+) -> Answer {
+    let change = by(&session, "reset");
+    house.desk.ask(move |engine| engine.reset_robot(&change)).await??;
+    house.events.tell("known", &json!({}));
+    Ok(Json(json!({ "outcome": "reset" })))
+}
+
+/// A one-time token for somebody else, of at most one's own role.
+pub(super) async fn invite(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(asked): Json<Invitation>,
+) -> Answer {
+    let name: String = asked.name.trim().chars().take(60).collect();
+    let role = asked.role.min(session.role);
+    let token = house.gate.invite(role, if name.is_empty() { "?" } else { &name });
+    let token = token.map_err(|error| {
+        let text = error.to_string();
+        Fault::new(StatusCode::INTERNAL_SERVER_ERROR, "serve::random", &text, &text)
+    })?;
+    Ok(Json(json!({ "token": token, "role": role })))
+}
+
+/// Ends the session.
+pub(super) async fn leave(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+) -> Json<Value> {
+    house.tasks.give_back(&session);
+    house.gate.leave(&session);
+    Json(json!({ "outcome": "left" }))
+}

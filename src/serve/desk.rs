@@ -1,0 +1,117 @@
+//! The engine on its own thread: work for it comes one piece after another, and what it then knows is shared.
+//!
+//! **Invariant.** Nothing but this thread writes; whoever reads has the [`State`] as it stood when it was taken.
+
+use std::sync::{Arc, PoisonError, RwLock, mpsc};
+use std::thread;
+
+use serde_json::json;
+use tokio::sync::oneshot;
+
+use crate::engine::{Engine, Error, State};
+
+use super::events::Events;
+
+type Work = Box<dyn FnOnce(&mut Engine) + Send>;
+
+/// The way to the engine.
+#[derive(Debug)]
+pub(super) struct Desk {
+    work: mpsc::Sender<Work>,
+    state: Arc<RwLock<Arc<State>>>,
+}
+
+/// The engine's thread has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Gone;
+
+impl Desk {
+    /// Moves an engine to its thread.
+    ///
+    /// # Errors
+    /// What follows from the map cannot be derived, or the system gives no thread.
+    pub(super) fn open(mut engine: Engine, events: Arc<Events>) -> Result<Self, Error> {
+        let state = Arc::new(RwLock::new(engine.state()?));
+        let shared = Arc::clone(&state);
+        let (work, to_do) = mpsc::channel::<Work>();
+        thread::spawn(move || {
+            for piece in to_do {
+                let before = engine.revision();
+                piece(&mut engine);
+                // What cannot be derived is told to whoever asks.
+                if let Ok(state) = engine.state() {
+                    *shared.write().unwrap_or_else(PoisonError::into_inner) = state;
+                }
+                if engine.revision() != before {
+                    events.tell("revision", &revision(&engine));
+                }
+            }
+        });
+        Ok(Self { work, state })
+    }
+
+    /// What is known now.
+    #[must_use]
+    pub(super) fn state(&self) -> Arc<State> {
+        Arc::clone(&self.state.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Has the engine do something; what comes of it is known to [`Desk::state`] soon after.
+    ///
+    /// # Errors
+    /// The engine's thread has ended.
+    pub(super) async fn ask<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Engine) -> T + Send + 'static,
+    ) -> Result<T, Gone> {
+        let (answer, answered) = oneshot::channel();
+        let work = move |engine: &mut Engine| drop(answer.send(work(engine)));
+        self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
+        let answer = answered.await.map_err(|_gone| Gone)?;
+        // When this one is begun, the state of the one before is shared.
+        self.settle().await?;
+        Ok(answer)
+    }
+
+    async fn settle(&self) -> Result<(), Gone> {
+        let (answer, answered) = oneshot::channel();
+        let nothing = move |_: &mut Engine| {
+            // Who asked may have gone.
+            let _ = answer.send(());
+        };
+        self.work.send(Box::new(nothing)).map_err(|_gone| Gone)?;
+        answered.await.map_err(|_gone| Gone)
+    }
+
+    /// The same from a thread of one's own.
+    ///
+    /// # Errors
+    /// The engine's thread has ended.
+    pub(super) fn ask_from_thread<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Engine) -> T + Send + 'static,
+    ) -> Result<T, Gone> {
+        let (answer, answered) = mpsc::channel();
+        let work = move |engine: &mut Engine| drop(answer.send(work(engine)));
+        self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
+        let answer = answered.recv().map_err(|_gone| Gone)?;
+        let (settled, has_settled) = mpsc::channel();
+        let nothing = move |_: &mut Engine| {
+            let _ = settled.send(());
+        };
+        self.work.send(Box::new(nothing)).map_err(|_gone| Gone)?;
+        has_settled.recv().map_err(|_gone| Gone)?;
+        Ok(answer)
+    }
+}
+
+fn revision(engine: &Engine) -> serde_json::Value {
+    let last = engine.revisions().ok().and_then(|all| all.into_iter().last());
+    let last = last.map(|r| (r.number, r.user, r.reason));
+    match last {
+        Some((number, user, reason)) => {
+            json!({ "revision": number, "user": user, "reason": reason })
+        }
+        None => json!({ "revision": engine.revision() }),
+    }
+}

@@ -1,0 +1,219 @@
+//! A storey as data: outlines in the Map's frame, cm, with the names of what they are of.
+//!
+//! Drawn is the map as surveyed, with its doors as they now stand; what is believed to stand elsewhere is told beside it.
+
+use serde_json::{Value, json};
+
+use crate::engine::{Error, State};
+use crate::geometry::{FloorPlan, Opening, Polygon, Region, Scene};
+use crate::map::{Door, DoorStatus, Permeability, World};
+use crate::units::{AreaId, MapId, Point};
+
+/// Rooms, walls, things, doors and places of a Map.
+///
+/// # Errors
+/// There is no map.
+pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
+    let world = state.world()?;
+    let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
+    let now = state.world_now()?;
+    let scene = floor.scene();
+    let mut view = json!({
+        "revision": state.revision(),
+        "map": world.maps[&map].name,
+        "map_en": world.maps[&map].name_en,
+        "rooms": rooms(world, scene),
+        "walls": sides(world, scene, false),
+        "windows": sides(world, scene, true),
+        "things": things(world, scene),
+        "doors": doors(world, now, floor),
+        "places": places(world, map),
+    });
+    let elsewhere =
+        if std::ptr::eq(world, now) { Vec::new() } else { moved(world, now, map, scene) };
+    view["elsewhere"] = json!(elsewhere);
+    Ok(view)
+}
+
+/// The free floor of a Map: its Passframes, dead zones, and the network over them.
+///
+/// # Errors
+/// There is no map.
+pub(super) fn floor(state: &State, map: MapId) -> Result<Value, Error> {
+    let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
+    let (mut frames, mut dead) = (Vec::new(), Vec::new());
+    for fragment in floor.fragments() {
+        frames.extend(
+            fragment.passframes().iter().map(
+                |frame| json!({ "id": frame.id.to_string(), "points": outline(&frame.polygon) }),
+            ),
+        );
+        dead.extend(fragment.dead_zones().iter().map(region));
+    }
+    let network = crate::draw::NetworkLayer::of(floor, None);
+    let line = |points: &[Point; 3]| points.map(point);
+    Ok(json!({
+        "revision": state.revision(),
+        "passframes": frames,
+        "dead": dead,
+        "network": network.edges.iter().chain(&network.doors).map(line).collect::<Vec<_>>(),
+    }))
+}
+
+fn rooms(world: &World, scene: &Scene) -> Vec<Value> {
+    let room = |placed: &crate::geometry::PlacedArea| {
+        let area = &world.areas[&placed.id];
+        let polygons: Vec<_> = placed.prisms.iter().map(|prism| outline(&prism.polygon)).collect();
+        let whole: f64 = placed.prisms.iter().map(|p| p.polygon.signed_area().abs()).sum();
+        // Where a name may stand: in the largest piece.
+        let size = |p: &&crate::geometry::Prism| p.polygon.signed_area().abs();
+        let largest = placed.prisms.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+        json!({
+            "name": area.name, "name_en": area.name_en, "polygons": polygons,
+            "m2": round(whole / 10_000.0), "middle": largest.map(|p| point(p.polygon.centroid())),
+            "frame": frame(&placed.frame),
+        })
+    };
+    scene.areas.values().map(room).collect()
+}
+
+/// Walls, or the windows in them; what only parts two pieces of one room is none.
+fn sides(world: &World, scene: &Scene, windows: bool) -> Vec<[[f64; 2]; 2]> {
+    let mut found = Vec::new();
+    for prism in scene.areas.values().flat_map(|area| &area.prisms) {
+        let orthoframe = &world.orthoframes[&prism.orthoframe];
+        let edges = prism.polygon.edges().zip(prism.sides.iter()).zip(&orthoframe.base);
+        for (((a, b), side), vector) in edges {
+            let is_wall = side.permeability == Permeability::Impermeable;
+            if is_wall && (!windows || world.is_window(vector)) {
+                found.push([point(a), point(b)]);
+            }
+        }
+    }
+    found
+}
+
+fn things(world: &World, scene: &Scene) -> Vec<Value> {
+    let thing = |placed: &crate::geometry::PlacedReplica| {
+        let replica = &world.replicas[&placed.id];
+        let object = &world.objects[&replica.object];
+        json!({
+            "name": replica.name, "name_en": replica.name_en,
+            "kind": object.name, "kind_en": object.name_en, "object": object.key,
+            "room": world.areas[&replica.area].name,
+            "polygons": placed.prisms.iter().map(|p| outline(&p.polygon)).collect::<Vec<_>>(),
+            "z": [round(placed.bottom), round(placed.top)],
+            "at": frame(&replica.frame), "on_map": frame(&placed.frame),
+            "movable": replica.move_prob > 0,
+        })
+    };
+    // The lowest first: what stands on it is drawn over it.
+    let mut all: Vec<_> = scene.replicas.values().collect();
+    all.sort_by(|a, b| a.bottom.total_cmp(&b.bottom).then(a.top.total_cmp(&b.top)));
+    all.into_iter().map(thing).collect()
+}
+
+fn doors(world: &World, now: &World, floor: &FloorPlan) -> Vec<Value> {
+    let mut seen = std::collections::BTreeSet::new();
+    let openings = floor.doorways().iter().chain(floor.blind_openings());
+    let opening = |opening: &Opening| {
+        let door = opening.door.and_then(|id| now.doors.get(&id));
+        // A door out of the map is an opening of its own.
+        if door.is_some_and(|door| !seen.insert(door.id)) || (door.is_none() && !opening.is_way()) {
+            return None;
+        }
+        let (t0, t1) = opening.span();
+        let jamb = |t: f64| [opening.at(t, 0.0), opening.at(t, opening.gap)].map(point);
+        let names: Vec<&str> = opening
+            .all_areas()
+            .iter()
+            .map(|area: &AreaId| world.areas[area].name.as_str())
+            .collect();
+        let mut view = json!({
+            "gap": [jamb(t0), jamb(t1)], "rooms": names, "name": door.map(|door| &door.name),
+            "name_en": door.map(|door| &door.name_en),
+        });
+        if let Some(door) = door {
+            leaves(&mut view, opening, door);
+        }
+        Some(view)
+    };
+    openings.filter_map(opening).collect()
+}
+
+fn leaves(view: &mut Value, opening: &Opening, door: &Door) {
+    let leaves = opening.leaves(door);
+    view["state"] = json!(match door.state.status {
+        DoorStatus::Open => "open",
+        DoorStatus::Closed => "closed",
+        DoorStatus::Locked => "locked",
+    });
+    view["opening"] = json!(round(door.state.opening));
+    view["leaves"] = json!(leaves.at(door.state).iter().map(outline).collect::<Vec<_>>());
+    let arc = |points: &Vec<Point>| points.iter().map(|p| point(*p)).collect::<Vec<_>>();
+    view["arcs"] = json!(leaves.arcs().iter().map(arc).collect::<Vec<_>>());
+}
+
+fn places(world: &World, map: MapId) -> Vec<Value> {
+    let placements = world.placements();
+    let place = |place: &crate::map::Place| {
+        let (on, frame) = placements.get(&place.area)?;
+        (*on == map).then(|| {
+            json!({
+                "name": place.name, "name_en": place.name_en, "at": point(frame.apply(place.at)),
+            })
+        })
+    };
+    world.places.values().filter_map(place).collect()
+}
+
+/// Things that are believed to stand elsewhere than the map has them, or on nobody's floor.
+fn moved(world: &World, now: &World, map: MapId, surveyed: &Scene) -> Vec<Value> {
+    let differs = |id: &&crate::units::ReplicaId| {
+        let (was, is) = (world.replicas.get(id), now.replicas.get(id));
+        was.zip(is).is_some_and(|(was, is)| (was.area, was.frame) != (is.area, is.frame))
+    };
+    let ids: Vec<_> = now.replicas.keys().filter(differs).collect();
+    if ids.is_empty() {
+        return Vec::new();
+    }
+    let scene = Scene::of(now, map);
+    let one = |id: &&crate::units::ReplicaId| {
+        let placed = scene.replicas.get(id);
+        let was = surveyed.replicas.get(id);
+        if placed.is_none() && was.is_none() {
+            return None;
+        }
+        let polygons = placed.map(|p| p.prisms.iter().map(|p| outline(&p.polygon)));
+        Some(json!({
+            "name": now.replicas[id].name, "name_en": now.replicas[id].name_en,
+            "polygons": polygons.map(Iterator::collect::<Vec<_>>),
+        }))
+    };
+    ids.iter().filter_map(one).collect()
+}
+
+fn region(region: &Region) -> Value {
+    let holes: Vec<_> = region.holes.iter().map(outline).collect();
+    json!({ "outer": outline(&region.outer), "holes": holes })
+}
+
+fn frame(frame: &crate::units::Frame) -> Value {
+    json!({
+        "x": round(frame.x.get()), "y": round(frame.y.get()), "z": round(frame.z.get()),
+        "angle_deg": round(frame.angle.get()),
+    })
+}
+
+fn outline(polygon: &Polygon) -> Vec<[f64; 2]> {
+    polygon.corners.iter().map(|corner| point(*corner)).collect()
+}
+
+fn point(p: Point) -> [f64; 2] {
+    [round(p.x), round(p.y)]
+}
+
+/// A tenth of a millimetre; nothing is minus zero.
+fn round(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0 + 0.0
+}

@@ -1,0 +1,636 @@
+//! Tasks: planned, confirmed, driven one after another on a thread of their own, and how each ended.
+//!
+//! A line is first heard by a dialogue apart, which drives the simulator in no time: what it would do is the plan that is
+//! confirmed. Then it is heard once more, at the pace of the clock, beside the engine that goes on writing edits; what the
+//! robot did is noted by the writer after each task.
+//!
+//! **Invariant.** One task is driven at a time. A stop needs no lease, and is raised by no queue.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use crate::engine::{
+    Dialogue, Engine, Error, Event, Outcome, Progress, Reply, State, TaskEvents, json,
+};
+use crate::robot::Moment;
+use crate::units::{Language, Stop};
+
+use super::desk::Desk;
+use super::events::Events;
+use super::gate::Session;
+
+/// So many tasks that ended are remembered, and so many plans that wait for a word.
+const REMEMBERED: usize = 50;
+/// How long whoever drives may be silent.
+const LEASE: Duration = Duration::from_secs(120);
+/// Between two looks whether the robot is to stop.
+const GLANCE: Duration = Duration::from_millis(20);
+/// Between two poses that are told.
+const TELL: Duration = Duration::from_millis(90);
+
+/// What a line came to when it was heard apart.
+#[derive(Debug)]
+pub(super) struct Rehearsed {
+    /// What was replied before the first task.
+    pub replies: Vec<Value>,
+    /// What is to be confirmed, if anything is.
+    pub plan: Option<Value>,
+    /// Told to stop.
+    pub stops: bool,
+    dialogue: Dialogue,
+}
+
+/// A task that is known here.
+#[derive(Debug)]
+struct Task {
+    id: u64,
+    text: String,
+    by: Session,
+    /// As it was before the line.
+    before: Dialogue,
+    /// Of the state for which the plan was made.
+    revision: u64,
+    plan: Value,
+}
+
+#[derive(Debug, Default)]
+struct Book {
+    next: u64,
+    talks: BTreeMap<u64, Dialogue>,
+    planned: BTreeMap<u64, Task>,
+    queue: VecDeque<Task>,
+    running: Option<Running>,
+    ended: VecDeque<Value>,
+    lease: Option<Lease>,
+    is_over: bool,
+}
+
+#[derive(Debug)]
+struct Running {
+    id: u64,
+    by: Session,
+    view: Value,
+    stop: Stop,
+    why: Option<String>,
+}
+
+#[derive(Debug, Clone)]
+struct Lease {
+    holder: Session,
+    until: Instant,
+}
+
+/// Why a task is not taken up.
+#[derive(Debug)]
+pub(super) enum Declined {
+    /// None of that number waits.
+    Unknown,
+    /// Somebody else drives.
+    Leased {
+        holder: String,
+        seconds: u64,
+    },
+    /// The map changed since it was planned; this is the plan now, if there is one.
+    Expired(Box<Rehearsed>, u64),
+    Failed(Box<Error>),
+}
+
+/// See the head of this file.
+#[derive(Debug)]
+pub(super) struct Tasks {
+    desk: Arc<Desk>,
+    events: Arc<Events>,
+    /// Times as fast as the clock.
+    pace: f64,
+    book: Mutex<Book>,
+    wake: Condvar,
+}
+
+impl Tasks {
+    /// Begins to wait for tasks.
+    #[must_use]
+    pub(super) fn begin(desk: Arc<Desk>, events: Arc<Events>, pace: f64) -> Arc<Self> {
+        let book = Mutex::default();
+        let tasks = Arc::new(Self { desk, events, pace, book, wake: Condvar::new() });
+        let driver = Arc::clone(&tasks);
+        std::thread::spawn(move || {
+            while let Some(task) = driver.take_up() {
+                driver.drive(task);
+            }
+        });
+        tasks
+    }
+
+    fn book(&self) -> MutexGuard<'_, Book> {
+        self.book.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Hears a line of whoever speaks: a question is answered; an order waits to be confirmed.
+    ///
+    /// # Errors
+    /// There is no map, or the disk refused.
+    pub(super) fn say(
+        &self,
+        session: &Session,
+        text: &str,
+        language: Language,
+    ) -> Result<Value, Error> {
+        let state = self.desk.state();
+        let before = match self.book().talks.get(&session.number) {
+            Some(dialogue) => dialogue.apart(),
+            None => Dialogue::new(language),
+        };
+        let mut heard = rehearse(&state, &before, text)?;
+        // The dialogue knows of nothing that is under way.
+        if heard.stops && self.stop(&session.name) {
+            let standing = language.pick("Останавливаюсь.", "I am stopping.");
+            heard.replies = vec![json!({ "outcome": "stopped", "text": standing })];
+        }
+        let planned = heard.plan.is_some();
+        let mut view = json!({ "replies": heard.replies, "revision": state.revision() });
+        if let Some(plan) = heard.plan {
+            view["task"] = self.propose(session, text, before, plan, state.revision());
+        }
+        if let Some(robot) = self.under_way(language) {
+            view["caution"] = robot;
+        }
+        let mut book = self.book();
+        if !planned {
+            book.talks.insert(session.number, heard.dialogue);
+        }
+        Ok(view)
+    }
+
+    /// What an answer lacks while the robot is under way: what it has done since it set out is noted when it is done.
+    fn under_way(&self, language: Language) -> Option<Value> {
+        self.book().running.as_ref()?;
+        let robot = self.events.robot();
+        let place = robot[language.pick("ru", "en")].as_str().map(str::to_owned);
+        let known = language.pick(
+            "Робот едет; что он сделал с начала задания, в ответе ещё не учтено.",
+            "The robot is under way; what it did since it set out is not in this answer yet.",
+        );
+        Some(json!([known, place.as_deref().unwrap_or_default()].join(" ").trim()))
+    }
+
+    fn propose(
+        &self,
+        session: &Session,
+        text: &str,
+        before: Dialogue,
+        plan: Value,
+        revision: u64,
+    ) -> Value {
+        let mut book = self.book();
+        book.next += 1;
+        let (id, text, by) = (book.next, text.to_owned(), session.clone());
+        let task = Task { id, text, by, before, revision, plan };
+        let view = task.view("planned");
+        book.planned.insert(id, task);
+        while book.planned.len() > REMEMBERED {
+            book.planned.pop_first();
+        }
+        view
+    }
+
+    /// Takes the lease, or keeps it.
+    ///
+    /// # Errors
+    /// [`Declined::Leased`].
+    pub(super) fn lease(&self, session: &Session) -> Result<Value, Declined> {
+        let view = {
+            let mut book = self.book();
+            let now = Instant::now();
+            if let Some(lease) = &book.lease
+                && lease.until > now
+                && lease.holder.number != session.number
+            {
+                let seconds = (lease.until - now).as_secs();
+                return Err(Declined::Leased { holder: lease.holder.name.clone(), seconds });
+            }
+            let is_new = book.lease.as_ref().is_none_or(|l| l.holder.number != session.number);
+            book.lease = Some(Lease { holder: session.clone(), until: now + LEASE });
+            is_new.then(|| book.lease_view())
+        };
+        if let Some(view) = &view {
+            self.events.tell("lease", view);
+        }
+        Ok(self.book().lease_view())
+    }
+
+    /// Gives the lease back, where one has it.
+    pub(super) fn give_back(&self, session: &Session) -> Value {
+        let given = {
+            let mut book = self.book();
+            let is_ours = book.lease.as_ref().is_some_and(|l| l.holder.number == session.number);
+            if is_ours {
+                book.lease = None;
+            }
+            is_ours
+        };
+        if given {
+            self.events.tell("lease", &Value::Null);
+        }
+        Value::Null
+    }
+
+    /// Says yes to a plan: it is driven when those before it are done.
+    ///
+    /// # Errors
+    /// See [`Declined`].
+    pub(super) fn confirm(&self, session: &Session, id: u64) -> Result<Value, Declined> {
+        self.lease(session)?;
+        let Some(task) = self.book().planned.remove(&id) else { return Err(Declined::Unknown) };
+        let state = self.desk.state();
+        if state.revision() != task.revision {
+            let again = rehearse(&state, &task.before, &task.text);
+            let again = again.map_err(|error| Declined::Failed(Box::new(error)))?;
+            return Err(Declined::Expired(Box::new(again), state.revision()));
+        }
+        let view = task.view("queued");
+        self.book().queue.push_back(task);
+        self.wake.notify_all();
+        self.tell_queue();
+        Ok(view)
+    }
+
+    /// Makes a task of a plan that was made anew.
+    pub(super) fn propose_anew(
+        &self,
+        session: &Session,
+        text: &str,
+        plan: Value,
+        revision: u64,
+    ) -> Value {
+        let before = match self.book().talks.get(&session.number) {
+            Some(dialogue) => dialogue.apart(),
+            None => Dialogue::default(),
+        };
+        self.propose(session, text, before, plan, revision)
+    }
+
+    /// Drops a plan or a queued task; one that is driven is stopped. False where there is none.
+    pub(super) fn cancel(&self, session: &Session, id: u64) -> bool {
+        let is_running = self.book().running.as_ref().is_some_and(|r| r.id == id);
+        if is_running {
+            self.stop(&session.name);
+            return true;
+        }
+        let dropped = {
+            let mut book = self.book();
+            let planned = book.planned.remove(&id).map(|task| ("declined", task));
+            let at = book.queue.iter().position(|task| task.id == id);
+            let queued = at.and_then(|at| book.queue.remove(at)).map(|task| ("cancelled", task));
+            planned.or(queued)
+        };
+        let Some((state, task)) = dropped else { return false };
+        self.end(&task.view(state));
+        self.tell_queue();
+        true
+    }
+
+    /// Puts a queued task before another, or last. False where there is none.
+    pub(super) fn reorder(&self, id: u64, before: Option<u64>) -> bool {
+        {
+            let mut book = self.book();
+            let Some(at) = book.queue.iter().position(|task| task.id == id) else { return false };
+            let Some(task) = book.queue.remove(at) else { return false };
+            let to = before.and_then(|before| book.queue.iter().position(|t| t.id == before));
+            let to = to.unwrap_or(book.queue.len());
+            book.queue.insert(to, task);
+        }
+        self.tell_queue();
+        true
+    }
+
+    /// Stops the robot at once; what is queued waits no longer for it, so it is dropped too.
+    pub(super) fn stop(&self, by: &str) -> bool {
+        let (is_running, dropped) = {
+            let mut book = self.book();
+            let dropped: Vec<Task> = book.queue.drain(..).collect();
+            let is_running = book.running.as_mut().is_some_and(|running| {
+                running.stop.raise();
+                running.why.get_or_insert_with(|| by.to_owned());
+                true
+            });
+            (is_running, dropped)
+        };
+        for task in &dropped {
+            self.end(&task.view("cancelled"));
+        }
+        if !dropped.is_empty() {
+            self.tell_queue();
+        }
+        self.events.tell("stop", &json!({ "by": by, "is_running": is_running }));
+        is_running
+    }
+
+    /// Ends all: the robot stops, and no task is taken up any more.
+    pub(super) fn close(&self) {
+        self.book().is_over = true;
+        self.stop("ortho serve");
+        self.wake.notify_all();
+        let patience = Instant::now() + Duration::from_secs(5);
+        while self.book().running.is_some() && Instant::now() < patience {
+            std::thread::sleep(GLANCE);
+        }
+    }
+
+    /// What is driven, what waits, what ended, who drives.
+    #[must_use]
+    pub(super) fn view(&self) -> Value {
+        let book = self.book();
+        json!({
+            "task": book.running.as_ref().map(|running| &running.view),
+            "queue": book.queue.iter().map(|task| task.view("queued")).collect::<Vec<_>>(),
+            "ended": book.ended,
+            "lease": book.lease_view(),
+        })
+    }
+
+    fn tell_queue(&self) {
+        let queue: Vec<Value> = self.book().queue.iter().map(|t| t.view("queued")).collect();
+        self.events.tell("queue", &json!(queue));
+    }
+
+    fn end(&self, view: &Value) {
+        {
+            let mut book = self.book();
+            book.ended.push_back(view.clone());
+            if book.ended.len() > REMEMBERED {
+                book.ended.pop_front();
+            }
+        }
+        self.events.tell("task", view);
+    }
+
+    /// The next task, when there is one; none at the end of all.
+    fn take_up(&self) -> Option<Task> {
+        let mut book = self.book();
+        loop {
+            if book.is_over {
+                return None;
+            }
+            if let Some(task) = book.queue.pop_front() {
+                let (id, view, by) = (task.id, task.view("running"), task.by.clone());
+                book.running = Some(Running { id, by, view, stop: Stop::new(), why: None });
+                return Some(task);
+            }
+            book = self.wake.wait(book).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn drive(&self, task: Task) {
+        let (mut view, stop) = {
+            let book = self.book();
+            let running = book.running.as_ref().expect("it was just taken up");
+            (running.view.clone(), running.stop.clone())
+        };
+        self.tell_queue();
+        self.events.tell("task", &view);
+        let mut dialogue = task.before.apart();
+        dialogue.stopped_by(stop.clone());
+        let mut engine = Engine::beside(self.desk.state());
+        let mut drive = Drive::new(self, task.id, stop);
+        let heard = dialogue.hear(&mut engine, &task.text, &mut |engine, event| {
+            drive.follow(engine, event);
+        });
+        let failed_to_note = drive.failure.take();
+        match heard {
+            Ok(heard) => {
+                let tasks = heard.replies.iter().rev();
+                let last = tasks.clone().find(|reply| matches!(reply.outcome, Outcome::Task(_)));
+                let worst = heard.replies.iter().find(|reply| reply.outcome.has_failed());
+                let outcome = worst.or(last).map_or("done", |reply| reply.outcome.word());
+                view["state"] = json!(outcome);
+                view["text_end"] = json!(heard.text());
+                let replies = heard.replies.iter().filter_map(|r| json::reply(&engine, r).ok());
+                view["replies"] = json!(replies.collect::<Vec<_>>());
+            }
+            Err(error) => {
+                view["state"] = json!("failed");
+                view["text_end"] = json!(error.to_string());
+            }
+        }
+        if let Some(failure) = failed_to_note {
+            view["not_noted"] = json!(failure);
+        }
+        let why = {
+            let mut book = self.book();
+            // Who spoke since has said something newer.
+            let spoke = book.talks.contains_key(&task.by.number);
+            if !spoke {
+                book.talks.insert(task.by.number, dialogue);
+            }
+            book.running.take().and_then(|running| running.why)
+        };
+        view["stopped_by"] = json!(why);
+        self.events.robot_is(Value::Null);
+        if view["state"] == "stopped" {
+            self.events.tell("stopped", &json!({ "by": why, "task": task.id }));
+        }
+        self.end(&view);
+    }
+
+    /// Whether who has the robot driven is still there.
+    fn is_leased(&self) -> bool {
+        let mut book = self.book();
+        let Some(running) = &book.running else { return false };
+        let holds = |lease: &Lease| {
+            lease.holder.number != running.by.number || lease.until > Instant::now()
+        };
+        let is_leased = book.lease.as_ref().is_some_and(holds);
+        if !is_leased && let Some(running) = &mut book.running {
+            running.why.get_or_insert_with(|| "lease".to_owned());
+        }
+        is_leased
+    }
+}
+
+impl Book {
+    fn lease_view(&self) -> Value {
+        let now = Instant::now();
+        let lease = self.lease.as_ref().filter(|lease| lease.until > now);
+        lease.map_or(Value::Null, |lease| {
+            json!({
+                "holder": lease.holder.name,
+                "session": lease.holder.number,
+                "seconds": (lease.until - now).as_secs(),
+            })
+        })
+    }
+}
+
+impl Task {
+    fn view(&self, state: &str) -> Value {
+        json!({
+            "task": self.id, "text": self.text, "by": self.by.name, "state": state,
+            "revision": self.revision, "plan": self.plan,
+        })
+    }
+}
+
+/// Hears a line apart: what it answers, and what it would have the robot do.
+///
+/// # Errors
+/// There is no map, or the disk refused.
+fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
+    let mut engine = Engine::beside(Arc::clone(state));
+    let mut dialogue = before.apart().keeping_nothing();
+    let (mut told, mut events) = (Vec::new(), TaskEvents::default());
+    let mut is_first = true;
+    let heard = dialogue.hear(&mut engine, text, &mut |_, event| match event {
+        Event::Progress { progress, world, .. } if is_first => {
+            if let Some(event) = events.of(world, progress) {
+                told.push(event);
+            }
+        }
+        Event::Replied(Reply { outcome: Outcome::Task(_), .. }) => is_first = false,
+        _ => {}
+    })?;
+    let drives =
+        |reply: &Reply| matches!(&reply.outcome, Outcome::Task(t) if !t.reports.is_empty());
+    let stops = heard.replies.iter().any(|reply| match &reply.outcome {
+        // A robot that drives is stopped, whatever else was meant to be dropped.
+        Outcome::Stopped { .. } => true,
+        Outcome::Task(task) => task.stops,
+        _ => false,
+    });
+    let first = heard.replies.iter().position(drives);
+    let before = first.unwrap_or(heard.replies.len());
+    let mut replies = Vec::new();
+    for reply in &heard.replies[..before] {
+        let mut view = json::reply(&engine, reply)?;
+        view["text"] = json!(reply.text);
+        view["language"] = json!(reply.language.pick("ru", "en"));
+        replies.push(view);
+    }
+    let plan = match first.map(|at| &heard.replies[at].outcome) {
+        Some(Outcome::Task(task)) => {
+            let mut plan = json::task(engine.world()?, task);
+            plan["said"] = json!(text);
+            plan["events"] = json!(told);
+            let others = heard.replies.iter().filter(|reply| drives(reply)).count();
+            // Of what is ordered behind it the plan is made when its turn comes.
+            plan["more"] = json!(others - 1);
+            Some(plan)
+        }
+        _ => None,
+    };
+    Ok(Rehearsed { replies, plan, stops, dialogue })
+}
+
+/// What is told while a task is driven, at the pace of the clock.
+struct Drive<'t> {
+    tasks: &'t Tasks,
+    id: u64,
+    stop: Stop,
+    events: TaskEvents,
+    /// The vehicle's clock, when it last told of its way.
+    clock: Option<f64>,
+    /// How much of the directive's time has passed.
+    passed: f64,
+    told: Instant,
+    failure: Option<String>,
+}
+
+impl<'t> Drive<'t> {
+    fn new(tasks: &'t Tasks, id: u64, stop: Stop) -> Self {
+        let (events, told) = (TaskEvents::default(), Instant::now());
+        Self { tasks, id, stop, events, clock: None, passed: 0.0, told, failure: None }
+    }
+
+    fn follow(&mut self, engine: &Engine, event: &Event<'_>) {
+        match event {
+            Event::Progress { progress, world, .. } => {
+                match progress {
+                    Progress::Moved(moment) => self.moved(engine, moment),
+                    Progress::Started { .. } => (self.clock, self.passed) = (None, 0.0),
+                    Progress::Finished(report) => {
+                        self.wait(report.seconds - self.passed);
+                        let pose = Moment { time: 0.0, map: report.map, pose: report.pose };
+                        self.tell_pose(engine, &pose);
+                    }
+                    _ => {}
+                }
+                if let Some(event) = self.events.of(world, progress) {
+                    let mut view = json!(event);
+                    view["task"] = json!(self.id);
+                    self.tasks.events.tell("directive", &view);
+                }
+            }
+            Event::Replied(Reply { outcome: Outcome::Task(task), .. }) => {
+                let Some(after) = task.after.clone() else { return };
+                let at = std::time::SystemTime::now().into();
+                let noted = self
+                    .tasks
+                    .desk
+                    .ask_from_thread(move |engine| engine.remember_after(&after, at));
+                match noted {
+                    Ok(Ok(())) => {
+                        self.tasks.events.tell("known", &json!({ "task": self.id }));
+                    }
+                    Ok(Err(error)) => self.failure = Some(error.to_string()),
+                    Err(_gone) => self.failure = Some("the engine has stopped".to_owned()),
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn moved(&mut self, engine: &Engine, moment: &Moment) {
+        let step = moment.time - self.clock.unwrap_or(moment.time);
+        self.clock = Some(moment.time);
+        self.passed += step;
+        self.wait(step);
+        if self.told.elapsed() >= TELL {
+            self.tell_pose(engine, moment);
+        }
+    }
+
+    fn tell_pose(&mut self, engine: &Engine, moment: &Moment) {
+        self.told = Instant::now();
+        self.tasks.events.robot_is(pose_view(engine, moment));
+    }
+
+    /// Lets the vehicle's time pass by the clock; told to stop, it waits no more.
+    fn wait(&self, seconds: f64) {
+        let Ok(whole) = Duration::try_from_secs_f64(seconds.max(0.0) / self.tasks.pace) else {
+            return;
+        };
+        let until = Instant::now() + whole;
+        loop {
+            if !self.tasks.is_leased() {
+                self.stop.raise();
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() || self.stop.is_raised() {
+                return;
+            }
+            std::thread::sleep(left.min(GLANCE));
+        }
+    }
+}
+
+/// Where the robot is, in numbers and in words.
+#[must_use]
+pub(super) fn pose_view(state: &State, moment: &Moment) -> Value {
+    let mut view = state
+        .locate(moment.map, moment.pose, true)
+        .map_or(Value::Null, |found| json::whereabout(state.world().expect("it located"), &found));
+    if view.is_null() {
+        let map = state.world().ok().and_then(|world| world.maps.get(&moment.map));
+        let hundredths = |value: f64| (value * 100.0).round() / 100.0;
+        let (at, heading) = (moment.pose.at, moment.pose.heading.get());
+        view = json!({
+            "map": map.map(|map| &map.name),
+            "pose": {
+                "x": hundredths(at.x), "y": hundredths(at.y), "heading_deg": hundredths(heading),
+            },
+        });
+    }
+    view
+}

@@ -1,0 +1,115 @@
+//! Refusals as a program and a person read them.
+
+use axum::Json;
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Response};
+use miette::{Diagnostic, SourceCode};
+use serde_json::{Value, json};
+
+use crate::engine::Error;
+use crate::map::World;
+use crate::units::Language;
+
+use super::desk::Gone;
+
+/// Why a request is not followed.
+#[derive(Debug)]
+pub(super) struct Fault {
+    status: StatusCode,
+    body: Value,
+}
+
+impl Fault {
+    /// In both languages, with a stable code.
+    #[must_use]
+    pub(super) fn new(status: StatusCode, code: &str, russian: &str, english: &str) -> Self {
+        let body = json!({
+            "outcome": "refused", "code": code, "message": russian, "message_en": english,
+        });
+        Self { status, body }
+    }
+
+    /// With what else is to be known.
+    #[must_use]
+    pub(super) fn with(mut self, field: &str, value: Value) -> Self {
+        self.body[field] = value;
+        self
+    }
+
+    /// An error of the engine, with names as the map has them.
+    #[must_use]
+    pub(super) fn of(error: &Error, world: Option<&World>) -> Self {
+        let status = if error.is_input() {
+            StatusCode::UNPROCESSABLE_ENTITY
+        } else {
+            StatusCode::INTERNAL_SERVER_ERROR
+        };
+        let nothing = World::empty();
+        let world = world.unwrap_or(&nothing);
+        let text = |found: Option<Box<dyn std::fmt::Display + '_>>| found.map(|t| t.to_string());
+        let mut faults = leaves(error, None);
+        if let Some(english) = error.in_english() {
+            let told = leaves(&*english, None);
+            for (fault, english) in faults.iter_mut().zip(told) {
+                fault["message_en"] = english["message"].clone();
+                fault["help_en"] = english["help"].clone();
+            }
+        }
+        let one = |field: &str| match &faults[..] {
+            [only] => only[field].as_str().map(str::to_owned),
+            _ => None,
+        };
+        let body = json!({
+            "outcome": "refused",
+            "code": text(error.code()).or(one("code")),
+            "message": one("message").unwrap_or_else(|| error.say(world, Language::Russian)),
+            "message_en": one("message_en").unwrap_or_else(|| error.say(world, Language::English)),
+            "help": text(error.help()).or(one("help")),
+            "help_en": one("help_en"),
+            "faults": faults,
+        });
+        Self { status, body }
+    }
+}
+
+/// The leaves of the tree of faults, in order, each with its place.
+fn leaves(error: &dyn Diagnostic, source: Option<&dyn SourceCode>) -> Vec<Value> {
+    let source = error.source_code().or(source);
+    let inner = error.related().into_iter().flatten();
+    let all: Vec<Value> = inner.flat_map(|inner| leaves(inner, source)).collect();
+    if !all.is_empty() {
+        return all;
+    }
+    let at = error.labels().and_then(|mut labels| labels.next());
+    let at = at.zip(source).and_then(|(at, source)| source.read_span(at.inner(), 0, 0).ok());
+    vec![json!({
+        "code": error.code().map(|code| code.to_string()),
+        "message": error.to_string(),
+        "help": error.help().map(|help| help.to_string()),
+        "line": at.as_ref().map(|at| at.line() + 1),
+        "column": at.as_ref().map(|at| at.column() + 1),
+    })]
+}
+
+impl From<Error> for Fault {
+    fn from(error: Error) -> Self {
+        Self::of(&error, None)
+    }
+}
+
+impl From<Gone> for Fault {
+    fn from(_: Gone) -> Self {
+        Self::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "serve::gone",
+            "Двигатель остановился; перезапустите программу.",
+            "The engine has stopped; restart the program.",
+        )
+    }
+}
+
+impl IntoResponse for Fault {
+    fn into_response(self) -> Response {
+        (self.status, Json(self.body)).into_response()
+    }
+}

@@ -1,0 +1,152 @@
+//! The operator's console: the engine opened to a browser on this machine.
+//!
+//! [`run`] moves an [`Engine`] to a thread of its own and answers over HTTP: JSON of the library's shapes, events as they
+//! happen, and a page that shows them. What may be asked stands in [`routes::ROUTES`].
+//!
+//! # Invariants
+//!
+//! - Nothing here knows more than the engine tells: no word of a sentence is understood here, no distance measured.
+//! - One thread writes (`desk`), one drives (`drive`); whoever asks reads a [`State`](crate::engine::State) that does not change.
+//! - Whoever comes passes the `gate` first; the page asks nothing of any other machine.
+//! - An edit names the revision that it was made on; where another came first, it is not written and comes back whole.
+
+mod act;
+mod desk;
+mod drawing;
+mod drive;
+mod events;
+mod fault;
+mod gate;
+mod listen;
+mod read;
+mod routes;
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::engine::{Engine, Error};
+use crate::units::Stop;
+
+pub use gate::Role;
+pub use listen::Bounds;
+
+use desk::Desk;
+use drive::Tasks;
+use events::Events;
+use fault::Fault;
+use gate::Gate;
+
+/// What a server is to be.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Port 0 takes a free one.
+    pub listen: SocketAddr,
+    /// Further names of this machine, without the port.
+    pub hosts: Vec<String>,
+    /// A token that lasts, for a server that others reach.
+    pub token: Option<String>,
+    /// Whose acts they are, of who opens the printed address.
+    pub user: String,
+    pub rules: Option<PathBuf>,
+    /// Where sessions outlive the program.
+    pub sessions: Option<PathBuf>,
+    /// The simulator's time, times as fast as the clock.
+    pub pace: f64,
+    pub is_demo: bool,
+    pub bounds: Bounds,
+}
+
+/// All that answers share.
+#[derive(Debug)]
+struct House {
+    gate: Gate,
+    desk: Arc<Desk>,
+    events: Arc<Events>,
+    tasks: Arc<Tasks>,
+    rules: Option<PathBuf>,
+    is_demo: bool,
+}
+
+/// Why nothing is served.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    #[error(transparent)]
+    Engine(#[from] Box<Error>),
+    #[error("{at}: {source}")]
+    Listen { at: SocketAddr, source: std::io::Error },
+    /// Whoever is on the net could drive the robot.
+    #[error("{at} видно в сети: нужен ключ не короче 16 знаков (--token или ORTHO_TOKEN)")]
+    Open { at: SocketAddr },
+}
+
+/// The shortest token that lasts.
+const SHORTEST: usize = 16;
+
+/// Serves until it is told to stop; `tell` gets the address to be opened.
+///
+/// # Errors
+/// The address cannot be taken, or what follows from the map cannot be derived.
+pub fn run(
+    engine: Engine,
+    settings: Settings,
+    stop: &Stop,
+    tell: impl FnOnce(&str),
+) -> Result<(), ServeError> {
+    let at = settings.listen;
+    let failed = |source| ServeError::Listen { at, source };
+    let lasting = settings.token.as_deref().filter(|token| token.len() >= SHORTEST);
+    if !at.ip().is_loopback() && lasting.is_none() {
+        return Err(ServeError::Open { at });
+    }
+    let run = gate::random().map_err(failed)?;
+    let events = Arc::new(Events::new(&run[..8]));
+    let desk = Desk::open(engine, Arc::clone(&events)).map_err(Box::new)?;
+    let desk = Arc::new(desk);
+    let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), settings.pace);
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+    let runtime = runtime.map_err(failed)?;
+    let served = runtime.block_on(async {
+        let listener = tokio::net::TcpListener::bind(at).await.map_err(failed)?;
+        let at = listener.local_addr().map_err(failed)?;
+        let gate = Gate::new(at, &settings.hosts, settings.sessions);
+        if let Some(token) = lasting {
+            gate.trust(token, Role::Edit, &settings.user);
+        }
+        let token = gate.invite(Role::Edit, &settings.user).map_err(failed)?;
+        let house = Arc::new(House {
+            gate,
+            desk,
+            events,
+            tasks: Arc::clone(&tasks),
+            rules: settings.rules,
+            is_demo: settings.is_demo,
+        });
+        tell(&format!("http://{at}/?token={token}"));
+        let app = routes::router(&house);
+        tokio::select! {
+            never = listen::serve(listener, app, settings.bounds) => match never {},
+            () = raised(stop) => Ok(()),
+        }
+    });
+    tasks.close();
+    runtime.shutdown_timeout(Duration::from_secs(1));
+    served
+}
+
+async fn raised(stop: &Stop) {
+    while !stop.is_raised() {
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+}
+
+/// Does what takes time, apart from the thread that answers.
+async fn apart<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+) -> Result<T, Fault> {
+    match tokio::task::spawn_blocking(work).await {
+        Ok(done) => Ok(done?),
+        Err(_) => Err(desk::Gone.into()),
+    }
+}

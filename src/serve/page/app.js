@@ -1,0 +1,300 @@
+// The page put together: what is heard from the server, what the operator does, and what is drawn anew for it.
+import { S, L, N, I, $, el, api, ask, announce, names, may, Refused } from './base.js';
+import { connect, refresh } from './link.js';
+import { centre, directives, fit, paint, show, under, view, zoom } from './map.js';
+import { note, reason, renderTalk, send } from './talk.js';
+import { body, card, ending } from './panels.js';
+import * as edit from './edit.js';
+
+const TABS = [['talk', 'talk', 'Разговор', 'Talk'], ['task', 'task', 'Задание', 'Task'], ['thing', 'thing', 'Вещь', 'Thing'], ['map', 'map', 'Карта', 'Map']];
+const wide = () => innerWidth > 1279;
+
+/* what is drawn */
+function render() {
+  const root = document.documentElement;
+  root.lang = S.lang; root.dataset.theme = S.theme; document.body.dataset.tab = S.tab;
+  document.body.dataset.past = String(S.asOf !== null);
+  document.body.classList.toggle('tall', S.tab !== 'talk');
+  document.title = `${L('Пульт', 'Console')} – orthoframe`;
+  $('.skip').textContent = L('К строке разговора', 'To the line of talk');
+  $('#map').setAttribute('aria-label', L('План этажа. Стрелки двигают, плюс и минус меняют масштаб, 0 показывает всё. Словами то же – на вкладке «Вещь».', 'Plan of the storey. Arrows pan, plus and minus zoom, 0 fits. The same in words: tab Thing.'));
+  bar(); side(); over(); time(); phone();
+}
+function stopButton(cls = '') {
+  const off = S.linked !== 'yes';
+  const text = S.stopping ? L('посылаю…', 'sending…') : S.task ? L('Стоп', 'Stop') : L('Стоп', 'Stop');
+  return el('button', { class: `stop ${cls}`, type: 'button', onclick: stop, 'aria-keyshortcuts': 'Control+.', 'aria-label': off ? L('Стоп: связи нет', 'Stop: no link') : L('Стоп', 'Stop') }, I('stop'), el('span', null, text), el('kbd', { 'aria-hidden': 'true' }, 'Ctrl .'));
+}
+function bar() {
+  const [words, cls] = S.linked === 'begin' ? ['…', 'warn'] : S.linked !== 'yes' ? [L('связи нет', 'no link'), 'bad'] : S.stopping ? [L('останавливается', 'stopping'), 'warn'] : S.task ? [L('едет', 'driving'), 'go'] : [L('стоит, готов', 'idle, ready'), ''];
+  const lease = S.lease ? (S.lease.session === S.state?.session ? L('управляете вы', 'you drive') : L(`управляет ${S.lease.holder}`, `${S.lease.holder} drives`)) : '';
+  $('.bar').replaceChildren(
+    el('div', { class: 'brand' }, mark(), el('span', { class: 'w' }, 'orthoframe'), el('small', null, S.state ? N(S.state) || L('карты нет', 'no map') : '')),
+    el('div', { class: 'live', role: 'status' }, el('span', { class: `dot ${cls}` }), el('span', null, words), lease ? el('span', { class: 'long lease' }, `· ${lease}`) : null), el('span', { class: 'sp' }),
+    el('div', { class: 'seg lang', role: 'group', 'aria-label': L('Язык', 'Language') }, [['ru', 'РУ', 'Русский'], ['en', 'EN', 'English']].map(([lang, text, name]) => el('button', { type: 'button', lang, 'aria-pressed': String(S.lang === lang), 'aria-label': name, onclick: () => { S.lang = lang; keep(); renderTalk(talkers); render(); paint(); if (S.selected) select(S.selected); } }, text))),
+    el('button', { class: 'ib', type: 'button', 'aria-label': L('Светлая или тёмная', 'Light or dark'), onclick: () => { S.theme = S.theme === 'dark' ? 'light' : 'dark'; keep(); render(); } }, I(S.theme === 'dark' ? 'sun' : 'moon')), stopButton());
+}
+const mark = () => { const icon = I('room'); icon.classList.add('mark'); return icon; };
+function side() {
+  const current = S.tab === 'talk' && wide() ? 'task' : S.tab;
+  const had = document.activeElement, id = had?.id, within = $('.body').contains(had) && !id, at = within ? [...$('.body').querySelectorAll('button,input')].indexOf(had) : -1;
+  if (!(id === 'newname' || had?.type === 'search') || S.edit?.asking?.fresh) {
+    const scroll = $('.body').scrollTop;
+    $('.body').replaceChildren(...[body(S.tab, acts)].flat(4).filter(Boolean));
+    $('.body').scrollTop = scroll;
+    // Focus is not lost when a panel is drawn anew.
+    if (id && $('.body').querySelector(`#${id}`)) $(`#${id}`).focus();
+    else if (at >= 0) ([...$('.body').querySelectorAll('button,input')][at] ?? $('.body')).focus();
+  }
+  $('.tabs').replaceChildren(...TABS.map(([name, icon, ru, en]) => el('button', { role: 'tab', type: 'button', class: `t-${name}`, id: `tab-${name}`, 'aria-selected': String(name === current), 'aria-controls': 'panel', tabindex: name === current ? '0' : '-1', onclick: () => { S.tab = name; render(); $(`#tab-${name}`).focus(); if (name === 'map') history(); } }, I(icon), el('span', null, L(ru, en)), name === 'map' && S.proposals.length ? el('span', { class: 'badge', 'aria-label': L('поправок', 'proposals') }, String(S.proposals.length)) : null)));
+  if (id?.startsWith('tab-')) $(`#${id}`)?.focus();
+}
+function over() {
+  const tool = (icon, text, pressed, work, cls = '') => el('button', { class: `ib ${cls}`, type: 'button', 'aria-label': text, title: text, 'aria-pressed': pressed === null ? null : String(pressed), onclick: work }, I(icon));
+  const maps = S.state?.maps ?? [], parts = [];
+  if (S.state?.missing?.includes('map')) parts.push(el('div', { class: 'card empty' }, el('h2', { class: 'title' }, L('Карты нет', 'There is no map')), el('p', null, L('Хранилище пусто. Прочтите в него здание и перезапустите:', 'The store is empty. Read a building into it and start again:')), el('p', { class: 'mono' }, 'ortho import FILE'), el('p', { class: 'mono' }, 'ortho serve --demo')));
+  const now = S.edit && S.asOf === null ? editBar() : card(acts);
+  if (now) parts.push(now);
+  parts.push(el('div', { class: 'card tools' }, may('edit') ? tool('pen', L('Править (E)', 'Edit (E)'), Boolean(S.edit), edit.toggle) : null, tool('layers', L('Слои (L)', 'Layers (L)'), open, () => { open = !open; over(); })));
+  if (open) parts.push(layers());
+  if (maps.length > 1) parts.push(el('div', { class: 'card storeys', role: 'group', 'aria-label': L('Этаж', 'Storey') }, maps.slice().reverse().map((map, i) => el('button', { type: 'button', 'aria-pressed': String(map.name === S.map), 'aria-label': N(map), title: N(map), class: S.robot?.map === map.name ? 'here' : '', onclick: () => storey(map.name) }, String(maps.length - i)))));
+  parts.push(el('div', { class: 'card zoom' }, tool('follow', L('За роботом (F)', 'Follow the robot (F)'), S.follow, follow), tool('fit', L('Показать всё (0)', 'Fit (0)'), null, () => fit()), tool('plus', L('Крупнее', 'Zoom in'), null, () => zoom(1.4), 'z'), tool('minus', L('Мельче', 'Zoom out'), null, () => zoom(1 / 1.4), 'z')));
+  parts.push(el('div', { class: 'scale', 'aria-hidden': 'true' }, ' ', el('i')));
+  if (S.toast) parts.push(el('div', { class: 'card toast' }, el('span', null, S.toast), may('edit') ? el('button', { class: 'btn', type: 'button', onclick: () => { S.toast = null; acts.undo(); } }, I('undo'), L('Отменить', 'Undo')) : null, el('button', { class: 'btn', type: 'button', 'aria-label': L('Закрыть', 'Close'), onclick: () => { S.toast = null; over(); } }, I('x'))));
+  const had = document.activeElement?.closest?.('.over') ? document.activeElement.getAttribute('aria-label') : null;
+  $('.over').replaceChildren(...parts);
+  if (had) [...$('.over').querySelectorAll('button')].find((one) => one.getAttribute('aria-label') === had)?.focus();
+  paint();
+}
+let open = false;
+function layers() {
+  const one = (name, ru, en, cls) => el('label', null, el('input', { type: 'checkbox', checked: S.layers[name], onchange: async (event) => { S.layers[name] = event.target.checked; if (['frames', 'dead', 'network'].includes(name) && event.target.checked) await floor(); paint(); } }), L(ru, en), cls ? el('span', { class: `sw ${cls}` }) : null);
+  return el('div', { class: 'card layers' }, el('h2', null, L('Слои', 'Layers')), one('names', 'Имена', 'Names'), one('things', 'Вещи', 'Things', 'sw-thing'), one('frames', 'Пассфреймы', 'Passframes', 'sw-frame'), one('dead', 'Мёртвые зоны', 'Dead zones', 'sw-dead'), one('network', 'Сеть', 'Network', 'sw-net'), one('relations', 'Отношения выбранного', 'Relations of what is selected', 'sw-rel'));
+}
+function editBar() {
+  const tb = (icon, text, work, more = {}) => el('button', { class: 'tb s', type: 'button', onclick: work, 'aria-label': text, ...more }, I(icon), el('span', null, text));
+  return el('div', { class: 'card edbar', role: 'toolbar', 'aria-label': L('Правка', 'Editing') }, tb('undo', L('Отменить', 'Undo'), acts.undo), tb('redo', L('Вернуть', 'Redo'), acts.redo), el('hr'), S.edit.kind === 'thing' ? [tb('turn', L('Повернуть', 'Turn'), () => edit.nudge(0, 0, 15)), tb('plus', L('Ещё такую', 'One more'), () => { S.tab = 'map'; edit.add(); }), tb('x', L('Убрать', 'Remove'), () => { S.tab = 'map'; edit.remove(); })] : el('span', { class: 'tb' }, S.edit.name ? N(S.edit.name) : L('Выберите вещь или дверь', 'Choose a thing or a door')),
+    S.edit.steps ? [el('hr'), tb('check', L('Записать', 'Write'), edit.write, { disabled: Boolean(S.edit.wrong) })] : null);
+}
+function time() {
+  const last = S.state?.revision ?? 0, at = S.asOf ?? last;
+  const old = $('.time input');
+  if (old && document.activeElement === old) { old.max = last; $('.time .lab b').textContent = S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past'); $('.time .lab span').textContent = L(`ревизия ${at}`, `revision ${at}`); return; }
+  $('.time').replaceChildren(el('div', { class: 'lab' }, el('b', null, S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past')), el('span', null, L(`ревизия ${at}`, `revision ${at}`))),
+    el('div', { class: 'track' }, el('input', { type: 'range', min: 1, max: Math.max(1, last), value: at, disabled: last < 2, 'aria-label': L('Карта на ревизии', 'The map at revision'), oninput: (event) => asOf(Number(event.target.value)) })),
+    S.asOf === null ? el('span', { class: 'num' }, L(`правок ${last}`, `revisions ${last}`)) : el('button', { class: 'btn', type: 'button', onclick: acts.now }, L('К настоящему', 'Back to now')));
+}
+function phone() { $('.phone').replaceChildren(stopButton('pstop')); }
+
+/* what is asked of the server */
+let drawn = 0;
+async function draw() {
+  const number = ++drawn;
+  if (!S.map) return;
+  const values = { map: S.map };
+  if (S.asOf !== null) values.as_of = S.asOf;
+  try {
+    const drawing = await ask('/api/drawing', values);
+    if (number !== drawn) return;
+    const first = !S.drawing || S.drawing.map !== drawing.map;
+    S.drawing = drawing;
+    names([...drawing.rooms, ...drawing.things, ...drawing.doors, ...drawing.places]);
+    if (S.floor?.revision !== drawing.revision) S.floor = null;
+    if (S.layers.frames || S.layers.dead || S.layers.network) await floor();
+    if (first) fit(); else paint();
+    if (S.selected && !S.edit) select(S.selected, false);
+    document.body.dataset.ready = 'yes';
+  } catch (error) { S.toast = reason(error); over(); }
+}
+async function floor() { if (!S.floor) { S.floor = await ask('/api/floor', { map: S.map }).catch(() => null); paint(); } }
+async function storey(name) { S.map = name; S.drawing = null; S.floor = null; S.follow = S.follow && S.robot?.map === name; await draw(); over(); }
+async function history() {
+  const told = new Map(S.history.map((one) => [one.revision, one.told]));
+  const [all, proposals] = await Promise.all([api('/api/history').catch(() => null), api('/api/proposals').catch(() => null)]);
+  if (all) S.history = all.revisions.map((one) => ({ ...one, told: told.get(one.revision) }));
+  if (proposals) S.proposals = proposals.proposals;
+  side();
+}
+async function asOf(revision) { S.asOf = revision >= S.state.revision ? null : revision; render(); await draw(); }
+async function everything() {
+  await refresh();
+  S.map ??= S.robot?.map ?? S.state.maps[0]?.name ?? null;
+  if (S.plan && S.plan.revision !== S.state.revision) { /* it is made anew when it is confirmed */ }
+  render(); await draw(); history();
+}
+
+/* what the operator does */
+async function select(name, open = true) {
+  if (S.selected !== name) S.proof = null;
+  S.selected = name; S.marked = [];
+  S.thing = name ? await ask('/api/thing', { name, lang: S.lang }).catch(() => null) : null;
+  if (S.edit && name && !S.edit.steps) edit.choose(name);
+  if (open && name) S.tab = S.edit ? 'map' : 'thing';
+  if (name && S.thing) announce(`${N(S.thing)}`);
+  render();
+}
+async function stop() {
+  S.stopping = Boolean(S.task); S.plan = null; bar(); phone();
+  try { await api('/api/stop', {}); } catch (error) { S.stopping = false; announce(L('Стоп не послан', 'The stop was not sent'), true); S.toast = L('Стоп не послан: ', 'The stop was not sent: ') + reason(error); }
+  render();
+}
+function follow() { S.follow = !S.follow; if (S.follow && S.robot && S.robot.map !== S.map) storey(S.robot.map); over(); }
+async function attempt(work) {
+  try { return await work(); } catch (error) { S.toast = reason(error); announce(S.toast, true); over(); return null; }
+}
+const change = (path, more = {}) => attempt(() => api(path, { on: S.state.revision, ...more }));
+
+const acts = {
+  confirm: async () => {
+    const plan = S.plan; if (!plan) return;
+    S.plan = null; render();
+    try { await api(`/api/tasks/${plan.task}/confirm`, {}); S.stoppedBy = null; if (S.tab === 'talk') render(); } catch (error) {
+      if (error instanceof Refused && error.body.task) { S.plan = error.body.task; note({ q: plan.text, cls: 'order', lines: [error.message] }); } else { note({ q: plan.text, cls: 'bad', lines: [reason(error)] }); }
+      render();
+    }
+  },
+  decline: () => { const plan = S.plan; S.plan = null; render(); if (plan) attempt(() => api(`/api/tasks/${plan.task}/cancel`, {})); },
+  cancel: (id) => attempt(() => api(`/api/tasks/${id}/cancel`, {})),
+  move: (id, before) => attempt(() => api(`/api/tasks/${id}/move`, { before })),
+  say: (text) => send(text),
+  seen: () => { S.stoppedBy = null; render(); },
+  now: () => asOf(S.state.revision),
+  select: (name) => select(name),
+  go: (thing) => send(L(`Поезжай к: ${thing.name}`, `Go to ${N(thing)}`)),
+  edit: () => { if (!S.edit) edit.toggle(); S.tab = 'map'; render(); },
+  turn: (by) => edit.nudge(0, 0, by), add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: edit.write, drop: edit.drop, onTop: edit.onTop,
+  undo: async () => { const done = await change('/api/undo'); if (done) { S.toast = null; announce(L('Отменено', 'Undone')); } },
+  redo: async () => { const done = await change('/api/redo'); if (done) announce(L('Возвращено', 'Redone')); },
+  restore: async () => { if (await change('/api/restore', { revision: S.asOf })) asOf(Infinity); },
+  decide: async (name, verdict) => { await change(`/api/proposals/${encodeURIComponent(name)}`, { verdict }); history(); },
+  told: async (one) => { if (one.told) one.told = null; else { const all = await attempt(() => ask('/api/diff', { from: one.revision - 1, to: one.revision })); one.told = all?.differences; } side(); },
+  asOf: (revision) => asOf(revision),
+  invite: async (role) => { const given = await attempt(() => api('/api/invite', { role, name: role })); if (given) { S.invited = `${location.origin}/?token=${given.token}`; side(); } },
+};
+const talkers = { select, confirm: acts.confirm, planned: (task) => { S.plan = task; S.selected = null; if (wide()) S.tab = 'task'; render(); fit(); } };
+
+/* what is heard */
+const heard = {
+  linked: (was) => { if (was === 'no') { announce(L('Связь есть', 'The link is back')); everything(); } render(); },
+  lost: () => render(),
+  gap: () => everything(),
+  robot: (place) => {
+    if (!place) return;
+    if (S.robot?.map !== place.map && S.follow) storey(place.map);
+    S.robot = place;
+    const last = S.trail.at(-1), at = [place.pose.x, place.pose.y];
+    if (!last || Math.hypot(last.at[0] - at[0], last.at[1] - at[1]) > 3) S.trail.push({ map: place.map, at });
+    if (S.trail.length > 3000) S.trail.shift();
+    paint();
+  },
+  task: (task) => {
+    if (task.state === 'running') { S.task = task; S.step = 0; S.stoppedBy = null; S.trail = S.robot?.pose ? [{ map: S.robot.map, at: [S.robot.pose.x, S.robot.pose.y] }] : []; note({ q: task.text, cls: 'order', lines: [L('Поехали.', 'Under way.')] }); }
+    else {
+      if (S.task?.task === task.task) { S.task = null; S.stopping = false; }
+      if (S.plan?.task === task.task) S.plan = null;
+      S.ended = [...S.ended.filter((one) => one.task !== task.task), task].slice(-50);
+      if (!['declined', 'cancelled'].includes(task.state)) { note({ q: task.text, cls: task.state === 'done' ? 'order' : 'bad', lines: [task.text_end || ending(task.state)] }); announce(task.text_end || ending(task.state), task.state !== 'done'); }
+    }
+    render();
+  },
+  directive: (event) => {
+    if (event.event === 'started') { S.step = Math.max(0, event.number - 1); announce(L(event.do_ru, event.do_en)); }
+    else if (event.event === 'arrived' || event.event === 'done') { S.step = event.number; if (event.pose) S.robot = { map: event.map, pose: event.pose, ru: event.ru ?? S.robot?.ru, en: event.en ?? S.robot?.en }; }
+    else if (event.event === 'surprised') note({ q: L('Замечено в пути', 'Noticed on the way'), cls: 'seen', lines: [L(event.explanation, event.explanation_en)] });
+    else if (event.event === 'replanned' && S.task) {
+      // The ways of the new plan are told as they are driven.
+      const fresh = event.steps.flat().map((step, i) => ({ ...step, number: i + 1, map: null, points: [], length_cm: 0, seconds: 0 }));
+      S.task = { ...S.task, plan: { ...S.task.plan, directives: fresh } }; S.step = 0;
+      note({ q: L('План заново', 'Planned anew'), cls: 'seen', lines: [L(`Шагов ${fresh.length}.`, `${fresh.length} steps.`)] });
+    }
+    over(); if (S.tab !== 'thing' && !(S.edit && S.tab === 'map')) side();
+  },
+  queue: (queue) => { S.queue = queue; side(); },
+  known: async () => { await refresh(); await draw(); history(); render(); },
+  revision: async (revision) => {
+    S.state.revision = revision.revision;
+    if (S.edit && !S.edit.steps) S.edit.on = revision.revision;
+    time(); if (S.asOf === null) await draw(); history();
+    // What is edited may have moved under one's hands.
+    if (S.edit?.name && !S.edit.steps) { edit.choose(S.edit.name); render(); }
+  },
+  lease: (lease) => { S.lease = lease; bar(); },
+  stop: () => { S.plan = null; render(); },
+  stopped: (stopped) => { S.stopping = false; S.stoppedBy = stopped.by ?? '?'; announce(L('Остановлено', 'Stopped'), true); render(); },
+};
+
+/* the map under the hand */
+const map = $('#map');
+const pointers = new Map();
+let gesture = null;
+const nameAt = (event) => document.elementFromPoint(event.clientX, event.clientY)?.closest('[data-name]')?.dataset.name ?? null;
+map.addEventListener('pointerdown', (event) => {
+  if (event.button > 0) return;
+  map.setPointerCapture(event.pointerId); pointers.set(event.pointerId, event); map.focus({ preventScroll: true });
+  if (pointers.size === 2) { const [a, b] = [...pointers.values()]; gesture = { pinch: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) }; return; }
+  const name = nameAt(event);
+  gesture = { x: event.clientX, y: event.clientY, vx: view.x, vy: view.y, name, moved: false, grabbed: S.asOf === null ? edit.grab(event, name) : null };
+});
+map.addEventListener('pointermove', (event) => {
+  if (!pointers.has(event.pointerId) || !gesture) return;
+  pointers.set(event.pointerId, event);
+  if (gesture.pinch) {
+    if (pointers.size < 2) return;
+    const [a, b] = [...pointers.values()], away = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY), r = map.getBoundingClientRect();
+    zoom(away / gesture.pinch, (a.clientX + b.clientX) / 2 - r.left, (a.clientY + b.clientY) / 2 - r.top); gesture.pinch = away; return;
+  }
+  if (!gesture.moved && Math.hypot(event.clientX - gesture.x, event.clientY - gesture.y) < 4) return;
+  gesture.moved = true;
+  if (gesture.grabbed) gesture.grabbed.move(event);
+  else { S.follow = false; view.x = gesture.vx - (event.clientX - gesture.x) / view.k; view.y = gesture.vy - (event.clientY - gesture.y) / view.k; paint(); }
+});
+const up = (event) => {
+  if (!pointers.delete(event.pointerId) || !gesture) return;
+  if (gesture.pinch) { if (!pointers.size) gesture = null; return; }
+  const { moved, grabbed, name } = gesture; gesture = null;
+  if (moved && grabbed) { grabbed.end(); S.tab = 'map'; render(); } else if (!moved && event.type === 'pointerup') select(name);
+};
+map.addEventListener('pointerup', up);
+map.addEventListener('pointercancel', up);
+map.addEventListener('dblclick', (event) => { const name = nameAt(event); if (name) show(name); else { const [x, y] = under(event); zoom(1.6); centre(x, y); paint(); } });
+map.addEventListener('wheel', (event) => { event.preventDefault(); S.follow = false; const r = map.getBoundingClientRect(); zoom(Math.exp(-event.deltaY * 0.0015), event.clientX - r.left, event.clientY - r.top); }, { passive: false });
+
+/* keys */
+document.addEventListener('keydown', (event) => {
+  if (event.ctrlKey && event.key === '.') { event.preventDefault(); stop(); return; }
+  const typing = /INPUT|TEXTAREA|SELECT/.test(event.target.tagName) && event.target.type !== 'checkbox';
+  if (event.ctrlKey && !typing && /^[zя]$/i.test(event.key) && may('edit')) { event.preventDefault(); if (event.shiftKey) acts.redo(); else acts.undo(); return; }
+  if (event.key === 'Escape') { if (S.plan && !(typing && $('#say').value)) acts.decline(); else if (S.edit) edit.drop(); else if (S.asOf !== null) acts.now(); else if (typing) event.target.blur(); else if (S.selected) select(null); return; }
+  if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+  const onMap = event.target === map, arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+  if (event.target.getAttribute?.('role') === 'tab' && arrow?.[0]) { const all = [...document.querySelectorAll('[role=tab]')].filter((one) => one.offsetParent); all[(all.indexOf(event.target) + arrow[0] + all.length) % all.length].click(); return; }
+  if (arrow && onMap) { event.preventDefault(); const by = event.shiftKey ? 10 : 1; if (!(S.edit && edit.nudge(arrow[0] * by, arrow[1] * by))) { S.follow = false; view.x += arrow[0] * 48 / view.k; view.y -= arrow[1] * 48 / view.k; paint(); } return; }
+  if (event.key === 'Enter' && event.target.tagName !== 'BUTTON') { if (S.plan) acts.confirm(); else if (S.edit?.steps) edit.write(); return; }
+  const key = event.code.replace(/^Key/, '');
+  if (event.key === '/' || event.code === 'Slash') { event.preventDefault(); if (!wide()) { S.tab = 'talk'; render(); } $('#say').focus(); }
+  else if (event.key === '+' || event.key === '=') zoom(1.25);
+  else if (event.key === '-') zoom(0.8);
+  else if (event.key === '0') fit();
+  else if (key === 'F') follow();
+  else if (key === 'L') { open = !open; over(); }
+  else if (key === 'E' && may('edit')) edit.toggle();
+  else if (key === 'R' && S.edit) edit.nudge(0, 0, event.shiftKey ? -15 : 15);
+  else if (key === 'BracketLeft' || key === 'BracketRight') { const maps = S.state.maps, at = maps.findIndex((one) => one.name === S.map) + (key === 'BracketRight' ? 1 : -1); if (maps[at]) storey(maps[at].name); }
+});
+
+/* the beginning */
+const KEY = 'orthoframe';
+function keep() { try { localStorage.setItem(KEY, JSON.stringify({ lang: S.lang, theme: S.theme })); } catch { /* it is a convenience */ } }
+function recall() {
+  S.lang = navigator.language.startsWith('ru') ? 'ru' : 'en';
+  S.theme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  try { Object.assign(S, JSON.parse(localStorage.getItem(KEY) ?? '{}')); } catch { /* nothing was kept */ }
+}
+recall();
+edit.begin(render);
+renderTalk(talkers); render();
+new ResizeObserver(() => { if (S.drawing) fit(); }).observe($('.canvas'));
+document.addEventListener('visibilitychange', () => paint());
+setInterval(() => { if (S.lease?.session === S.state?.session && S.linked === 'yes') api('/api/lease', { do: 'keep' }).then((lease) => { S.lease = lease; }).catch(() => {}); }, 40000);
+connect(heard).then(everything).catch((error) => { S.linked = error.status === 401 ? 'stranger' : 'no'; render(); if (S.linked === 'no') setTimeout(() => location.reload(), 3000); });
+export { directives };

@@ -1,0 +1,153 @@
+// Editing: every gesture is one edit, tried while it is made, written as one revision when it is meant.
+import { S, L, N, api, announce, length } from './base.js';
+import { boxOf, named, paint, view, under } from './map.js';
+import { reason } from './talk.js';
+
+let render = () => {};
+export const begin = (redraw) => { render = redraw; };
+const radians = (degrees) => (degrees * Math.PI) / 180;
+const tenth = (value) => Math.round(value * 10) / 10;
+
+export function toggle() {
+  S.edit = S.edit ? null : { on: S.state.revision };
+  if (S.edit && S.selected) choose(S.selected);
+  render();
+}
+
+/** Takes something up to be edited. */
+export function choose(name) {
+  const one = named(name), edit = { on: S.edit?.on ?? S.state.revision };
+  if (one?.gap) Object.assign(edit, { name, kind: 'door' });
+  else if (one?.kind) Object.assign(edit, { name, kind: 'thing', thing: one, from: one.at, at: { ...one.at } });
+  S.edit = edit;
+}
+
+/** The room's frame: its angle, by which the thing's own numbers are turned. */
+const roomAngle = (thing) => S.drawing.rooms.find((room) => room.name === thing.room)?.frame.angle_deg ?? 0;
+
+function turned([x, y], about, degrees) {
+  const [c, s] = [Math.cos(radians(degrees)), Math.sin(radians(degrees))], [dx, dy] = [x - about[0], y - about[1]];
+  return [about[0] + c * dx - s * dy, about[1] + s * dx + c * dy];
+}
+
+/** Shifts by map cm and turns by degrees from where the thing stands. */
+function place(dx, dy, turn) {
+  const { thing } = S.edit, b = boxOf(thing), centre = [(b[0] + b[2]) / 2, -(b[1] + b[3]) / 2];
+  const moved = thing.polygons.map((polygon) => polygon.map((p) => { const [x, y] = turned(p, centre, turn); return [x + dx, y + dy]; }));
+  const origin = turned([thing.on_map.x, thing.on_map.y], centre, turn);
+  const step = turned([origin[0] + dx - thing.on_map.x, origin[1] + dy - thing.on_map.y], [0, 0], -roomAngle(thing));
+  S.edit.at = { ...thing.at, x: tenth(thing.at.x + step[0]), y: tenth(thing.at.y + step[1]), angle_deg: (((thing.at.angle_deg + turn) % 360) + 360) % 360 };
+  S.edit.ghost = { name: thing.name, polygons: moved };
+  Object.assign(S.edit, { shift: [dx, dy, turn], tried: null, wrong: null, theirs: null, asking: null });
+  S.edit.steps = [{ move: thing.name, to: [S.edit.at.x, S.edit.at.y], carry: true }];
+  if (turn) S.edit.steps.push({ turn: thing.name, to: S.edit.at.angle_deg, carry: true });
+  sizes(b, dx, dy);
+  paint();
+}
+
+/** Edges and middles of what stands near draw a dragged thing to them, within some pixels. */
+function snapped(dx, dy) {
+  const near = 8 / view.k, b = boxOf(S.edit.thing), lines = [];
+  const mine = (axis) => [b[axis], (b[axis] + b[axis + 2]) / 2, b[axis + 2]];
+  const others = S.drawing.things.filter((thing) => thing !== S.edit.thing).map(boxOf).filter((o) => Math.hypot((o[0] + o[2] - b[0] - b[2]) / 2 - dx, (o[1] + o[3] - b[1] - b[3]) / 2 + dy) < 300);
+  const walls = S.drawing.walls.map(([p, q]) => [Math.min(p[0], q[0]), -Math.max(p[1], q[1]), Math.max(p[0], q[0]), -Math.min(p[1], q[1])]);
+  const best = (axis, shift) => {
+    let found = null;
+    for (const o of [...others, ...walls.filter((w) => Math.abs(w[axis] - w[axis + 2]) < 0.5)]) for (const to of [o[axis], (o[axis] + o[axis + 2]) / 2, o[axis + 2]]) for (const from of mine(axis)) {
+      const away = to - from - shift;
+      if (Math.abs(away) < near && (!found || Math.abs(away) < Math.abs(found.away))) found = { away, to, o };
+    }
+    return found;
+  };
+  const x = best(0, dx), y = best(1, -dy);
+  const nx = dx + (x?.away ?? 0), ny = dy - (y?.away ?? 0);
+  if (x) lines.push([[x.to, -Math.min(x.o[1], b[1] - ny) + 20], [x.to, -Math.max(x.o[3], b[3] - ny) - 20]]);
+  if (y) lines.push([[Math.min(y.o[0], b[0] + nx) - 20, -y.to], [Math.max(y.o[2], b[2] + nx) + 20, -y.to]]);
+  S.edit.snaps = lines;
+  return [nx, ny];
+}
+function sizes(b, dx, dy) {
+  S.edit.sizes = dx || dy ? [[(b[0] + b[2]) / 2 + dx, -b[1] + dy + 16 / view.k, length(Math.hypot(dx, dy))]] : [];
+}
+
+/** A drag of the thing under the pointer; false where there is none to drag. */
+export function grab(event, name) {
+  const one = named(name);
+  if (!S.edit || !one?.kind) return null;
+  if (S.edit.name !== name) { choose(name); render(); }
+  const begun = under(event), [bx, by, turn] = S.edit.shift ?? [0, 0, 0];
+  return {
+    move(next) {
+      const [x, y] = under(next);
+      let [dx, dy] = [bx + x - begun[0], by + y - begun[1]];
+      if (next.shiftKey) { if (Math.abs(dx - bx) > Math.abs(dy - by)) dy = by; else dx = bx; }
+      if (!next.altKey) [dx, dy] = snapped(dx, dy); else S.edit.snaps = [];
+      place(tenth(dx), tenth(dy), turn);
+    },
+    end() { S.edit.snaps = []; test(); },
+  };
+}
+
+/** Moves or turns by a key. */
+export function nudge(dx, dy, turn = 0) {
+  if (S.edit?.kind !== 'thing') return false;
+  const [x, y, t] = S.edit.shift ?? [0, 0, 0];
+  place(x + dx, y + dy, t + turn);
+  later(); render();
+  return true;
+}
+let timer = 0;
+const later = () => { clearTimeout(timer); timer = setTimeout(test, 250); };
+
+/** Has the server check what would be written. */
+async function test() {
+  const edit = S.edit;
+  if (!edit?.steps) return;
+  try {
+    edit.tried = await api('/api/edits', { on: edit.on, try: true, edit: edit.steps, ...edit.more });
+    edit.wrong = null;
+  } catch (error) { refused(edit, error); }
+  if (S.edit === edit) { render(); paint(); }
+}
+function refused(edit, error) {
+  edit.tried = null;
+  if (error.status === 409) { edit.theirs = error.body.theirs; edit.wrong = null; return; }
+  const faults = error.body?.faults ?? [];
+  edit.wrong = faults.length ? faults.slice(0, 5).map((fault) => [(S.lang === 'en' && fault.message_en) || fault.message, fault.help].filter(Boolean).join(' ')) : [reason(error)];
+  announce(edit.wrong.join(' '), true);
+}
+
+/** Sets what is to be written, and tries it. */
+function will(steps, more) { Object.assign(S.edit, { steps, more, tried: null, wrong: null, theirs: null, asking: null }); test(); render(); }
+
+export async function write() {
+  const edit = S.edit;
+  if (!edit?.steps?.length || edit.wrong) return;
+  try {
+    const done = await api('/api/edits', { on: edit.on, edit: edit.steps, reason: edit.why ?? '', ...edit.more });
+    S.edit = { on: done.revision };
+    S.toast = L(`Записано, ревизия ${done.revision}`, `Written, revision ${done.revision}`);
+    announce(S.toast);
+  } catch (error) { refused(edit, error); }
+  render(); paint();
+}
+export function drop() { S.edit = S.edit?.steps ? { on: S.state.revision } : null; render(); paint(); }
+/** Others came first, and this is meant all the same. */
+export function onTop() { S.edit.on = S.state.revision; S.edit.theirs = null; test(); }
+
+const asked = (value, done) => { S.edit.asking = { value, done }; render(); document.querySelector('#newname')?.focus(); };
+export const rename = () => asked(S.edit.name, (name) => will([{ rename: S.edit.name, to: name }]));
+export const remove = () => will([{ remove: S.edit.name }]);
+export const door = (is) => will([{ state: S.edit.name, is }]);
+/** One more of the same, beside it. */
+export function add() {
+  const { thing } = S.edit, b = boxOf(thing);
+  const base = thing.name.replace(/[-\s]?\d+$/, ''), joint = /-\d+$/.test(thing.name) ? '-' : ' ';
+  let n = 1;
+  while (named(`${base}${joint}${n}`)) n += 1;
+  asked(`${base}${joint}${n}`, (name) => {
+    const step = turned([b[2] - b[0] + 10, 0], [0, 0], -roomAngle(thing));
+    will([{ place: name, object: thing.object, area: thing.room, at: [tenth(thing.at.x + step[0]), tenth(thing.at.y + step[1]), thing.at.z], angle: thing.at.angle_deg }]);
+  });
+}
+export const label = () => (S.edit?.name ? N(S.edit.name) : '');

@@ -1,0 +1,261 @@
+// The drawing: rooms, things and doors once for a revision; what changes (robot, route, selection) as an overlay.
+import { S, L, N, num, sv, $, length } from './base.js';
+
+/** Map cm at the left top (y downwards), pixels a cm, pixels. */
+export const view = { x: 0, y: 0, k: 1, w: 0, h: 0 };
+const MOST_NAMES = 200;
+let built = null;
+let waiting = false;
+
+const P = (points) => `M${points.map(([x, y]) => `${x} ${-y}`).join('L')}`;
+const Z = (points) => `${P(points)}z`;
+const bounds = (polygons) => {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const polygon of polygons) for (const [x, y] of polygon) {
+    box[0] = Math.min(box[0], x); box[1] = Math.min(box[1], -y); box[2] = Math.max(box[2], x); box[3] = Math.max(box[3], -y);
+  }
+  return box;
+};
+export const boxOf = (thing) => (thing.box ??= bounds(thing.polygons ?? [thing.gap?.flat() ?? [thing.at]]));
+const meets = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
+export const middle = (of) => { const b = boxOf(of); return [(b[0] + b[2]) / 2, -(b[1] + b[3]) / 2]; };
+
+/** Room, thing, door or place of this name on the storey that is shown. */
+export const named = (name) => {
+  const d = S.drawing;
+  if (!d || !name) return null;
+  d.index ??= new Map([...d.places, ...d.rooms, ...d.things, ...d.doors.filter((door) => door.name)].map((one) => [one.name, one]));
+  return d.index.get(name) ?? null;
+};
+
+function inView(grown = 0) {
+  const w = view.w / view.k, h = view.h / view.k;
+  return [view.x - grown * w, view.y - grown * h, view.x + (1 + grown) * w, view.y + (1 + grown) * h];
+}
+
+/** How much is drawn, by pixels a cm. */
+const detail = () => (view.k < 0.08 ? 0 : view.k < 0.3 ? 1 : 2);
+
+function ground(d, box, lod) {
+  const shown = (one) => meets(boxOf(one), box);
+  const rooms = d.rooms.filter(shown), g = sv('g', { class: 'ground' });
+  if (lod === 0) g.append(sv('path', { class: 'm-floor', d: rooms.flatMap((room) => room.polygons.map(Z)).join('') }));
+  else for (const room of rooms) g.append(sv('path', { class: 'm-floor', d: room.polygons.map(Z).join(''), 'data-name': room.name, 'data-kind': 'room' }));
+  if (S.floor && S.layers.frames) for (const frame of S.floor.passframes) if (meets(bounds([frame.points]), box)) g.append(sv('path', { class: 'm-frame', d: Z(frame.points) }, sv('title', null, frame.id)));
+  if (S.floor && S.layers.dead) for (const dead of S.floor.dead) if (meets(bounds([dead.outer]), box)) g.append(sv('path', { class: 'm-dead', 'fill-rule': 'evenodd', d: Z(dead.outer) + dead.holes.map(Z).join('') }));
+  if (S.layers.things && lod > 0) {
+    const things = d.things.filter(shown);
+    if (lod === 1) for (const movable of [false, true]) {
+      const some = things.filter((thing) => thing.movable === movable);
+      g.append(sv('path', { class: movable ? 'm-m' : 'm-f', d: some.flatMap((thing) => thing.polygons.map(Z)).join('') }));
+    }
+    else for (const thing of things) {
+      const group = sv('g', { class: 'thing', 'data-name': thing.name, 'data-kind': 'thing' }, sv('title', null, N(thing)));
+      for (const polygon of thing.polygons) group.append(sv('path', { class: thing.movable ? 'm-m' : 'm-f', d: Z(polygon) }));
+      g.append(group);
+    }
+  }
+  const walls = d.walls.filter(([a, b]) => meets([Math.min(a[0], b[0]) - 1, -Math.max(a[1], b[1]) - 1, Math.max(a[0], b[0]) + 1, -Math.min(a[1], b[1]) + 1], box));
+  g.append(sv('path', { class: 'm-wall', d: walls.map(P).join('') }));
+  g.append(sv('path', { class: 'm-win', d: d.windows.map(P).join('') }), sv('path', { class: 'm-winl', d: d.windows.map(P).join('') }));
+  for (const door of d.doors.filter(shown)) {
+    if (lod === 0) continue;
+    const group = sv('g', door.name ? { class: 'thing door', 'data-name': door.name, 'data-kind': 'door' } : {});
+    if (door.name) group.append(sv('title', null, `${N(door)}: ${doorState(door)}`));
+    const [a, b] = door.gap;
+    group.append(sv('path', { class: 'm-sill', d: Z([a[0], b[0], b[1], a[1]]) }));
+    for (const arc of door.arcs ?? []) group.append(sv('path', { class: 'm-arc', d: P(arc) }));
+    for (const leaf of door.leaves ?? []) group.append(sv('path', { class: door.state === 'locked' ? 'm-locked' : 'm-leaf', d: Z(leaf) }));
+    g.append(group);
+  }
+  if (S.floor && S.layers.network) g.append(sv('path', { class: 'm-net', d: S.floor.network.map(P).join('') }));
+  for (const place of d.places) g.append(sv('circle', { class: 'm-place', cx: place.at[0], cy: -place.at[1], r: 4, 'data-name': place.name, 'data-kind': 'place' }, sv('title', null, N(place))));
+  return g;
+}
+export const doorState = (door) => ({ open: L('открыта', 'open'), closed: L('закрыта', 'closed'), locked: L('заперта', 'locked') })[door.state] ?? '';
+
+const text = (x, y, words, cls, px) => sv('text', { class: cls, x, y, 'font-size': px / view.k, 'stroke-width': 3.2 / view.k, dy: '.35em' }, words);
+
+/** Names where nothing is beneath them, the largest first. */
+function labels(d, taken, bold) {
+  const g = sv('g', { class: 'labels' });
+  if (!S.layers.names) return g;
+  const k = view.k, box = inView(), boxes = [...taken];
+  const wide = (words, px) => words.length * px * 0.57 / k;
+  const free = (b) => b[0] > box[0] && b[2] < box[2] && b[1] > box[1] && b[3] < box[3] && !boxes.some((other) => meets(b, other));
+  let count = 0;
+  const place = (words, cls, px, spots, lines = 1) => {
+    const w = wide(words, px), h = px * 1.25 * lines / k;
+    for (const [x, y] of spots) {
+      const b = [x - w / 2, y - px * 0.7 / k, x + w / 2, y - px * 0.7 / k + h];
+      if (!free(b)) continue;
+      boxes.push(b); count += 1;
+      g.append(text(x, y, words, cls, px));
+      return [x, y];
+    }
+    return null;
+  };
+  for (const one of bold) { const [x, y] = middle(one), b = boxOf(one); place(N(one), 'm-em', 13, [[x, b[1] - 10 / k], [x, b[3] + 10 / k], [x, -y], [b[2] + wide(N(one), 13) / 2 + 4 / k, -y]]); }
+  const fine = k > 0.52, solid = d.things.filter((thing) => meets(boxOf(thing), box)).map(boxOf);
+  for (const room of d.rooms) {
+    if (count > MOST_NAMES || !room.middle || !meets(boxOf(room), box) || bold.includes(room)) continue;
+    const b = boxOf(room), px = fine ? 16 : 12.5;
+    if ((b[2] - b[0]) * k < N(room).length * px * 0.45) continue;
+    const spots = [];
+    for (let dx = -160; dx <= 160; dx += 20) for (let dy = -160; dy <= 160; dy += 20) {
+      const x = room.middle[0] + dx, y = -room.middle[1] + dy;
+      if (x > b[0] && x < b[2] && y > b[1] && y < b[3]) spots.push([x, y, Math.hypot(dx, dy)]);
+    }
+    spots.sort((p, q) => p[2] - q[2]);
+    const half = wide(N(room), px) / 2;
+    const clear = spots.filter(([x, y]) => !solid.some((s) => meets([x - half, y - 12 / k, x + half, y + 28 / k], s)) && x - half > b[0] && x + half < b[2]);
+    const at = place(N(room), 'm-room', px, clear.length ? clear : spots.slice(0, 12), fine ? 2.2 : 1);
+    if (at && fine) g.append(text(at[0], at[1] + 18 / k, `${num(room.m2)} ${L('м²', 'm²')}`, 'm-m2lab', 12));
+  }
+  if (detail() < 2 || !S.layers.things) return g;
+  const area = (b) => (b[2] - b[0]) * (b[3] - b[1]);
+  for (const thing of [...d.things].sort((a, b) => area(boxOf(b)) - area(boxOf(a)))) {
+    if (count > MOST_NAMES) break;
+    const b = boxOf(thing);
+    if (bold.includes(thing) || !meets(b, box)) continue;
+    const w = (b[2] - b[0]) * k, h = (b[3] - b[1]) * k, [x, y] = [(b[0] + b[2]) / 2, (b[1] + b[3]) / 2], need = wide(N(thing), 11) * k;
+    if (w >= need + 2 && h >= 14) place(N(thing), 'm-th', 11, [[x, y]]);
+    else if (Math.min(w, h) > 24 && need < w + 30) place(N(thing), 'm-th', 11, [[x, b[3] + 9 / k], [x, b[1] - 8 / k]]);
+  }
+  for (const one of d.places) if (fine) place(N(one), 'm-th', 11, [[one.at[0], -one.at[1] - 13 / k], [one.at[0], -one.at[1] + 13 / k]]);
+  return g;
+}
+
+function way(points, cls) {
+  const g = sv('g');
+  if (points.length > 1) g.append(sv('path', { class: 'm-halo', d: P(points), 'stroke-width': 8 / view.k }), sv('path', { class: cls, d: P(points), 'stroke-width': (cls === 'm-route' ? 4.5 : 2.5) / view.k }));
+  return g;
+}
+function badge(x, y, words, hollow) {
+  const r = 10 / view.k;
+  return sv('g', { class: `m-badge${hollow ? ' hollow' : ''}` }, sv('circle', { cx: x, cy: -y, r, 'stroke-width': 1.6 / view.k }), sv('text', { x, y: -y, dy: '.36em', 'font-size': 11.5 / view.k }, words));
+}
+function tag(x, y, words, cls) {
+  const k = view.k, w = (words.length * 6.9 + 16) / k, h = 22 / k;
+  return sv('g', { class: `m-tag ${cls}` }, sv('rect', { x: x - w / 2, y: -y - h / 2, width: w, height: h, rx: 5 / k, 'stroke-width': 1.2 / k }), sv('text', { x, y: -y, dy: '.36em', 'font-size': 12 / k }, words));
+}
+function robot(place, past) {
+  const { x, y, heading_deg: heading } = place.pose, k = view.k, r = S.state?.profile?.radius ?? 25, big = Math.max(1, 12 / (r * k));
+  return sv('g', { class: `m-robot${past ? ' past' : ''}`, transform: `translate(${x} ${-y}) rotate(${-heading}) scale(${big})` },
+    sv('title', null, L('Робот', 'Robot')), sv('circle', { r, 'stroke-width': 2 / k }), sv('path', { d: `M${r * 0.56} 0L${-r * 0.3} ${r * 0.42}L${-r * 0.1} 0L${-r * 0.3} ${-r * 0.42}z` }));
+}
+
+/** Directives of the plan that waits, or of the task that is driven. */
+export const directives = () => (S.plan?.plan ?? S.task?.plan)?.directives ?? [];
+
+function overlay(d, taken, bold) {
+  const g = sv('g', { class: 'overlay' }), top = sv('g'), k = view.k;
+  const keep = (points) => { for (const [x, y] of points) taken.push([x - 9 / k, -y - 9 / k, x + 9 / k, -y + 9 / k]); };
+  for (const away of d.elsewhere) {
+    if (away.polygons) for (const polygon of away.polygons) g.append(sv('path', { class: 'm-away', d: Z(polygon), 'stroke-width': 2 / k }));
+    const at = named(away.name);
+    if (at) g.append(sv('rect', { class: 'm-was', ...rect(boxOf(at)), 'stroke-width': 1.5 / k }));
+  }
+  if (S.asOf === null) {
+    const steps = directives(), from = S.plan ? 0 : S.step;
+    if (S.trail.length > 1 && !S.plan) { g.append(sv('path', { class: 'm-trail', d: P(S.trail.filter((p) => p.map === d.map).map((p) => p.at)), 'stroke-width': 2 / k })); }
+    if (S.task || S.plan) for (const [i, step] of steps.entries()) {
+      if (i < from || step.map !== d.map || step.points.length < 2) continue;
+      g.append(way(i === from && S.robot && !S.plan ? rest(step.points) : step.points, S.plan ? 'm-planned' : 'm-route'));
+      const end = step.points[step.points.length - 1];
+      top.append(badge(end[0], end[1], String(step.number), i > from)); keep([end]);
+    }
+  }
+  const chosen = named(S.selected);
+  if (S.proof) for (const one of S.proof.map(named).filter(Boolean)) { g.append(sv('rect', { class: 'm-reason', ...rect(boxOf(one), 3 / k), 'stroke-width': 2 / k })); bold.push(one); }
+  for (const one of S.marked.map(named).filter(Boolean)) { g.append(sv('rect', { class: 'm-mark', ...rect(boxOf(one), 4 / k), rx: 4 / k, 'stroke-width': 2.4 / k })); if (!bold.includes(one)) bold.push(one); }
+  if (chosen) {
+    if (S.layers.relations && S.thing?.name === chosen.name && chosen.polygons) {
+      const others = new Map();
+      for (const relation of S.thing.relations) for (const other of relation.args) if (other !== chosen.name && named(other)?.kind) others.set(other, relation.relation);
+      const [x, y] = middle(chosen);
+      for (const other of [...others.keys()].slice(0, 12)) { const [ox, oy] = middle(named(other)); g.append(sv('path', { class: 'm-rel', d: P([[x, y], [ox, oy]]), 'stroke-width': 1.5 / k }), sv('circle', { class: 'm-reldot', cx: ox, cy: -oy, r: 3.5 / k })); }
+    }
+    if (chosen.polygons) for (const polygon of chosen.polygons) g.append(sv('path', { class: 'm-sel', d: Z(polygon), 'stroke-width': 2.2 / k }));
+    else g.append(sv('rect', { class: 'm-sel', ...rect(boxOf(chosen), 6 / k), 'stroke-width': 2.2 / k }));
+    if (!bold.includes(chosen)) bold.push(chosen);
+  }
+  if (S.edit?.ghost) {
+    for (const polygon of S.edit.ghost.polygons) top.append(sv('path', { class: `m-ghost${S.edit.wrong ? ' wrong' : ''}`, d: Z(polygon), 'stroke-width': 2 / k }));
+    for (const line of S.edit.snaps ?? []) top.append(sv('path', { class: 'm-snap', d: P(line), 'stroke-width': 1 / k }));
+    for (const [x, y, words] of S.edit.sizes ?? []) top.append(tag(x, y, words, 'know'));
+  }
+  if (S.robot?.pose && S.robot.map === d.map && S.asOf === null) { top.append(robot(S.robot, S.linked !== 'yes')); keep([[S.robot.pose.x, S.robot.pose.y]]); }
+  return [g, top];
+}
+const rect = (b, grown = 0) => ({ x: b[0] - grown, y: b[1] - grown, width: b[2] - b[0] + 2 * grown, height: b[3] - b[1] + 2 * grown });
+
+/** What is left of a leg from where the robot is. */
+function rest(points) {
+  const { x, y } = S.robot.pose; let best = 1, near = Infinity;
+  for (let i = 1; i < points.length; i += 1) {
+    const [a, b] = [points[i - 1], points[i]], l = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 || 1;
+    const t = Math.max(0, Math.min(1, ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / l));
+    const away = Math.hypot(a[0] + t * (b[0] - a[0]) - x, a[1] + t * (b[1] - a[1]) - y);
+    if (away <= near) { near = away; best = i; }
+  }
+  return [[x, y], ...points.slice(best)];
+}
+
+/** Draws in the next frame, however often it is asked. */
+export function paint() {
+  if (waiting || document.hidden) return;
+  waiting = true;
+  requestAnimationFrame(() => { waiting = false; draw(); });
+}
+
+function draw() {
+  const svg = $('#map'), d = S.drawing, canvas = $('.canvas');
+  view.w = canvas.clientWidth; view.h = canvas.clientHeight;
+  svg.setAttribute('viewBox', `${view.x} ${view.y} ${view.w / view.k} ${view.h / view.k}`);
+  if (!d) { svg.replaceChildren(); built = null; return; }
+  if (S.follow && S.robot?.pose && S.robot.map === d.map) centre(S.robot.pose.x, S.robot.pose.y);
+  const key = JSON.stringify([S.layers, S.lang, Boolean(S.floor)]), lod = detail(), box = inView();
+  const fits = built && built.d === d && built.key === key && built.lod === lod && box[0] >= built.box[0] && box[1] >= built.box[1] && box[2] <= built.box[2] && box[3] <= built.box[3];
+  if (!fits) { const around = inView(1); built = { d, key, lod, box: around, g: ground(d, around, lod) }; }
+  const taken = [], bold = [], [below, top] = overlay(d, taken, bold);
+  const edited = S.edit?.ghost ? built.g.querySelector(`[data-name="${CSS.escape(S.edit.ghost.name)}"]`) : null;
+  built.g.querySelectorAll('.dimmed').forEach((one) => one.classList.remove('dimmed'));
+  edited?.classList.add('dimmed');
+  svg.replaceChildren(built.g, below, labels(d, taken, bold), top);
+  scale();
+}
+function scale() {
+  const bar = $('.scale'); if (!bar) return;
+  const cm = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000].find((c) => c * view.k > 60) ?? 10000;
+  bar.firstChild.data = length(cm).replace(/[.,]0/, ''); bar.lastChild.style.width = `${cm * view.k}px`;
+}
+
+/** Fits a box, or the whole storey, into what is not covered by cards. */
+export function fit(box) {
+  const d = S.drawing; if (!d) return;
+  box ??= d.rooms.map(boxOf).reduce((a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])], [Infinity, Infinity, -Infinity, -Infinity]);
+  if (!Number.isFinite(box[0])) return;
+  const canvas = $('.canvas'), w = canvas.clientWidth, h = canvas.clientHeight, small = w < 520;
+  const card = $('.over .next, .over .edbar'), above = card ? card.offsetHeight + 24 : 20;
+  const [l, t, r, b] = small ? [12, above, 56, 12] : [24, above, 66, 34];
+  const k = Math.max(0.01, Math.min((w - l - r) / (box[2] - box[0]), (h - t - b) / (box[3] - box[1]), 4));
+  Object.assign(view, { k, w, h, x: (box[0] + box[2]) / 2 - (l + (w - l - r) / 2) / k, y: (box[1] + box[3]) / 2 - (t + (h - t - b) / 2) / k });
+  paint();
+}
+/** Shows a thing with what is around it. */
+export function show(name) {
+  const one = named(name); if (!one) return;
+  const b = boxOf(one), grown = Math.max(120, (b[2] - b[0]) / 2);
+  fit([b[0] - grown, b[1] - grown, b[2] + grown, b[3] + grown]);
+}
+export function centre(x, y) { view.x = x - view.w / view.k / 2; view.y = -y - view.h / view.k / 2; }
+export function zoom(by, px = view.w / 2, py = view.h / 2) {
+  const k = Math.min(12, Math.max(0.005, view.k * by));
+  view.x += px / view.k - px / k; view.y += py / view.k - py / k; view.k = k; paint();
+}
+/** Where on the map a pointer is, cm. */
+export function under(event) {
+  const r = $('#map').getBoundingClientRect();
+  return [view.x + (event.clientX - r.left) / view.k, -(view.y + (event.clientY - r.top) / view.k)];
+}

@@ -1,0 +1,287 @@
+//! Every address that is answered, with who may ask it; `openapi.json` describes them, and a test holds it to this table.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::{DefaultBodyLimit, Query, Request, State as Of};
+use axum::http::header::{
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, LOCATION,
+    REFERRER_POLICY, SET_COOKIE, X_CONTENT_TYPE_OPTIONS,
+};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::middleware::{Next, from_fn, from_fn_with_state};
+use axum::response::sse::Sse;
+use axum::response::{IntoResponse, Response};
+use axum::routing::{MethodRouter, get, post};
+use axum::{Extension, Router};
+
+use super::fault::Fault;
+use super::gate::{Refused, Role, Session};
+use super::{House, act, events, read};
+
+/// Bytes of a request's body.
+const BODY: usize = 1 << 20;
+/// Until an answer must be there, its request's body included.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+type Routes = MethodRouter<Arc<House>>;
+
+/// Method, path, who may ask, and who answers.
+type Route = (&'static str, &'static str, Role, fn() -> Routes);
+
+/// All that is answered under `/api`.
+pub(super) const ROUTES: &[Route] = &[
+    ("get", "/api/state", Role::Look, || get(read::state)),
+    ("get", "/api/drawing", Role::Look, || get(read::drawing)),
+    ("get", "/api/floor", Role::Look, || get(read::floor)),
+    ("get", "/api/svg", Role::Look, || get(read::svg)),
+    ("get", "/api/thing", Role::Look, || get(read::thing)),
+    ("get", "/api/why", Role::Look, || get(read::why)),
+    ("get", "/api/route", Role::Look, || get(read::route)),
+    ("get", "/api/complete", Role::Look, || get(read::complete)),
+    ("get", "/api/history", Role::Look, || get(read::history)),
+    ("get", "/api/diff", Role::Look, || get(read::diff)),
+    ("get", "/api/proposals", Role::Look, || get(read::proposals)),
+    ("get", "/api/tasks", Role::Look, || get(act::tasks)),
+    ("get", "/api/events", Role::Look, || get(happens)),
+    ("get", "/api/openapi.json", Role::Look, || get(described)),
+    ("post", "/api/say", Role::Look, || post(act::say)),
+    ("post", "/api/stop", Role::Look, || post(act::stop)),
+    ("post", "/api/leave", Role::Look, || post(act::leave)),
+    ("post", "/api/lease", Role::Drive, || post(act::lease)),
+    ("post", "/api/reset", Role::Drive, || post(act::reset)),
+    ("post", "/api/tasks/{id}/confirm", Role::Drive, || post(act::confirm)),
+    ("post", "/api/tasks/{id}/cancel", Role::Drive, || post(act::cancel)),
+    ("post", "/api/tasks/{id}/move", Role::Drive, || post(act::reorder)),
+    ("post", "/api/edits", Role::Edit, || post(act::edit)),
+    ("post", "/api/undo", Role::Edit, || post(act::undo)),
+    ("post", "/api/redo", Role::Edit, || post(act::redo)),
+    ("post", "/api/restore", Role::Edit, || post(act::restore)),
+    ("post", "/api/proposals/{name}", Role::Edit, || post(act::decide)),
+    ("post", "/api/invite", Role::Edit, || post(act::invite)),
+];
+
+/// The description of [`ROUTES`].
+pub(super) const OPENAPI: &str = include_str!("openapi.json");
+
+const JS: &str = "text/javascript; charset=utf-8";
+const FONT: &str = "font/woff2";
+
+/// The page: path, kind, bytes.
+const PAGE: &[(&str, &str, &[u8])] = &[
+    ("/", "text/html; charset=utf-8", include_bytes!("page/index.html")),
+    ("/style.css", "text/css; charset=utf-8", include_bytes!("page/style.css")),
+    ("/icon.svg", "image/svg+xml", include_bytes!("page/icon.svg")),
+    ("/app.js", JS, include_bytes!("page/app.js")),
+    ("/base.js", JS, include_bytes!("page/base.js")),
+    ("/edit.js", JS, include_bytes!("page/edit.js")),
+    ("/link.js", JS, include_bytes!("page/link.js")),
+    ("/map.js", JS, include_bytes!("page/map.js")),
+    ("/panels.js", JS, include_bytes!("page/panels.js")),
+    ("/talk.js", JS, include_bytes!("page/talk.js")),
+    (
+        "/fonts/plex-sans-cyrillic.woff2",
+        FONT,
+        include_bytes!("page/fonts/plex-sans-cyrillic.woff2"),
+    ),
+    ("/fonts/plex-sans-latin.woff2", FONT, include_bytes!("page/fonts/plex-sans-latin.woff2")),
+    (
+        "/fonts/plex-mono-cyrillic.woff2",
+        FONT,
+        include_bytes!("page/fonts/plex-mono-cyrillic.woff2"),
+    ),
+    ("/fonts/plex-mono-latin.woff2", FONT, include_bytes!("page/fonts/plex-mono-latin.woff2")),
+];
+
+/// The server's answers, behind its gate.
+#[must_use]
+pub(super) fn router(house: &Arc<House>) -> Router {
+    let mut api = Router::new();
+    for (_, path, role, answer) in ROUTES {
+        let needs = *role;
+        let check = from_fn(move |session: Extension<Session>, request: Request, next: Next| {
+            may(needs, session, request, next)
+        });
+        api = api.route(path, answer().route_layer(check));
+    }
+    let api = api.route_layer(from_fn_with_state(Arc::clone(house), known));
+    let mut all = api;
+    for (path, kind, bytes) in PAGE {
+        all = all.route(path, get(move || async move { ([(CONTENT_TYPE, *kind)], *bytes) }));
+    }
+    all.layer(DefaultBodyLimit::max(BODY))
+        .layer(from_fn_with_state(Arc::clone(house), guard))
+        .with_state(Arc::clone(house))
+}
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        let (status, code, russian, english) = match self {
+            Self::Host => (
+                StatusCode::MISDIRECTED_REQUEST,
+                "serve::host",
+                "Это имя не этой машины.",
+                "That is no name of this machine.",
+            ),
+            Self::Origin => (
+                StatusCode::FORBIDDEN,
+                "serve::origin",
+                "Запрос пришёл не со страницы этого пульта.",
+                "The request does not come from this console's page.",
+            ),
+            Self::Stranger => (
+                StatusCode::UNAUTHORIZED,
+                "serve::stranger",
+                "Откройте адрес, который напечатала программа при запуске.",
+                "Open the address that the program printed when it started.",
+            ),
+        };
+        Fault::new(status, code, russian, english).into_response()
+    }
+}
+
+/// What every request passes first, and every answer bears.
+async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Response {
+    let checked = house
+        .gate
+        .check_host(request.uri(), request.headers())
+        .and_then(|()| came_from(&house, &request));
+    let mut response = match checked {
+        Err(refused) => refused.into_response(),
+        Ok(()) => match token(request.uri()) {
+            Some(token) => enter(&house, &token),
+            None => match tokio::time::timeout(PATIENCE, next.run(request)).await {
+                Ok(response) => response,
+                Err(_) => StatusCode::REQUEST_TIMEOUT.into_response(),
+            },
+        },
+    };
+    let headers = response.headers_mut();
+    let mut say = |name: HeaderName, value: &'static str| {
+        headers.insert(name, HeaderValue::from_static(value));
+    };
+    say(
+        CONTENT_SECURITY_POLICY,
+        "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    );
+    say(X_CONTENT_TYPE_OPTIONS, "nosniff");
+    say(REFERRER_POLICY, "no-referrer");
+    say(HeaderName::from_static("cross-origin-opener-policy"), "same-origin");
+    say(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
+    say(CACHE_CONTROL, "no-store");
+    response
+}
+
+/// The page itself may be opened from anywhere: it shows nothing without a cookie that other sites do not send.
+fn came_from(house: &House, request: &Request) -> Result<(), Refused> {
+    let opens_page = request.method() == axum::http::Method::GET && request.uri().path() == "/";
+    if opens_page {
+        return Ok(());
+    }
+    house.gate.check_origin(request.method(), request.headers())
+}
+
+/// The token in the address that was opened.
+fn token(uri: &Uri) -> Option<String> {
+    let token = uri.query()?.split('&').find_map(|pair| pair.strip_prefix("token="));
+    token.filter(|_| uri.path() == "/").map(str::to_owned)
+}
+
+fn enter(house: &House, token: &str) -> Response {
+    match house.gate.enter(token) {
+        Ok(Some(cookie)) => {
+            (StatusCode::SEE_OTHER, [(LOCATION, "/".to_owned()), (SET_COOKIE, cookie)])
+                .into_response()
+        }
+        // Opened again by who has come in already, it is the page; to any other it says what to do.
+        Ok(None) => (StatusCode::SEE_OTHER, [(LOCATION, "/")]).into_response(),
+        Err(error) => {
+            tracing::error!(%error, "no random numbers");
+            StatusCode::INTERNAL_SERVER_ERROR.into_response()
+        }
+    }
+}
+
+/// Lets pass who has a session.
+async fn known(Of(house): Of<Arc<House>>, mut request: Request, next: Next) -> Response {
+    match house.gate.session(request.headers()) {
+        Ok(session) => {
+            request.extensions_mut().insert(session);
+            next.run(request).await
+        }
+        Err(refused) => refused.into_response(),
+    }
+}
+
+/// Lets pass whose role is enough.
+async fn may(
+    needs: Role,
+    Extension(session): Extension<Session>,
+    request: Request,
+    next: Next,
+) -> Response {
+    if session.role >= needs {
+        return next.run(request).await;
+    }
+    Fault::new(
+        StatusCode::FORBIDDEN,
+        "serve::role",
+        "Для этого вашей роли мало.",
+        "Your role is not enough for this.",
+    )
+    .into_response()
+}
+
+async fn described() -> impl IntoResponse {
+    ([(CONTENT_TYPE, "application/json")], OPENAPI)
+}
+
+/// After which event: a browser that resumes says it in a header, a page that begins anew in its address.
+#[derive(Debug, serde::Deserialize)]
+struct After {
+    after: Option<String>,
+}
+
+async fn happens(
+    Of(house): Of<Arc<House>>,
+    Query(asked): Query<After>,
+    headers: HeaderMap,
+) -> Response {
+    let last = headers.get("last-event-id").and_then(|id| id.to_str().ok()).map(str::to_owned);
+    let last = last.or(asked.after).filter(|id| !id.is_empty());
+    let events = Arc::clone(&house.events);
+    Sse::new(events::stream(events, last.as_deref())).into_response()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use serde_json::Value;
+
+    use super::*;
+
+    #[test]
+    fn the_description_names_what_is_answered_and_no_more() {
+        let described: Value = serde_json::from_str(OPENAPI).expect("it is JSON");
+        let paths = described["paths"].as_object().expect("it has paths");
+        let mut told = BTreeSet::new();
+        for (path, methods) in paths {
+            for (method, operation) in methods.as_object().expect("methods") {
+                told.insert((method.clone(), path.clone()));
+                let role = operation["x-role"].as_str().expect("who may ask").to_owned();
+                let route = ROUTES.iter().find(|(m, p, _, _)| m == method && p == path);
+                let (_, _, needs, _) = route.unwrap_or_else(|| panic!("{method} {path}"));
+                assert_eq!(serde_json::json!(needs), role, "{method} {path}");
+                assert!(operation["summary"].is_string(), "{method} {path}");
+                let named = path.matches('{').count();
+                let all = operation["parameters"].as_array().map_or(&[][..], Vec::as_slice);
+                let in_path = all.iter().filter(|p| p["in"] == "path").count();
+                assert_eq!(named, in_path, "{method} {path}: parameters in the path");
+            }
+        }
+        let answered: BTreeSet<(String, String)> =
+            ROUTES.iter().map(|(m, p, _, _)| ((*m).to_owned(), (*p).to_owned())).collect();
+        assert_eq!(told, answered);
+    }
+}

@@ -1,0 +1,536 @@
+//! The operator's console over HTTP: what it answers, and who is kept out.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+/// A console of its own on a free port.
+struct Console {
+    child: Child,
+    /// `127.0.0.1:PORT`
+    at: String,
+    token: String,
+}
+
+impl Drop for Console {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// What came back.
+#[derive(Debug)]
+struct Answer {
+    status: u16,
+    head: String,
+    body: String,
+}
+
+impl Answer {
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.body).unwrap_or_else(|e| panic!("{e}: {self:?}"))
+    }
+
+    fn header(&self, name: &str) -> Option<&str> {
+        let lines = self.head.lines().filter_map(|line| line.split_once(':'));
+        lines.filter(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, v)| v.trim()).next()
+    }
+}
+
+impl Console {
+    fn start(more: &[&str]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+        let port = if more.contains(&"--port") { &[][..] } else { &["--port", "0"] };
+        command.arg("serve").args(port).args(more).env_remove("ORTHO_STORE");
+        let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
+        let mut line = String::new();
+        let out = child.stdout.take().expect("it is piped");
+        BufReader::new(out).read_line(&mut line).expect("it tells its address");
+        let address = line.split_whitespace().last().expect("an address");
+        let (at, token) = address
+            .strip_prefix("http://")
+            .and_then(|rest| rest.split_once("/?token="))
+            .unwrap_or_else(|| panic!("no address: {line}"));
+        Self { child, at: at.to_owned(), token: token.to_owned() }
+    }
+
+    fn demo() -> Self {
+        Self::start(&["--demo", "--pace", "20"])
+    }
+
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(&self.at).expect("it listens");
+        stream.set_read_timeout(Some(Duration::from_secs(30))).expect("a time-out");
+        stream
+    }
+
+    /// Sends these bytes and reads the one answer.
+    fn raw(&self, request: &[u8]) -> Answer {
+        let mut stream = self.connect();
+        // Whoever is refused may be cut off while still talking.
+        let _ = stream.write_all(request);
+        read_answer(&mut BufReader::new(stream))
+    }
+
+    fn get(&self, path: &str, more: &str) -> Answer {
+        let host = &self.at;
+        self.raw(
+            format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n")
+                .as_bytes(),
+        )
+    }
+
+    fn post_with(&self, path: &str, more: &str, body: &str) -> Answer {
+        let (host, length) = (&self.at, body.len());
+        self.raw(
+            format!(
+                "POST {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n{more}\r\n{body}"
+            )
+            .as_bytes(),
+        )
+    }
+
+    /// The cookie for this token, as a header; none where it is worth nothing.
+    fn enter(&self, token: &str) -> Option<String> {
+        let answer = self.get(&format!("/?token={token}"), "");
+        assert_eq!((answer.status, answer.header("location")), (303, Some("/")), "{answer:?}");
+        let cookie = answer.header("set-cookie")?;
+        for word in ["HttpOnly", "SameSite=Strict"] {
+            assert!(cookie.contains(word), "{cookie}");
+        }
+        Some(format!("Cookie: {}\r\n", cookie.split(';').next().expect("a pair")))
+    }
+
+    fn operator(&self) -> Operator<'_> {
+        Operator { console: self, cookie: self.enter(&self.token).expect("it is the token") }
+    }
+
+    fn own(&self) -> String {
+        format!("Origin: http://{}\r\nSec-Fetch-Site: same-origin\r\n", self.at)
+    }
+}
+
+/// Somebody with a session.
+struct Operator<'c> {
+    console: &'c Console,
+    cookie: String,
+}
+
+impl Operator<'_> {
+    fn get(&self, path: &str) -> Value {
+        let answer = self.console.get(path, &self.cookie);
+        assert_eq!(answer.status, 200, "{path}: {answer:?}");
+        answer.json()
+    }
+
+    fn post(&self, path: &str, body: &Value) -> Answer {
+        let head = format!("{}{}", self.cookie, self.console.own());
+        self.console.post_with(path, &head, &body.to_string())
+    }
+
+    fn done(&self, path: &str, body: &Value) -> Value {
+        let answer = self.post(path, body);
+        assert_eq!(answer.status, 200, "{path}: {answer:?}");
+        answer.json()
+    }
+
+    /// Somebody else, invited.
+    fn invites(&self, role: &str, name: &str) -> Operator<'_> {
+        let token = self.done("/api/invite", &json!({ "role": role, "name": name }));
+        let token = token["token"].as_str().expect("a token").to_owned();
+        let cookie = self.console.enter(&token).expect("it is good once");
+        Operator { console: self.console, cookie }
+    }
+
+    /// Waits until no task is driven, and gives the last that ended.
+    fn waits(&self) -> Value {
+        let patience = Instant::now() + Duration::from_secs(60);
+        while Instant::now() < patience {
+            let tasks = self.get("/api/tasks");
+            let idle = tasks["task"].is_null() && tasks["queue"] == json!([]);
+            if let (true, Some(last)) = (idle, tasks["ended"].as_array().and_then(|e| e.last())) {
+                return last.clone();
+            }
+            std::thread::sleep(Duration::from_millis(30));
+        }
+        panic!("it drives for ever");
+    }
+}
+
+fn read_answer(stream: &mut impl std::io::BufRead) -> Answer {
+    let (mut head, mut line) = (String::new(), String::new());
+    while stream.read_line(&mut line).is_ok_and(|n| n > 0) && line.trim() != "" {
+        head.push_str(&line);
+        line.clear();
+    }
+    let status = head.split(' ').nth(1).and_then(|s| s.parse().ok()).unwrap_or(0);
+    let mut answer = Answer { status, head, body: String::new() };
+    let mut body = Vec::new();
+    match answer.header("content-length").and_then(|n| n.parse().ok()) {
+        Some(length) => {
+            body.resize(length, 0);
+            stream.read_exact(&mut body).expect("the whole body");
+        }
+        None => {
+            let _ = stream.read_to_end(&mut body);
+        }
+    }
+    answer.body = String::from_utf8_lossy(&body).into_owned();
+    answer
+}
+
+#[test]
+fn a_question_is_answered_and_an_order_is_driven_after_a_yes() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let state = operator.get("/api/state");
+    assert_eq!((&state["revision"], &state["role"]), (&json!(1), &json!("edit")), "{state}");
+    let said = operator.done("/api/say", &json!({ "text": "Где лекарство?", "lang": "ru" }));
+    let text = said["replies"][0]["text"].as_str().expect("an answer");
+    assert!(text.contains("Тумбочк"), "{said}");
+    assert!(said["task"].is_null());
+
+    let before = state["robot"]["place"]["pose"].clone();
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К", "lang": "ru" }));
+    let task = &said["task"];
+    assert_eq!(task["state"], "planned", "{said}");
+    assert!(task["plan"]["directives"].as_array().is_some_and(|d| d.len() > 2), "{said}");
+    // A plan moves nothing.
+    assert_eq!(operator.get("/api/state")["robot"]["place"]["pose"], before);
+    operator.done(&format!("/api/tasks/{}/confirm", task["task"]), &json!({}));
+    let ended = operator.waits();
+    assert_eq!((&ended["task"], &ended["state"]), (&task["task"], &json!("done")), "{ended}");
+    let after = operator.get("/api/state");
+    assert_eq!(after["robot"]["place"]["pose"], task["plan"]["end"], "where the plan said");
+    // What was confirmed once is not there to be confirmed again.
+    let again = operator.post(&format!("/api/tasks/{}/confirm", task["task"]), &json!({}));
+    assert_eq!(again.status, 404);
+}
+
+#[test]
+fn who_only_looks_may_stop_and_nothing_else() {
+    let console = Console::start(&["--demo", "--pace", "1"]);
+    let operator = console.operator();
+    let looker = operator.invites("look", "Анна");
+    let said = operator.done("/api/say", &json!({ "text": "Принеси лекарство" }));
+    let confirm = format!("/api/tasks/{}/confirm", said["task"]["task"]);
+    assert_eq!(looker.post(&confirm, &json!({})).status, 403);
+    assert_eq!(looker.post("/api/edits", &json!({ "on": 1, "edit": [] })).status, 403);
+    operator.done(&confirm, &json!({}));
+    let queued = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К" }));
+    operator.done(&format!("/api/tasks/{}/confirm", queued["task"]["task"]), &json!({}));
+    std::thread::sleep(Duration::from_millis(700));
+    looker.done("/api/stop", &json!({}));
+    operator.waits();
+    let tasks = operator.get("/api/tasks");
+    let ends: Vec<&Value> =
+        tasks["ended"].as_array().expect("ended ones").iter().map(|t| &t["state"]).collect();
+    assert!(ends.contains(&&json!("stopped")) && ends.contains(&&json!("cancelled")), "{tasks}");
+    let stopped = tasks["ended"].as_array().into_iter().flatten().find(|t| t["state"] == "stopped");
+    assert_eq!(stopped.expect("one")["stopped_by"], "Анна");
+}
+
+#[test]
+fn only_one_drives_at_a_time() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let other = operator.invites("drive", "Борис");
+    other.done("/api/lease", &json!({ "do": "take" }));
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К" }));
+    let confirm = format!("/api/tasks/{}/confirm", said["task"]["task"]);
+    let refused = operator.post(&confirm, &json!({}));
+    assert_eq!((refused.status, &refused.json()["holder"]), (409, &json!("Борис")));
+    other.done("/api/lease", &json!({ "do": "give" }));
+    operator.done(&confirm, &json!({}));
+    assert_eq!(operator.waits()["state"], "done");
+}
+
+#[test]
+fn of_two_editors_neither_loses_anything() {
+    let console = Console::demo();
+    let (first, name) = (console.operator(), "Кресло-1");
+    let second = first.invites("edit", "Борис");
+    let moved = |to: [f64; 2]| json!({ "on": 1, "edit": [{ "move": name, "to": to }] });
+    let mut tried = moved([380.0, 330.0]);
+    tried["try"] = json!(true);
+    assert_eq!(first.done("/api/edits", &tried)["outcome"], "tried");
+    let edited = second.done("/api/edits", &moved([400.0, 320.0]));
+    assert_eq!(edited["revision"], 2, "{edited}");
+    let stale = first.post("/api/edits", &moved([380.0, 330.0]));
+    let told = stale.json();
+    assert_eq!((stale.status, &told["code"]), (409, &json!("serve::stale")), "{told}");
+    assert_eq!(told["theirs"][0]["user"], "Борис");
+    assert_eq!(told["theirs"][0]["differences"][0]["subject"], json!(name).clone(), "{told}");
+    assert_eq!(first.get("/api/state")["revision"], 2, "nothing was written");
+    assert_eq!(first.post("/api/undo", &json!({ "on": 1 })).status, 409);
+
+    first.done("/api/undo", &json!({ "on": 2 }));
+    first.done("/api/redo", &json!({ "on": 3 }));
+    let history = first.get("/api/history");
+    let users: Vec<&str> = history["revisions"]
+        .as_array()
+        .expect("revisions")
+        .iter()
+        .filter_map(|r| r["user"].as_str())
+        .collect();
+    assert_eq!(users, ["operator", "Борис", "operator", "operator"]);
+    let then = first.get("/api/drawing?as_of=1");
+    let at = |drawing: &Value| -> Value {
+        let things = drawing["things"].as_array().expect("things").iter();
+        things.clone().find(|t| t["name"] == name).expect("it stands there")["at"].clone()
+    };
+    assert_ne!(at(&then), at(&first.get("/api/drawing")));
+    // What cannot be is refused with its reason, in both languages.
+    let wrong =
+        first.post("/api/edits", &json!({ "on": 4, "edit": [{ "move": "Никто", "to": [0, 0] }] }));
+    let told = wrong.json();
+    assert_eq!(wrong.status, 422, "{told}");
+    assert!(told["message"].is_string() && told["message_en"].is_string(), "{told}");
+}
+
+#[test]
+fn a_plan_is_made_anew_where_the_map_has_changed() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К" }));
+    let confirm = |task: &Value| format!("/api/tasks/{}/confirm", task["task"]);
+    operator.done(
+        "/api/edits",
+        &json!({ "on": 1, "edit": [{ "move": "Кресло-1", "to": [400, 320] }] }),
+    );
+    let expired = operator.post(&confirm(&said["task"]), &json!({}));
+    let told = expired.json();
+    assert_eq!((expired.status, &told["code"]), (409, &json!("serve::expired")), "{told}");
+    operator.done(&confirm(&told["task"]), &json!({}));
+    assert_eq!(operator.waits()["state"], "done");
+}
+
+/// Events of a stream, as far as they come within a time.
+fn events(console: &Console, head: &str, until: impl Fn(&str) -> bool) -> String {
+    let mut stream = console.connect();
+    let request = format!("GET /api/events HTTP/1.1\r\nHost: {}\r\n{head}\r\n", console.at);
+    stream.write_all(request.as_bytes()).expect("it listens");
+    stream.set_read_timeout(Some(Duration::from_secs(10))).expect("a time-out");
+    let (mut text, mut piece) = (String::new(), [0_u8; 4096]);
+    while !until(&text) {
+        match stream.read(&mut piece) {
+            Ok(n) if n > 0 => text.push_str(&String::from_utf8_lossy(&piece[..n])),
+            _ => break,
+        }
+    }
+    text
+}
+
+#[test]
+fn events_go_on_after_a_break_where_they_stopped() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let begun = operator.get("/api/state")["event"].as_str().expect("an id").to_owned();
+    for on in 1..4 {
+        let to = json!([400 + on, 320]);
+        operator
+            .done("/api/edits", &json!({ "on": on, "edit": [{ "move": "Кресло-1", "to": to }] }));
+    }
+    let head = |id: &str| format!("{}Last-Event-ID: {id}\r\n", operator.cookie);
+    let all = events(&console, &head(&begun), |text| text.matches("event: revision").count() == 3);
+    let ids: Vec<&str> = all.lines().filter_map(|line| line.strip_prefix("id: ")).collect();
+    assert_eq!(ids.len(), 3, "{all}");
+    let rest = events(&console, &head(ids[0]), |text| text.matches("event: revision").count() == 2);
+    let after: Vec<&str> = rest.lines().filter_map(|line| line.strip_prefix("id: ")).collect();
+    assert_eq!(after, ids[1..], "{rest}");
+    // One of another run of the program says nothing of this one.
+    let foreign = events(&console, &head("0badc0de-1"), |text| text.contains("event: gap"));
+    assert!(foreign.contains("event: gap"), "{foreign}");
+}
+
+#[test]
+fn a_foreign_host_is_refused_before_anything_else() {
+    let console = Console::demo();
+    let ask = |request: String| console.raw(request.as_bytes()).status;
+    for host in ["evil.example", "localhost", "127.0.0.1:1", "evil.example:8430", ""] {
+        assert_eq!(ask(format!("GET / HTTP/1.1\r\nHost: {host}\r\n\r\n")), 421, "{host}");
+    }
+    let (at, port) = (&console.at, console.at.rsplit(':').next().expect("a port"));
+    assert_eq!(ask(format!("GET / HTTP/1.1\r\nHost: localhost:{port}\r\n\r\n")), 200);
+    assert_eq!(ask("GET / HTTP/1.0\r\n\r\n".to_owned()), 421);
+    assert_eq!(ask(format!("GET / HTTP/1.1\r\nHost: {at}\r\nHost: evil.example\r\n\r\n")), 421);
+    assert_eq!(ask(format!("GET http://evil.example/ HTTP/1.1\r\nHost: {at}\r\n\r\n")), 421);
+    // A token is not spent by whoever may not come in.
+    let token = &console.token;
+    assert_eq!(ask(format!("GET /?token={token} HTTP/1.1\r\nHost: evil.example\r\n\r\n")), 421);
+    assert!(console.enter(token).is_some());
+}
+
+#[test]
+fn what_changes_something_comes_from_the_page_or_not_at_all() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let (cookie, own) = (&operator.cookie, format!("Origin: http://{}\r\n", console.at));
+    let stop = |head: String| console.post_with("/api/stop", &head, "{}").status;
+    assert_eq!(stop(format!("{cookie}{own}Sec-Fetch-Site: same-origin\r\n")), 200);
+    for head in [
+        String::new(),
+        "Sec-Fetch-Site: same-origin\r\n".to_owned(),
+        own.clone(),
+        format!("{own}Sec-Fetch-Site: cross-site\r\n"),
+        format!("{own}Sec-Fetch-Site: same-site\r\n"),
+        "Origin: null\r\nSec-Fetch-Site: same-origin\r\n".to_owned(),
+        "Origin: http://evil.example\r\nSec-Fetch-Site: same-origin\r\n".to_owned(),
+        format!("{own}{own}Sec-Fetch-Site: same-origin\r\n"),
+    ] {
+        assert_eq!(stop(format!("{cookie}{head}")), 403, "{head}");
+    }
+    // Another site's picture or script asks for nothing here.
+    let foreign = console.get("/api/state", &format!("{cookie}Sec-Fetch-Site: cross-site\r\n"));
+    assert_eq!(foreign.status, 403);
+}
+
+#[test]
+fn a_token_is_good_once_and_a_cookie_until_its_session_is_left() {
+    let console = Console::demo();
+    let operator = console.operator();
+    assert_eq!(console.enter(&console.token), None, "replayed");
+    assert_eq!(console.get("/api/state", "").status, 401);
+    assert_eq!(console.get("/api/state", "Cookie: ortho=1; x\r\n").status, 401);
+    let mut other = operator.cookie.clone();
+    let last = other.trim_end().chars().last().expect("a digit");
+    let changed = if last == '0' { '1' } else { '0' };
+    other = format!("{}{changed}\r\n", &other.trim_end()[..other.trim_end().len() - 1]);
+    assert_eq!(console.get("/api/state", &other).status, 401);
+    operator.done("/api/leave", &json!({}));
+    assert_eq!(console.get("/api/state", &operator.cookie).status, 401, "replayed");
+}
+
+#[test]
+fn no_path_leads_out_of_the_page() {
+    let console = Console::demo();
+    for path in [
+        "/../Cargo.toml",
+        "/%2e%2e/%2e%2e/etc/passwd",
+        "/..%2f..%2fetc%2fpasswd",
+        "//etc/passwd",
+        "/fonts/../../mod.rs",
+        "/page/index.html",
+        "/api/../style.css",
+        "/style.css%00",
+        "/openapi.json",
+    ] {
+        let status = console.get(path, "").status;
+        assert!([400, 404].contains(&status), "{path}: {status}");
+    }
+    let page = console.get("/", "");
+    let policy = page.header("content-security-policy").expect("a policy");
+    assert!(policy.starts_with("default-src 'self';") && !policy.contains("unsafe"), "{policy}");
+    assert_eq!(page.header("x-content-type-options"), Some("nosniff"));
+}
+
+#[test]
+fn whoever_says_nothing_keeps_nobody_out() {
+    let console = Console::demo();
+    let operator = console.operator();
+    // Half of a request each, of more than there are places for.
+    let half = format!("GET / HTTP/1.1\r\nHost: {}\r\n", console.at);
+    let mut silent = Vec::new();
+    for _ in 0..900 {
+        let mut stream = console.connect();
+        let _ = stream.write_all(half.as_bytes());
+        silent.push(stream);
+    }
+    let begun = Instant::now();
+    assert_eq!(operator.get("/api/state")["revision"], 1);
+    assert!(begun.elapsed() < Duration::from_secs(8), "{:?}", begun.elapsed());
+    // And they do not stay: the head of a request must be told in time.
+    let last = silent.last_mut().expect("there are some");
+    last.set_read_timeout(Some(Duration::from_secs(20))).expect("a time-out");
+    let mut rest = Vec::new();
+    assert!(last.read_to_end(&mut rest).is_ok(), "it is closed");
+}
+
+#[test]
+fn what_is_too_large_is_not_read() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let head = format!(
+        "POST /api/say HTTP/1.1\r\nHost: {}\r\n{}{}Content-Type: application/json\r\n",
+        console.at,
+        operator.cookie,
+        console.own()
+    );
+    let whole = format!("{head}Content-Length: 1073741824\r\n\r\n{{\"text\":\"");
+    assert_eq!(console.raw(whole.as_bytes()).status, 413);
+    // A gigabyte in pieces, as far as it is taken.
+    let mut stream = console.connect();
+    stream.set_write_timeout(Some(Duration::from_secs(5))).expect("a time-out");
+    let begin = format!("{head}Transfer-Encoding: chunked\r\n\r\n");
+    stream.write_all(begin.as_bytes()).expect("it listens");
+    let piece = format!("10000\r\n{}\r\n", "a".repeat(0x10000));
+    let taken = (0..16_384).take_while(|_| stream.write_all(piece.as_bytes()).is_ok()).count();
+    assert!(taken < 2_000, "{taken} pieces of 64 KiB were taken");
+    let huge =
+        format!("GET / HTTP/1.1\r\nHost: {}\r\nX: {}\r\n\r\n", console.at, "a".repeat(1 << 20));
+    assert_eq!(console.raw(huge.as_bytes()).status, 431);
+    assert_eq!(operator.get("/api/state")["revision"], 1, "it goes on");
+}
+
+#[test]
+fn a_console_for_others_needs_a_token() {
+    let ortho = || Command::new(env!("CARGO_BIN_EXE_ortho"));
+    for more in [&["--listen", "0.0.0.0"][..], &["--listen", "0.0.0.0", "--token", "short"]] {
+        let mut command = ortho();
+        command.args(["serve", "--demo", "--port", "0"]).args(more).env_remove("ORTHO_TOKEN");
+        let done = command.output().expect("it runs");
+        assert!(!done.status.success(), "{more:?}");
+    }
+}
+
+#[test]
+fn sessions_outlive_a_kill() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let store = dir.path().join("store");
+    let store = store.to_str().expect("a path in UTF-8");
+    let console = Console::start(&["--demo", "--store", store]);
+    let operator = console.operator();
+    operator.done(
+        "/api/edits",
+        &json!({ "on": 1, "edit": [{ "move": "Кресло-1", "to": [400, 320] }] }),
+    );
+    let (cookie, port) =
+        (operator.cookie.clone(), console.at.rsplit(':').next().expect("a port").to_owned());
+    // Not asked to end: killed.
+    drop(console);
+    let mut console = Console::start(&["--demo", "--store", store, "--port", &port]);
+    console.token.clear();
+    let operator = Operator { console: &console, cookie };
+    assert_eq!(operator.get("/api/state")["revision"], 2);
+}
+
+/// A judge of another make: what an operator does, done in a real Chromium. `.ci/run` says how it is installed.
+#[test]
+#[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
+fn an_operator_works_in_a_browser() {
+    let root = crate::files::project("");
+    let done = Command::new("python3")
+        .arg(root.join("src/serve/judges/operator.py"))
+        .arg(env!("CARGO_BIN_EXE_ortho"))
+        .env("PYTHONPATH", root.join("target/judges"))
+        .output();
+    let told = done.as_ref().map(|done| {
+        format!(
+            "{}{}",
+            String::from_utf8_lossy(&done.stdout),
+            String::from_utf8_lossy(&done.stderr)
+        )
+    });
+    match done.map(|done| done.status.code()) {
+        Ok(Some(0)) => println!("{}", told.unwrap_or_default()),
+        Ok(Some(77)) | Err(_) => {
+            assert!(std::env::var_os("CI").is_none(), "the browser is missing");
+            println!("skipped: there is no browser");
+        }
+        Ok(_) => panic!("{}", told.unwrap_or_default()),
+    }
+}
