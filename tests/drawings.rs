@@ -500,9 +500,12 @@ fn every_object_is_lettered_where_it_can_be_read() {
 #[test]
 fn road_graphs_can_be_read() {
     let mut worlds = worlds();
-    if let Some(path) = shared("cases/corridor_mine.json") {
-        let mine = read(&path, &Options::default()).expect("a map");
-        worlds.push(("corridor_mine".to_owned(), mine.world));
+    for file in ["cases/corridor_mine.json", "osmag/SIST_1.osm", "rmf/clinic.building.yaml"] {
+        let is_new = worlds.iter().all(|(name, _)| name != file);
+        if let Some(path) = shared(file).filter(|_| is_new) {
+            let found = read(&path, &Options::default()).expect("a map");
+            worlds.push((file.to_owned(), found.world));
+        }
     }
     let mut count = 0;
     for (name, world) in worlds {

@@ -278,8 +278,7 @@ pub(super) struct QueryArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct CorridorArgs {
-    /// Corridor file (TOML), e.g. maps/corridor-paper4.toml
-    #[arg(required_unless_present = "map")]
+    /// Corridor file (TOML), e.g. maps/corridor-paper4.toml; the store's maps when it and --map are left out
     pub file: Option<PathBuf>,
     /// A map of the store, or a map file
     #[arg(long, conflicts_with = "file", value_name = "MAP")]

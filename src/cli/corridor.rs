@@ -35,7 +35,7 @@ pub(super) fn run(common: &Common, args: &CorridorArgs) -> Result<Answer, Failur
     say(&format!("{}\n\n{}", lines.join("\n"), sentences.join("\n")))
 }
 
-/// The road graph with the way in red.
+/// The road graph of the storey on which the way lies, with the way in red.
 pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failure> {
     let (system, way) = solve(common, args)?;
     let figure = figure(&system, way.variant, &way.path).map_err(Error::from)?;
@@ -53,9 +53,18 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
         on_way: a.on_way,
         faint: a.is_u_turn,
     });
+    let name = match common.lang {
+        Lang::En if !system.name_en.is_empty() => &system.name_en,
+        _ => &system.name,
+    };
+    let floor = match figure.floor.as_str() {
+        "" => String::new(),
+        floor if floor == system.name => String::new(),
+        floor => format!(", {floor}"),
+    };
     let title = match common.lang {
-        Lang::Ru => format!("{}: вариант {}", system.name, way.variant.number()),
-        Lang::En => format!("{}: variant {}", system.name, way.variant.number()),
+        Lang::Ru => format!("{name}{floor}: вариант {}", way.variant.number()),
+        Lang::En => format!("{name}{floor}: variant {}", way.variant.number()),
     };
     let notes = if common.lang == Lang::Ru { way.ru } else { way.en };
     let told = |list: &[(u8, [&str; 2])]| {
@@ -81,14 +90,15 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
     }))
 }
 
-/// The codes of paper 4, table 1, in words.
-const CODES: [(u8, [&str; 2]); 9] = [
+/// The codes of paper 4, table 1, in words, and those beyond it.
+const CODES: [(u8, [&str; 2]); 10] = [
     (1, ["перекрёсток", "crossing"]),
     (2, ["Т-образное соединение", "T-junction"]),
     (3, ["ответвление направо", "branch right"]),
     (4, ["ответвление налево", "branch left"]),
     (5, ["поворот направо", "turn right"]),
     (6, ["поворот налево", "turn left"]),
+    (7, ["звезда, пути считаются справа", "star, ways are counted from the right"]),
     (11, ["дверь справа", "door on the right"]),
     (12, ["дверь слева", "door on the left"]),
     (13, ["дверь прямо", "door ahead"]),
@@ -118,9 +128,14 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
         }
         (None, map) => {
             let engine = commands::open(common)?;
-            let map = engine.map_named(map.as_deref())?;
-            CorridorSystem::from_map(engine.world()?, engine.relations()?.openings(), map)
-                .map_err(Error::from)?
+            let (world, openings) = (engine.world()?, engine.relations()?.openings());
+            let system = match map {
+                Some(map) => {
+                    CorridorSystem::from_map(world, openings, engine.map_named(Some(map))?)
+                }
+                None => CorridorSystem::from_world(world, openings),
+            };
+            system.map_err(Error::from)?
         }
     };
     if args.metres {

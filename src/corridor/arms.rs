@@ -87,7 +87,8 @@ impl Layout {
         // The way back is the arm at 180°.
         let angle = |turn: Option<Turn>| match turn {
             None => 180.0,
-            Some(Turn::Straight) => 0.0,
+            // A file tells of the paper's ways alone.
+            Some(Turn::Straight | Turn::Nth(_)) => 0.0,
             Some(Turn::Right) => 270.0,
             Some(Turn::Left) => 90.0,
         };
@@ -123,7 +124,7 @@ impl Settling<'_> {
     fn arms(&mut self, seen: &Seen) -> Option<Arms> {
         let Declared { kind, at, neighbours, blind } = &seen.declared;
         let mut free: Vec<End> = self.ends.iter().copied().filter(|e| *e != seen.back).collect();
-        let mut open: Vec<Turn> = kind.ways().to_vec();
+        let mut open: Vec<Turn> = kind.ways().into_owned();
         let mut arms: Arms = vec![(None, Some(seen.back))];
         for (turn, at) in blind {
             self.take(&mut open, *turn, *kind, *at)?;
@@ -208,8 +209,8 @@ impl Settling<'_> {
         let Some(from) = arms.iter().position(|(_, end)| *end == Some(other.back)) else { return };
         let ways = junction.ways(from);
         let turns: Vec<Turn> = ways.iter().map(|(_, turn)| *turn).collect();
-        if other.declared.kind.ways() != turns {
-            let seen = JunctionKind::ALL.into_iter().find(|k| k.ways() == turns);
+        if *other.declared.kind.ways() != *turns {
+            let seen = JunctionKind::ALL.into_iter().find(|k| *k.ways() == *turns);
             self.faults.push(CorridorFault::JunctionDisagrees {
                 vertex: self.number,
                 said: kind_word(other.declared.kind),

@@ -1,5 +1,7 @@
 //! Commands for the robot, in the paper's words and in English.
 
+use std::borrow::Cow;
+
 use crate::units::{Language, capitalized};
 
 use super::system::{JunctionKind, Side, Turn};
@@ -22,8 +24,8 @@ pub enum Command {
 impl Command {
     /// «движение до двери слева»
     #[must_use]
-    pub fn russian(self) -> &'static str {
-        match self {
+    pub fn russian(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Face(Side::Right) => "встать вдоль коридора, чтобы дверь была справа",
             Self::Face(Side::Left) => "встать вдоль коридора, чтобы дверь была слева",
             Self::Face(Side::Ahead) => "встать спиной к двери",
@@ -31,17 +33,20 @@ impl Command {
             Self::Take(Turn::Straight) => "движение прямо",
             Self::Take(Turn::Right) => "поворот направо",
             Self::Take(Turn::Left) => "поворот налево",
+            Self::Take(Turn::Nth(n)) => {
+                return format!("поворот {}, считая справа", nth_corridor(n)).into();
+            }
             Self::ToDoor(Side::Right) => "движение до двери справа",
             Self::ToDoor(Side::Left) => "движение до двери слева",
             Self::ToDoor(Side::Ahead) => "движение до двери прямо",
             Self::UTurn => "разворот",
-        }
+        })
     }
 
     /// "drive to the door on the left"
     #[must_use]
-    pub fn english(self) -> &'static str {
-        match self {
+    pub fn english(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Face(Side::Right) => "stand along the corridor with the door on the right",
             Self::Face(Side::Left) => "stand along the corridor with the door on the left",
             Self::Face(Side::Ahead) => "stand with your back to the door",
@@ -49,17 +54,21 @@ impl Command {
             Self::Take(Turn::Straight) => "go straight on",
             Self::Take(Turn::Right) => "turn right",
             Self::Take(Turn::Left) => "turn left",
+            Self::Take(Turn::Nth(n)) => {
+                let nth = english_ordinal(usize::from(n));
+                return format!("take the {nth} corridor from the right").into();
+            }
             Self::ToDoor(Side::Right) => "drive to the door on the right",
             Self::ToDoor(Side::Left) => "drive to the door on the left",
             Self::ToDoor(Side::Ahead) => "drive to the door straight ahead",
             Self::UTurn => "make a U-turn",
-        }
+        })
     }
 
-    /// A stable word for programs: `to_door_left`.
+    /// A stable word for programs: `to_door_left`, `take_3_from_right`.
     #[must_use]
-    pub fn key(self) -> &'static str {
-        match self {
+    pub fn key(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Face(Side::Right) => "face_door_right",
             Self::Face(Side::Left) => "face_door_left",
             Self::Face(Side::Ahead) => "face_door_behind",
@@ -67,11 +76,12 @@ impl Command {
             Self::Take(Turn::Straight) => "straight",
             Self::Take(Turn::Right) => "turn_right",
             Self::Take(Turn::Left) => "turn_left",
+            Self::Take(Turn::Nth(n)) => return format!("take_{n}_from_right").into(),
             Self::ToDoor(Side::Right) => "to_door_right",
             Self::ToDoor(Side::Left) => "to_door_left",
             Self::ToDoor(Side::Ahead) => "to_door_ahead",
             Self::UTurn => "u_turn",
-        }
+        })
     }
 
     /// The commands as whole sentences, entrances counted rather than named one by one:
@@ -125,8 +135,11 @@ impl Command {
                 let word = if passed == 1 { "entrance" } else { "entrances" };
                 format!("Drive past {passed} {word} to the corridor junction.")
             }
+            (Language::Russian, Self::Take(Turn::Nth(n))) => {
+                format!("Сверните {}, считая справа.", nth_corridor(n))
+            }
             (Language::Russian, other) => imperative(other).to_owned(),
-            (Language::English, other) => format!("{}.", capitalized(other.english())),
+            (Language::English, other) => format!("{}.", capitalized(&other.english())),
         }
     }
 }
@@ -140,9 +153,15 @@ fn imperative(command: Command) -> &'static str {
         Command::Take(Turn::Straight) => "Двигайтесь прямо.",
         Command::Take(Turn::Right) => "Поверните направо.",
         Command::Take(Turn::Left) => "Поверните налево.",
+        Command::Take(Turn::Nth(_)) => "Сверните.",
         Command::ToDoor(_) => "Проезжайте до двери.",
         Command::UTurn => "Развернитесь.",
     }
+}
+
+/// «в 3-й коридор», «во 2-й коридор»
+fn nth_corridor(n: u8) -> String {
+    format!("{} {n}-й коридор", if n == 2 { "во" } else { "в" })
 }
 
 fn english_ordinal(n: usize) -> String {
@@ -182,6 +201,21 @@ mod tests {
             Command::sentences(&way, Language::English)[3],
             "Drive to the 2nd entrance, the door on the right."
         );
+    }
+
+    #[test]
+    fn ways_of_a_star_are_counted() {
+        let way = [Command::ToJunction(JunctionKind::Star(4)), Command::Take(Turn::Nth(2))];
+        assert_eq!(
+            Command::sentences(&way, Language::Russian)[1],
+            "Сверните во 2-й коридор, считая справа."
+        );
+        assert_eq!(
+            Command::sentences(&way, Language::English)[1],
+            "Take the 2nd corridor from the right."
+        );
+        assert_eq!(way[1].russian(), "поворот во 2-й коридор, считая справа");
+        assert_eq!(way[1].key(), "take_2_from_right");
     }
 
     #[test]

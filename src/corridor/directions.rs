@@ -147,8 +147,8 @@ fn answer(
     };
     let in_words = |&command: &Command| Step {
         command,
-        ru: command.russian().to_owned(),
-        en: command.english().to_owned(),
+        ru: command.russian().into_owned(),
+        en: command.english().into_owned(),
     };
     Directions {
         variant,

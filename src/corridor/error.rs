@@ -73,13 +73,4 @@ pub enum CorridorError {
         help("дайте коридорам тип помещения с признаком corridor, например «Коридор»")
     )]
     NoCorridors { name: String },
-
-    #[error(
-        "в точке ({x}, {y}) карты «{map}» сходятся {arms} коридоров, а в таблице типов – не больше четырёх"
-    )]
-    #[diagnostic(
-        code(corridor::star_junction),
-        help("разделите это место на два соединения или задайте коридоры файлом")
-    )]
-    StarJunction { map: String, x: String, y: String, arms: usize },
 }

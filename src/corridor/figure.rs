@@ -18,6 +18,8 @@ pub struct FigureVertex {
     /// The room; empty for a junction.
     pub name: String,
     pub name_towards: Vector,
+    /// Name of the floor; empty in a description of one floor.
+    pub floor: String,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,11 +34,14 @@ pub struct FigureArc {
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
+    /// The floor that is shown; empty in a description of one floor.
+    pub floor: String,
     pub vertices: Vec<FigureVertex>,
     pub arcs: Vec<FigureArc>,
 }
 
-/// The road graph of a variant, with a way marked on it: the labels of [`super::Directions::path`].
+/// The road graph of a variant, with a way marked on it: the labels of [`super::Directions::path`]. Of several floors, which
+/// lie over each other, that of the way is shown.
 ///
 /// # Errors
 /// [`CorridorError::NoLength`] as the graphs have it.
@@ -49,11 +54,34 @@ pub fn figure(
         Variant::Single => single(system, &SingleGraph::new(system)?),
         Variant::Double => double(system, &DoubleGraph::new(system)?),
     };
+    let first = path.first().and_then(|l| figure.vertices.iter().find(|v| v.label == *l));
+    if let Some(floor) = first.map(|vertex| vertex.floor.clone()) {
+        figure.keep(floor);
+    }
     for arc in &mut figure.arcs {
         let labels = [arc.from, arc.to].map(|v| &figure.vertices[v].label);
         arc.on_way = path.windows(2).any(|pair| [&pair[0], &pair[1]] == labels);
     }
     Ok(figure)
+}
+
+impl Figure {
+    /// Leaves out what is on other floors.
+    fn keep(&mut self, floor: String) {
+        let mut kept = 0..;
+        let is_here = |vertex: &FigureVertex| vertex.floor == floor;
+        let place: Vec<Option<usize>> =
+            self.vertices.iter().map(|v| is_here(v).then(|| kept.next()).flatten()).collect();
+        self.vertices.retain(is_here);
+        self.arcs.retain_mut(|arc| match (place[arc.from], place[arc.to]) {
+            (Some(from), Some(to)) => {
+                (arc.from, arc.to) = (from, to);
+                true
+            }
+            _ => false,
+        });
+        self.floor = floor;
+    }
 }
 
 fn single(system: &CorridorSystem, graph: &SingleGraph<'_>) -> Figure {
@@ -65,6 +93,7 @@ fn single(system: &CorridorSystem, graph: &SingleGraph<'_>) -> Figure {
             label: vertex.number.to_string(),
             name: entrance.map(|e| e.room.clone()).unwrap_or_default(),
             name_towards: place.door_towards,
+            floor: vertex.floor.clone(),
         }
     });
     let arcs = graph.graph.edge_references().map(|arc| FigureArc {
@@ -74,7 +103,7 @@ fn single(system: &CorridorSystem, graph: &SingleGraph<'_>) -> Figure {
         on_way: false,
         is_u_turn: false,
     });
-    Figure { vertices: vertices.collect(), arcs: arcs.collect() }
+    Figure { vertices: vertices.collect(), arcs: arcs.collect(), ..Figure::default() }
 }
 
 /// The two vertices of an entrance stand on either side of the middle, each on its driver's right.
@@ -102,6 +131,7 @@ fn double(system: &CorridorSystem, graph: &DoubleGraph<'_>) -> Figure {
             label: graph.label(node),
             name: entrance.filter(|_| name_here).map(|e| e.room.clone()).unwrap_or_default(),
             name_towards: place.door_towards,
+            floor: system.vertex(bearing.vertex).floor.clone(),
         }
     });
     let arcs = graph.graph.edge_references().map(|arc| FigureArc {
@@ -111,7 +141,7 @@ fn double(system: &CorridorSystem, graph: &DoubleGraph<'_>) -> Figure {
         on_way: false,
         is_u_turn: arc.weight().kind == DoubleArcKind::UTurn,
     });
-    Figure { vertices: vertices.collect(), arcs: arcs.collect() }
+    Figure { vertices: vertices.collect(), arcs: arcs.collect(), ..Figure::default() }
 }
 
 fn code_label(code: ArcCode) -> String {

@@ -24,7 +24,7 @@ impl CorridorSystem {
     /// Lengths come from the centre lines; the weights are those of [`super::Weights::default`].
     ///
     /// # Errors
-    /// [`CorridorError::UnknownMap`], [`CorridorError::NoCorridors`], [`CorridorError::StarJunction`].
+    /// [`CorridorError::UnknownMap`], [`CorridorError::NoCorridors`].
     pub fn from_map(world: &World, openings: &Openings, map: MapId) -> Result<Self, CorridorError> {
         let found = world.maps.get(&map).ok_or(CorridorError::UnknownMap { map: map.0 })?;
         let mut system = Self::from_maps(world, openings, &[map], &found.name)?;
@@ -35,7 +35,7 @@ impl CorridorSystem {
     /// The corridors of every floor; vertices are numbered through.
     ///
     /// # Errors
-    /// [`CorridorError::NoCorridors`], [`CorridorError::StarJunction`].
+    /// [`CorridorError::NoCorridors`].
     pub fn from_world(world: &World, openings: &Openings) -> Result<Self, CorridorError> {
         let maps: Vec<MapId> = world.maps.keys().copied().collect();
         let mut system = Self::from_maps(world, openings, &maps, &world.domain.name)?;
@@ -59,7 +59,7 @@ impl CorridorSystem {
                 attach(&mut floors, entrance);
             }
             for floor in floors {
-                parts.add(floor)?;
+                parts.add(floor);
             }
         }
         if parts.vertices.is_empty() {
@@ -371,19 +371,18 @@ struct Walk {
 }
 
 impl Parts {
-    fn add(&mut self, mut floor: Floor) -> Result<(), CorridorError> {
+    fn add(&mut self, mut floor: Floor) {
         floor.segments.iter_mut().for_each(settle_doors);
         let mut junctions = BTreeMap::new();
         for node in 0..floor.nodes.len() {
             let ends = floor.ends_at(node);
             if !goes_through(&floor, &ends) {
-                junctions.insert(node, self.junction(&floor, node, &ends)?);
+                junctions.insert(node, self.junction(&floor, node, &ends));
             }
         }
         for walk in walks(&floor, &junctions) {
             self.corridor(&floor, &walk, &junctions);
         }
-        Ok(())
     }
 
     /// A vertex for a node, with the order of its arms.
@@ -392,19 +391,11 @@ impl Parts {
         floor: &Floor,
         node: usize,
         ends: &[(usize, usize)],
-    ) -> Result<(VertexIx, Vec<(usize, usize)>), CorridorError> {
+    ) -> (VertexIx, Vec<(usize, usize)>) {
         let at = floor.nodes[node];
-        if ends.len() > 4 {
-            return Err(CorridorError::StarJunction {
-                map: self.floor.clone(),
-                x: format!("{:.0}", at.x),
-                y: format!("{:.0}", at.y),
-                arms: ends.len(),
-            });
-        }
         let arms = ends.iter().map(|&end| floor.leaving(end)).collect();
         let vertex = self.vertex(VertexKind::Junction(Junction { arms }), at);
-        Ok((vertex, ends.to_vec()))
+        (vertex, ends.to_vec())
     }
 
     fn vertex(&mut self, kind: VertexKind, at: Point) -> VertexIx {

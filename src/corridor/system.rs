@@ -6,6 +6,8 @@
 //!
 //! **Invariant**: every stretch ends in two different ports, and no port holds two stretches.
 
+use std::borrow::Cow;
+
 use crate::units::{Cm, Deg, Point};
 
 /// Index of a vertex in its system.
@@ -51,25 +53,33 @@ impl Side {
     }
 }
 
-/// The way through a junction: table 2 of the paper.
+/// The way through a junction: table 2 of the paper, and of a star the ways by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Turn {
     Straight,
     Right,
     Left,
+    /// Beyond the paper, at a star: the n-th way counted from the right, from 1 on.
+    Nth(u8),
 }
 
 impl Turn {
+    /// Those of the paper.
     pub const ALL: [Self; 3] = [Self::Straight, Self::Right, Self::Left];
 
-    /// The paper's code: 0, 1, 2.
+    /// The paper's code: 0, 1, 2; for the ways of a star 3 and on.
     #[must_use]
     pub fn code(self) -> u8 {
-        self as u8
+        match self {
+            Self::Straight => 0,
+            Self::Right => 1,
+            Self::Left => 2,
+            Self::Nth(n) => n.saturating_add(2),
+        }
     }
 }
 
-/// What a junction looks like to one who comes to it: codes 1 to 6 of table 1.
+/// What a junction looks like to one who comes to it: codes 1 to 6 of table 1, and beyond the paper a star.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum JunctionKind {
     Crossing,
@@ -78,9 +88,12 @@ pub enum JunctionKind {
     BranchLeft,
     TurnRight,
     TurnLeft,
+    /// Beyond the paper: so many ways on, four or more. The robot counts them from the right.
+    Star(u8),
 }
 
 impl JunctionKind {
+    /// Those of the paper.
     pub const ALL: [Self; 6] = [
         Self::Crossing,
         Self::Tee,
@@ -90,27 +103,37 @@ impl JunctionKind {
         Self::TurnLeft,
     ];
 
-    /// The paper's code: 1 to 6.
+    /// The paper's code: 1 to 6; 7 for a star.
     #[must_use]
     pub fn code(self) -> u8 {
-        self as u8 + 1
+        match self {
+            Self::Crossing => 1,
+            Self::Tee => 2,
+            Self::BranchRight => 3,
+            Self::BranchLeft => 4,
+            Self::TurnRight => 5,
+            Self::TurnLeft => 6,
+            Self::Star(_) => 7,
+        }
     }
 
     /// The ways on, in the order of their codes.
     #[must_use]
-    pub fn ways(self) -> &'static [Turn] {
-        match self {
+    pub fn ways(self) -> Cow<'static, [Turn]> {
+        Cow::Borrowed(match self {
             Self::Crossing => &[Turn::Straight, Turn::Right, Turn::Left],
             Self::Tee => &[Turn::Right, Turn::Left],
             Self::BranchRight => &[Turn::Straight, Turn::Right],
             Self::BranchLeft => &[Turn::Straight, Turn::Left],
             Self::TurnRight => &[Turn::Right],
             Self::TurnLeft => &[Turn::Left],
-        }
+            Self::Star(ways) => return (1..=ways).map(Turn::Nth).collect(),
+        })
     }
 
     fn with_ways(ways: &[Turn]) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.ways() == ways)
+        let star = u8::try_from(ways.len()).ok().filter(|_| ways.len() > 3).map(Self::Star);
+        Self::ALL.into_iter().chain(star).find(|kind| *kind.ways() == *ways)
     }
 }
 
@@ -122,7 +145,7 @@ pub enum ArcCode {
 }
 
 impl ArcCode {
-    /// 1 to 6 for junctions, 11 and 12 for doors on the right and on the left; beyond the paper, 13 for a door
+    /// 1 to 7 for junctions, 11 and 12 for doors on the right and on the left; beyond the paper, 13 for a door
     /// straight ahead.
     #[must_use]
     pub fn number(self) -> u8 {
@@ -173,7 +196,7 @@ impl Junction {
     }
 }
 
-/// Names for at most three ways on; their angles to the heading rise, from rightmost to leftmost.
+/// Names for the ways on; their angles to the heading rise, from rightmost to leftmost. More than three are counted.
 fn turns_of(angles: &[f64]) -> Vec<Turn> {
     match *angles {
         [only] if only < 0.0 => vec![Turn::Right],
@@ -182,7 +205,7 @@ fn turns_of(angles: &[f64]) -> Vec<Turn> {
         [a, b] if a.abs() <= b.abs() => vec![Turn::Straight, Turn::Left],
         [_, _] => vec![Turn::Right, Turn::Straight],
         [_, _, _] => vec![Turn::Right, Turn::Straight, Turn::Left],
-        _ => Vec::new(),
+        ref many => (1..=u8::MAX).map(Turn::Nth).take(many.len()).collect(),
     }
 }
 
@@ -354,7 +377,7 @@ impl CorridorSystem {
             VertexKind::Junction(junction) => {
                 let ways: Vec<Turn> = junction.ways(port).iter().map(|(_, turn)| *turn).collect();
                 let kind = JunctionKind::with_ways(&ways);
-                ArcCode::Junction(kind.expect("a junction has one to three ways on, all different"))
+                ArcCode::Junction(kind.expect("a junction has at most 255 ways on, all different"))
             }
         }
     }
@@ -441,9 +464,27 @@ mod tests {
     }
 
     #[test]
+    fn more_than_three_ways_on_are_counted_from_the_right() {
+        for arms in [5, 6, 9] {
+            for turned in [0.0, 31.0] {
+                let angle = |arm: usize| turned + 360.0 * arm as f64 / arms as f64;
+                let all: Vec<f64> = (0..arms).map(angle).collect();
+                let star = Junction { arms: all.iter().map(|a| Deg::of(*a)).collect() };
+                for from in 0..arms {
+                    assert_eq!(seen(&all, from), Some(JunctionKind::Star(arms as u8 - 1)));
+                    // Counter-clockwise from the arm that one comes out of, the first is the rightmost.
+                    let counted = (1..arms).map(|n| ((from + n) % arms, Turn::Nth(n as u8)));
+                    assert_eq!(star.ways(from), counted.collect::<Vec<_>>());
+                }
+            }
+        }
+    }
+
+    #[test]
     fn codes_are_those_of_the_tables() {
         assert_eq!(JunctionKind::ALL.map(JunctionKind::code), [1, 2, 3, 4, 5, 6]);
         assert_eq!(Turn::ALL.map(Turn::code), [0, 1, 2]);
+        assert_eq!(JunctionKind::Star(4).code(), 7);
         assert_eq!(ArcCode::Door(Side::Right).number(), 11);
         assert_eq!(ArcCode::Door(Side::Left).number(), 12);
     }

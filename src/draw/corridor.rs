@@ -1,10 +1,11 @@
 //! A schematic drawing of a corridor road graph, as SVG: vertices, arcs both ways, labels (paper 4, figs. 2-3).
 //!
-//! The caller gives plain points and texts; nothing here knows how a road graph is made. The drawing keeps which vertex
-//! is left of and above which, not the distances: empty stretches are shortened and crowded ones stretched until no mark
-//! lies on another, so that letters stay a fair share of the sheet however long the corridor is.
+//! The caller gives plain points and texts; nothing here knows how a road graph is made. The drawing keeps roughly where
+//! vertices lie to each other, not the distances: empty stretches are shortened, and what is crowded moves apart until no
+//! mark lies on another. Letters grow with the sheet, so that they can be read however large the building is.
 //!
-//! **Invariant.** No mark lies on another, no two texts overlap, and the sheet holds them all.
+//! **Invariant.** No mark lies on another, no two texts overlap, no name lies on an arc where there is place elsewhere, and
+//! the sheet holds them all.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +14,7 @@ use crate::units::{Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
-use super::labels::{Labels, around};
+use super::labels::{Labels, around, frame_point};
 
 /// How a vertex is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -73,8 +74,11 @@ pub enum CorridorSign {
 }
 
 const RADIUS: f64 = 15.0;
-const LINE: f64 = 20.0;
+/// Letters are so large at least, and such a share of the longer side of what is drawn: some nine pixels of 1600.
 const LETTER: f64 = 13.0;
+const READABLE: f64 = 13.0 / 2200.0;
+/// Of lines below the drawing, in letters.
+const LINE: f64 = 1.55;
 /// Arcs keep to the right of the line between their vertices by this much.
 const LANE: f64 = 6.0;
 /// Marks stand so far apart at least; what is joined by an arc, farther, for its arrow and code.
@@ -82,7 +86,10 @@ const APART: f64 = 2.0 * RADIUS + 10.0;
 const JOINED: f64 = 2.0 * RADIUS + 36.0;
 /// An empty stretch is no longer than this.
 const LONGEST: f64 = 120.0;
-/// How often crowds are looked at.
+/// Before crowds move apart the drawing is no larger than this.
+const LARGEST: f64 = 1200.0;
+/// How often crowds are looked at: moved apart where they are, and then with all that lies beyond.
+const MOST_NUDGES: usize = 400;
 const MOST_LOOKS: usize = 50;
 const INK: &str = "#22303c";
 const WAY: &str = "#c0392b";
@@ -98,27 +105,31 @@ const JUNCTION: Style = Style::fill("#fff3d6").outlined("#b9770e", 2.0);
 pub fn corridor_svg(drawing: &CorridorDrawing) -> String {
     let points = placed(drawing);
     let plan = Bounds::of(points.iter().copied().chain([Point::origin()])).grown(RADIUS);
+    let letter = LETTER.max((plan.max - plan.min).amax() * READABLE);
     // Names are placed first: how far they reach is how large the sheet must be.
-    let codes = codes(drawing, &points);
-    let names = names(drawing, &points, &codes);
+    let codes = codes(drawing, &points, letter);
+    let names = names(drawing, &points, &codes, letter);
     let frames = names.iter().map(|name| &name.frame).chain(codes.iter().map(|code| &code.frame));
     let reach = frames.fold(plan, |all, frame| all.union(frame)).grown(24.0);
     let left = reach.min.x;
-    let lines = key_lines(drawing, reach.max.x - left);
+    let key = Key { letter };
+    let lines = key.lines(drawing, reach.max.x - left);
     let texts = drawing.notes.iter().chain(lines.iter().flat_map(|l| l.iter().map(|e| &e.text)));
-    let widest = texts.map(|t| text_width(t, LETTER, false) + 40.0).fold(0.0, f64::max);
-    let title_width = text_width(&drawing.title, 17.0, true);
+    let widest = texts.map(|t| text_width(t, letter, false) + 3.1 * letter).fold(0.0, f64::max);
+    let head_letter = 1.3 * letter;
+    let line_height = LINE * letter;
+    let title_width = text_width(&drawing.title, head_letter, true);
     let rows = lines.len() + drawing.notes.len() + usize::from(!drawing.notes.is_empty());
     let mut sheet = reach;
     sheet.max.x = sheet.max.x.max(left + widest.max(title_width).max(360.0) + 30.0);
-    sheet.max.y += 40.0;
-    sheet.min.y -= LINE * rows as f64 + 16.0;
+    sheet.max.y += 2.4 * head_letter;
+    sheet.min.y -= line_height * rows as f64 + 16.0;
     let sheet = Bounds { min: sheet.min - Vector::new(16.0, 0.0), max: sheet.max };
     let mut canvas = Canvas::new(sheet).wide(sheet.max.x - sheet.min.x);
     let start = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
-    let head = Point::new(left, sheet.max.y - 24.0);
+    let head = Point::new(left, sheet.max.y - 1.4 * head_letter);
     canvas.mark("heading");
-    canvas.text(head, &drawing.title, start(Lettering::bold(17.0, INK)));
+    canvas.text(head, &drawing.title, start(Lettering::bold(head_letter, INK)));
     canvas.mark("corridor");
     for (a, b) in corridors(drawing) {
         canvas.segment(points[a], points[b], CORRIDOR);
@@ -129,28 +140,35 @@ pub fn corridor_svg(drawing: &CorridorDrawing) -> String {
     canvas.mark("code");
     for Code { text, frame, color } in &codes {
         let at = nalgebra::center(&frame.min, &frame.max);
-        canvas.text(at, text, Lettering::plain(LETTER, color));
+        canvas.text(at, text, Lettering::plain(letter, color));
+    }
+    canvas.mark("name");
+    for Name { frame, mark, is_far, .. } in &names {
+        if *is_far {
+            let end = frame_point(frame, *mark);
+            canvas.segment(*mark, end, Style::line(DOOR, 0.8).faint(0.6));
+        }
     }
     for (vertex, at) in drawing.vertices.iter().zip(&points) {
-        draw_vertex(&mut canvas, vertex, *at);
+        draw_vertex(&mut canvas, vertex, *at, letter);
     }
-    for Name { text, frame } in &names {
-        canvas.mark("name");
+    canvas.mark("name");
+    for Name { text, frame, .. } in &names {
         let at = nalgebra::center(&frame.min, &frame.max);
-        canvas.text(at, text, Lettering::bold(LETTER, DOOR));
+        canvas.text(at, text, Lettering::bold(letter, DOOR));
     }
-    let mut y = reach.min.y - LINE / 2.0;
+    let mut y = reach.min.y - line_height / 2.0;
     for line in &lines {
         for entry in line {
-            entry.draw(&mut canvas, Point::new(left, y));
+            key.draw(entry, &mut canvas, Point::new(left, y));
         }
-        y -= LINE;
+        y -= line_height;
     }
-    y -= LINE / 2.0;
+    y -= line_height / 2.0;
     canvas.mark("note");
     for note in &drawing.notes {
-        canvas.text(Point::new(left, y), note, start(Lettering::plain(LETTER, "#3d4a55")));
-        y -= LINE;
+        canvas.text(Point::new(left, y), note, start(Lettering::plain(letter, "#3d4a55")));
+        y -= line_height;
     }
     canvas.into_svg(&drawing.title)
 }
@@ -164,25 +182,36 @@ struct KeyEntry {
     text: String,
 }
 
-impl KeyEntry {
-    const SIGN: f64 = 34.0;
+/// The legend in letters of a size.
+struct Key {
+    letter: f64,
+}
 
-    fn width(code: &str, text: &str) -> f64 {
-        Self::SIGN + text_width(code, LETTER, true) + text_width(text, LETTER, false) + 26.0
+impl Key {
+    /// The width of a sign.
+    fn sign(&self) -> f64 {
+        2.6 * self.letter
     }
 
-    fn draw(&self, canvas: &mut Canvas, line: Point) {
-        let at = line + Vector::new(self.x, 0.0);
-        let middle = at + Vector::new(Self::SIGN / 2.0 - 4.0, 0.0);
-        let (a, b) = (middle - Vector::new(12.0, 0.0), middle + Vector::new(12.0, 0.0));
-        match self.sign {
+    fn width(&self, code: &str, text: &str) -> f64 {
+        let words = text_width(code, self.letter, true) + text_width(text, self.letter, false);
+        self.sign() + words + 2.0 * self.letter
+    }
+
+    fn draw(&self, entry: &KeyEntry, canvas: &mut Canvas, line: Point) {
+        let at = line + Vector::new(entry.x, 0.0);
+        let middle = at + Vector::new(self.sign() / 2.0 - 0.3 * self.letter, 0.0);
+        let reach = Vector::new(0.9 * self.letter, 0.0);
+        let (a, b) = (middle - reach, middle + reach);
+        match entry.sign {
             Some(CorridorSign::Entrance) => {
                 canvas.mark("key entrance");
-                canvas.circle(middle, 7.0, ENTRANCE);
+                canvas.circle(middle, 0.54 * self.letter, ENTRANCE);
             }
             Some(CorridorSign::Junction) => {
                 canvas.mark("key junction");
-                canvas.rectangle(around(middle, 14.0, 14.0), JUNCTION, 3.0);
+                let size = 1.08 * self.letter;
+                canvas.rectangle(around(middle, size, size), JUNCTION, 3.0);
             }
             Some(CorridorSign::Arc) => {
                 canvas.mark("key arc");
@@ -200,48 +229,49 @@ impl KeyEntry {
         }
         canvas.mark("key");
         let style = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
-        let mut x = Self::SIGN;
-        if !self.code.is_empty() {
+        let letter = self.letter;
+        let mut x = self.sign();
+        if !entry.code.is_empty() {
             x = 0.0;
-            canvas.text(at, &self.code, style(Lettering::bold(LETTER, ARC)));
-            x += text_width(&self.code, LETTER, true) + 6.0;
+            canvas.text(at, &entry.code, style(Lettering::bold(letter, ARC)));
+            x += text_width(&entry.code, letter, true) + 0.5 * letter;
         }
-        canvas.text(at + Vector::new(x, 0.0), &self.text, style(Lettering::plain(LETTER, INK)));
+        canvas.text(at + Vector::new(x, 0.0), &entry.text, style(Lettering::plain(letter, INK)));
     }
-}
 
-/// The legend in lines of at most `width`: what is drawn, and the codes that stand at arcs.
-fn key_lines(drawing: &CorridorDrawing, width: f64) -> Vec<Vec<KeyEntry>> {
-    let has_mark = |mark| drawing.vertices.iter().any(|v| v.mark == mark);
-    let arcs = |wanted: &dyn Fn(&CorridorArc) -> bool| drawing.arcs.iter().any(wanted);
-    let is_drawn = |sign| match sign {
-        CorridorSign::Entrance => has_mark(CorridorMark::Entrance),
-        CorridorSign::Junction => has_mark(CorridorMark::Junction),
-        CorridorSign::Arc => arcs(&|a| !a.on_way && !a.faint),
-        CorridorSign::Way => arcs(&|a| a.on_way),
-        CorridorSign::UTurn => arcs(&|a| a.faint && !a.on_way),
-    };
-    let signs = drawing.signs.iter().filter(|(sign, _)| is_drawn(*sign));
-    let signs = signs.map(|(sign, text)| (Some(*sign), String::new(), text.clone()));
-    let used: BTreeSet<&str> = drawing.arcs.iter().map(|a| a.label.as_str()).collect();
-    let codes = drawing.codes.iter().filter(|(code, _)| used.contains(code.as_str()));
-    let codes = codes.map(|(code, text)| (None, code.clone(), text.clone()));
-    let mut lines: Vec<Vec<KeyEntry>> = Vec::new();
-    let mut x = f64::INFINITY;
-    for (sign, code, text) in signs.chain(codes) {
-        let wide = KeyEntry::width(&code, &text);
-        // A code begins no line of signs, so that each reads by itself.
-        let begins = code.is_empty() != lines.last().is_none_or(|l| l[0].code.is_empty());
-        if begins || x + wide > width.max(700.0) {
-            x = 0.0;
-            lines.push(Vec::new());
+    /// Lines of at most `width`: what is drawn, and the codes that stand at arcs.
+    fn lines(&self, drawing: &CorridorDrawing, width: f64) -> Vec<Vec<KeyEntry>> {
+        let has_mark = |mark| drawing.vertices.iter().any(|v| v.mark == mark);
+        let arcs = |wanted: &dyn Fn(&CorridorArc) -> bool| drawing.arcs.iter().any(wanted);
+        let is_drawn = |sign| match sign {
+            CorridorSign::Entrance => has_mark(CorridorMark::Entrance),
+            CorridorSign::Junction => has_mark(CorridorMark::Junction),
+            CorridorSign::Arc => arcs(&|a| !a.on_way && !a.faint),
+            CorridorSign::Way => arcs(&|a| a.on_way),
+            CorridorSign::UTurn => arcs(&|a| a.faint && !a.on_way),
+        };
+        let signs = drawing.signs.iter().filter(|(sign, _)| is_drawn(*sign));
+        let signs = signs.map(|(sign, text)| (Some(*sign), String::new(), text.clone()));
+        let used: BTreeSet<&str> = drawing.arcs.iter().map(|a| a.label.as_str()).collect();
+        let codes = drawing.codes.iter().filter(|(code, _)| used.contains(code.as_str()));
+        let codes = codes.map(|(code, text)| (None, code.clone(), text.clone()));
+        let mut lines: Vec<Vec<KeyEntry>> = Vec::new();
+        let mut x = f64::INFINITY;
+        for (sign, code, text) in signs.chain(codes) {
+            let wide = self.width(&code, &text);
+            // A code begins no line of signs, so that each reads by itself.
+            let begins = code.is_empty() != lines.last().is_none_or(|l| l[0].code.is_empty());
+            if begins || x + wide > width.max(54.0 * self.letter) {
+                x = 0.0;
+                lines.push(Vec::new());
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(KeyEntry { x, sign, code, text });
+            }
+            x += wide;
         }
-        if let Some(line) = lines.last_mut() {
-            line.push(KeyEntry { x, sign, code, text });
-        }
-        x += wide;
+        lines
     }
-    lines
 }
 
 /// Pairs of vertices that are joined both ways: there runs a corridor. Each pair once.
@@ -268,6 +298,9 @@ fn placed(drawing: &CorridorDrawing) -> Vec<Point> {
     let mut lengths: Vec<f64> = lengths.filter(|l| *l > 1e-6 && l.is_finite()).collect();
     lengths.sort_by(f64::total_cmp);
     let scale = lengths.get(lengths.len() / 2).map_or(1.0, |usual| JOINED / usual);
+    let extent = Bounds::of(points.iter().copied());
+    let extent = (extent.max - extent.min).amax();
+    let scale = if extent * scale > LARGEST { LARGEST / extent } else { scale };
     points.iter_mut().for_each(|p| *p = Point::from(p.coords * scale));
     shorten(&mut points, |p| &mut p.x);
     shorten(&mut points, |p| &mut p.y);
@@ -283,8 +316,61 @@ fn placed(drawing: &CorridorDrawing) -> Vec<Point> {
             points[i] += out * (APART / 2.0);
         }
     }
+    nudge(&mut points, &joined, drawing);
     spread(&mut points, &joined);
     points
+}
+
+/// How far apart two marks stand at least.
+fn least(joined: &BTreeSet<(usize, usize)>, i: usize, j: usize) -> f64 {
+    if joined.contains(&(i.min(j), i.max(j))) { JOINED } else { APART }
+}
+
+/// Moves marks that stand too near each other apart, each half the way, and out of the way of arcs that are not theirs,
+/// until all have place or enough was tried.
+fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &CorridorDrawing) {
+    /// A little farther than need be, so that few rounds settle it.
+    const BEYOND: f64 = 1.02;
+    // Of two in one place each goes to its own side of the corridor, or else by their order.
+    let way = |i: usize, j: usize, off: Vector| {
+        let sides = drawing.vertices[j].name_towards - drawing.vertices[i].name_towards;
+        let turned = Point::from(Vector::new(1.0, 0.3 + (i % 7) as f64));
+        let ways = [off, sides, turned.coords];
+        ways.into_iter().find_map(|way| way.try_normalize(1e-6)).unwrap_or_else(Vector::x)
+    };
+    for _ in 0..MOST_NUDGES {
+        let mut is_settled = true;
+        for i in 0..points.len() {
+            for j in i + 1..points.len() {
+                let (off, least) = (points[j] - points[i], least(joined, i, j));
+                if off.norm() < least {
+                    is_settled = false;
+                    let by = way(i, j, off) * (BEYOND * least - off.norm()) / 2.0;
+                    points[i] -= by;
+                    points[j] += by;
+                }
+            }
+        }
+        for &(a, b) in joined {
+            for i in (0..points.len()).filter(|i| *i != a && *i != b) {
+                let near = crate::geometry::nearest_on_segment(points[i], points[a], points[b]);
+                let (off, least) = (points[i] - near, RADIUS + 2.0 * LANE);
+                if off.norm() < least {
+                    is_settled = false;
+                    let along = points[b] - points[a];
+                    let aside = Vector::new(-along.y, along.x);
+                    let by = [off, aside].into_iter().find_map(|way| way.try_normalize(1e-6));
+                    let by = by.unwrap_or_else(Vector::y) * (BEYOND * least - off.norm()) / 2.0;
+                    points[i] += by;
+                    points[a] -= by;
+                    points[b] -= by;
+                }
+            }
+        }
+        if is_settled {
+            break;
+        }
+    }
 }
 
 /// Makes the stretches along one axis in which no vertex stands no longer than [`LONGEST`].
@@ -315,7 +401,7 @@ fn spread(points: &mut [Point], joined: &BTreeSet<(usize, usize)>) {
         looks += 1;
         let pairs = (0..points.len()).flat_map(|i| (i + 1..points.len()).map(move |j| (i, j)));
         for (i, j) in pairs.collect::<Vec<_>>() {
-            let least = if joined.contains(&(i, j)) { JOINED } else { APART };
+            let least = least(joined, i, j);
             let off = points[j] - points[i];
             if off.norm() >= least - 1e-9 {
                 continue;
@@ -345,34 +431,52 @@ fn spread(points: &mut [Point], joined: &BTreeSet<(usize, usize)>) {
 struct Name<'d> {
     text: &'d str,
     frame: Bounds,
+    mark: Point,
+    /// A line leads to it.
+    is_far: bool,
 }
 
-/// Names beside their marks, on the side of the room where they find place, else around it, else farther away.
-fn names<'d>(drawing: &'d CorridorDrawing, points: &[Point], codes: &[Code<'_>]) -> Vec<Name<'d>> {
-    let mut taken: Vec<Bounds> =
-        points.iter().map(|at| around(*at, 2.0 * RADIUS + 4.0, 2.0 * RADIUS + 4.0)).collect();
-    taken.extend(codes.iter().map(|code| code.frame));
+/// Names beside their marks, on the side of the room where they find place, else around it, else farther away; clear of
+/// arcs as far as may be.
+fn names<'d>(
+    drawing: &'d CorridorDrawing,
+    points: &[Point],
+    codes: &[Code<'_>],
+    letter: f64,
+) -> Vec<Name<'d>> {
+    let mut labels = Labels::new(letter);
+    for at in points {
+        labels.take(around(*at, 2.0 * RADIUS + 4.0, 2.0 * RADIUS + 4.0));
+    }
+    codes.iter().for_each(|code| labels.take(code.frame));
+    for (p, q) in drawing.arcs.iter().filter_map(|arc| lane(points, arc)) {
+        labels.avoid_line(p, q);
+    }
     let mut names = Vec::new();
     for (vertex, at) in drawing.vertices.iter().zip(points) {
         if vertex.name.is_empty() {
             continue;
         }
         let towards = vertex.name_towards.try_normalize(1e-9).unwrap_or(Vector::new(0.0, -1.0));
-        let (width, height) = (text_width(&vertex.name, LETTER, true) + 4.0, LETTER * 1.25);
+        let (width, height) = (text_width(&vertex.name, letter, true) + 4.0, letter * 1.25);
         let aside = Vector::new(-towards.y, towards.x);
         let ways = [towards, towards + aside, towards - aside, -towards, aside, -aside];
-        let free = (0..40).find_map(|step| {
-            let away = RADIUS + 4.0 + 0.5 * LETTER * f64::from(step);
-            ways.iter().find_map(|way| {
-                let way = way.normalize();
-                let reach = Vector::new(way.x * width, way.y * height) / 2.0;
-                let frame = around(at + way * away + reach, width, height);
-                (!taken.iter().any(|t| t.meets(&frame))).then_some(frame)
-            })
-        });
-        if let Some(frame) = free {
-            taken.push(frame);
-            names.push(Name { text: &vertex.name, frame });
+        let ways = ways.map(|way| way.normalize());
+        let frame = |step: u32, way: Vector| {
+            let away = RADIUS + 4.0 + 0.5 * letter * f64::from(step);
+            let reach = Vector::new(way.x * width, way.y * height) / 2.0;
+            around(at + way * away + reach, width, height)
+        };
+        let spots = |farthest: u32| {
+            (0..farthest).flat_map(move |step| ways.into_iter().map(move |way| (step, way)))
+        };
+        let is_clear = |frame: &Bounds| labels.is_open(frame) && !labels.crosses_line(frame);
+        let clear = spots(16).find(|&(step, way)| is_clear(&frame(step, way)));
+        let open = || spots(40).find(|&(step, way)| labels.is_open(&frame(step, way)));
+        if let Some((step, way)) = clear.or_else(open) {
+            let frame = frame(step, way);
+            labels.take(frame);
+            names.push(Name { text: &vertex.name, frame, mark: *at, is_far: step > 2 });
         }
     }
     names
@@ -416,24 +520,29 @@ struct Code<'d> {
     color: &'static str,
 }
 
-/// Labels on the right of their arcs, as near as there is place.
-fn codes<'d>(drawing: &'d CorridorDrawing, points: &[Point]) -> Vec<Code<'d>> {
-    let mut labels = Labels::new(LETTER);
+/// Labels on the right of their arcs, as near as there is place; clear of other arcs as far as may be.
+fn codes<'d>(drawing: &'d CorridorDrawing, points: &[Point], letter: f64) -> Vec<Code<'d>> {
+    let mut labels = Labels::new(letter);
     for at in points {
         labels.take(around(*at, 2.0 * RADIUS, 2.0 * RADIUS));
+    }
+    for (p, q) in drawing.arcs.iter().filter_map(|arc| lane(points, arc)) {
+        labels.avoid_line(p, q);
     }
     let mut codes = Vec::new();
     for arc in drawing.arcs.iter().filter(|arc| !arc.label.is_empty()) {
         let Some((p, q)) = lane(points, arc) else { continue };
         let Some(along) = (q - p).try_normalize(1e-9) else { continue };
         let out = Vector::new(along.y, -along.x);
-        let (long, tall) = (text_width(&arc.label, LETTER, false), LETTER * 1.1);
+        let (long, tall) = (text_width(&arc.label, letter, false), letter * 1.1);
         let reach = ((out.x * long).abs() + (out.y * tall).abs()) / 2.0;
         let spots = (0..12).flat_map(|step| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| (step, share)));
         let frame = |(step, share): (i32, f64)| {
             around(p + (q - p) * share + out * (4.0 + reach + f64::from(step) * 5.0), long, tall)
         };
-        if let Some(frame) = spots.map(frame).find(|frame| labels.is_open(frame)) {
+        let mut near = spots.clone().take(15).map(frame);
+        let clear = near.find(|f| labels.is_open(f) && !labels.crosses_line(f));
+        if let Some(frame) = clear.or_else(|| spots.map(frame).find(|f| labels.is_open(f))) {
             labels.take(frame);
             codes.push(Code { text: &arc.label, frame, color: look(arc).1 });
         }
@@ -448,7 +557,7 @@ fn draw_arc(canvas: &mut Canvas, points: &[Point], number: usize, arc: &Corridor
     arrow(canvas, ends, color, width);
 }
 
-fn draw_vertex(canvas: &mut Canvas, vertex: &CorridorVertex, at: Point) {
+fn draw_vertex(canvas: &mut Canvas, vertex: &CorridorVertex, at: Point, letter: f64) {
     let id = format!("vertex-{}", vertex.label);
     match vertex.mark {
         CorridorMark::Entrance => {
@@ -463,7 +572,7 @@ fn draw_vertex(canvas: &mut Canvas, vertex: &CorridorVertex, at: Point) {
     canvas.mark("number");
     // Three signs and more are set smaller, to stay within the mark.
     let room = 2.0 * RADIUS - 5.0;
-    let size = LETTER * (room / text_width(&vertex.label, LETTER, false).max(1.0)).min(1.0);
+    let size = letter * (room / text_width(&vertex.label, letter, false).max(1.0)).min(1.0);
     canvas.text(at, &vertex.label, Lettering { halo: false, ..Lettering::plain(size, INK) });
 }
 

@@ -149,7 +149,8 @@ impl Labels {
                 .all(|cell| self.taken.get(&cell).is_none_or(|t| !t.iter().any(|t| t.meets(frame))))
     }
 
-    fn crosses_line(&self, frame: &Bounds) -> bool {
+    /// Whether a line that a name should not lie on runs there.
+    pub(super) fn crosses_line(&self, frame: &Bounds) -> bool {
         self.cells(frame).any(|cell| {
             self.lines
                 .get(&cell)
@@ -229,9 +230,10 @@ impl Labels {
         }
         let size = placed.lettering.size;
         let down = if placed.lettering.turn > 0.0 { Vector::x() } else { -Vector::y() };
-        let name = Placed { at: placed.at - down * size * 0.38, ..placed };
-        let small = Lettering { size: second(size), bold: false, ..name.lettering };
-        canvas.text(name.at + down * (size * 0.5 + second(size) * 0.75), below, small);
+        // The two share the frame, whatever their sizes.
+        let small = Lettering { size: second(size), bold: false, ..placed.lettering };
+        canvas.text(placed.at + down * size * 0.575, below, small);
+        let name = Placed { at: placed.at - down * second(size) * 0.625, ..placed };
         self.put(canvas, text, &name);
         true
     }
@@ -430,7 +432,7 @@ fn overlap(a: &Bounds, b: &Bounds) -> f64 {
 }
 
 /// The point of a frame that is nearest to `p`.
-fn frame_point(frame: &Bounds, p: Point) -> Point {
+pub(super) fn frame_point(frame: &Bounds, p: Point) -> Point {
     Point::new(p.x.clamp(frame.min.x, frame.max.x), p.y.clamp(frame.min.y, frame.max.y))
 }
 
