@@ -641,3 +641,48 @@ fn types_that_the_map_lacks_are_unknown_and_plurals_are_found() {
     let phrase = NounPhrase::parse("Стул", &WordHints::default());
     assert_eq!(phrase.form(Case::Genitive, Number::Plural), "Стульев");
 }
+
+/// In the notation of the rules every fact is affirmed and proved, and a name that the map does not know is told, whichever
+/// place it has.
+#[test]
+fn facts_in_the_notation_of_the_rules_are_asked_after() {
+    let engine = rb2();
+    let relations = engine.relations().unwrap();
+    let mut asked = 0;
+    for relation in ["ON_TOP_OF", "INSIDE", "НАХОДИТСЯ_СВЕРХУ_НА", "JOINS", "IN_CORNER"]
+    {
+        for tuple in relations.tuples(relation).unwrap().into_iter().take(12) {
+            let names: Vec<String> = tuple.iter().map(ToString::to_string).collect();
+            let fact = |names: &[String]| format!("{relation}({})", names.join(", "));
+            for (before, kind) in [("", Said::Yes), ("why ", Said::Found), ("почему ", Said::Found)]
+            {
+                let question = format!("{before}{}", fact(&names));
+                let answer = engine.ask(&question, &mut Memory::default()).unwrap();
+                let answer = answer.unwrap_or_else(|doubt| panic!("{question}: {}", doubt.text));
+                assert_eq!(answer.said, kind, "{question}: {}", answer.text);
+                assert!(answer.facts[0].holds, "{question}");
+            }
+            for place in 0..names.len() {
+                let mut wrong = names.clone();
+                wrong[place] = "Нет-1".to_owned();
+                for before in ["", "why ", "why not ", "почему ", "почему не "] {
+                    let question = format!("{before}{}", fact(&wrong));
+                    let doubt = engine.ask(&question, &mut Memory::default()).unwrap();
+                    let doubt = doubt.expect_err(&question);
+                    assert_eq!(doubt.doubt.kind(), "unknown", "{question}: {}", doubt.text);
+                    assert!(doubt.text.contains("Нет-1"), "{question}: {}", doubt.text);
+                }
+            }
+            asked += 1;
+        }
+    }
+    assert!(asked > 20, "{asked}");
+    for (question, text) in [
+        ("ON_TOP_OF(Стол-1, Чашка-1)?", "No, Table 1 is not on Cup 1."),
+        ("почему FOO_BAR(Стол-1)", "На карте нет ничего, что называлось бы «FOO_BAR»."),
+        ("why ON_TOP_OF(Стол-1)", "I do not understand \"ON_TOP_OF(Стол-1)\"."),
+    ] {
+        let said = said(&engine, question, &mut Memory::default());
+        assert!(said.ends_with(text), "{question}: {said}");
+    }
+}

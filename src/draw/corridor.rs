@@ -87,7 +87,7 @@ const JOINED: f64 = 2.0 * RADIUS + 36.0;
 /// An empty stretch is no longer than this.
 const LONGEST: f64 = 120.0;
 /// Before crowds move apart the drawing is no larger than this.
-const LARGEST: f64 = 1200.0;
+const LARGEST: f64 = 2200.0;
 /// How often crowds are looked at: moved apart where they are, and then with all that lies beyond.
 const MOST_NUDGES: usize = 400;
 const MOST_LOOKS: usize = 50;

@@ -70,6 +70,9 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
             view["at_least_steps"] = json!(known.at_least);
             view["at_most_steps"] = json!(known.plan.as_ref().map(|plan| plan.steps.len()));
         }
+        Outcome::Plan(_) if !solved.is_shortest => {
+            view["at_least_steps"] = json!(solved.at_least);
+        }
         Outcome::Plan(_) => {}
     }
     view

@@ -57,9 +57,17 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
         true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
         false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
     };
+    // Where the search was given up, what is known is told below.
+    let at_least = match (&solved.outcome, solved.at_least) {
+        (Outcome::Plan(_), least @ 1..) if !is_proven => wording.language.pick(
+            format!("; доказано, что шагов нужно не меньше {least}"),
+            format!("; proven: at least {} needed", english::count(least as u64, "step is")),
+        ),
+        _ => String::new(),
+    };
     let mut text = wording.language.pick(
-        format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
-        format!("Plan: {}; {proof}.", counted_in_english(steps.len(), actions)),
+        format!("План: шагов {}, действий {actions}; {proof}{at_least}.", steps.len()),
+        format!("Plan: {}; {proof}{at_least}.", counted_in_english(steps.len(), actions)),
     );
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {

@@ -247,6 +247,34 @@ fn a_plan_found_soon_becomes_shorter_with_effort() {
 }
 
 #[test]
+fn what_is_ruled_out_of_a_plan_found_soon_is_true() {
+    let (mut proven, mut apart) = (0, 0);
+    for seed in 1..=3000 {
+        let task = random_task(seed);
+        let fewest = fewest_steps(&task);
+        let at_once = crate::portfolio::steps_at_least(&task);
+        assert!(fewest.is_none_or(|fewest| at_once <= fewest), "seed {seed}");
+        // No time for anything but that.
+        let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
+        if let Outcome::LimitReached(known) = solve_any(&task, &now) {
+            assert!(known.at_least >= at_once, "seed {seed}");
+        }
+        let Outcome::Plan(first) = solve_any(&task, &Limits::default()) else { continue };
+        let (plan, at_least) = bounded(&task, first.clone(), &Limits::default());
+        assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+        assert!(plan.action_count() <= first.action_count(), "seed {seed}");
+        assert!(plan.steps.len() <= first.steps.len(), "seed {seed}");
+        assert!(Some(at_least) <= fewest && at_least >= at_once, "seed {seed}");
+        proven += usize::from(at_least == plan.steps.len());
+        apart += usize::from(at_least > at_once);
+        // Where there is no time, the plan stays, with what is seen at once.
+        let (same, least) = bounded(&task, first.clone(), &now);
+        assert_eq!((same, least), (first, at_once), "seed {seed}");
+    }
+    assert!(proven > 100 && apart > 10, "{proven} proven, {apart} by more than a look");
+}
+
+#[test]
 fn limits_are_an_outcome() {
     let task = (1..).map(random_task).find(|t| fewest_steps(t).is_some_and(|s| s >= 2)).unwrap();
     let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };

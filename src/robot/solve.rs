@@ -17,6 +17,8 @@ pub struct Solved {
     pub outcome: Outcome,
     /// A plan, where the search was not given up, is proven to have the fewest parallel steps.
     pub is_shortest: bool,
+    /// Proven: no plan has fewer parallel steps.
+    pub at_least: usize,
     /// The assumptions that the plan rests on.
     pub assumptions: Vec<Said>,
     /// Why there is no plan; none when there is one.
@@ -325,14 +327,30 @@ fn told(
     wanted: Wanted,
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
+    // The operator that only says that a goal is met is no step of the bound either.
+    let said = usize::from(task.goal_steps > 0);
+    let bounded = match outcome {
+        Outcome::Plan(ref mut plan) if wanted == Wanted::Any => {
+            let found = std::mem::take(plan);
+            let (found, at_least) = graphplan::bounded(&task, found, limits);
+            *plan = found;
+            Some(at_least.saturating_sub(said))
+        }
+        _ => None,
+    };
     settle(&mut task, &mut outcome);
-    let is_shortest = wanted != Wanted::Any;
+    let at_least = match &outcome {
+        Outcome::Plan(plan) => bounded.unwrap_or(plan.steps.len()),
+        Outcome::LimitReached(known) => known.at_least,
+        Outcome::NoPlan { .. } => 0,
+    };
+    let is_shortest = outcome.plan().is_some_and(|plan| plan.steps.len() <= at_least);
     let assumptions = outcome.plan().map_or_else(Vec::new, |plan| {
         plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
     });
     let reason = explain(domain, problem, &task, &outcome, limits)?;
     let phrases = Arc::clone(domain.phrases());
-    Ok(Solved { task, outcome, is_shortest, assumptions, reason, phrases })
+    Ok(Solved { task, outcome, is_shortest, at_least, assumptions, reason, phrases })
 }
 
 fn explain(

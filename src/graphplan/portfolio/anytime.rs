@@ -109,6 +109,8 @@ pub fn solve_soon(
 fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let (task, limits) = (best.task, best.limits);
     let some = Limits { memory_bytes: limits.memory_bytes / 4, ..limits.clone() };
+    // What can be seen at once is told at once: forward search may take long for its first plan.
+    best.raise(super::steps_at_least(task));
     let errands = Errands::of(task);
     if let Some(errands) = &errands {
         best.raise(errands.at_least);

@@ -10,9 +10,44 @@ mod shorten;
 
 pub use anytime::{solve_anytime, solve_soon};
 
-use crate::proof::{Turn, search};
+use crate::bits;
+use crate::proof::{Tried, Turn, Working, prove, search};
 use crate::strips::Task;
-use crate::{Limit, Limits, Outcome, Unfinished, solve, with_stack};
+use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, with_stack};
+
+/// Steps that a task takes at least, as far as can be seen at once: where deletes are forgotten.
+pub(crate) fn steps_at_least(task: &Task) -> usize {
+    let mut state: relaxed::State = vec![0; bits::words(task.facts.len())].into_boxed_slice();
+    task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
+    relaxed::Relaxed::new(task).depth(&state).unwrap_or(0)
+}
+
+/// Of a plan found soon, how few steps are ruled out: no plan has fewer than the number told, as far as little effort
+/// proves. Where the proof comes upon a plan of fewer steps and no more actions, that takes its place.
+#[must_use]
+pub fn bounded(task: &Task, plan: Plan, limits: &Limits) -> (Plan, usize) {
+    /// What the proof may take.
+    const EFFORT: u64 = 1 << 21;
+    let at_once = steps_at_least(task).min(plan.steps.len());
+    if at_once == plan.steps.len() || limits.check(0).is_err() {
+        return (plan, at_once);
+    }
+    let Ok(working) = Working::of(task, limits) else { return (plan, at_once) };
+    match prove(working.task(), plan.steps.len(), EFFORT, limits) {
+        Tried::Plan(shorter) => {
+            let shorter = working.own(shorter);
+            let fewest = shorter.steps.len();
+            let is_better = shorter.action_count() <= plan.action_count();
+            (if is_better { shorter } else { plan }, fewest)
+        }
+        Tried::AtLeast(at_least, _) => {
+            let most = plan.steps.len();
+            (plan, at_least.clamp(at_once, most))
+        }
+        // There is one.
+        Tried::NoPlan => (plan, at_once),
+    }
+}
 
 /// Finds some plan soon, where the shortest is out of reach. The plan is then shortened piece by piece within
 /// [`Limits::shorten`], but not proven to be the shortest; that there is no plan is proven all the same.
@@ -33,11 +68,12 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         any::Found::Exhausted => Some(solve(task, limits)),
         any::Found::Open => None,
     };
+    let at_once = steps_at_least(task);
     let tries = || -> Result<Outcome, Unfinished> {
         if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
             return Ok(outcome);
         }
-        let mut refuted = 0;
+        let mut refuted = at_once;
         // Where forward search loses its way, the graph may see at once that there is none, or the solver that there
         // is one; if it is small.
         let turn = Turn { turns: Some(FEW_TURNS), goes_on: true, seek: None, ..Turn::default() };
@@ -52,12 +88,18 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
             Err(unfinished) if matches!(unfinished.limit, Limit::Time | Limit::Stopped) => {
                 return Err(unfinished);
             }
-            Err(unfinished) => refuted = unfinished.at_least,
+            Err(unfinished) => refuted = unfinished.at_least.max(at_once),
             Ok((None, _)) => {}
         }
         let all = any::search(task, limits, any::Effort::All)
             .map_err(|limit| Unfinished { at_least: refuted, ..limit.into() })?;
         Ok(found(all).expect("all effort leaves nothing open"))
     };
-    tries().unwrap_or_else(Outcome::LimitReached)
+    match tries() {
+        Ok(Outcome::LimitReached(known)) | Err(known) => {
+            let at_least = known.at_least.max(at_once);
+            Outcome::LimitReached(Unfinished { at_least, ..known })
+        }
+        Ok(outcome) => outcome,
+    }
 }

@@ -104,6 +104,14 @@ impl<'a> Relaxed<'a> {
         self.spread(state).then(|| self.relaxed_plan(state))
     }
 
+    /// Steps that the goal takes at least from a state: its layer without delete effects; none when it is out of reach
+    /// even so.
+    pub(crate) fn depth(&mut self, state: &State) -> Option<usize> {
+        let reached = self.spread(state);
+        let layers = self.goal.iter().map(|goal| self.layer[goal.index()] as usize);
+        reached.then(|| layers.max().unwrap_or(0))
+    }
+
     /// Layers of facts up to the goal.
     fn spread(&mut self, state: &State) -> bool {
         self.layer.fill(NOT_YET);

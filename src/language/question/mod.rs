@@ -26,6 +26,7 @@ mod level_words;
 mod lexicon;
 mod mark;
 mod memory;
+mod notation;
 mod opening;
 mod orders;
 mod outlive;
@@ -273,11 +274,18 @@ impl Asker<'_> {
         }
         let from_there = constructions::from_where_i_am(text);
         let text = from_there.as_deref().unwrap_or(text);
-        let parts = self.each_part(text, language, memory);
+        // A fact in the notation of the rules is one, whatever its commas.
+        let is_noted = self.noted(text).is_some();
+        let parts = match is_noted {
+            true => None,
+            false => self.each_part(text, language, memory),
+        };
         if let Some(Ok(answer)) = parts {
             return Ok(answer);
         }
-        if let (None, Some(answered)) = (&parts, self.each_sentence(text, language, memory)) {
+        if !is_noted
+            && let (None, Some(answered)) = (&parts, self.each_sentence(text, language, memory))
+        {
             return answered;
         }
         let outcome = parts.unwrap_or_else(|| self.answer(text, language, memory));
@@ -286,11 +294,15 @@ impl Asker<'_> {
                 unanswered.0,
                 Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
             )
+            && !is_noted
             && let Some(answer) = self.after_preamble(text, memory)
         {
             return Ok(answer);
         }
         let outcome = outcome.or_else(|unanswered| {
+            if is_noted {
+                return Err(unanswered);
+            }
             self.without_unknown(text, language, memory, &unanswered.0).ok_or(unanswered)
         });
         match outcome {
@@ -396,7 +408,7 @@ impl Asker<'_> {
             let length = text.chars().take(1_000_000).count();
             return Err(Doubt::TooLong { length });
         }
-        if let Some(query) = courtesy::query(text) {
+        if let Some(query) = courtesy::query(text).or_else(|| self.noted(text)) {
             return Ok(query);
         }
         let text = several::without_tag(text);
@@ -491,7 +503,8 @@ impl Asker<'_> {
             let knowledge = self.knowledge(language, memory);
             return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
-        let mut query = match self.continued(text, memory) {
+        let continued = || self.continued(text, memory);
+        let mut query = match self.noted(text).or_else(continued) {
             Some(query) => query,
             None => self.read(text, memory).map_err(|doubt| Box::new((doubt, None)))?,
         };

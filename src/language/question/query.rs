@@ -372,6 +372,11 @@ pub enum Query {
     Sees(Noun),
     WhatDoYouHold,
     Describe(Noun),
+    /// A fact in the notation of the rules: `ON_TOP_OF(Cup 1, Table 1)`.
+    Noted {
+        relation: String,
+        args: Vec<String>,
+    },
     /// Of the last answer, or of a claim.
     Why {
         negated: bool,
@@ -588,6 +593,7 @@ impl Query {
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
             | Self::Deeds
+            | Self::Noted { .. }
             | Self::WhatDoYouHold => {}
         }
     }
@@ -639,6 +645,7 @@ impl Query {
             Self::Sees(_) => "sees",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
+            Self::Noted { .. } => "fact",
             Self::Why { .. } => "why",
         }
     }

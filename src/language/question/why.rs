@@ -185,6 +185,10 @@ impl Knowledge<'_> {
                 self.is(&[a])
             ));
         }
+        // How far a thing is from the room that it stands in tells nothing.
+        if [a, b].iter().any(|thing| matches!(thing, Thing::Entity(Entity::Area(_)))) {
+            return None;
+        }
         let apart = length(self.distance(a, b)?, self.language);
         Some(match self.is_russian() {
             true => format!("между ними {apart}"),
@@ -403,7 +407,7 @@ impl Knowledge<'_> {
     }
 
     /// «Книга-4 не находится на Столе-1»
-    fn fact_denied(&self, fact: &Fact) -> Option<String> {
+    pub(super) fn fact_denied(&self, fact: &Fact) -> Option<String> {
         let thing = |n: usize| fact.args.get(n).and_then(|symbol| self.thing(symbol));
         let (rel, a, b) = (relation_word(&fact.relation)?, thing(0)?, thing(1)?);
         let (name, is, place) = (self.name(a), self.is(&[a]), self.place(rel, &[b]));
@@ -447,7 +451,7 @@ impl Knowledge<'_> {
     }
 
     /// A fact as a clause: «Чашка-1 находится на Столе-1».
-    fn fact_words(&self, relation: &str, args: &[String]) -> String {
+    pub(super) fn fact_words(&self, relation: &str, args: &[String]) -> String {
         let thing = |n: usize| args.get(n).and_then(|symbol| self.thing(symbol));
         let rel = relation_word(relation);
         if let (Some(rel), Some(a), Some(b)) = (rel, thing(0), thing(1)) {

@@ -156,6 +156,7 @@ impl Knowledge<'_> {
             Query::Deeds => self.deeds(),
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,
+            Query::Noted { relation, args } => self.say_noted(relation, args)?,
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,
         };
         let mut draft = draft;

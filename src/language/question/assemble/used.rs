@@ -91,6 +91,7 @@ impl Frame<'_, '_> {
             query,
             Query::Several(_)
                 | Query::Why { .. }
+                | Query::Noted { .. }
                 | Query::Help
                 | Query::People
                 | Query::Courtesy(_)
