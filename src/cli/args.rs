@@ -1,5 +1,6 @@
 //! The arguments of `ortho`.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -180,6 +181,9 @@ pub(super) enum Command {
         /// Give up when a relation has more rows than this; 134217728 when left out
         #[arg(long, value_name = "ROWS")]
         row_limit: Option<usize>,
+        /// Divide large joins among so many threads, with the same result; all cores when left out
+        #[arg(long, value_name = "N")]
+        threads: Option<NonZeroUsize>,
         /// Show for each rule the joins chosen, the sizes met and the time taken, the longest first
         #[arg(long)]
         explain: bool,

@@ -108,6 +108,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             time_limit,
             memory_limit,
             row_limit,
+            threads,
             explain,
         } => {
             let all = crate::facts::Limits::default();
@@ -116,6 +117,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
                 memory_bytes: memory_limit
                     .map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20)),
                 rows: row_limit.unwrap_or(all.rows),
+                threads: threads.map_or(all.threads, usize::from),
+                ..all
             };
             commands::datalog(common, program, facts, output, limits, *explain)
         }

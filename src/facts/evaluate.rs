@@ -24,6 +24,7 @@ use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
 use super::rows::{self, Growing, RowSet, SharedRows, Sink, heap};
 use super::run::Step;
+use super::spread::{Join, Makes, can_spread};
 use super::subsume::{Choosing, Chosen, Dominated, Pruned};
 use super::syntax::Span;
 use super::word::{Note, Word};
@@ -248,7 +249,7 @@ impl<'a> Evaluation<'a> {
                     }
                     self.finished.provide(&mut plan);
                     let mut sink = choosing(new.as_sink(), chosen.as_mut());
-                    self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
+                    self.emit(clause, &plan, &no_parts(&plan), limit, true, sink.as_sink());
                     self.check_limits(clause)?;
                 }
                 let rows = new.sort();
@@ -284,6 +285,7 @@ impl<'a> Evaluation<'a> {
             growing.insert(*relation, rows);
         }
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
+        let is_any_order = clauses.iter().all(|clause| Makes::of(clause) == Makes::Nothing);
         let mut rounds: Vec<(&Clause, Plan)> = Vec::new();
         for clause in clauses {
             let own: Vec<usize> = own_atoms(clause, &is_own).collect();
@@ -294,7 +296,8 @@ impl<'a> Evaluation<'a> {
                 let limit = self.limit(clause.head);
                 let mut sink = growing[&clause.head].sink();
                 let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
-                self.emit(clause, &plan, &no_parts(&plan), limit, sink.as_sink());
+                let parts = no_parts(&plan);
+                self.emit(clause, &plan, &parts, limit, is_any_order, sink.as_sink());
                 self.check_limits(clause)?;
             }
             self.rounds(clause, &own, &mut rounds);
@@ -343,7 +346,7 @@ impl<'a> Evaluation<'a> {
                 let parts = parts(plan, orders, &growing);
                 let mut sink = growing[&clause.head].sink();
                 let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
-                self.emit(clause, plan, &parts, room, sink.as_sink());
+                self.emit(clause, plan, &parts, room, is_any_order, sink.as_sink());
                 self.check_limits(clause)?;
             }
             for (relation, rows) in &growing {
@@ -397,7 +400,8 @@ impl<'a> Evaluation<'a> {
             let relation = of.clone().find(|of| std::ptr::eq(&of.clause, *clause));
             let Some(relation) = relation.map(|of| of.relation) else { continue };
             let parts = parts(plan, orders, growing);
-            self.emit(clause, plan, &parts, MAX_ROWS, gone.entry(relation).or_default());
+            let gone = gone.entry(relation).or_default();
+            self.emit(clause, plan, &parts, MAX_ROWS, false, gone);
             self.check_limits(clause)?;
         }
         for (relation, gone) in gone {
@@ -444,13 +448,26 @@ impl<'a> Evaluation<'a> {
         plan: &Plan,
         parts: &[Vec<Ref<'_, dyn RowSet>>],
         limit: usize,
+        is_any_order: bool,
         sink: &mut dyn Sink,
     ) {
         let watch = Rc::clone(&self.finished.watch);
         let started = self.traced.is_some().then(|| (Instant::now(), sink.len()));
-        let mut head = Head::new(self.program, clause, limit, sink, &watch);
-        let mut registers = vec![0; clause.variables.len()];
-        self.finished.run(plan, parts, &mut registers, &mut head);
+        // A trace counts what one thread finds.
+        let may_spread = watch.limits().threads > 1
+            && started.is_none()
+            && limit == MAX_ROWS
+            && can_spread(plan)
+            && Makes::of(clause) != Makes::Any;
+        if may_spread {
+            let program = self.program;
+            let join = Join { program, clause, plan, is_any_order, limit };
+            join.run(&mut self.finished, parts, sink);
+        } else {
+            let mut head = Head::new(self.program, clause, limit, sink, &watch);
+            let mut registers = vec![0; clause.variables.len()];
+            self.finished.run(plan, parts, &mut registers, &mut head);
+        }
         watch.found(sink.len());
         if let Some((started, before)) = started {
             let found = sink.len().saturating_sub(before);

@@ -81,6 +81,18 @@ impl Finished<'_> {
         registers: &mut [Word],
         goal: &mut dyn Goal,
     ) -> bool {
+        self.with_sources(plan, growing, |sources, words, watch| {
+            run(&plan.steps, sources, registers, words, watch, goal)
+        })
+    }
+
+    /// Does something with what a provided plan reads.
+    pub(super) fn with_sources<R>(
+        &mut self,
+        plan: &Plan,
+        growing: &[Vec<Ref<'_, dyn RowSet>>],
+        f: impl FnOnce(&[Source<'_>], &mut Words, &Watch) -> R,
+    ) -> R {
         let outside = |request: &Request| match request {
             Request::Whole(relation) | Request::Index { relation, .. } => {
                 self.outside.filter(|outside| outside.has(*relation))
@@ -111,7 +123,7 @@ impl Finished<'_> {
                 Request::Growing { .. } => Source::Rows(parts.iter().map(|part| &**part).collect()),
             });
         }
-        run(&plan.steps, &sources, registers, &mut self.words, &self.watch, goal)
+        f(&sources, &mut self.words, &self.watch)
     }
 }
 

@@ -22,11 +22,13 @@ pub(super) struct Head<'a> {
     unsigned: Vec<usize>,
     /// Of `.limitsize`.
     limit: usize,
-    /// Solutions still accepted, whatever the rules say.
-    left: usize,
+    /// Solutions so far.
+    solutions: usize,
     row: Vec<Word>,
     sink: &'a mut dyn Sink,
     watch: &'a Watch,
+    /// Memory of words that others hold as well.
+    shared_bytes: usize,
 }
 
 /// Solutions between two looks at the memory that they take.
@@ -44,7 +46,13 @@ impl<'a> Head<'a> {
         let unsigned: Vec<usize> =
             (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
         let row = vec![0; clause.args.len()];
-        Self { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink, watch }
+        let (args, solutions, shared_bytes) = (&clause.args, 0, 0);
+        Self { args, unsigned, limit, solutions, row, sink, watch, shared_bytes }
+    }
+
+    /// For a thread whose words are shared with others up to so many bytes.
+    pub(super) fn beside(self, shared_bytes: usize) -> Self {
+        Self { shared_bytes, ..self }
     }
 }
 
@@ -95,16 +103,14 @@ impl Goal for Head<'_> {
         if self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0) {
             return false;
         }
-        if self.left.is_multiple_of(SOLUTIONS_A_LOOK) {
-            self.watch.weigh(self.sink.bytes() + words.bytes());
+        if self.solutions.is_multiple_of(SOLUTIONS_A_LOOK) {
+            let words = words.bytes().saturating_sub(self.shared_bytes);
+            self.watch.weigh(self.sink.bytes() + words);
         }
-        if self.watch.is_over()
-            || self.left == 0
-            || self.limit < MAX_ROWS && self.sink.len() >= self.limit
-        {
+        if self.watch.is_over() || self.limit < MAX_ROWS && self.sink.len() >= self.limit {
             return false;
         }
-        self.left -= 1;
+        self.solutions += 1;
         self.sink.push(&self.row);
         true
     }

@@ -1,17 +1,24 @@
 //! What an evaluation may take, and the watch that looks at it in the course of its loops.
 
 use std::cell::Cell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use super::evaluate::MAX_ROWS;
 
-/// How long an evaluation may go on, and how much memory it may hold.
+/// How long an evaluation may go on, how much memory it may hold, and over how many threads it may spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     pub time: Duration,
     pub memory_bytes: usize,
     /// Of one relation.
     pub rows: usize,
+    /// Threads among which the rows of a large join are divided; the result and its order are those of one.
+    pub threads: usize,
+    /// How long the rest of a join must seem to take to be divided. A thread costs some tens of microseconds.
+    pub spread_from: Duration,
 }
 
 /// What a program's own text allows: `.pragma "time-limit" "10"` in seconds, `"memory-limit"` in mebibytes,
@@ -37,14 +44,21 @@ impl Limits {
             rows: ceilings.rows.map_or(self.rows, |rows| {
                 self.rows.min(usize::try_from(rows).unwrap_or(usize::MAX))
             }),
+            ..self
         }
     }
 }
 
 impl Default for Limits {
-    /// Ten minutes and two gigabytes: more than the rules of a large hospital need, less than a machine has.
+    /// Ten minutes and two gigabytes: more than the rules of a large hospital need, less than a machine has. All cores.
     fn default() -> Self {
-        Self { time: Duration::from_secs(600), memory_bytes: 1 << 31, rows: MAX_ROWS }
+        Self {
+            time: Duration::from_secs(600),
+            memory_bytes: 1 << 31,
+            rows: MAX_ROWS,
+            threads: thread::available_parallelism().map_or(1, usize::from),
+            spread_from: Duration::from_micros(300),
+        }
     }
 }
 
@@ -55,7 +69,21 @@ pub(super) enum Reached {
     Memory,
 }
 
-/// Clock and memory of an evaluation under way. Once a limit is reached it stays so, and all loops run out.
+impl Reached {
+    const ALL: [Self; 2] = [Self::Time, Self::Memory];
+}
+
+/// What the watches of one evaluation's threads have in common.
+#[derive(Debug, Default)]
+struct Common {
+    /// Behind the place in [`Reached::ALL`]; 0 for none.
+    reached: AtomicU8,
+    /// Memory that the rule makes that runs, in all threads.
+    made: AtomicUsize,
+}
+
+/// Clock and memory of an evaluation under way, as one thread sees them. Once a limit is reached it stays so, and all
+/// loops run out.
 #[derive(Debug)]
 pub(super) struct Watch {
     /// None where nothing is limited.
@@ -63,7 +91,9 @@ pub(super) struct Watch {
     ticks: Cell<u32>,
     /// Memory that does not change while a rule runs: relations and indexes that are finished.
     held: Cell<usize>,
-    reached: Cell<Option<Reached>>,
+    /// What this thread has added to [`Common::made`].
+    made: Cell<usize>,
+    common: Arc<Common>,
     /// Rows that the last rule had found when it ended.
     rows: Cell<usize>,
 }
@@ -73,7 +103,9 @@ const TICKS_A_LOOK: u32 = 1 << 10;
 
 impl Watch {
     pub(super) fn new(limits: Limits) -> Self {
-        Self { limits: Some((limits, Instant::now())), ..Self::unlimited() }
+        let mut watch = Self::unlimited();
+        watch.limits = Some((limits, Instant::now()));
+        watch
     }
 
     /// For what is bounded by a result that is there already.
@@ -82,9 +114,15 @@ impl Watch {
             limits: None,
             ticks: Cell::new(0),
             held: Cell::new(0),
-            reached: Cell::new(None),
+            made: Cell::new(0),
+            common: Arc::default(),
             rows: Cell::new(0),
         }
+    }
+
+    /// The same evaluation's watch for another thread.
+    pub(super) fn branch(&self) -> Branch {
+        Branch { limits: self.limits, held: self.held.get(), common: Arc::clone(&self.common) }
     }
 
     pub(super) fn limits(&self) -> Limits {
@@ -93,7 +131,7 @@ impl Watch {
 
     /// Ends all loops for a reason of the caller's own.
     pub(super) fn stop(&self) {
-        self.reached.set(self.reached.get().or(Some(Reached::Time)));
+        self.reach(Reached::Time);
     }
 
     pub(super) fn found(&self, rows: usize) {
@@ -104,12 +142,25 @@ impl Watch {
         self.rows.get()
     }
 
+    /// The first limit that was reached.
     pub(super) fn reached(&self) -> Option<Reached> {
-        self.reached.get()
+        let behind = usize::from(self.common.reached.load(Ordering::Relaxed));
+        Reached::ALL.get(behind.checked_sub(1)?).copied()
     }
 
+    fn reach(&self, limit: Reached) {
+        let place = Reached::ALL.iter().position(|known| *known == limit).unwrap_or(0) as u8;
+        let _ = self.common.reached.compare_exchange(
+            0,
+            place + 1,
+            Ordering::Relaxed,
+            Ordering::Relaxed,
+        );
+    }
+
+    #[inline]
     pub(super) fn is_over(&self) -> bool {
-        self.reached.get().is_some()
+        self.common.reached.load(Ordering::Relaxed) != 0
     }
 
     /// Counts a piece of work of a loop; true when it is time to end.
@@ -126,7 +177,7 @@ impl Watch {
     fn look(&self) {
         let Some((limits, since)) = self.limits else { return };
         if since.elapsed() >= limits.time {
-            self.reached.set(Some(Reached::Time));
+            self.reach(Reached::Time);
         }
     }
 
@@ -136,13 +187,49 @@ impl Watch {
         self.weigh(0);
     }
 
+    fn make(&self, bytes: usize) {
+        let before = self.made.replace(bytes);
+        // In two steps, so that nothing falls below zero.
+        self.common.made.fetch_add(bytes, Ordering::Relaxed);
+        self.common.made.fetch_sub(before, Ordering::Relaxed);
+    }
+
     /// Looks whether so much more than what is held fits; true when it is time to end.
     pub(super) fn weigh(&self, bytes: usize) -> bool {
         let Some((limits, _)) = self.limits else { return false };
-        if self.held.get().saturating_add(bytes) > limits.memory_bytes {
-            self.reached.set(Some(Reached::Memory));
+        self.make(bytes);
+        let made = self.common.made.load(Ordering::Relaxed);
+        if self.held.get().saturating_add(made) > limits.memory_bytes {
+            self.reach(Reached::Memory);
         }
         self.look();
         self.is_over()
+    }
+}
+
+/// A watch on its way to another thread.
+pub(super) struct Branch {
+    limits: Option<(Limits, Instant)>,
+    held: usize,
+    common: Arc<Common>,
+}
+
+impl Branch {
+    pub(super) fn watch(self) -> Watch {
+        Watch {
+            limits: self.limits,
+            held: Cell::new(self.held),
+            made: Cell::new(0),
+            common: self.common,
+            ticks: Cell::new(0),
+            rows: Cell::new(0),
+        }
+    }
+}
+
+impl Drop for Watch {
+    /// What a thread has made is handed over.
+    fn drop(&mut self) {
+        self.make(0);
     }
 }

@@ -99,6 +99,7 @@ mod rows;
 mod run;
 mod saved;
 mod seen;
+mod spread;
 mod stored;
 mod subsume;
 mod syntax;

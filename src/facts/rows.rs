@@ -3,6 +3,7 @@
 //! datafrog's relations are generic over the tuple; here the tuple is a [`Row`] of one of a few widths,
 //! and [`RowSet`] and [`Growing`] are what the rest of the engine sees of any width.
 
+use std::any::Any;
 use std::cell::{Ref, RefCell, RefMut};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -69,7 +70,7 @@ macro_rules! at_width {
 pub(super) use at_width;
 
 /// Distinct rows in ascending order.
-pub(super) trait RowSet {
+pub(super) trait RowSet: Send + Sync {
     fn len(&self) -> usize;
     fn row(&self, at: usize) -> &[Word];
     /// Memory held.
@@ -133,6 +134,73 @@ pub(super) trait Sink {
     fn len(&self) -> usize;
     /// Memory that they take, now and when they are sorted.
     fn bytes(&self) -> usize;
+
+    /// A sink for another thread, whose rows go on into this one; none where it matters which row comes first. Rows may
+    /// come in any order at all where `is_any_order`.
+    fn branch(&self, is_any_order: bool) -> Option<Box<dyn Branch + '_>> {
+        let _ = is_any_order;
+        None
+    }
+
+    /// Takes what a branch took, each row renamed.
+    fn absorb(&mut self, _: Taken, _: &dyn Fn(&mut [Word])) {}
+}
+
+/// A sink that a thread of its own fills.
+pub(super) trait Branch: Sink + Send {
+    fn taken(self: Box<Self>) -> Taken;
+}
+
+/// Rows of a [`Branch`], for [`Sink::absorb`] of the sink that it is of.
+pub(super) type Taken = Box<dyn Any + Send>;
+
+impl<const N: usize> Branch for Vec<Row<N>> {
+    fn taken(self: Box<Self>) -> Taken {
+        self
+    }
+}
+
+/// A branch of a relation that tells pairs apart by bits.
+struct Beside<'a, const N: usize> {
+    seen: &'a Seen,
+    new: Vec<Row<N>>,
+    /// Beyond the range of `seen`.
+    outside: Vec<Row<N>>,
+}
+
+impl<const N: usize> Sink for Beside<'_, N> {
+    #[inline]
+    fn push(&mut self, row: &[Word]) {
+        let row = Row::of(row);
+        match self.seen.insert_beside(&row) {
+            Some(true) => self.new.push(row),
+            Some(false) => {}
+            None => self.outside.push(row),
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.new.len() + self.outside.len()
+    }
+
+    fn bytes(&self) -> usize {
+        Sink::bytes(&self.new) + Sink::bytes(&self.outside)
+    }
+}
+
+impl<const N: usize> Branch for Beside<'_, N> {
+    fn taken(self: Box<Self>) -> Taken {
+        Box::new((self.new, self.outside))
+    }
+}
+
+/// Puts rows behind others.
+fn append<const N: usize>(rows: &mut Vec<Row<N>>, mut more: Vec<Row<N>>) {
+    if rows.is_empty() {
+        *rows = more;
+    } else {
+        rows.append(&mut more);
+    }
 }
 
 /// Rows in any order, to become a [`RowSet`].
@@ -158,6 +226,18 @@ impl<const N: usize> Sink for Vec<Row<N>> {
 
     fn bytes(&self) -> usize {
         (self.capacity() + self.len()) * size_of::<Row<N>>()
+    }
+
+    fn branch(&self, _: bool) -> Option<Box<dyn Branch + '_>> {
+        Some(Box::new(Self::new()))
+    }
+
+    fn absorb(&mut self, taken: Taken, rename: &dyn Fn(&mut [Word])) {
+        if let Ok(taken) = taken.downcast::<Self>() {
+            let mut taken = *taken;
+            taken.iter_mut().for_each(|row| rename(&mut row.0));
+            append(self, taken);
+        }
     }
 }
 
@@ -327,6 +407,29 @@ impl<const N: usize> Sink for Pushed<N> {
     fn bytes(&self) -> usize {
         let seen = self.seen.as_ref().map_or(0, Seen::bytes);
         Sink::bytes(&self.rows) + Sink::bytes(&self.outside) + seen
+    }
+
+    fn branch(&self, is_any_order: bool) -> Option<Box<dyn Branch + '_>> {
+        match &self.seen {
+            None => Some(Box::new(Vec::<Row<N>>::new())),
+            // Which thread finds a pair first is chance, and so is then the order of the new rows.
+            Some(seen) if is_any_order => {
+                Some(Box::new(Beside::<N> { seen, new: Vec::new(), outside: Vec::new() }))
+            }
+            Some(_) => None,
+        }
+    }
+
+    fn absorb(&mut self, taken: Taken, rename: &dyn Fn(&mut [Word])) {
+        match (taken.downcast::<(Vec<Row<N>>, Vec<Row<N>>)>(), &mut self.seen) {
+            (Ok(taken), Some(seen)) => {
+                seen.len += taken.0.len();
+                append(&mut self.rows, taken.0);
+                append(&mut self.outside, taken.1);
+            }
+            (Ok(_), None) => {}
+            (Err(taken), _) => self.rows.absorb(taken, rename),
+        }
     }
 }
 

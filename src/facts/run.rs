@@ -158,6 +158,54 @@ pub(super) fn run(
     Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() }.run(0)
 }
 
+/// As [`run`], the first step being a scan, over those of the scan's rows only that stand in the window.
+pub(super) fn run_window(
+    steps: &[Step],
+    sources: &[Source<'_>],
+    registers: &mut [Word],
+    words: &mut Words,
+    watch: &Watch,
+    goal: &mut dyn Goal,
+    window: Range<usize>,
+) -> bool {
+    let mut machine = Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() };
+    machine.run_window(window)
+}
+
+/// The number of rows of the first step's scan, before filters; none where it is no scan, or no scan of rows that are
+/// there, or stops at its first success.
+pub(super) fn extent(
+    steps: &[Step],
+    sources: &[Source<'_>],
+    registers: &mut [Word],
+    words: &mut Words,
+) -> Option<usize> {
+    let Step::Scan(scan) = steps.first()? else { return None };
+    if scan.once {
+        return None;
+    }
+    let (watch, mut goal) = (Watch::unlimited(), |_: &[Word], _: &mut Words| false);
+    let (watch, goal) = (&watch, &mut goal);
+    let mut machine = Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() };
+    let key = machine.key(&scan.key)?;
+    match &sources[scan.source] {
+        Source::Index(index) => Some(index.range(key.words()).len()),
+        Source::Rows(parts) => Some(parts.iter().map(|rows| rows.range(key.words()).len()).sum()),
+        Source::Kept(_) | Source::Called(_) => None,
+    }
+}
+
+/// All rows of a scan.
+const ALL: Range<usize> = 0..usize::MAX;
+
+/// What of a range of rows lies in a window, when so many rows are before the range.
+#[inline]
+fn clip(range: Range<usize>, before: usize, window: &Range<usize>) -> Range<usize> {
+    let from = range.start + window.start.saturating_sub(before).min(range.len());
+    let to = range.start + window.end.saturating_sub(before).min(range.len());
+    from..to
+}
+
 struct Machine<'a, 'b> {
     steps: &'a [Step],
     sources: &'a [Source<'b>],
@@ -204,6 +252,20 @@ impl Count {
 }
 
 impl<'a> Machine<'a, '_> {
+    fn run_window(&mut self, window: Range<usize>) -> bool {
+        let (steps, sources) = (self.steps, self.sources);
+        let Some(Step::Scan(scan)) = steps.first() else { return self.run(0) };
+        let Some(key) = self.key(&scan.key) else { return false };
+        match &sources[scan.source] {
+            Source::Index(index) => {
+                let range = clip(index.range(key.words()), 0, &window);
+                self.scan_index(scan, index, range, 1)
+            }
+            Source::Rows(parts) => self.scan_rows(scan, parts, key.words(), &window, 1),
+            Source::Kept(_) | Source::Called(_) => self.run(0),
+        }
+    }
+
     fn run(&mut self, at: usize) -> bool {
         match &self.steps[at] {
             Step::Scan(scan) => self.scan(scan, at + 1),
@@ -311,7 +373,7 @@ impl<'a> Machine<'a, '_> {
             let Some(word) = self.compute(one) else { return false };
             return match &sources[scan.source] {
                 Source::Index(index) => self.scan_index(scan, index, index.range(&[word]), next),
-                Source::Rows(parts) => self.scan_rows(scan, parts, &[word], next),
+                Source::Rows(parts) => self.scan_rows(scan, parts, &[word], &ALL, next),
                 Source::Kept(kept) => self.scan_kept(scan, kept, &[word], next),
                 Source::Called(called) => self.scan_called(scan, called, &[word], next),
             };
@@ -319,7 +381,7 @@ impl<'a> Machine<'a, '_> {
         let Some(key) = self.key(&scan.key) else { return false };
         match &sources[scan.source] {
             Source::Index(index) => self.scan_index(scan, index, index.range(key.words()), next),
-            Source::Rows(parts) => self.scan_rows(scan, parts, key.words(), next),
+            Source::Rows(parts) => self.scan_rows(scan, parts, key.words(), &ALL, next),
             Source::Kept(kept) => self.scan_kept(scan, kept, key.words(), next),
             Source::Called(called) => self.scan_called(scan, called, key.words(), next),
         }
@@ -330,6 +392,7 @@ impl<'a> Machine<'a, '_> {
         scan: &'a Scan,
         parts: &[&dyn RowSet],
         key: &[Word],
+        window: &Range<usize>,
         next: usize,
     ) -> bool {
         let mut passing = Vec::new();
@@ -338,11 +401,15 @@ impl<'a> Machine<'a, '_> {
             passing.push((filter, word));
         }
         let mut found = false;
+        let mut before = 0;
         for rows in parts {
             let mut is_first = true;
+            let whole = rows.range(key);
+            let range = clip(whole.clone(), before, window);
+            before += whole.len();
             let (near, far) = match passing.first() {
-                Some((filter, word)) => narrow(*rows, rows.range(key), key.len(), filter, *word),
-                None => (rows.range(key), 0..0),
+                Some((filter, word)) => narrow(*rows, range, key.len(), filter, *word),
+                None => (range, 0..0),
             };
             for at in near.chain(far) {
                 let row = rows.row(at);

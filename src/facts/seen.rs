@@ -4,17 +4,19 @@
 //! whether a pair is new, so that duplicates are never sorted, old rows never merged, and the finished
 //! relation is read off the bits in order. Where pairs are thinner than [`BITS_PER_ROW`] this does not pay.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::rows::Row;
 use super::word::Word;
 
 /// The bits may take so many for each row: twice the space of the row itself.
 const BITS_PER_ROW: usize = 128;
 
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Seen {
     least: [Word; 2],
     width: [usize; 2],
-    bits: Vec<u64>,
+    bits: Vec<AtomicU64>,
     pub(super) len: usize,
 }
 
@@ -40,7 +42,8 @@ impl Seen {
         let least = [least[0].min(least[1]); 2];
         let span = (most[0].max(most[1]) - least[0]) as usize + 1;
         let bits = span.checked_mul(span).filter(|bits| *bits <= len * BITS_PER_ROW)?;
-        Some(Self { least, width: [span; 2], bits: vec![0; bits.div_ceil(64)], len: 0 })
+        let bits = (0..bits.div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
+        Some(Self { least, width: [span; 2], bits, len: 0 })
     }
 
     /// Memory held.
@@ -51,24 +54,37 @@ impl Seen {
     /// Whether the pair is new; none when it lies outside the range.
     #[inline]
     pub(super) fn insert<const N: usize>(&mut self, row: &Row<N>) -> Option<bool> {
-        let first = row.0[0].wrapping_sub(self.least[0]) as usize;
-        let second = row.0[N - 1].wrapping_sub(self.least[1]) as usize;
-        if first >= self.width[0] || second >= self.width[1] {
-            return None;
-        }
-        let at = first * self.width[1] + second;
-        let (word, bit) = (&mut self.bits[at / 64], 1 << (at % 64));
+        let at = self.place(row)?;
+        let (word, bit) = (self.bits[at / 64].get_mut(), 1 << (at % 64));
         let is_new = *word & bit == 0;
         *word |= bit;
         self.len += usize::from(is_new);
         Some(is_new)
     }
 
+    /// As [`Self::insert`] while other threads insert too: one of them is told that the pair is new, and counts it.
+    #[inline]
+    pub(super) fn insert_beside<const N: usize>(&self, row: &Row<N>) -> Option<bool> {
+        let at = self.place(row)?;
+        let (word, bit) = (&self.bits[at / 64], 1 << (at % 64));
+        // Most pairs are known, and reading costs the other threads nothing.
+        let is_known = word.load(Ordering::Relaxed) & bit != 0;
+        Some(!is_known && word.fetch_or(bit, Ordering::Relaxed) & bit == 0)
+    }
+
+    #[inline]
+    fn place<const N: usize>(&self, row: &Row<N>) -> Option<usize> {
+        let first = row.0[0].wrapping_sub(self.least[0]) as usize;
+        let second = row.0[N - 1].wrapping_sub(self.least[1]) as usize;
+        let is_inside = first < self.width[0] && second < self.width[1];
+        is_inside.then(|| first * self.width[1] + second)
+    }
+
     /// All pairs in ascending order.
     pub(super) fn rows<const N: usize>(&self) -> Vec<Row<N>> {
         let mut rows = Vec::with_capacity(self.len);
         for (n, word) in self.bits.iter().enumerate() {
-            let mut rest = *word;
+            let mut rest = word.load(Ordering::Relaxed);
             while rest != 0 {
                 let at = n * 64 + rest.trailing_zeros() as usize;
                 rest &= rest - 1;

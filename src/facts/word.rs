@@ -223,6 +223,16 @@ impl Words {
         self.number(self.counter - 1)
     }
 
+    /// Large numbers of the layers that are shared.
+    pub(super) fn shared_numbers(&self) -> usize {
+        self.own.below.1
+    }
+
+    /// Large numbers that are no other table's yet, in the order of their making.
+    pub(super) fn own_numbers(&self) -> &[i64] {
+        &self.own.numbers
+    }
+
     pub(super) fn note(&mut self, note: Note) {
         self.note.get_or_insert(note);
     }

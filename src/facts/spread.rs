@@ -1,0 +1,290 @@
+//! A join divided among threads: each takes some of the rows that it starts with.
+//!
+//! A rule's first scan runs over rows one after the other, and what one of them leads to asks nothing of the others. So
+//! the first rows are joined as ever; when what is left would take long, it is cut into pieces, and each thread takes the
+//! next piece until none is left.
+//!
+//! Result and order are those of one thread. Relations are sets that are sorted when a rule, or a round, is over. New
+//! words are what an order could show in: large numbers are named by each thread for itself and named anew at the end,
+//! piece by piece in the order of the rows, as one thread would have met them. A rule that makes texts or records, counts
+//! with `autoinc()`, chooses or subsumes runs in one thread.
+
+use std::cell::Ref;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::finished::Finished;
+use super::head::Head;
+use super::limits::{self, Watch};
+use super::plan::Plan;
+use super::program::{Clause, Expr, Literal, Program};
+use super::rows::{Branch, RowSet, Sink, Taken};
+use super::run::{Source, Step, extent, run, run_window};
+use super::syntax::Functor;
+use super::word::{LARGE, Note, Word, Words};
+
+/// What words a rule may make that were not there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Makes {
+    Nothing,
+    Numbers,
+    /// Texts, records, or what follows from the order of words.
+    Any,
+}
+
+impl Makes {
+    pub(super) fn of(clause: &Clause) -> Self {
+        let args = clause.args.iter().map(Self::of_expr).max().unwrap_or(Self::Nothing);
+        args.max(Self::of_body(&clause.body))
+    }
+
+    fn of_body(body: &[Literal]) -> Self {
+        let of_literal = |literal: &Literal| match literal {
+            Literal::Atom(_) | Literal::Not(_) => Self::Nothing,
+            Literal::Compare(compare) => {
+                Self::of_expr(&compare.left).max(Self::of_expr(&compare.right))
+            }
+            Literal::Range(range) => {
+                range.bounds.exprs().map(Self::of_expr).fold(Self::Numbers, Self::max)
+            }
+            Literal::Aggregate(aggregate) => {
+                let value = aggregate.value.as_ref().map_or(Self::Nothing, Self::of_expr);
+                Self::Numbers.max(value).max(Self::of_body(&aggregate.body))
+            }
+        };
+        body.iter().map(of_literal).max().unwrap_or(Self::Nothing)
+    }
+
+    fn of_expr(expr: &Expr) -> Self {
+        let Expr::Call(functor, args) = expr else { return Self::Nothing };
+        let own = match functor {
+            Functor::Counter | Functor::Ordinal | Functor::Record => Self::Any,
+            Functor::Field => Self::Nothing,
+            other if other.result().is_number() => Self::Numbers,
+            _ => Self::Any,
+        };
+        args.iter().map(Self::of_expr).fold(own, Self::max)
+    }
+}
+
+/// What is to be joined.
+pub(super) struct Join<'a> {
+    pub(super) program: &'a Program,
+    pub(super) clause: &'a Clause,
+    pub(super) plan: &'a Plan,
+    /// No rule of the stratum makes words, so that the order of new rows within a round shows in nothing.
+    pub(super) is_any_order: bool,
+    /// Solutions at most.
+    pub(super) limit: usize,
+}
+
+/// Rows that are joined before it is asked whether the rest is worth a thread.
+const FIRST_ROWS: usize = 32;
+/// Pieces for each thread: rows may differ much in what they lead to.
+const PIECES: usize = 16;
+
+impl Join<'_> {
+    /// Joins, in several threads where that pays.
+    pub(super) fn run(
+        &self,
+        finished: &mut Finished<'_>,
+        parts: &[Vec<Ref<'_, dyn RowSet>>],
+        sink: &mut dyn Sink,
+    ) {
+        let mut registers = vec![0; self.clause.variables.len()];
+        finished.with_sources(self.plan, parts, |sources, words, watch| {
+            let all = extent(&self.plan.steps, sources, &mut registers, words);
+            let Some(all) = all.filter(|all| *all > 1) else {
+                let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
+                run(&self.plan.steps, sources, &mut registers, words, watch, &mut head);
+                return;
+            };
+            let begun = Instant::now();
+            let mut done = 0;
+            while done < all && !watch.is_over() {
+                if self.is_long(watch, begun.elapsed(), done, all)
+                    && self.spread(sources, words, watch, &registers, done..all, sink)
+                {
+                    return;
+                }
+                let to = all.min(if done == 0 { FIRST_ROWS } else { 2 * done });
+                let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
+                let steps = &self.plan.steps;
+                run_window(steps, sources, &mut registers, words, watch, &mut head, done..to);
+                done = to;
+            }
+        });
+    }
+
+    /// Whether the rest will take long, to judge by the rows that are done.
+    fn is_long(&self, watch: &Watch, spent: Duration, done: usize, all: usize) -> bool {
+        let from = watch.limits().spread_from;
+        let rest = spent.as_secs_f64() * (all - done) as f64 / done.max(1) as f64;
+        from.is_zero() || done > 0 && rest >= from.as_secs_f64()
+    }
+
+    /// False where the sink has no branches.
+    fn spread(
+        &self,
+        sources: &[Source<'_>],
+        words: &mut Words,
+        watch: &Watch,
+        registers: &[Word],
+        rows: Range<usize>,
+        sink: &mut dyn Sink,
+    ) -> bool {
+        let threads = watch.limits().threads.min(rows.len());
+        let branches: Option<Vec<_>> =
+            (0..threads).map(|_| sink.branch(self.is_any_order)).collect();
+        let plain: Option<Vec<_>> = sources.iter().map(Plain::of).collect();
+        let (Some(branches), Some(plain)) = (branches, plain) else { return false };
+        words.settle();
+        let known = words.share();
+        let pieces = Pieces::new(rows, threads * PIECES);
+        let work = |branch: Box<dyn Branch + '_>, watch: limits::Branch| {
+            let (words, registers) = (known.share(), registers.to_vec());
+            self.work(&plain, words, registers, &watch.watch(), &pieces, branch)
+        };
+        let work = &work;
+        let done: Vec<Done> = thread::scope(|scope| {
+            let mut branches = branches.into_iter();
+            let own = branches.next();
+            let others: Vec<_> = branches
+                .map(|branch| {
+                    let watch = watch.branch();
+                    scope.spawn(move || work(branch, watch))
+                })
+                .collect();
+            let own = own.map(|branch| work(branch, watch.branch()));
+            let joined = others
+                .into_iter()
+                .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
+            own.into_iter().chain(joined).collect()
+        });
+        self.gather(done, words, pieces.count, sink);
+        true
+    }
+
+    /// One thread's part.
+    fn work(
+        &self,
+        sources: &[Plain<'_>],
+        mut words: Words,
+        mut registers: Vec<Word>,
+        watch: &Watch,
+        pieces: &Pieces,
+        mut branch: Box<dyn Branch + '_>,
+    ) -> Done {
+        let sources: Vec<Source<'_>> = sources.iter().map(Plain::source).collect();
+        let shared_bytes = words.bytes();
+        let mut taken = Vec::new();
+        while let Some((number, window)) = pieces.next().filter(|_| !watch.is_over()) {
+            let head = Head::new(self.program, self.clause, self.limit, &mut *branch, watch);
+            let (steps, mut head) = (&self.plan.steps, head.beside(shared_bytes));
+            run_window(steps, &sources, &mut registers, &mut words, watch, &mut head, window);
+            let (numbers, note) = (words.own_numbers().len(), words.take_note());
+            taken.push(PieceDone { number, numbers, note });
+        }
+        Done { rows: branch.taken(), words, pieces: taken }
+    }
+
+    /// Brings the threads' rows together, and names what they have named.
+    fn gather(&self, done: Vec<Done>, words: &mut Words, pieces: usize, sink: &mut dyn Sink) {
+        let mut by_number: Vec<Option<(usize, usize)>> = vec![None; pieces];
+        for (thread, done) in done.iter().enumerate() {
+            for (n, piece) in done.pieces.iter().enumerate() {
+                by_number[piece.number] = Some((thread, n));
+            }
+        }
+        let mut names: Vec<Vec<Word>> = vec![Vec::new(); done.len()];
+        for (thread, n) in by_number.into_iter().flatten() {
+            let (of, names) = (&done[thread], &mut names[thread]);
+            let piece = &of.pieces[n];
+            let new = &of.words.own_numbers()[names.len()..piece.numbers];
+            names.extend(new.iter().map(|number| words.number(*number)));
+            piece.note.into_iter().for_each(|note| words.note(note));
+        }
+        let columns = &self.program.info(self.clause.head).columns;
+        let is_number: Vec<bool> = columns.iter().map(|column| column.kind.is_number()).collect();
+        for (done, names) in done.into_iter().zip(names) {
+            let first = LARGE as usize + done.words.shared_numbers();
+            let rename = |row: &mut [Word]| {
+                if names.is_empty() {
+                    return;
+                }
+                for (word, _) in row.iter_mut().zip(&is_number).filter(|(_, is_number)| **is_number)
+                {
+                    let named = (*word as usize).checked_sub(first).and_then(|at| names.get(at));
+                    *word = named.copied().unwrap_or(*word);
+                }
+            };
+            sink.absorb(done.rows, &rename);
+        }
+    }
+}
+
+/// What a thread leaves.
+struct Done {
+    rows: Taken,
+    words: Words,
+    pieces: Vec<PieceDone>,
+}
+
+struct PieceDone {
+    number: usize,
+    /// Large numbers that the thread had named when the piece was done.
+    numbers: usize,
+    note: Option<Note>,
+}
+
+/// Rows in pieces, to be taken one by one.
+struct Pieces {
+    rows: Range<usize>,
+    size: usize,
+    count: usize,
+    next: AtomicUsize,
+}
+
+impl Pieces {
+    fn new(rows: Range<usize>, pieces: usize) -> Self {
+        let size = rows.len().div_ceil(pieces.max(1)).max(1);
+        Self { count: rows.len().div_ceil(size), rows, size, next: AtomicUsize::new(0) }
+    }
+
+    fn next(&self) -> Option<(usize, Range<usize>)> {
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        let from = self.rows.start + number.checked_mul(self.size)?;
+        let to = self.rows.end.min(from + self.size);
+        (number < self.count).then_some((number, from..to))
+    }
+}
+
+/// A source that threads may share.
+enum Plain<'a> {
+    Index(&'a super::index::Index),
+    Rows(Vec<&'a dyn RowSet>),
+}
+
+impl<'a> Plain<'a> {
+    fn of(source: &Source<'a>) -> Option<Self> {
+        match source {
+            Source::Index(index) => Some(Self::Index(index)),
+            Source::Rows(parts) => Some(Self::Rows(parts.clone())),
+            Source::Kept(_) | Source::Called(_) => None,
+        }
+    }
+
+    fn source(&self) -> Source<'a> {
+        match self {
+            Self::Index(index) => Source::Index(index),
+            Self::Rows(parts) => Source::Rows(parts.clone()),
+        }
+    }
+}
+
+/// Whether a plan's join can be divided at all.
+pub(super) fn can_spread(plan: &Plan) -> bool {
+    matches!(plan.steps.first(), Some(Step::Scan(scan)) if !scan.once)
+}
