@@ -18,8 +18,13 @@ use std::sync::Arc;
 use super::simplify::Draft;
 use super::task::Fact;
 
-/// One flag an operator: false for those that concern bystanders.
-pub(super) fn bystanders(draft: &Draft, facts: &[Fact], goal: &[u32]) -> Vec<bool> {
+/// One flag an operator: false for those that concern bystanders; none when it was stopped.
+pub(super) fn bystanders(
+    draft: &Draft,
+    facts: &[Fact],
+    goal: &[u32],
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<bool>> {
     let index = Index::new(draft, facts.len());
     let wanted: HashSet<&Arc<str>> =
         goal.iter().flat_map(|&fact| &facts[fact as usize].args).collect();
@@ -32,6 +37,9 @@ pub(super) fn bystanders(draft: &Draft, facts: &[Fact], goal: &[u32]) -> Vec<boo
     let mut groups = HashMap::new();
     let mut kept = vec![true; draft.operators.len()];
     for own in about.values() {
+        if !goes_on() {
+            return None;
+        }
         let own: HashSet<u32> = own.iter().copied().collect();
         let concerned: HashSet<u32> =
             own.iter().flat_map(|&fact| &index.touched_by[fact as usize]).copied().collect();
@@ -51,7 +59,7 @@ pub(super) fn bystanders(draft: &Draft, facts: &[Fact], goal: &[u32]) -> Vec<boo
             concerned.into_iter().for_each(|number| kept[number as usize] = false);
         }
     }
-    kept
+    Some(kept)
 }
 
 struct Index {

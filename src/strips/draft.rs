@@ -13,12 +13,13 @@ use super::problem::Standing;
 use super::resolve::{GroundAtom, Resolved, ThingId};
 use super::simplify::{Draft, DraftOperator};
 
-/// The reached atoms and actions, numbered, still with all that simplification will drop.
+/// The reached atoms and actions, numbered, still with all that simplification will drop; none when it was stopped.
 pub(super) fn draft(
     domain: &Domain,
     resolved: &Resolved,
     reached: &Reachability<'_>,
-) -> Result<Draft, RuleFaults> {
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Option<Draft>, RuleFaults> {
     let mut atoms = reached.atoms.clone();
     for (atom, _) in &resolved.goal {
         if !reached.numbers.contains_key(atom) && !atoms.contains(atom) {
@@ -58,7 +59,11 @@ pub(super) fn draft(
     let drafter =
         Drafter { domain, reached, numbers: &numbers, is_derived: &is_derived, known: &known };
     let mut operators = Vec::new();
-    for instance in instances.into_iter().filter(|i| i.schema < domain.schemas.len()) {
+    let actions = instances.into_iter().filter(|i| i.schema < domain.schemas.len());
+    for (count, instance) in actions.enumerate() {
+        if count.is_multiple_of(256) && !goes_on() {
+            return Ok(None);
+        }
         let schema = &domain.schemas[instance.schema];
         let drafted = drafter.of_instance(instance).map_err(|TooMany| {
             let of = schema.name.clone();
@@ -101,7 +106,7 @@ pub(super) fn draft(
         RuleFault::placeless(RuleError::TooManyCases { of, limit: MOST_CASES })
     })?;
     state_goal(&mut draft, goals);
-    Ok(draft)
+    Ok(Some(draft))
 }
 
 /// The fact, and the operators that give it, by which a goal of several ways is met ([`Task::goal_steps`]).

@@ -58,10 +58,12 @@ pub fn ground_while(
         return Err(RuleFault::placeless(RuleError::NoGoal).into());
     }
     let resolved = problem.resolve(domain)?;
-    match Reachability::new(domain, &resolved, may_go_on).saturated() {
-        Some(reached) => Ok(Some(simplify(draft(domain, &resolved, &reached)?))),
-        None => Ok(None),
-    }
+    let Some(reached) = Reachability::new(domain, &resolved, may_go_on).saturated() else {
+        return Ok(None);
+    };
+    let goes_on = || may_go_on(reached.bytes());
+    let draft = draft(domain, &resolved, &reached, &goes_on)?;
+    Ok(draft.and_then(|draft| simplify(draft, &goes_on)))
 }
 
 /// Instances of one schema's parameters.
@@ -179,7 +181,7 @@ impl<'a> Reachability<'a> {
     }
 
     /// Memory that the task will take, near enough: an operator and its draft, an atom and its indexes.
-    fn bytes(&self) -> usize {
+    pub(super) fn bytes(&self) -> usize {
         self.instances.len() * 600 + self.atoms.len() * 400
     }
 

@@ -35,7 +35,8 @@ pub(super) struct Draft {
     pub(super) impossible: bool,
 }
 
-pub(super) fn simplify(mut draft: Draft) -> Task {
+/// The task without what cannot change the fewest number of steps; none when it was stopped.
+pub(super) fn simplify(mut draft: Draft, goes_on: &dyn Fn() -> bool) -> Option<Task> {
     let mut facts: Vec<Fact> = draft
         .facts
         .drain(..)
@@ -44,13 +45,16 @@ pub(super) fn simplify(mut draft: Draft) -> Task {
     let goal = complement(&mut draft, &mut facts);
     let reachable = reachable(&draft, facts.len());
     keep(&mut draft.operators, reachable);
-    let bystanders = bystanders(&draft, &facts, &goal);
+    let bystanders = bystanders(&draft, &facts, &goal, goes_on)?;
     keep(&mut draft.operators, bystanders);
+    if !goes_on() {
+        return None;
+    }
     let fixed = always_true(&draft, facts.len());
     let goal: Vec<u32> = goal.into_iter().filter(|&fact| !fixed[fact as usize]).collect();
     let relevant = relevant(&draft, &goal, &fixed);
     keep(&mut draft.operators, relevant.operators);
-    renumber(draft, &facts, &goal, &relevant.facts)
+    goes_on().then(|| renumber(draft, &facts, &goal, &relevant.facts))
 }
 
 /// Adds "not p" for every p whose absence is asked for; returns the goal in positive facts alone.

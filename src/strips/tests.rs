@@ -279,3 +279,42 @@ fn conditions_beyond_literals_are_written_in_both_languages() {
         "#]],
     );
 }
+
+/// Whenever it is told to stop, grounding stops, and it asks in all its phases: while it reaches, drafts and simplifies.
+#[test]
+fn grounding_stops_whenever_it_is_told_to() {
+    use std::cell::Cell;
+    let places: Vec<String> = (0..20).map(|n| format!("Место-{n}")).collect();
+    let links: Vec<String> =
+        places.iter().flat_map(|a| places.iter().map(move |b| format!("ПУТЬ({a}, {b})"))).collect();
+    let text = format!(
+        "Действие: Ход (Параметры: место ?a, место ?b)
+(Предусловие: В(?a), ПУТЬ(?a, ?b)) (Эффект+: В(?b)) (Эффект-: В(?a))
+Объекты: место {}
+Факты: В(Место-0), {}   Цель: В(Место-19)",
+        places.join(", "),
+        links.join(", ")
+    );
+    let scenario = Scenario::parse(&Source::new("сценарий", text.as_str())).unwrap();
+    let asked = Cell::new(0_usize);
+    let may_go_on = |left: usize| {
+        move |asked: &Cell<usize>| {
+            asked.set(asked.get() + 1);
+            asked.get() <= left
+        }
+    };
+    let ground = |left: usize| {
+        asked.set(0);
+        let goes_on = may_go_on(left);
+        ground_while(&scenario.domain, &scenario.problem, &|_| goes_on(&asked)).unwrap()
+    };
+    assert_eq!(ground(usize::MAX).unwrap().operators.len(), 400);
+    let times = asked.get();
+    // Reaching asks once for 256 instances, drafting too, simplifying for every object and twice more.
+    assert!(times > 20, "{times}");
+    for left in 0..times {
+        assert!(ground(left).is_none(), "stopped after {left} of {times}");
+        assert_eq!(asked.get(), left + 1, "it went on when it was told to stop");
+    }
+    assert!(ground(times).is_some());
+}

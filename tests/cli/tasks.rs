@@ -256,6 +256,12 @@ fn corridors_are_told_by_entrances() {
     let unknown = place.json(&["corridor", paper, "--from", "201", "--to", "999"], 2);
     assert!(unknown["errors"][0]["code"].as_str().unwrap().starts_with("corridor::"), "{unknown}");
     place.run(&["corridor", "--map", "flat", "--from", "Комната-В", "--to", "Комната-Y"]).is(0);
+    // Where neither a file nor a map is named, the store is asked.
+    let ends = ["--from", "Комната-В", "--to", "Комната-Y"];
+    let of_store = [&["corridor"][..], &ends].concat();
+    place.run(&of_store).is(0);
+    let sheet = place.run(&[&["draw"][..], &of_store].concat()).is(0).out;
+    assert!(sheet.contains("Комната-Y"), "{sheet}");
     let drawn = place.run(&["draw", "corridor", paper, "--from", "201", "--to", "210"]).is(0).out;
     assert!(drawn.starts_with("<svg"));
 }

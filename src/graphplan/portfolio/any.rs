@@ -241,9 +241,7 @@ impl Forward<'_> {
 
     fn estimate(&mut self, state: &State, held_bytes: usize) -> Result<Option<Estimate>, Limit> {
         self.evaluated += 1;
-        if self.evaluated.is_multiple_of(16) {
-            self.limits.check(held_bytes)?;
-        }
+        self.limits.check(held_bytes)?;
         Ok(self.relaxed.estimate(state))
     }
 

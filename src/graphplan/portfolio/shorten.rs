@@ -38,13 +38,15 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
     };
     let mut plan = plan;
     let (mut left, mut effort) = (limits.shorten, limits.shorten_effort);
+    // One copy serves all pieces, which differ in where they begin and end.
+    let mut piece = task.clone();
     let mut narrowest = 0;
     while let Some(&width) = WIDTHS.get(narrowest) {
         let mut better = false;
         let mut from = 0;
         while from < plan.steps.len() && left > 0 && effort > 0 && limits.check(0).is_ok() {
             left -= 1;
-            match replaced(task, &plan, from, width, limits, &mut effort) {
+            match replaced((task, &mut piece), &plan, (from, width), limits, &mut effort) {
                 Some(shorter) => {
                     plan = shorter;
                     if is_no_dearer(&plan) && size(&plan) < size(&best) {
@@ -73,23 +75,19 @@ fn size(plan: &Plan) -> (usize, usize) {
 
 /// The plan with a better piece in place of `width` of its steps; what the search for it takes is taken from `effort`.
 fn replaced(
-    task: &Task,
+    (task, piece): (&Task, &mut Task),
     plan: &Plan,
-    from: usize,
-    width: usize,
+    (from, width): (usize, usize),
     limits: &Limits,
     effort: &mut u64,
 ) -> Option<Plan> {
     *effort = effort.saturating_sub(EFFORT_AN_OPERATOR * task.operators.len() as u64);
     let to = (from + width).min(plan.steps.len());
-    let piece = Task {
-        init: state_before(task, &plan.steps[..from]),
-        goal: needed_by(task, &plan.steps[to..]),
-        ..task.clone()
-    };
+    piece.init = state_before(task, &plan.steps[..from]);
+    piece.goal = needed_by(task, &plan.steps[to..]);
     let within = Limits { parallel_steps: to - from, shorten: 0, ..limits.clone() };
     let turn = Turn { effort: Some(*effort), ..TURN };
-    let (outcome, spent) = search_counted(&piece, &within, turn);
+    let (outcome, spent) = search_counted(piece, &within, turn);
     *effort = effort.saturating_sub(spent);
     let Some(Outcome::Plan(found)) = outcome else { return None };
     let operators = plan.steps[..from].iter().chain(&found.steps).chain(&plan.steps[to..]);
