@@ -126,6 +126,30 @@ fn each_sort_of_doubt_is_told_in_its_place() {
     }
 }
 
+/// A vessel that is open above holds what came in over its rim; what pierces its walls below that is in its place.
+#[test]
+fn an_open_vessel_is_pierced_by_no_board() {
+    let map = ROOM.replace(
+        "[orthoframe.small]\nrect = [10, 10]\nheight = 20",
+        "[orthoframe.small]\nrect = [10, 10]\nheight = 20\nroof = \"permeable\"\n[orthoframe.board]\nrect = [60, 60]\nheight = 3",
+    );
+    let map = map.replace("orthoframe = \"block\"", "orthoframe = \"board\", at = [0, 0, 72]");
+    let stick = |map: &str| {
+        map.replace("[object.radio]\ntype = \"Прибор\"\nitems = [{ id = \"A\", orthoframe = \"small\" }]",
+            "[object.radio]\ntype = \"Прибор\"\nitems = [{ id = \"A\", orthoframe = \"stick\" }]\n[orthoframe.stick]\nrect = [12, 2]\nheight = 40")
+    };
+    let overlaps =
+        |map: &str| told(map).into_iter().filter(|line| line.contains("things_overlap")).count();
+    assert_eq!(overlaps(&map), 0);
+    for (height, count) in [(75, 0), (74, 0), (70, 1), (60, 1), (52, 0)] {
+        let lowered = map.replace("at = [220, 270, 75]", &format!("at = [220, 270, {height}]"));
+        assert_eq!(overlaps(&lowered), count, "the vase stands at {height}");
+    }
+    // A stick wider than the vessel stands out above its rim.
+    let map = stick(&map).replace("at = [330, 270, 75]", "at = [219, 274, 76]");
+    assert_eq!(overlaps(&map), 0);
+}
+
 #[test]
 fn metres_are_told_of_rooms_doors_and_furniture() {
     let text = ROOM.replace("side.B = { permeability = \"conditional\" }\n", "");

@@ -14,11 +14,11 @@ use miette::Diagnostic;
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
 use crate::{
-    Area, Mark, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark, is_on,
-    is_open,
+    Area, Mark, Orthoframe, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark,
+    is_on, is_open,
 };
 
-use super::group::{Body, bodies_of, is_hollow};
+use super::group::{Body, bodies_of};
 use super::placed::place;
 use super::plane::{
     Bounds, border_distance, bounds, contains, edges, intersection, middle, near_pairs,
@@ -119,11 +119,43 @@ fn few_alike(faults: Vec<Fault>) -> Vec<Fault> {
     few
 }
 
+/// How a solid lets others in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Open {
+    No,
+    /// From above alone, as a cup.
+    Above,
+    /// From aside or below: what reaches into it may reach out of it too.
+    Around,
+}
+
+impl Open {
+    fn of(orthoframe: &Orthoframe) -> Self {
+        let is_open = |permeability| permeability != Permeability::Impermeable;
+        let aside = orthoframe.base.iter().any(|side| is_open(side.permeability));
+        match (aside || is_open(orthoframe.base_permeability), orthoframe.roof_permeability) {
+            (true, _) => Self::Around,
+            (false, roof) if is_open(roof) => Self::Above,
+            (false, _) => Self::No,
+        }
+    }
+
+    /// Whether `inner` can have come into `outer`, which is open so: what came from above is within its rim, or stands
+    /// out above it.
+    fn lets(self, inner: &Body, outer: &Body) -> bool {
+        match self {
+            Self::No => false,
+            Self::Above => inner.top >= outer.top || is_within(inner, outer),
+            Self::Around => true,
+        }
+    }
+}
+
 /// A replica with its solids in the frame of its Area.
 struct Thing<'w> {
     replica: &'w Replica,
     bodies: Vec<Body>,
-    hollow: Vec<bool>,
+    open: Vec<Open>,
     /// Made to hold others, whatever its solids let through.
     is_container: bool,
     is_light: bool,
@@ -139,7 +171,7 @@ impl<'w> Thing<'w> {
         Self {
             replica,
             bodies,
-            hollow: items.iter().map(|i| is_hollow(world.orthoframe_of(i))).collect(),
+            open: items.iter().map(|i| Open::of(world.orthoframe_of(i))).collect(),
             is_container: has("container") || has("shelves"),
             is_light: has("light"),
             is_person: has("person"),
@@ -540,8 +572,8 @@ fn clash(
     // People sit in what bears them.
     if one.is_person
         || other.is_person
-        || one.hollow[m]
-        || other.hollow[n]
+        || one.open[m].lets(b, a)
+        || other.open[n].lets(a, b)
         || a.top.min(b.top) - a.bottom.max(b.bottom) <= DEPTH
     {
         return None;

@@ -9,15 +9,13 @@ use miette::{
 };
 use thiserror::Error;
 
-use crate::units::{
-    AreaId, Bilingual, Cm, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, Source, TypeId,
-};
-
-use super::TypeKind;
+use crate::units::{Bilingual, Cm, Source};
 
 mod english;
+mod spot;
 
 pub use english::EnglishMapErrors;
+pub use spot::{Record, Spot, Step};
 
 pub(super) const COORDINATE: (&str, &str) = ("координата", "a coordinate");
 pub(super) const WITHIN: (&str, &str) = ("в пределах ±100 км", "within ±100 km");
@@ -541,84 +539,6 @@ pub enum MapError {
 
 fn perhaps(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|name| format!("; может быть, «{name}»?")).unwrap_or_default()
-}
-
-/// A record of a [`World`](super::World).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Record {
-    Domain,
-    Robot,
-    Type(TypeKind, TypeId),
-    Orthoframe(OrFrId),
-    Object(ObjectId),
-    Door(DoorId),
-    Area(AreaId),
-    Replica(ReplicaId),
-    Place(PlaceId),
-    Map(MapId),
-}
-
-/// One step from a record to what lies within it, in the words of the map file.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Step {
-    Field(&'static str),
-    /// Of a table whose keys the map chooses: the id of a side, the key of a door.
-    Key(String),
-    Index(usize),
-}
-
-/// A place in the model.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Spot {
-    pub record: Record,
-    pub steps: Vec<Step>,
-}
-
-impl Spot {
-    #[must_use]
-    pub fn of(record: Record) -> Self {
-        Self { record, steps: Vec::new() }
-    }
-
-    #[must_use]
-    pub fn field(mut self, name: &'static str) -> Self {
-        self.steps.push(Step::Field(name));
-        self
-    }
-
-    #[must_use]
-    pub fn key(mut self, key: &str) -> Self {
-        self.steps.push(Step::Key(key.to_owned()));
-        self
-    }
-
-    #[must_use]
-    pub fn index(mut self, index: usize) -> Self {
-        self.steps.push(Step::Index(index));
-        self
-    }
-}
-
-impl fmt::Display for Spot {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.record {
-            Record::Domain => write!(f, "domain")?,
-            Record::Robot => write!(f, "robot")?,
-            Record::Type(kind, id) => write!(f, "type.{}[{}]", kind.field(), id.0)?,
-            Record::Orthoframe(id) => write!(f, "orthoframe[{}]", id.0)?,
-            Record::Object(id) => write!(f, "object[{}]", id.0)?,
-            Record::Door(id) => write!(f, "door[{}]", id.0)?,
-            Record::Area(id) => write!(f, "area[{}]", id.0)?,
-            Record::Replica(id) => write!(f, "replica[{}]", id.0)?,
-            Record::Place(id) => write!(f, "place[{}]", id.0)?,
-            Record::Map(id) => write!(f, "map[{}]", id.0)?,
-        }
-        self.steps.iter().try_for_each(|step| match step {
-            Step::Field(name) => write!(f, ".{name}"),
-            Step::Key(key) => write!(f, ".{key}"),
-            Step::Index(index) => write!(f, "[{index}]"),
-        })
-    }
 }
 
 /// One fault with its places: in the model, and in the text when it was read from one.
