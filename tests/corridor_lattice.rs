@@ -334,7 +334,7 @@ fn junction_fields(
     let word = ["crossing", "tee", "branch-right", "branch-left", "turn-right", "turn-left"];
     let mut text = format!(", junction = \"{}\"", word[usize::from(kind.code()) - 1]);
     let mut blind = Vec::new();
-    for turn in kind.ways() {
+    for turn in kind.ways().iter() {
         let name = ["straight", "right", "left"][usize::from(turn.code())];
         let on = (way + [0, 3, 1][usize::from(turn.code())]) % 4;
         match lattice.next(Stand { at, way: on }) {

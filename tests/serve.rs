@@ -525,7 +525,7 @@ fn an_operator_works_in_a_browser() {
             String::from_utf8_lossy(&done.stderr)
         )
     });
-    match done.map(|done| done.status.code()) {
+    match done.as_ref().map(|done| done.status.code()) {
         Ok(Some(0)) => println!("{}", told.unwrap_or_default()),
         Ok(Some(77)) | Err(_) => {
             assert!(std::env::var_os("CI").is_none(), "the browser is missing");
