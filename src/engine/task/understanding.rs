@@ -1,0 +1,314 @@
+//! The commands of a sentence: heard, their names found on the map, and what of them is so already.
+
+use crate::engine::{Error, RequestError, State};
+use crate::language::Language;
+use crate::language::command::{
+    Command, Facing, Listener, Misheard, Placement, Relation, preamble, without_clock,
+};
+use crate::language::question::{
+    Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
+};
+use crate::map::Entity;
+
+impl State {
+    /// The commands of a sentence, with everything that it names found on the map.
+    ///
+    /// # Errors
+    /// What was not understood, which candidates there are, or what the map lacks.
+    pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
+        self.understand_in(sentence, &mut Memory::default())
+    }
+
+    /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
+    ///
+    /// # Errors
+    /// As [`State::understand`].
+    pub fn understand_in(
+        &self,
+        sentence: &str,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        if let Some(conditional) = conditional(sentence) {
+            return self.understood_if(&conditional, memory);
+        }
+        let before = memory.clone();
+        let whole = self.understood(sentence, memory);
+        let (Err(Error::Misheard(misheard)), Some((told, order))) = (&whole, preamble(sentence))
+        else {
+            return whole;
+        };
+        // What asks is no telling.
+        let asks = self.asks_something(told)?;
+        if asks || matches!(misheard, Misheard::WhichOf(_) | Misheard::Ambiguous { .. }) {
+            return whole;
+        }
+        // «Там темно, включи свет»: what is told is only what the order may speak of.
+        let mut after = before;
+        self.hear_of(told, &mut after)?;
+        match self.understood(order, &mut after) {
+            Err(Error::Misheard(Misheard::UnknownName { .. } | Misheard::NotUnderstood { .. })) => {
+                whole
+            }
+            understood => {
+                *memory = after;
+                understood
+            }
+        }
+    }
+
+    /// The commands of what is to be done as the world now is; to stay, where that is nothing.
+    fn understood_if(
+        &self,
+        conditional: &Conditional,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        let mut commands = match &conditional.first {
+            Some(first) => self.understood(first, memory)?,
+            None => Vec::new(),
+        };
+        let holds = self.holds(conditional, memory)?.map_err(|mut unanswered| {
+            if let Some(text) = conditional.unwatched() {
+                text.clone_into(&mut unanswered.text);
+            }
+            Error::from(Misheard::NoneSuch(Box::new(unanswered)))
+        })?;
+        let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
+        match order {
+            Some(order) => commands.extend(self.understand_in(order, memory)?),
+            None if commands.is_empty() => commands.push(Command::Wait),
+            None => {}
+        }
+        Ok(commands)
+    }
+
+    /// Whether a condition holds, with the answer that says so; else why that is not known.
+    ///
+    /// # Errors
+    /// As [`State::ask`].
+    pub fn holds(
+        &self,
+        conditional: &Conditional,
+        memory: &mut Memory,
+    ) -> Result<Result<(bool, Answer), Unanswered>, Error> {
+        if let Some(about) = &conditional.about {
+            // What cannot be done may be spoken of all the same.
+            let mut heard = memory.clone();
+            match self.understood(about, &mut heard) {
+                Ok(_) => *memory = heard,
+                Err(_) => self.hear_of(about, memory)?,
+            }
+        }
+        let answered = self.ask(&conditional.question, memory)?;
+        Ok(answered.map(|answer| (matches!(answer.said, Said::Yes | Said::Found), answer)))
+    }
+
+    fn understood(
+        &self,
+        sentence: &str,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        without_clock(sentence)?;
+        let settled = self.settle(sentence, memory)?;
+        let entity = |thing| match thing {
+            Thing::Entity(entity) => Some(entity),
+            _ => None,
+        };
+        let last = settled.last.iter().copied().filter_map(entity).collect();
+        let nearest = |all: &[Entity]| self.nearest(all);
+        let meant = settled.meant.iter().copied().filter_map(entity).collect();
+        let world = self.world()?;
+        let fixed = |entity: &Entity| match entity {
+            Entity::Replica(id) => !world.has_trait(*id, "portable"),
+            _ => true,
+        };
+        let listener = Listener::new(self.forms()?)
+            .remembering(last)
+            .knowing(meant)
+            .choosing(&nearest)
+            .clearing(&fixed);
+        let windows: Vec<(Entity, Option<u32>)> =
+            settled.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
+        let settled = settled.text;
+        let mut commands = match listener.hear(&settled) {
+            Ok(commands) => commands,
+            Err(misheard) => {
+                // «На карте нет «лекарсво». Есть «Лекарство».» – «Да.»
+                if let Misheard::UnknownName { near, at, .. } = &misheard
+                    && let [name] = &near[..]
+                    && let [only] = self.world()?.find(name)[..]
+                {
+                    let at = at.offset()..at.offset() + at.len();
+                    let language = Language::of(&settled);
+                    memory.wait(&settled, at, vec![Thing::Entity(only)], language);
+                }
+                // What was spoken of may have left the map.
+                if let Misheard::Incomplete { .. } = &misheard
+                    && let Some(gone) = memory.lost_topic(Language::of(&settled))
+                {
+                    return Err(Misheard::NoneSuch(Box::new(gone)).into());
+                }
+                return Err(misheard.into());
+            }
+        };
+        self.check_places(&commands)?;
+        place_windows(&mut commands, &windows);
+        if let [Command::ComeBack] = commands[..] {
+            if let Some(gone) = memory.lost_place(Language::of(&settled)) {
+                return Err(Misheard::NoneSuch(Box::new(gone)).into());
+            }
+            if let Some(Thing::Entity(anchor)) = memory.place_left() {
+                let to = Placement::new(Relation::At, anchor);
+                commands = vec![Command::GoTo { to, via: None, facing: None }];
+            }
+        }
+        if let Some(here) = self.place_of_robot() {
+            memory.leave(Thing::Entity(here));
+        }
+        let named: Vec<Thing> = commands.iter().filter_map(thing_of).map(Thing::Entity).collect();
+        if !named.is_empty() {
+            memory.mention(&named);
+        }
+        Ok(commands)
+    }
+
+    /// Where a thing or a place is said to be, there it must be: what no other part of a command has used is compared
+    /// with the world as it is now, unless the sentence has moved the thing before.
+    fn check_places(&self, commands: &[Command<Entity>]) -> Result<(), Error> {
+        for (n, command) in commands.iter().enumerate() {
+            let mut said: Vec<(Entity, Entity)> = Vec::new();
+            if let Some(what) = command.what() {
+                let moved = |c: &Command<Entity>| c.what().is_some_and(|w| w.id == what.id);
+                let places = what.at.iter().chain(&what.toward);
+                if !commands[..n].iter().any(moved) {
+                    said.extend(places.map(|place| (what.id, place.anchor)));
+                }
+            }
+            let place = command.place();
+            said.extend(place.and_then(|place| Some((place.anchor, place.within?))));
+            for (thing, place) in said {
+                if !self.is_there(thing, place)? {
+                    let world = self.world()?;
+                    let name = |entity| world.name(entity).to_owned();
+                    let (thing, place) = (name(thing), name(place));
+                    return Err(RequestError::NotThere { thing, place }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a thing or a place is in a room, or on or in another thing; a door is in the rooms that it joins.
+    fn is_there(&self, thing: Entity, place: Entity) -> Result<bool, Error> {
+        let around = self.around()?;
+        let (world, relations) = (around.world(), around.relations()?);
+        let on_map = |area| world.placement(area).map(|(map, _)| Entity::Map(map));
+        let area = match thing {
+            Entity::Replica(id) => {
+                let mut below = relations.support_of(id);
+                while let Some(support) = below {
+                    if Entity::Replica(support) == place {
+                        return Ok(true);
+                    }
+                    below = relations.support_of(support);
+                }
+                relations.area_of(id)
+            }
+            Entity::Place(id) => world.places.get(&id).map(|place| place.area),
+            Entity::Area(area) => Some(area),
+            Entity::Door(door) => {
+                let joins = relations.joins();
+                let joined = joins.iter().filter(|join| join.door == Some(door));
+                let sides = joined.flat_map(|join| [join.from, join.to]);
+                return Ok(sides
+                    .into_iter()
+                    .any(|side| Entity::Area(side) == place || on_map(side) == Some(place)));
+            }
+            Entity::Map(_) => None,
+        };
+        Ok(area.is_some_and(|area| Entity::Area(area) == place || on_map(area) == Some(place)))
+    }
+
+    /// Of what a command means, a room, or the room of a window with the window's number.
+    fn gone_to(&self, thing: Thing) -> Option<(Entity, Option<u32>)> {
+        match thing {
+            Thing::Entity(room @ Entity::Area(_)) => Some((room, None)),
+            Thing::Window(n) => {
+                let window = self.mind().ok()?.lexicon.windows.get(n as usize)?;
+                Some((Entity::Area(window.area), Some(n)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Where the robot is, by what one can send it back to: a place of the map, else its room.
+    fn place_of_robot(&self) -> Option<Entity> {
+        let (map, pose) = self.robot_pose()?;
+        let world = self.world().ok()?;
+        let at = self.relations().ok()?.thresholds().robot_place;
+        let place = world.places.values().find(|place| {
+            let placed = world.placement(place.area);
+            placed.is_some_and(|(on, frame)| {
+                on == map && (frame.apply(place.at) - pose.at).norm() <= at
+            })
+        });
+        let area = || self.relations().ok()?.measurements().area_at(map, pose.at);
+        place.map(|p| Entity::Place(p.id)).or_else(|| area().map(Entity::Area))
+    }
+
+    /// Of several things the one nearest to the robot, in its own room before all others; the first where it is not
+    /// known how far they are.
+    fn nearest(&self, all: &[Entity]) -> Option<Entity> {
+        let relations = self.around().ok()?.relations().ok()?;
+        let (map, pose) = self.robot_pose()?;
+        let here = relations.measurements().area_at(map, pose.at);
+        let away = |entity: &Entity| match entity {
+            Entity::Replica(id) => {
+                let far = relations.distance_to_point(*id, map, pose.at).unwrap_or(f64::INFINITY);
+                (relations.area_of(*id) != here, far)
+            }
+            _ => (true, f64::INFINITY),
+        };
+        let order = |a: &&Entity, b: &&Entity| {
+            let ((here_a, far_a), (here_b, far_b)) = (away(a), away(b));
+            here_a.cmp(&here_b).then(far_a.total_cmp(&far_b))
+        };
+        all.iter().min_by(order).copied()
+    }
+}
+
+/// Windows have no names: a command that names a room for its window gets it back, in the order of the sentence.
+fn place_windows(commands: &mut [Command<Entity>], meant: &[(Entity, Option<u32>)]) {
+    let mut left = meant.to_vec();
+    let mut window = |place: Entity, inside: bool| {
+        let own = |(room, window): &(Entity, Option<u32>)| {
+            *room == place && !(inside && window.is_some())
+        };
+        left.remove(left.iter().position(own)?).1
+    };
+    for command in commands {
+        let facing = match command {
+            Command::GoTo { to, facing, .. } => {
+                if let Some(window) = window(to.anchor, to.relation == Relation::In) {
+                    to.relation = Relation::AtWindow(window);
+                }
+                facing.as_mut()
+            }
+            Command::Face(facing) => Some(facing),
+            _ => None,
+        };
+        if let Some(facing) = facing
+            && let Facing::Thing(room) = facing
+            && let Some(window) = window(*room, false)
+        {
+            *facing = Facing::Window(window);
+        }
+    }
+}
+
+/// What a command is about.
+pub(in crate::engine) fn thing_of(command: &Command<Entity>) -> Option<Entity> {
+    match command {
+        Command::GoTo { to, .. } => Some(to.anchor),
+        _ => command.what().map(|what| what.id),
+    }
+}

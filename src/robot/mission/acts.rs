@@ -1,0 +1,337 @@
+//! What a mission has its vehicle do, deed by deed: going and turning, riding, doors, taking and putting.
+
+use crate::belief::Station;
+use crate::directive::Deed;
+use crate::geometry::{DoorStates, Method, NoRoute, Ride, Target};
+use crate::map::{DoorState, DoorStatus, Entity};
+use crate::placing::{spot_in, spot_on, spot_on_floor};
+use crate::reins::Reins;
+use crate::semantics::cargo;
+use crate::semantics::planning::PLACE_BESIDE;
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::vehicle::{Done, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch};
+
+use super::{Leg, Mission, Surprise, blocked, look_round, refused};
+
+impl Mission<'_> {
+    pub(super) fn perform(
+        &mut self,
+        deed: &Deed,
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
+        match deed {
+            Deed::GoToPlace(name) => {
+                let target = self.place_target(name)?;
+                self.go(name, target, &[self.belief.area], reins, leg)?;
+                let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
+                if let Some(pose) = looks.map(|spot| spot.pose) {
+                    self.turn(pose.heading, reins)?;
+                }
+                // Before a thing it stands only if the thing is there.
+                if let Target::Replica(thing) = target
+                    && self.is_elsewhere(thing, reins)?
+                {
+                    return Err(refused(Refusal::NotThere(thing).into(), reins));
+                }
+                self.belief.station = Station::Place(name.clone());
+            }
+            Deed::GoToDoor(name) => {
+                let area = self.belief.area;
+                let target = self.door_target(name, area, area)?;
+                self.go(name, target, &[area], reins, leg)?;
+                self.belief.station = Station::Door(name.clone());
+            }
+            Deed::Cross { door: name, into } => {
+                let into = self.area(into)?;
+                let areas = [self.belief.area, into];
+                let target = self.door_target(name, self.belief.area, into)?;
+                self.go(name, target, &areas, reins, leg)?;
+                self.belief.area = into;
+                self.belief.station = Station::Door(name.clone());
+            }
+            Deed::SetDoor { door, status } => self.set_door(door, *status, reins)?,
+            Deed::CallLift { lift, door } => {
+                let opening = self.opening(door)?;
+                let called = reins.act(|vehicle, watch| vehicle.call_lift(opening, watch));
+                called.map_err(|r| refused(r, reins))?;
+                self.cabin_stands_at(lift, door, opening);
+            }
+            Deed::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
+            Deed::Take(name) => self.take(name, reins, leg)?,
+            Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
+            Deed::HandOver { thing, person } => {
+                let held = self.held(thing)?;
+                let given = reins.act(|vehicle, watch| vehicle.hand_over(held, watch));
+                given.map_err(|r| refused(r, reins))?;
+                let replica = self.belief.held.take().expect("checked by held()");
+                self.belief.handed_over.push((replica, person.clone()));
+            }
+            Deed::Switch { device, on } => {
+                let id = self.replica(device)?;
+                self.within_reach(id, reins, leg, |v, watch| v.switch(id, *on, watch))?;
+                self.belief.switch(id, *on);
+            }
+            Deed::LookRound => look_round(reins)?,
+            Deed::Seek(name) => self.seek(name, reins, leg)?,
+            Deed::Call(person) => {
+                let called = reins.act(|vehicle, watch| vehicle.call(person, watch));
+                called.map_err(|r| refused(r, reins))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes a thing from where it is, or from the person who was given it.
+    fn take(
+        &mut self,
+        name: &str,
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let given = self.belief.handed_over.iter().position(|(thing, _)| thing.name == *name);
+        if let Some(at) = given {
+            let thing = self.belief.handed_over[at].0.id;
+            let taken = reins.act(|vehicle, watch| vehicle.take_back(thing, watch));
+            taken.map_err(|r| refused(r, reins))?;
+            self.belief.held = Some(self.belief.handed_over.remove(at).0);
+            return Ok(());
+        }
+        let thing = self.replica(name)?;
+        let with = cargo(&self.belief.world, self.rules, self.belief.scene(), thing);
+        self.within_reach(thing, reins, leg, |v, watch| v.take(thing, watch))?;
+        self.belief.pick_up(thing, &with.unwrap_or_default());
+        // The place beside what lay on the floor goes with it; the robot still stands there.
+        if let Station::Place(place) = &self.belief.station
+            && place.strip_prefix(PLACE_BESIDE) == Some(name)
+        {
+            self.belief.pose = reins.pose().1;
+            self.name_this_point();
+        }
+        Ok(())
+    }
+
+    /// Does something to a thing. Where the arm is too short from the place that serves what the thing stands on, a bed
+    /// say, the robot first goes to where the thing itself is nearest.
+    fn within_reach(
+        &mut self,
+        thing: ReplicaId,
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+        act: impl Fn(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let Err(refusal) = reins.act(&act) else { return Ok(()) };
+        if let Unfinished::Met(Refusal::OutOfReach(_)) = refusal {
+            let name = self.belief.world.name(Entity::Replica(thing)).to_owned();
+            match self.go(&name, Target::Replica(thing), &[self.belief.area], reins, leg) {
+                Ok(()) => return reins.act(&act).map_err(|r| refused(r, reins)),
+                Err(Unfinished::Met(_)) => {}
+                Err(unfinished) => return Err(unfinished),
+            }
+        }
+        Err(refused(refusal, reins))
+    }
+
+    pub(crate) fn go(
+        &mut self,
+        name: &str,
+        target: Target,
+        areas: &[AreaId],
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let from = self.belief.pose.at;
+        let route = self
+            .belief
+            .floor()
+            .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
+            .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
+        let driven = reins.follow(&route.points, route.heading);
+        leg.route = Some(route);
+        self.belief.pose = reins.pose().1;
+        driven.map_err(|bump| blocked(bump, reins))
+    }
+
+    /// Turns where the robot stands.
+    fn turn(&mut self, heading: Deg, reins: &mut Reins<'_>) -> Result<(), Unfinished<Surprise>> {
+        let turned = reins.follow(&[self.belief.pose.at], Some(heading));
+        self.belief.pose = reins.pose().1;
+        turned.map_err(|bump| blocked(bump, reins))
+    }
+
+    /// Rides to another stop of the lift in which the robot stands: where it stands in the cabin, or in the middle of
+    /// a cabin that lies elsewhere on the Map of that storey.
+    fn ride(
+        &mut self,
+        lift: &str,
+        to: &str,
+        door: &str,
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let (to, opening) = (self.area(to)?, self.opening(door)?);
+        let number = self.lifts.iter().find(|l| l.name == lift).map(|l| l.number);
+        let number = number.ok_or_else(|| Surprise::Unknown { name: lift.to_owned() })?;
+        let Some((arrival, rise)) = self.arrival(to) else {
+            self.belief.unreachable.push((to, door.to_owned()));
+            return Err(Surprise::NoWay { to: lift.to_owned(), why: NoRoute::NoFloor }.into());
+        };
+        let ride = Ride { lift: number, from: self.belief.area, to, rise };
+        let ridden =
+            reins.ride(arrival, |vehicle, watch| vehicle.ride(&ride, opening, arrival, watch));
+        if let Err(Unfinished::Stopped | Unfinished::Failed(_)) = ridden {
+            return ridden.map_err(|r| refused(r, reins));
+        }
+        (self.belief.map, self.belief.pose) = reins.pose();
+        self.belief.area = to;
+        self.belief.station = Station::Door(door.to_owned());
+        ridden.map_err(|r| refused(r, reins))?;
+        self.cabin_stands_at(lift, door, opening);
+        Ok(())
+    }
+
+    /// Where the robot is after a ride, and how much higher, cm.
+    fn arrival(&self, to: AreaId) -> Option<((MapId, Pose), f64)> {
+        let belief = &self.belief;
+        let storey = |map: MapId| {
+            let maps = &belief.world.domain.maps;
+            maps.iter().find(|m| m.map == map).map_or(Frame::IDENTITY, |m| m.frame)
+        };
+        let (map, frame) = belief.world.placement(to)?;
+        let (below, above) = (storey(belief.map), storey(map));
+        let floor = belief.floor_of(map)?;
+        let same = above.invert(below.apply(belief.pose.at));
+        let stands = |at: &Point| {
+            floor.locate(*at).is_some_and(|(area, _)| area == to)
+                && floor.standing_at(*at).is_some_and(|near| (near - at).norm() < 1e-6)
+        };
+        let at = Some(same).filter(stands).or_else(|| floor.rest_in(to))?;
+        let heading = belief.pose.heading + below.angle - above.angle;
+        let height = |storey: Frame, cabin: Frame| storey.z.get() + cabin.z.get();
+        let (_, here) = belief.world.placement(belief.area)?;
+        Some(((map, Pose { at, heading }), height(above, frame) - height(below, here)))
+    }
+
+    /// A lift has opened its door.
+    fn cabin_stands_at(&mut self, lift: &str, door: &str, opening: Option<DoorId>) {
+        self.belief.cabins.insert(lift.to_owned(), door.to_owned());
+        let state = opening.and_then(|id| self.belief.world.doors.get(&id)).map(|d| d.state);
+        if let (Some(id), Some(state)) = (opening, state)
+            && state.status != DoorStatus::Open
+        {
+            self.belief.set_door(id, DoorState::OPEN);
+        }
+    }
+
+    fn set_door(
+        &mut self,
+        name: &str,
+        status: DoorStatus,
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let door = self.door(name)?;
+        let state = match status {
+            DoorStatus::Open => DoorState::OPEN,
+            DoorStatus::Closed => DoorState::CLOSED,
+            DoorStatus::Locked => DoorState::LOCKED,
+        };
+        let area = self.belief.area;
+        if state.status != DoorStatus::Open && !self.could_open_again(door, area) {
+            return Err(Surprise::NoReturn { door, area }.into());
+        }
+        let set = reins.act(|vehicle, watch| vehicle.set_door(door, state, watch));
+        set.map_err(|r| refused(r, reins))?;
+        self.belief.set_door(door, state);
+        Ok(())
+    }
+
+    /// Whether the robot, where it stands, could open a door again once it is shut: it gets to the place before the door on
+    /// its own side, and stands there out of the way of the leaves.
+    fn could_open_again(&self, door: DoorId, area: AreaId) -> bool {
+        let belief = &self.belief;
+        let Some(model) = belief.world.doors.get(&door) else { return true };
+        if model.state.status != DoorStatus::Open {
+            return true;
+        }
+        let shut = DoorStates::from([(door, DoorState::CLOSED)]);
+        let floor = belief.floor().with_doors(&belief.world, &shut);
+        let (from, before) = (belief.pose.at, Target::Door { door, area });
+        let areas = Some(&[area][..]);
+        let way = floor.route_within(&belief.world, from, before, Method::Shortest, areas);
+        let stand = way.ok().and_then(|way| way.points.last().copied());
+        stand.is_some_and(|at| floor.opens_from(&belief.world, door, at))
+    }
+
+    fn put(
+        &mut self,
+        thing: &str,
+        onto: Option<&str>,
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let held = self.held(thing)?;
+        let from = self.belief.pose;
+        let (area, frame) = match onto {
+            Some(name) => {
+                let support = self.replica(name)?;
+                // The thing is in the hand, not in the scene; its size is wanted, so it goes back for a moment.
+                let mut world = self.belief.world.clone();
+                let replica = self.belief.held.clone().expect("checked by held()");
+                world.replicas.insert(replica.id, replica);
+                let within = self.belief.into.contains(&(thing.to_owned(), name.to_owned()));
+                let spot = if within { spot_in } else { spot_on };
+                let near = self.beside(thing).unwrap_or(from.at);
+                let frame = spot(&world, self.belief.scene(), held, support, near)
+                    .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(support), seen: None })?;
+                (self.belief.world.replicas[&support].area, frame)
+            }
+            None => {
+                let mut world = self.belief.world.clone();
+                let replica = self.belief.held.clone().expect("checked by held()");
+                world.replicas.insert(replica.id, replica);
+                let (scene, area) = (self.belief.scene(), self.belief.area);
+                let frame = spot_on_floor(&world, scene, held, area, from)
+                    .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(held), seen: None })?;
+                (area, frame)
+            }
+        };
+        let put = reins.act(|vehicle, watch| vehicle.put(held, area, frame, watch));
+        if let Err(unfinished) = put {
+            let support = onto.and_then(|name| self.replica(name).ok());
+            // What should bear it is elsewhere, or bears what nobody knew of.
+            let unfinished = match (unfinished, support) {
+                (Unfinished::Met(Refusal::NoRoom(_)), Some(support)) => {
+                    Unfinished::Met(match self.is_elsewhere(support, reins)? {
+                        true => Refusal::NotThere(support),
+                        false => Refusal::NoRoom(support),
+                    })
+                }
+                (other, _) => other,
+            };
+            return Err(refused(unfinished, reins));
+        }
+        self.belief.set_down(area, frame);
+        Ok(())
+    }
+
+    /// Whether a thing, at which the vehicle looks, is not where it is believed to be.
+    fn is_elsewhere(
+        &self,
+        thing: ReplicaId,
+        reins: &mut Reins<'_>,
+    ) -> Result<bool, Unfinished<Surprise>> {
+        let seen = reins.look_at(Obstruction::Replica(thing)).map_err(Unfinished::Failed)?;
+        Ok(match (seen, self.belief.world.replicas.get(&thing)) {
+            (Some(Sighting::Replica { area, frame, .. }), Some(believed)) => {
+                (area, frame) != (believed.area, believed.frame)
+            }
+            (None, Some(_)) => true,
+            _ => false,
+        })
+    }
+
+    /// The middle of the thing beside which another is to be put.
+    fn beside(&self, thing: &str) -> Option<Point> {
+        let (_, other) = self.belief.beside.iter().find(|(what, _)| what == thing)?;
+        let placed = self.belief.scene().replicas.get(&self.replica(other).ok()?)?;
+        Some(nalgebra::center(&placed.bounds.min, &placed.bounds.max))
+    }
+}
