@@ -9,6 +9,8 @@
 mod change;
 #[path = "vectors/identify.rs"]
 mod identify;
+#[path = "vectors/scans.rs"]
+mod scans;
 #[path = "vectors/shapes.rs"]
 mod shapes;
 
@@ -17,6 +19,9 @@ use std::time::{Duration, Instant};
 fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|n| n == name);
+    if wanted("scans") {
+        scans::run();
+    }
     if wanted("identify") {
         identify::run();
     }
