@@ -15,7 +15,7 @@ use orthoframe_vectors::{
 };
 
 use super::{
-    median,
+    least, median,
     shapes::{Kind, normal, thing},
 };
 
@@ -165,7 +165,7 @@ fn pictures() {
         }
     }
     let mut models = Vec::new();
-    let time = median(51, || {
+    let time = least(101, || {
         models.clear();
         for frame in &frames {
             let picture = Picture::new(640, 480, frame.clone()).expect("a picture");
@@ -176,7 +176,7 @@ fn pictures() {
     });
     let segments: usize = models.iter().map(Model::len).sum();
     println!(
-        "\nA pair of pictures, 2 × 640 × 480, to {} models of {segments} segments: {:.2} ms.",
+        "\nA pair of pictures, 2 × 640 × 480, to {} models of {segments} segments: {:.2} ms at least.",
         models.len(),
         time.as_secs_f64() * 1e3
     );

@@ -57,9 +57,10 @@ fn things_and_what_moved() {
     assert!(std::fs::read(place.path("tree.png")).unwrap().starts_with(b"\x89PNG"));
     let value = place.json(&["see", "two.log", "--against", "2", "--draw", "moved.svg"], 0);
     let parts = value["parts"].as_array().unwrap();
-    let moved = parts.iter().find(|p| p["shift"][1].as_f64().unwrap().abs() > 5.0);
-    let shift =
-        moved.unwrap_or_else(|| panic!("the box moved: {value}"))["shift"][1].as_f64().unwrap();
+    // The wall may have slid along itself: nothing says whether it did. The box moved.
+    let moved = parts.iter().find(|part| part["pairs"] == serde_json::json!([1]));
+    let moved = moved.unwrap_or_else(|| panic!("the box moved: {value}"));
+    let shift = moved["shift"][1].as_f64().unwrap();
     assert!((shift - 15.0).abs() < 6.0, "{shift}");
     let svg = std::fs::read_to_string(place.path("moved.svg")).unwrap();
     assert!(svg.contains("сдвинулось само"));
