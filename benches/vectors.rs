@@ -9,6 +9,8 @@
 mod change;
 #[path = "vectors/identify.rs"]
 mod identify;
+#[path = "vectors/scans.rs"]
+mod scans;
 #[path = "vectors/shapes.rs"]
 mod shapes;
 
@@ -17,6 +19,9 @@ use std::time::{Duration, Instant};
 fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|n| n == name);
+    if wanted("scans") {
+        scans::run();
+    }
     if wanted("identify") {
         identify::run();
     }
@@ -29,7 +34,17 @@ fn main() {
 }
 
 /// Median time of `runs` runs.
-fn median(runs: usize, mut work: impl FnMut()) -> Duration {
+fn median(runs: usize, work: impl FnMut()) -> Duration {
+    times(runs, work)[runs / 2]
+}
+
+/// Least time of `runs` runs: of what takes milliseconds, a loaded machine interrupts most runs.
+fn least(runs: usize, work: impl FnMut()) -> Duration {
+    times(runs, work)[0]
+}
+
+/// Times of `runs` runs, the least first.
+fn times(runs: usize, mut work: impl FnMut()) -> Vec<Duration> {
     let mut times: Vec<Duration> = (0..runs)
         .map(|_| {
             let start = Instant::now();
@@ -38,5 +53,5 @@ fn median(runs: usize, mut work: impl FnMut()) -> Duration {
         })
         .collect();
     times.sort();
-    times[runs / 2]
+    times
 }

@@ -44,6 +44,9 @@ pub use orthoframe_geometry::{
 pub use orthoframe_robot::{Simulator, Vehicle};
 pub use orthoframe_semantics::{RelationRules, Relations};
 
+/// What a robot sees: the segments of [`engine::View`].
+pub use orthoframe_vectors::Segment;
+
 use orthoframe_corridor as corridor;
 use orthoframe_draw as draw;
 use orthoframe_exchange as exchange;
@@ -57,3 +60,4 @@ use orthoframe_semantics as semantics;
 use orthoframe_store as store;
 use orthoframe_strips as strips;
 use orthoframe_units as units;
+use orthoframe_vectors as vectors;

@@ -183,7 +183,7 @@ fn each_package_has_its_own_folder() {
         ("serde_json", &["cli", "engine", "exchange", "robot"]),
         ("encoding_rs", &["exchange"]),
         ("rusqlite", &["exchange"]),
-        ("png", &["exchange"]),
+        ("png", &["exchange", "vectors"]),
         ("roxmltree", &["exchange"]),
         ("i_overlay", &["geometry", "map", "corridor", "exchange"]),
         ("resvg", &["draw"]),

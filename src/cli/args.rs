@@ -15,6 +15,7 @@ use crate::robot::Wanted;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
 use super::observe::ObserveCommand;
+use super::see::SeeArgs;
 use super::store::StoreCommand;
 use super::vehicle::{SimulateArgs, VehicleArgs};
 
@@ -163,6 +164,8 @@ pub(super) enum Command {
     },
     /// Directions through corridors by counting entrances (paper 4)
     Corridor(CorridorArgs),
+    /// What a robot saw: segments of a scan or a picture, things of a log, what changed (paper 3)
+    See(SeeArgs),
     /// Run a Datalog program in Soufflé's dialect
     Datalog {
         program: PathBuf,

@@ -280,6 +280,11 @@ fn tell_faces(common: &Common, args: &ViewArgs) -> Result<Answer, Failure> {
     say(&faces.iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
+/// Writes a drawing as its file's name ends.
+pub(super) fn put_drawing(svg: String, path: &Path) -> Result<(), Failure> {
+    put(&[svg], Form::of_file(path)?, path, None).map(drop)
+}
+
 /// Writes sheets, the further ones into files of their own, numbered from 2.
 fn put(
     sheets: &[String],

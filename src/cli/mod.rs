@@ -18,6 +18,7 @@ mod observe;
 mod plan;
 mod query;
 mod read;
+mod see;
 #[cfg(feature = "serve")]
 mod serve;
 mod signals;
@@ -101,6 +102,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::route(common, from, to, *method, *words)
         }
         Command::Corridor(corridor) => corridor::run(common, corridor),
+        Command::See(args) => see::run(common, args),
         Command::Datalog {
             program,
             facts,

@@ -1,5 +1,6 @@
 //! Drawings as SVG and PNG (SPEC M12): the plan of a Map or Fragment with furniture, free floor, Passframes, their network
-//! and routes; an Object from three sides; the view from a pose; a road graph.
+//! and routes; an Object from three sides; the view from a pose; a road graph; seen
+//! segments and the tree of a hierarchical map.
 //!
 //! A drawing is built from plain geometry, so that every layer can be drawn without the others. Coordinates
 //! are the Map's, in cm, y up; the sheet turns them over, since SVG counts y downwards.
@@ -28,6 +29,8 @@ mod object;
 mod picture;
 mod plan;
 mod rooms;
+mod seen;
+mod tree;
 mod view;
 
 pub use corridor::{
@@ -38,4 +41,6 @@ pub use object::object_svg;
 #[cfg(feature = "pictures")]
 pub use picture::{PngError, png};
 pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
+pub use seen::{SeenDrawing, SeenSegment, SeenSign, seen_svg};
+pub use tree::{TreeNode, tree_svg};
 pub use view::{LeafBody, Mouth, ViewDrawing};

@@ -15,6 +15,8 @@ use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::{EnglishFaults, RuleFaults};
 use crate::units::{capitalized, is_input};
+use crate::vectors::picture::PictureError;
+use crate::vectors::read::LogError;
 
 /// Why the engine could not do what it was asked.
 #[derive(Debug, Error, Diagnostic)]
@@ -50,6 +52,12 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Query(#[from] Box<AskError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Log(#[from] Box<LogError>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
     #[cfg(feature = "pictures")]
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -96,6 +104,17 @@ pub enum RequestError {
     #[error("{what} = {value}, а нужно от {low} до {high}")]
     #[diagnostic(code(draw::out_of_range), help("задайте --{what} от {low} до {high}"))]
     OutOfRange { what: &'static str, value: f64, low: f64, high: f64 },
+    /// A scan that the log does not have.
+    #[error("скана {scan} нет, сканов {count}")]
+    #[diagnostic(code(see::no_scan), help("сканы считаются с 1: --scan от 1 до {count}"))]
+    NoScan { scan: usize, count: usize },
+    /// Scans cannot be laid beside one another.
+    #[error("сканов {count}, и ни у одного нет позы: неизвестно, откуда что видно")]
+    #[diagnostic(
+        code(see::no_poses),
+        help("постройте вещи одного скана (--scan 1 --models) или возьмите журнал с позами")
+    )]
+    NoPoses { count: usize },
     /// Built without pictures.
     #[error("эта сборка не умеет писать PNG")]
     #[diagnostic(code(draw::no_png), help("соберите с `--features pictures` или запишите SVG"))]
@@ -451,7 +470,9 @@ impl Error {
             | Self::Misheard(_)
             | Self::Mission(_)
             | Self::Corridor(_)
-            | Self::CorridorFile(_) => true,
+            | Self::CorridorFile(_)
+            | Self::Log(_)
+            | Self::Picture(_) => true,
             Self::Datalog(error) => match error.as_ref() {
                 FilesError::File { cause, .. } => is_input(cause.kind()),
                 _ => true,

@@ -4,9 +4,9 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{
-    Answer, Engine, Error, Heard, Journey, Outcome as Heeded, PlanStep, Relations, Replanned,
-    Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Unanswered, Whereabout, World,
-    face_in_words, name_in, no_way_in_words, steps, surprise_in_words,
+    Answer, Changes, Engine, Error, Heard, Journey, Outcome as Heeded, PlanStep, Relations,
+    Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things, Unanswered,
+    View, Whereabout, World, face_in_words, name_in, no_way_in_words, steps, surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
@@ -16,6 +16,8 @@ use crate::map::Entity;
 use crate::semantics::Spot;
 use crate::strips::Replayed;
 use crate::units::{AreaId, Point, Pose, ReplicaId};
+use crate::vectors::read::{LogError, LogFault};
+use crate::vectors::{Cut, End, Segment, Truth};
 
 #[derive(Debug, Serialize)]
 struct StepView {
@@ -414,6 +416,117 @@ pub fn task(world: &World, answer: &TaskAnswer) -> Value {
         view["en"] = json!(position.say(Language::English));
     }
     view
+}
+
+/// The segments of a scan or a picture.
+pub fn view(view: &View) -> Value {
+    json!({
+        "outcome": "segments",
+        "unit": if view.is_picture { "px" } else { "cm" },
+        "scan": view.scan,
+        "line": (!view.is_picture).then_some(view.line),
+        "beams": view.beams,
+        "returned": view.returns.len(),
+        "pose": view.pose.map(pose),
+        "segments": view.segments.iter().map(segment).collect::<Vec<_>>(),
+    })
+}
+
+/// The things of a log, a scan or a picture; each with its place and its segments in its own frame.
+pub fn things(things: &Things) -> Value {
+    let scene = &things.scene;
+    let thing = |(at, thing): (usize, &crate::vectors::Thing<2>)| {
+        let frame = scene.frames()[at].translation.vector;
+        let leaves = scene.leaves(at);
+        let of_leaf = |leaf: &crate::vectors::Leaf<'_, 2>| -> Vec<Value> {
+            let told = |(k, s): (usize, &Segment<2>)| {
+                let mut view = segment(s);
+                let counts = leaf.model.membership(k);
+                view["seen"] = json!(counts.seen);
+                view["expected"] = json!(counts.expected);
+                view["probability"] = json!(round(counts.probability()));
+                view
+            };
+            leaf.model.segments().iter().enumerate().map(told).collect()
+        };
+        json!({
+            "id": thing.id.0,
+            "at": point(frame.into()),
+            "segments": leaves.iter().flat_map(of_leaf).collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "outcome": "things",
+        "unit": if things.is_picture { "px" } else { "cm" },
+        "views": things.views,
+        "without_pose": things.without_pose,
+        "things": scene.things().iter().enumerate().map(thing).collect::<Vec<_>>(),
+    })
+}
+
+/// Two scans: which segment is which, what moved by itself, what is new or not found again.
+pub fn changes(changes: &Changes) -> Value {
+    let found = &changes.difference;
+    let part = |part: &crate::vectors::RigidPart<2>| {
+        let motion = part.motion.isometry;
+        json!({
+            "pairs": part.members,
+            "shift": point(motion.translation.vector.into()),
+            "turn_deg": round(motion.rotation.angle().to_degrees()),
+        })
+    };
+    json!({
+        "outcome": "changes",
+        "before": view(&changes.before),
+        "after": view(&changes.after),
+        "pairs": found.pairs.iter().map(|&(was, is, _)| [was, is]).collect::<Vec<_>>(),
+        "parts": found.parts.iter().map(part).collect::<Vec<_>>(),
+        "vanished": found.vanished,
+        "appeared": found.appeared,
+        "comparisons": found.counters.comparisons(),
+    })
+}
+
+/// What was wrong with lines of a log.
+pub fn log_faults(error: Option<&LogError>) -> Vec<Value> {
+    let told = |error: &LogError| -> Vec<Value> {
+        let fault = |fault: &LogFault| {
+            let (line, column) = error.source_text.position(fault.offset());
+            let code = miette::Diagnostic::code(fault).map(|code| code.to_string());
+            json!({"code": code, "message": fault.to_string(), "line": line, "column": column})
+        };
+        error.faults.iter().map(fault).collect()
+    };
+    error.map(told).unwrap_or_default()
+}
+
+/// `deviation`: of the two ends across and along, the greatest.
+fn segment(segment: &Segment<2>) -> Value {
+    json!({
+        "from": point(segment.start.into()),
+        "to": point(segment.end.into()),
+        "length": round(segment.length()),
+        "ends": ends(segment),
+        "deviation": round(segment.covariance.deviation()),
+    })
+}
+
+/// Words for what the ends of a segment are.
+#[must_use]
+pub fn ends(segment: &Segment<2>) -> [&'static str; 2] {
+    segment.ends.map(end)
+}
+
+const fn end(end: End) -> &'static str {
+    match end {
+        End::True(Truth::Corner) => "corner",
+        End::True(Truth::Free) => "free",
+        End::True(Truth::Given) => "given",
+        End::Cut(Cut::Occluded) => "occluded",
+        End::Cut(Cut::Range) => "range",
+        End::Cut(Cut::Field) => "field",
+        End::Cut(Cut::Unclear) => "unclear",
+    }
 }
 
 fn point(p: Point) -> [f64; 2] {

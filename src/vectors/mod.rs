@@ -39,6 +39,7 @@ pub mod read;
 pub mod scan;
 mod scene;
 mod segment;
+mod survey;
 mod synthesis;
 mod tip;
 
@@ -57,3 +58,4 @@ pub use scene::{
     Body, Change, Leaf, Node, Odometry, Owner, Part, Report, Scene, Thing, TreeNode, Writes,
 };
 pub use segment::{Covariance, Cut, End, Segment, Truth};
+pub use survey::{PoseNoise, Survey, survey};

@@ -8,6 +8,7 @@ mod map;
 mod plans;
 mod readme;
 mod rules;
+mod see;
 mod tasks;
 mod words;
 

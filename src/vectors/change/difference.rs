@@ -178,8 +178,11 @@ where
             let seeds = Seeds { view: &view, model: &stored, index: &index };
             let Some(pairs) = seeds.greatest(counters) else { return };
             for (k, j, reversed) in pairs {
-                self.partner[left[k]] = Some((free[j], reversed));
-                self.taken[free[j]] = true;
+                // Pieces of one face fit the whole of it; one of them is it.
+                if !self.taken[free[j]] {
+                    self.partner[left[k]] = Some((free[j], reversed));
+                    self.taken[free[j]] = true;
+                }
             }
         }
     }

@@ -47,24 +47,27 @@ pub fn rigid_parts<const D: usize>(
 where
     Euclid<D>: Space<D>,
 {
-    let all: Vec<usize> = (0..pairs.len()).collect();
     if pairs.is_empty() {
         return Vec::new();
     }
+    let one = first(pairs, next, guess);
     // Most often nothing, or all of it, moved.
-    if let Some(motion) = fitted(pairs, &all, guess) {
-        let residuals = squared(pairs, &motion);
-        let sum: f64 = residuals.iter().map(|r| r.0).sum();
-        let freedom: u32 =
-            residuals.iter().map(|r| r.1).sum::<u32>().saturating_sub(parameters::<D>()).max(1);
-        let usual =
-            ChiSquared::new(f64::from(freedom)).is_ok_and(|law| sum <= law.inverse_cdf(0.95));
-        let worst = residuals.iter().map(|r| r.0).fold(0.0, f64::max);
-        if usual && worst <= equality.radius(2 * D as u32).powi(2) {
-            return vec![RigidPart { members: all, motion }];
-        }
-    }
-    parts_of(pairs, split(pairs, next, guess), equality)
+    let split = if is_usual(pairs, &one, equality) { one } else { split(pairs, next, one) };
+    parts_of(pairs, split, equality)
+}
+
+/// Whether one motion explains all pairs as well as errors let it.
+fn is_usual<const D: usize>(
+    pairs: &[(Segment<D>, Segment<D>)],
+    one: &Split<D>,
+    equality: &Equality,
+) -> bool {
+    let sum: f64 = one.squared.iter().sum();
+    let measured: u32 = pairs.iter().map(|pair| distance(pair, &one.motions[0]).1).sum();
+    let freedom = measured.saturating_sub(parameters::<D>()).max(1);
+    let worst = one.squared.iter().copied().fold(0.0, f64::max);
+    let law = ChiSquared::new(f64::from(freedom));
+    worst <= equality.radius(2 * D as u32).powi(2) && law.is_ok_and(|law| law.cdf(sum) <= 0.95)
 }
 
 const fn parameters<const D: usize>() -> u32 {
@@ -123,13 +126,15 @@ struct Split<const D: usize> {
     labels: Vec<usize>,
     /// Squared distance of each pair under its motion.
     squared: Vec<f64>,
+    /// To which pairs each motion is fitted.
+    fitted_to: Vec<Vec<usize>>,
 }
 
 /// Motions that together explain the pairs: one more as long as it explains more than chance would.
 fn split<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     next: &[Option<usize>],
-    guess: &Motion<D>,
+    one: Split<D>,
 ) -> Split<D>
 where
     Euclid<D>: Space<D>,
@@ -138,7 +143,7 @@ where
     let runs = (count * (count + 1) / 2) as f64;
     let law = ChiSquared::new(f64::from(parameters::<D>())).expect("a motion has parameters");
     let least = law.inverse_cdf(1.0 - FALSE_SPLIT / runs);
-    let mut best = first(pairs, next, guess);
+    let mut best = one;
     while best.motions.len() < MOST {
         // Where what is known explains well, little can be gained.
         let poor: Vec<usize> =
@@ -169,7 +174,7 @@ where
         }
         let mut motions = best.motions.clone();
         motions.push(motion);
-        let more = settle(pairs, next, motions);
+        let more = settle(pairs, next, motions, best.fitted_to.clone());
         let saved = best.squared.iter().sum::<f64>() - more.squared.iter().sum::<f64>();
         if saved < least {
             break;
@@ -198,14 +203,15 @@ where
         let found = all.into_iter().map(|m| (explains(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
         motion = found.map_or(*guess, |f| f.1);
     }
-    settle(pairs, next, vec![motion])
+    settle(pairs, next, vec![motion], Vec::new())
 }
 
-/// Assigns pairs to motions and fits the motions to their pairs, in turn.
+/// Assigns pairs to motions and fits the motions to their pairs, in turn; `fitted_to` tells which already are.
 fn settle<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     next: &[Option<usize>],
     mut motions: Vec<Motion<D>>,
+    mut fitted_to: Vec<Vec<usize>>,
 ) -> Split<D>
 where
     Euclid<D>: Space<D>,
@@ -215,7 +221,7 @@ where
     };
     let mut now = costs(&motions);
     let mut labels = assign(&now, next);
-    let mut fitted_to: Vec<Vec<usize>> = vec![Vec::new(); motions.len()];
+    fitted_to.resize(motions.len(), Vec::new());
     // Assignment and fit both lower one sum, up to what the caps hide: it settles, or nearly.
     for _ in 0..6 {
         for (m, motion) in motions.iter_mut().enumerate() {
@@ -237,7 +243,7 @@ where
         labels = again;
     }
     let squared = labels.iter().enumerate().map(|(k, &m)| now[m][k]).collect();
-    Split { motions, labels, squared }
+    Split { motions, labels, squared, fitted_to }
 }
 
 /// The labels that cost least together, each border between neighbours priced: exact along every contour (Viterbi),

@@ -5,6 +5,8 @@
 //! are found more finely than pixels. Lengths are pixels, x to the right and **y upwards**, the middle of the lowest left
 //! pixel at (0, 0).
 
+mod file;
+
 use imageproc::contours::find_contours_with_threshold;
 use imageproc::contrast::otsu_level;
 use imageproc::image::GrayImage;
@@ -23,7 +25,7 @@ const FEWEST: usize = 12;
 const LARGEST: u32 = 16_384;
 
 /// What no picture can be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum PictureError {
     /// Its sides and the number of its pixels disagree, or a side is too long.
@@ -33,6 +35,10 @@ pub enum PictureError {
         help("точек должно быть ширина × высота, сторона не длиннее 16384")
     )]
     Size { width: u32, height: u32, pixels: usize },
+    /// The file is no PNG, or is damaged.
+    #[error("картинка не читается: {reason}")]
+    #[diagnostic(code(vectors::picture_file), help("нужен целый файл PNG"))]
+    Unreadable { reason: String },
 }
 
 /// Grey values, row by row from the top.

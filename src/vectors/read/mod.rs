@@ -21,8 +21,8 @@ pub use fault::{LogError, LogFault};
 use crate::scan::Sensor;
 use words::Word;
 
-/// Longest log, unpacked, in bytes.
-const LONGEST: u64 = 256 << 20;
+/// Longest log, packed or not, in bytes.
+pub const LONGEST: u64 = 256 << 20;
 /// Faults that are told; of the others the number.
 const MOST_FAULTS: usize = 100;
 
@@ -80,7 +80,14 @@ pub struct Reading {
 /// # Errors
 /// [`FileFault`].
 pub fn read_source(path: &Path) -> Result<Source, FileFault> {
-    let mut bytes = read_file(path, LONGEST)?;
+    unpacked(&path.to_string_lossy(), read_file(path, LONGEST)?)
+}
+
+/// The text of a log whose file's bytes are given, unpacked where they are gzipped.
+///
+/// # Errors
+/// [`FileFault::TooLarge`], [`FileFault::NotText`], or what unpacking meets.
+pub fn unpacked(name: &str, mut bytes: Vec<u8>) -> Result<Source, FileFault> {
     if bytes.starts_with(&[0x1f, 0x8b]) {
         let mut unpacked = Vec::new();
         MultiGzDecoder::new(bytes.as_slice())
@@ -94,7 +101,7 @@ pub fn read_source(path: &Path) -> Result<Source, FileFault> {
     }
     let text = String::from_utf8(bytes)
         .map_err(|error| FileFault::NotText { at: error.utf8_error().valid_up_to() })?;
-    Ok(Source::new(path.to_string_lossy(), text))
+    Ok(Source::new(name, text))
 }
 
 /// The scans of a log; its format is seen from its first line that says something.

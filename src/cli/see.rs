@@ -1,0 +1,194 @@
+//! `ortho see`: what a robot saw, as segments, things and changes (paper 3).
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::Value;
+
+use crate::Segment;
+use crate::engine::{Changes, Sighted, Things, View, decimal, json};
+
+use super::args::{Common, Lang};
+use super::commands::note;
+use super::draw::put_drawing;
+use super::fault::{Failure, drawn};
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct SeeArgs {
+    /// A log (CARMEN, rows of ranges, Breezy; also gzipped) or a picture (PNG)
+    file: PathBuf,
+    /// Which scan of the log, from 1; the first when left out
+    #[arg(long, value_name = "N")]
+    scan: Option<usize>,
+    /// Things instead of segments: of the scan named, or of all that tell where they were taken
+    #[arg(long)]
+    models: bool,
+    /// With --models: draw the map as a tree
+    #[arg(long, requires = "models")]
+    tree: bool,
+    /// What changed from the scan to this one
+    #[arg(long, value_name = "N", conflicts_with = "models")]
+    against: Option<usize>,
+    /// Draw into a file, SVG or PNG
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
+}
+
+/// Value, words and drawing of an answer.
+struct Shown {
+    value: Value,
+    words: String,
+    drawing: Option<String>,
+}
+
+pub(super) fn run(common: &Common, args: &SeeArgs) -> Result<Answer, Failure> {
+    let sighted = Sighted::read(&args.file)?;
+    let shown = shown(common, args, &sighted)?;
+    if let (Some(path), Some(svg)) = (&args.draw, shown.drawing) {
+        put_drawing(svg, path)?;
+    }
+    let faults = sighted.faults();
+    if common.json {
+        let mut value = shown.value;
+        value["scans"] = sighted.scans().into();
+        value["faults"] = json::log_faults(faults).into();
+        say(&value.to_string())?;
+    } else {
+        say(&shown.words)?;
+        faults.iter().for_each(|faults| note(drawn(*faults).trim_end()));
+    }
+    // What could be read was shown; lines that could not make the input wrong.
+    Ok(if faults.is_some() { Answer::Wrong } else { Answer::Yes })
+}
+
+fn shown(common: &Common, args: &SeeArgs, sighted: &Sighted) -> Result<Shown, Failure> {
+    let language = common.lang.language();
+    let wanted = args.draw.is_some();
+    let scan = args.scan.unwrap_or(1);
+    if args.models {
+        let things = sighted.things(args.scan)?;
+        let draw = || if args.tree { things.draw_tree(language) } else { things.draw(language) };
+        let drawing = wanted.then(draw);
+        let (value, words) = (json::things(&things), tell_things(common.lang, &things));
+        return Ok(Shown { value, words, drawing });
+    }
+    if let Some(against) = args.against {
+        let changes = sighted.changes(scan, against)?;
+        let drawing = wanted.then(|| changes.draw(language));
+        let (value, words) = (json::changes(&changes), tell_changes(common.lang, &changes));
+        return Ok(Shown { value, words, drawing });
+    }
+    let view = sighted.view(scan)?;
+    let drawing = wanted.then(|| view.draw(language));
+    let words = tell_view(common.lang, &view, sighted.scans());
+    Ok(Shown { value: json::view(&view), words, drawing })
+}
+
+fn tell_view(lang: Lang, view: &View, scans: usize) -> String {
+    let head = match (lang, view.is_picture) {
+        (Lang::Ru, true) => format!("Картинка: отрезков {}", view.segments.len()),
+        (Lang::En, true) => format!("Picture: {} segments", view.segments.len()),
+        (Lang::Ru, false) => format!(
+            "Скан {} из {scans}, строка {}: лучей {}, вернулось {}, отрезков {}",
+            view.scan,
+            view.line,
+            view.beams,
+            view.returns.len(),
+            view.segments.len()
+        ),
+        (Lang::En, false) => format!(
+            "Scan {} of {scans}, line {}: {} beams, {} returned, {} segments",
+            view.scan,
+            view.line,
+            view.beams,
+            view.returns.len(),
+            view.segments.len()
+        ),
+    };
+    let lines = view.segments.iter().enumerate().map(|(k, s)| tell(lang, k, s, view.is_picture));
+    std::iter::once(head).chain(lines).collect::<Vec<_>>().join("\n")
+}
+
+/// A segment: ends, length, what the ends are.
+fn tell(lang: Lang, k: usize, segment: &Segment<2>, is_picture: bool) -> String {
+    let unit = if is_picture { lang.pick("тчк", "px") } else { lang.pick("см", "cm") };
+    let length = decimal(segment.length(), unit, lang.language());
+    let (a, b) = (segment.start, segment.end);
+    let [first, last] = json::ends(segment).map(|end| word(lang, end));
+    format!(
+        "{:>3}. ({:.0}, {:.0}) – ({:.0}, {:.0}), {length}: {first} – {last}",
+        k + 1,
+        a.x,
+        a.y,
+        b.x,
+        b.y
+    )
+}
+
+fn word(lang: Lang, end: &str) -> &str {
+    let russian = match end {
+        "corner" => "угол",
+        "free" => "край",
+        "given" => "задан",
+        "occluded" => "загорожен",
+        "range" => "нет отражения",
+        "field" => "край поля зрения",
+        _ => "неясен",
+    };
+    lang.pick(russian, end)
+}
+
+fn tell_things(lang: Lang, things: &Things) -> String {
+    let count = things.scene.things().len();
+    let mut lines = vec![match lang {
+        Lang::Ru => format!("Вещей {count}, сканов соединено {}", things.views),
+        Lang::En => format!("{count} things, {} scans joined", things.views),
+    }];
+    if things.without_pose > 0 {
+        lines.push(match lang {
+            Lang::Ru => format!("Без позы, оставлено: {}", things.without_pose),
+            Lang::En => format!("Without a pose, left out: {}", things.without_pose),
+        });
+    }
+    for (k, thing) in things.scene.things().iter().enumerate() {
+        let model = things.scene.seen(k);
+        let at = things.scene.frames()[k].translation.vector;
+        let whole = model.segments().iter().filter(|s| s.is_whole()).count();
+        let (id, all) = (thing.id.0, model.len());
+        lines.push(match lang {
+            Lang::Ru => {
+                format!("{id:>4}. у ({:.0}, {:.0}): отрезков {all}, целых {whole}", at.x, at.y)
+            }
+            Lang::En => {
+                format!("{id:>4}. at ({:.0}, {:.0}): {all} segments, {whole} whole", at.x, at.y)
+            }
+        });
+    }
+    lines.join("\n")
+}
+
+fn tell_changes(lang: Lang, changes: &Changes) -> String {
+    let found = &changes.difference;
+    let (pairs, gone, new) = (found.pairs.len(), found.vanished.len(), found.appeared.len());
+    let mut lines = vec![match lang {
+        Lang::Ru => format!("Узнано отрезков {pairs}, не найдено {gone}, новых {new}"),
+        Lang::En => format!("{pairs} segments known again, {gone} not found, {new} new"),
+    }];
+    for part in &found.parts {
+        let motion = part.motion.isometry;
+        let (shift, turn) = (motion.translation.vector, motion.rotation.angle().to_degrees());
+        let count = part.members.len();
+        lines.push(match lang {
+            Lang::Ru => format!(
+                "  отрезков {count}: сдвиг ({:.1}, {:.1}) см, поворот {turn:.1}°",
+                shift.x, shift.y
+            ),
+            Lang::En => format!(
+                "  {count} segments: shift ({:.1}, {:.1}) cm, turn {turn:.1}°",
+                shift.x, shift.y
+            ),
+        });
+    }
+    lines.join("\n")
+}
