@@ -512,7 +512,7 @@ fn sessions_outlive_a_kill() {
 #[test]
 #[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
 fn an_operator_works_in_a_browser() {
-    let root = crate::files::project("");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let done = Command::new("python3")
         .arg(root.join("src/serve/judges/operator.py"))
         .arg(env!("CARGO_BIN_EXE_ortho"))
