@@ -226,8 +226,6 @@ def run(browser, server, faults):
     expect(page.locator(".next.past")).to_have_count(0)
     print("looks back and returns")
 
-    page.locator("#map").focus()
-    page.keyboard.press("e")
     page.locator('#map .thing[data-name="Кровать-1"]').click()
     expect(page.locator("#panel .title")).to_contain_text("Кровать")
     page.locator("#panel .why").first.click()
