@@ -264,7 +264,8 @@ fn of_two_editors_neither_loses_anything() {
     let told = stale.json();
     assert_eq!((stale.status, &told["code"]), (409, &json!("serve::stale")), "{told}");
     assert_eq!(told["theirs"][0]["user"], "Борис");
-    assert_eq!(told["theirs"][0]["differences"][0]["subject"], json!(name).clone(), "{told}");
+    let subject = told["theirs"][0]["differences"][0]["subject"].as_str().unwrap_or_default();
+    assert!(subject.contains(name), "{told}");
     assert_eq!(first.get("/api/state")["revision"], 2, "nothing was written");
     assert_eq!(first.post("/api/undo", &json!({ "on": 1 })).status, 409);
 

@@ -81,7 +81,7 @@ function time() {
   const old = $('.time input');
   if (old && document.activeElement === old) { old.max = last; $('.time .lab b').textContent = S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past'); $('.time .lab span').textContent = L(`ревизия ${at}`, `revision ${at}`); return; }
   $('.time').replaceChildren(el('div', { class: 'lab' }, el('b', null, S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past')), el('span', null, L(`ревизия ${at}`, `revision ${at}`))),
-    el('div', { class: 'track' }, el('input', { type: 'range', min: 1, max: Math.max(1, last), value: at, disabled: last < 2, 'aria-label': L('Карта на ревизии', 'The map at revision'), oninput: (event) => asOf(Number(event.target.value)) })),
+    el('div', { class: 'track' }, el('input', { type: 'range', min: last < 2 ? 0 : 1, max: Math.max(1, last), value: at, disabled: last < 2, 'aria-label': L('Карта на ревизии', 'The map at revision'), oninput: (event) => asOf(Number(event.target.value)) })),
     S.asOf === null ? el('span', { class: 'num' }, L(`правок ${last}`, `revisions ${last}`)) : el('button', { class: 'btn', type: 'button', onclick: acts.now }, L('К настоящему', 'Back to now')));
 }
 function phone() { $('.phone').replaceChildren(stopButton('pstop')); }
