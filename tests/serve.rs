@@ -500,7 +500,7 @@ fn sessions_outlive_a_kill() {
         &json!({ "on": 1, "edit": [{ "move": "Кресло-1", "to": [400, 320] }] }),
     );
     let (cookie, port) =
-        (operator.cookie.clone(), console.at.rsplit(':').next().expect("a port").to_owned());
+        (operator.cookie, console.at.rsplit(':').next().expect("a port").to_owned());
     // Not asked to end: killed.
     drop(console);
     let mut console = Console::start(&["--demo", "--store", store, "--port", &port]);

@@ -94,7 +94,6 @@ const PAGE: &[(&str, &str, &[u8])] = &[
 ];
 
 /// The server's answers, behind its gate.
-#[must_use]
 pub(super) fn router(house: &Arc<House>) -> Router {
     let mut api = Router::new();
     for (_, path, role, answer) in ROUTES {
