@@ -50,8 +50,6 @@ mod remedies;
 mod rmf_floors;
 mod routes;
 mod scenes;
-#[cfg(feature = "serve")]
-mod serve;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

@@ -264,7 +264,8 @@ fn of_two_editors_neither_loses_anything() {
     let told = stale.json();
     assert_eq!((stale.status, &told["code"]), (409, &json!("serve::stale")), "{told}");
     assert_eq!(told["theirs"][0]["user"], "Борис");
-    assert_eq!(told["theirs"][0]["differences"][0]["subject"], json!(name).clone(), "{told}");
+    let subject = told["theirs"][0]["differences"][0]["subject"].as_str().unwrap_or_default();
+    assert!(subject.contains(name), "{told}");
     assert_eq!(first.get("/api/state")["revision"], 2, "nothing was written");
     assert_eq!(first.post("/api/undo", &json!({ "on": 1 })).status, 409);
 
@@ -499,7 +500,7 @@ fn sessions_outlive_a_kill() {
         &json!({ "on": 1, "edit": [{ "move": "Кресло-1", "to": [400, 320] }] }),
     );
     let (cookie, port) =
-        (operator.cookie.clone(), console.at.rsplit(':').next().expect("a port").to_owned());
+        (operator.cookie, console.at.rsplit(':').next().expect("a port").to_owned());
     // Not asked to end: killed.
     drop(console);
     let mut console = Console::start(&["--demo", "--store", store, "--port", &port]);
@@ -512,25 +513,24 @@ fn sessions_outlive_a_kill() {
 #[test]
 #[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
 fn an_operator_works_in_a_browser() {
-    let root = crate::files::project("");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let done = Command::new("python3")
         .arg(root.join("src/serve/judges/operator.py"))
         .arg(env!("CARGO_BIN_EXE_ortho"))
         .env("PYTHONPATH", root.join("target/judges"))
         .output();
-    let told = done.as_ref().map(|done| {
-        format!(
-            "{}{}",
-            String::from_utf8_lossy(&done.stdout),
-            String::from_utf8_lossy(&done.stderr)
-        )
-    });
-    match done.as_ref().map(|done| done.status.code()) {
-        Ok(Some(0)) => println!("{}", told.unwrap_or_default()),
-        Ok(Some(77)) | Err(_) => {
+    let Ok(done) = done else {
+        assert!(std::env::var_os("CI").is_none(), "python3 is missing");
+        return println!("skipped: there is no python3");
+    };
+    let told = [done.stdout, done.stderr].concat();
+    let told = String::from_utf8_lossy(&told);
+    match done.status.code() {
+        Some(0) => println!("{told}"),
+        Some(77) => {
             assert!(std::env::var_os("CI").is_none(), "the browser is missing");
             println!("skipped: there is no browser");
         }
-        Ok(_) => panic!("{}", told.unwrap_or_default()),
+        _ => panic!("{told}"),
     }
 }

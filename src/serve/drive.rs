@@ -118,7 +118,7 @@ impl Tasks {
         let driver = Arc::clone(&tasks);
         std::thread::spawn(move || {
             while let Some(task) = driver.take_up() {
-                driver.drive(task);
+                driver.drive(&task);
             }
         });
         tasks
@@ -383,7 +383,7 @@ impl Tasks {
         }
     }
 
-    fn drive(&self, task: Task) {
+    fn drive(&self, task: &Task) {
         let (mut view, stop) = {
             let book = self.book();
             let running = book.running.as_ref().expect("it was just taken up");

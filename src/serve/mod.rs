@@ -71,6 +71,7 @@ struct House {
 
 /// Why nothing is served.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ServeError {
     #[error(transparent)]
     Engine(#[from] Box<Error>),

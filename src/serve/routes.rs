@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use axum::extract::{DefaultBodyLimit, Query, Request, State as Of};
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, LOCATION,
-    REFERRER_POLICY, SET_COOKIE, X_CONTENT_TYPE_OPTIONS,
+    CACHE_CONTROL, CONTENT_LENGTH, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue,
+    LOCATION, REFERRER_POLICY, SET_COOKIE, X_CONTENT_TYPE_OPTIONS,
 };
 use axum::http::{HeaderMap, StatusCode, Uri};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
@@ -94,7 +94,6 @@ const PAGE: &[(&str, &str, &[u8])] = &[
 ];
 
 /// The server's answers, behind its gate.
-#[must_use]
 pub(super) fn router(house: &Arc<House>) -> Router {
     let mut api = Router::new();
     for (_, path, role, answer) in ROUTES {
@@ -148,6 +147,8 @@ async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Respo
         .and_then(|()| came_from(&house, &request));
     let mut response = match checked {
         Err(refused) => refused.into_response(),
+        // What says that it is too large is not waited for.
+        Ok(()) if says_too_much(request.headers()) => StatusCode::PAYLOAD_TOO_LARGE.into_response(),
         Ok(()) => match token(request.uri()) {
             Some(token) => enter(&house, &token),
             None => match tokio::time::timeout(PATIENCE, next.run(request)).await {
@@ -170,6 +171,11 @@ async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Respo
     say(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
     say(CACHE_CONTROL, "no-store");
     response
+}
+
+fn says_too_much(headers: &HeaderMap) -> bool {
+    let length = headers.get(CONTENT_LENGTH).and_then(|length| length.to_str().ok());
+    length.is_some_and(|length| length.parse().map_or(true, |bytes: usize| bytes > BODY))
 }
 
 /// The page itself may be opened from anywhere: it shows nothing without a cookie that other sites do not send.

@@ -1,8 +1,8 @@
 // The page put together: what is heard from the server, what the operator does, and what is drawn anew for it.
 import { S, L, N, I, $, el, api, ask, announce, names, may, Refused } from './base.js';
 import { connect, refresh } from './link.js';
-import { centre, directives, fit, paint, show, under, view, zoom } from './map.js';
-import { note, reason, renderTalk, send } from './talk.js';
+import { centre, fit, paint, show, under, view, zoom } from './map.js';
+import { note, reason, renderLog, renderTalk, send } from './talk.js';
 import { body, card, ending } from './panels.js';
 import * as edit from './edit.js';
 
@@ -22,7 +22,7 @@ function render() {
 }
 function stopButton(cls = '') {
   const off = S.linked !== 'yes';
-  const text = S.stopping ? L('посылаю…', 'sending…') : S.task ? L('Стоп', 'Stop') : L('Стоп', 'Stop');
+  const text = S.stopping ? L('посылаю…', 'sending…') : L('Стоп', 'Stop');
   return el('button', { class: `stop ${cls}`, type: 'button', onclick: stop, 'aria-keyshortcuts': 'Control+.', 'aria-label': off ? L('Стоп: связи нет', 'Stop: no link') : L('Стоп', 'Stop') }, I('stop'), el('span', null, text), el('kbd', { 'aria-hidden': 'true' }, 'Ctrl .'));
 }
 function bar() {
@@ -81,7 +81,7 @@ function time() {
   const old = $('.time input');
   if (old && document.activeElement === old) { old.max = last; $('.time .lab b').textContent = S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past'); $('.time .lab span').textContent = L(`ревизия ${at}`, `revision ${at}`); return; }
   $('.time').replaceChildren(el('div', { class: 'lab' }, el('b', null, S.asOf === null ? L('Сейчас', 'Now') : L('Прошлое', 'The past')), el('span', null, L(`ревизия ${at}`, `revision ${at}`))),
-    el('div', { class: 'track' }, el('input', { type: 'range', min: 1, max: Math.max(1, last), value: at, disabled: last < 2, 'aria-label': L('Карта на ревизии', 'The map at revision'), oninput: (event) => asOf(Number(event.target.value)) })),
+    el('div', { class: 'track' }, el('input', { type: 'range', min: last < 2 ? 0 : 1, max: Math.max(1, last), value: at, disabled: last < 2, 'aria-label': L('Карта на ревизии', 'The map at revision'), oninput: (event) => asOf(Number(event.target.value)) })),
     S.asOf === null ? el('span', { class: 'num' }, L(`правок ${last}`, `revisions ${last}`)) : el('button', { class: 'btn', type: 'button', onclick: acts.now }, L('К настоящему', 'Back to now')));
 }
 function phone() { $('.phone').replaceChildren(stopButton('pstop')); }
@@ -119,8 +119,7 @@ async function asOf(revision) { S.asOf = revision >= S.state.revision ? null : r
 async function everything() {
   await refresh();
   S.map ??= S.robot?.map ?? S.state.maps[0]?.name ?? null;
-  if (S.plan && S.plan.revision !== S.state.revision) { /* it is made anew when it is confirmed */ }
-  render(); await draw(); history();
+  renderLog(); render(); await draw(); history();
 }
 
 /* what the operator does */
@@ -297,4 +296,3 @@ new ResizeObserver(() => { if (S.drawing) fit(); }).observe($('.canvas'));
 document.addEventListener('visibilitychange', () => paint());
 setInterval(() => { if (S.lease?.session === S.state?.session && S.linked === 'yes') api('/api/lease', { do: 'keep' }).then((lease) => { S.lease = lease; }).catch(() => {}); }, 40000);
 connect(heard).then(everything).catch((error) => { S.linked = error.status === 401 ? 'stranger' : 'no'; render(); if (S.linked === 'no') setTimeout(() => location.reload(), 3000); });
-export { directives };

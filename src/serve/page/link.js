@@ -18,13 +18,18 @@ export async function connect(handlers) {
 
 /** What the page begins with. */
 export async function refresh() {
-  const state = await api('/api/state');
+  let state = await api('/api/state');
+  // What was heard meanwhile is newer than what was asked for.
+  for (let again = 0; again < 5 && older(state.event, last); again += 1) state = await api('/api/state');
   last = state.event;
   S.state = state;
   S.task = state.task; S.queue = state.queue; S.ended = state.ended; S.lease = state.lease;
   S.robot = state.robot?.place ?? null;
   return state;
 }
+
+/** Of two ids of one run, whether the first was given before the second. */
+const older = (a, b) => Boolean(b) && a.split('-')[0] === b.split('-')[0] && Number(a.split('-')[1]) < Number(b.split('-')[1]);
 
 function open() {
   source?.close();

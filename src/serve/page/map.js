@@ -113,6 +113,8 @@ function labels(d, taken, bold) {
     if (at && fine) g.append(text(at[0], at[1] + 18 / k, `${num(room.m2)} ${L('м²', 'm²')}`, 'm-m2lab', 12));
   }
   if (detail() < 2 || !S.layers.things) return g;
+  const near = 5 / k;
+  for (const [p, q] of d.walls) boxes.push([Math.min(p[0], q[0]) - near, -Math.max(p[1], q[1]) - near, Math.max(p[0], q[0]) + near, -Math.min(p[1], q[1]) + near]);
   const area = (b) => (b[2] - b[0]) * (b[3] - b[1]);
   for (const thing of [...d.things].sort((a, b) => area(boxOf(b)) - area(boxOf(a)))) {
     if (count > MOST_NAMES) break;
@@ -150,6 +152,7 @@ export const directives = () => (S.plan?.plan ?? S.task?.plan)?.directives ?? []
 
 function overlay(d, taken, bold) {
   const g = sv('g', { class: 'overlay' }), top = sv('g'), k = view.k;
+  const along = (points) => { for (let i = 1; i < points.length; i += 1) { const [a, b] = [points[i - 1], points[i]], n = Math.min(200, Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / 20)); for (let j = 0; j <= n; j += 1) keep([[a[0] + ((b[0] - a[0]) * j) / n, a[1] + ((b[1] - a[1]) * j) / n]]); } };
   const keep = (points) => { for (const [x, y] of points) taken.push([x - 9 / k, -y - 9 / k, x + 9 / k, -y + 9 / k]); };
   for (const away of d.elsewhere) {
     if (away.polygons) for (const polygon of away.polygons) g.append(sv('path', { class: 'm-away', d: Z(polygon), 'stroke-width': 2 / k }));
@@ -162,6 +165,7 @@ function overlay(d, taken, bold) {
     if (S.task || S.plan) for (const [i, step] of steps.entries()) {
       if (i < from || step.map !== d.map || step.points.length < 2) continue;
       g.append(way(i === from && S.robot && !S.plan ? rest(step.points) : step.points, S.plan ? 'm-planned' : 'm-route'));
+      along(step.points);
       const end = step.points[step.points.length - 1];
       top.append(badge(end[0], end[1], String(step.number), i > from)); keep([end]);
     }
@@ -185,7 +189,10 @@ function overlay(d, taken, bold) {
     for (const line of S.edit.snaps ?? []) top.append(sv('path', { class: 'm-snap', d: P(line), 'stroke-width': 1 / k }));
     for (const [x, y, words] of S.edit.sizes ?? []) top.append(tag(x, y, words, 'know'));
   }
-  if (S.robot?.pose && S.robot.map === d.map && S.asOf === null) { top.append(robot(S.robot, S.linked !== 'yes')); keep([[S.robot.pose.x, S.robot.pose.y]]); }
+  if (S.robot?.pose && S.robot.map === d.map && S.asOf === null) {
+    const { x, y } = S.robot.pose, r = Math.max(14 / k, S.state?.profile?.radius ?? 25);
+    top.append(robot(S.robot, S.linked !== 'yes')); taken.push([x - r, -y - r, x + r, -y + r]);
+  }
   return [g, top];
 }
 const rect = (b, grown = 0) => ({ x: b[0] - grown, y: b[1] - grown, width: b[2] - b[0] + 2 * grown, height: b[3] - b[1] + 2 * grown });

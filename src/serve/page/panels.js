@@ -3,7 +3,9 @@ import { S, L, N, I, $, el, num, ask, may, length, seconds } from './base.js';
 import { directives, doorState, show, paint } from './map.js';
 import { nameButton, planInWords } from './talk.js';
 
-const words = (step) => L(step.do_ru, step.do_en);
+const words = (step) => { const text = L(step.do_ru, step.do_en) ?? ''; return text.charAt(0).toUpperCase() + text.slice(1); };
+/** `ДВЕРЬ_ИЗ_В_ОТКРЫТА_(а, б)` as a person reads it. */
+const plainly = (fact) => { const [, name, args] = /^(.*?)_?\((.*)\)$/.exec(fact) ?? [null, fact, '']; return `${args}: ${name.toLowerCase().replaceAll('_', ' ')}`; };
 const ENDS = {
   done: ['сделано', 'done'], already_true: ['уже так', 'already so'], no_plan: ['пути нет', 'no way'], stuck: ['застрял', 'stuck'], stopped: ['остановлено', 'stopped'],
   cancelled: ['отменено', 'cancelled'], declined: ['отклонено', 'declined'], failed: ['сбой', 'failed'], refused: ['нельзя', 'refused'], misheard: ['не понято', 'not understood'],
@@ -50,7 +52,7 @@ function taskTab(act) {
       S.plan ? el('div', { class: 'btns' }, button('pri wide', L('Ехать', 'Drive'), act.confirm), button('wide', L('Не надо', 'Decline'), act.decline)) : null,
       el('ol', { class: 'steps' }, all.map((step, i) => el('li', { class: i < at ? 'done' : i === at ? 'cur' : '', 'aria-current': i === at ? 'step' : null }, el('span', { class: 'n' }, i < at ? I('check') : String(step.number)), el('span', null, words(step)), el('span', { class: 'num' }, `${step.length_cm > 0 ? `${length(step.length_cm)} · ` : ''}${seconds(step.seconds)}`))))));
     const rests = [...new Set((running.plan.events ?? []).flatMap((event) => L(event.assumptions, event.assumptions_en) ?? []))];
-    if (rests.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('План держится на том, что', 'The plan rests on this')), el('ul', { class: 'list' }, rests.map((text) => el('li', null, I('door'), el('span', { class: 'g' }, text))))));
+    if (rests.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('План держится на том, что', 'The plan rests on this')), el('ul', { class: 'list' }, rests.map((text) => el('li', null, I('door'), el('span', { class: 'g', title: text }, plainly(text)))))));
   } else {
     parts.push(el('div', { class: 'sec' }, el('div', { class: 'row' }, pill('mute', L('Задания нет', 'No task'))), el('h2', { class: 'title' }, L('Робот стоит', 'The robot stands')), el('p', { class: 'sub' }, place())));
   }
@@ -131,7 +133,7 @@ function mapTab(act) {
 const KINDS = { import: ['импорт', 'import'], edit: ['правка', 'edit'], undo: ['отмена', 'undo of'], redo: ['возврат', 'redo of'] };
 const revisionWords = (one) => `${L(...(KINDS[one.kind] ?? [one.kind, one.kind]))}${one.undoes ? ` ${one.undoes}` : ''}${one.reason ? `: ${one.reason}` : ''}`;
 /** A difference by its data: its sentence is Russian. */
-export const englishOf = (d) => `${N(d.subject)}: ${d.fate}${d.fields.length ? ` (${d.fields.map((f) => `${f.column} ${f.old ?? '–'} → ${f.new ?? '–'}`).join(', ')})` : ''}`;
+export const englishOf = (d) => `${N(/«(.*)»/.exec(d.subject)?.[1] ?? d.subject)}: ${d.fate}${d.fields.length ? ` (${d.fields.map((f) => `${f.column} ${f.old ?? '–'} → ${f.new ?? '–'}`).join(', ')})` : ''}`;
 
 function editSection(act) {
   const edit = S.edit, parts = [el('div', { class: 'row' }, pill('v', L(`Правка на ревизии ${edit.on}`, `Edit on revision ${edit.on}`)))];

@@ -53,7 +53,7 @@ function turn(entry) {
     (entry.steps ?? []).map((step) => el('div', { class: 'say' }, I(step.icon ?? 'ahead'), el('span', null, step.text))));
 }
 
-function renderLog() {
+export function renderLog() {
   const box = $('.log'); if (!box) return;
   box.replaceChildren(...log.map(turn));
   if (!log.length) box.append(examples());
