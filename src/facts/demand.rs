@@ -20,7 +20,6 @@ use foldhash::fast::RandomState;
 
 use super::ask::{AskError, Computed};
 use super::called::{Called, Flat, Lookup, Mask, columns_of};
-use super::check::reads;
 use super::evaluate::MAX_ROWS;
 use super::finished::share;
 use super::head::Head;
@@ -32,6 +31,7 @@ use super::program::{Clause, Expr, Program, RelationId, VariableId};
 use super::proof::turned;
 use super::rows::{SharedRows, heap};
 use super::run::{Goal, Source, run};
+use super::strata::reads;
 use super::syntax::Span;
 use super::word::{NO_WORD, Word, Words};
 

@@ -13,7 +13,6 @@ use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::check::reads;
 use super::database::Database;
 use super::derived::Derived;
 use super::explain::RuleTrace;
@@ -25,6 +24,7 @@ use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
 use super::rows::{self, Growing, RowSet, SharedRows, Sink, heap};
 use super::run::Step;
 use super::spread::{Join, Makes, can_spread};
+use super::strata::reads;
 use super::subsume::{Choosing, Chosen, Dominated, Pruned};
 use super::syntax::Span;
 use super::word::{Note, Word};
@@ -252,7 +252,7 @@ impl<'a> Evaluation<'a> {
                     self.emit(clause, &plan, &no_parts(&plan), limit, true, sink.as_sink());
                     self.check_limits(clause)?;
                 }
-                let rows = new.sort();
+                let rows = new.sort_among(self.finished.watch.limits().threads);
                 self.check_size(*relation, rows.len())?;
                 rows
             };
@@ -353,8 +353,9 @@ impl<'a> Evaluation<'a> {
                 self.check_size(*relation, rows.len() + rows.sink().len())?;
             }
         }
+        let threads = self.finished.watch.limits().threads;
         for (relation, rows) in growing {
-            self.finished.rows[relation.index()] = Some(rows.complete());
+            self.finished.rows[relation.index()] = Some(rows.complete(threads));
         }
         Ok(())
     }
@@ -439,7 +440,14 @@ impl<'a> Evaluation<'a> {
     fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {
         let wanted = head_variables(clause);
         let task = Task { clause, versions, first, bound: &[], wanted: &wanted };
-        plan(&task, &self.finished)
+        let mut plan = plan(&task, &self.finished);
+        // A trace counts what one thread finds.
+        plan.can_spread = self.finished.watch.limits().threads > 1
+            && self.traced.is_none()
+            && self.limit(clause.head) == MAX_ROWS
+            && can_spread(&plan)
+            && Makes::of(clause) != Makes::Any;
+        plan
     }
 
     fn emit(
@@ -453,13 +461,7 @@ impl<'a> Evaluation<'a> {
     ) {
         let watch = Rc::clone(&self.finished.watch);
         let started = self.traced.is_some().then(|| (Instant::now(), sink.len()));
-        // A trace counts what one thread finds.
-        let may_spread = watch.limits().threads > 1
-            && started.is_none()
-            && limit == MAX_ROWS
-            && can_spread(plan)
-            && Makes::of(clause) != Makes::Any;
-        if may_spread {
+        if plan.can_spread {
             let program = self.program;
             let join = Join { program, clause, plan, is_any_order, limit };
             join.run(&mut self.finished, parts, sink);

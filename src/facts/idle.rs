@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::check::Declared;
+use super::declare::Declared;
 use super::fault::RuleError;
 use super::ground::used_variables;
 use super::program::{Clause, Expr, Fact, Found, Literal, Term};

@@ -8,8 +8,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::check::Declared;
 use super::clause::{self, Made};
+use super::declare::Declared;
 use super::fault::RuleError;
 use super::program::{Found, RelationId};
 use super::syntax::{Atom, Body, Comparison, Expr, Item, Name, Role, Rule, Span};

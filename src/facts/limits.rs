@@ -57,7 +57,7 @@ impl Default for Limits {
             memory_bytes: 1 << 31,
             rows: MAX_ROWS,
             threads: thread::available_parallelism().map_or(1, usize::from),
-            spread_from: Duration::from_micros(300),
+            spread_from: Duration::from_micros(500),
         }
     }
 }

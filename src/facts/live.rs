@@ -14,7 +14,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::check::reads;
 use super::database::{Database, FactError, RelationKey};
 use super::delta::{Deltas, Planned, Touch, turned_rows};
 use super::derived::{Derived, Tuple};
@@ -24,6 +23,7 @@ use super::kept::View;
 use super::limits::{Limits, Watch};
 use super::program::{Program, RelationId, Stratum};
 use super::stored::Stored;
+use super::strata::reads;
 use super::word::{NO_WORD, Value, Word, Words};
 
 type Row = Box<[Word]>;
@@ -114,6 +114,14 @@ impl Live {
         let changed = self.database.remove_row(relation, &row);
         self.touch(relation, row, changed);
         Ok(changed)
+    }
+
+    /// The relations that an edit cannot be followed through tuple by tuple: those with a choice domain, a `.limitsize`,
+    /// subsumption or `autoinc()`, and what is recursive with them. They are evaluated anew when something that they
+    /// read has changed; which tuple a choice keeps may then be another one, as in an evaluation from scratch.
+    pub fn evaluated_anew(&self) -> impl Iterator<Item = RelationId> {
+        let beyond = |stratum: &&Stratum| self.program.is_beyond_edits(stratum);
+        self.program.strata.iter().filter(beyond).flat_map(|stratum| stratum.relations.clone())
     }
 
     /// Whether an edit waits for [`Self::update`].
@@ -239,6 +247,20 @@ impl Live {
     }
 }
 
+impl Program {
+    /// Whether what a stratum derives cannot be told from what changed: which tuples a `.limitsize` or a choice keeps and
+    /// which numbers are given depends on the order of evaluation, and what a subsumption took out is not known any more.
+    fn is_beyond_edits(&self, stratum: &Stratum) -> bool {
+        let keeps_some = |relation: &RelationId| {
+            let info = self.info(*relation);
+            info.limit_size.is_some() || !info.choices.is_empty()
+        };
+        stratum.relations.iter().any(keeps_some)
+            || !stratum.subsumptions.is_empty()
+            || stratum.clauses.iter().any(|n| self.clauses[*n].counts_on())
+    }
+}
+
 /// An update under way.
 struct Update<'a> {
     program: &'a Program,
@@ -261,18 +283,11 @@ impl Update<'_> {
             return Ok(());
         }
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
-        let clauses = stratum.clauses.iter().map(|n| &self.program.clauses[*n]);
         let mut is_recursive = false;
-        let mut has_limit = false;
-        for clause in clauses {
+        for clause in stratum.clauses.iter().map(|n| &self.program.clauses[*n]) {
             reads(&clause.body, false, &mut |r, _, _| is_recursive |= is_own(r));
-            let info = self.program.info(clause.head);
-            has_limit |= info.limit_size.is_some() || !info.choices.is_empty();
         }
-        // Which tuples a `.limitsize` or a choice keeps depends on the order of evaluation, and what a subsumption took
-        // out is not known any more.
-        has_limit |= !stratum.subsumptions.is_empty();
-        if has_limit || self.edit(stratum, is_recursive)?.is_err() {
+        if self.program.is_beyond_edits(stratum) || self.edit(stratum, is_recursive)?.is_err() {
             return self.anew(stratum);
         }
         for relation in &stratum.relations {
@@ -287,6 +302,8 @@ impl Update<'_> {
 
     fn is_affected(&self, stratum: &Stratum) -> bool {
         let mut affected = stratum.relations.iter().any(|r| self.told.contains_key(r));
+        // One more number here is another number in every later rule that counts on.
+        affected |= stratum.clauses.iter().any(|n| self.program.clauses[*n].counts_on());
         for clause in &stratum.clauses {
             let body = &self.program.clauses[*clause].body;
             reads(body, false, &mut |r, _, _| affected |= !self.derived.kept.edit(r).is_empty());

@@ -43,6 +43,8 @@ pub(super) enum Request {
 pub(super) struct Plan {
     pub(super) steps: Vec<Step>,
     pub(super) requests: Vec<Request>,
+    /// Whether its first rows may be divided among threads.
+    pub(super) can_spread: bool,
 }
 
 impl Plan {
@@ -448,7 +450,7 @@ impl<'a> Draft<'a> {
                 let Literal::Compare(compare) = &body[*other] else { continue };
                 if compare.op == Comparison::Equal
                     && let Some((column, _, value)) = self.separate(compare, atom)
-                    && key.len() < super::check::MAX_COLUMNS
+                    && key.len() < super::declare::MAX_COLUMNS
                 {
                     key.push((column, value));
                     taken.push(*other);

@@ -10,7 +10,7 @@ use super::fault::{Faults, FileFaults, RuleError};
 use super::limits::Ceilings;
 use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
 use super::word::{Value, Word, Words};
-use super::{check, component, parse};
+use super::{check, component, declare, parse, strata};
 use crate::units::{Source, name_key};
 
 /// A relation of a program, by position.
@@ -254,7 +254,7 @@ pub struct Program {
     pub(super) words: Words,
     pub(super) warnings: Arc<[FileFaults]>,
     /// What questions about the program's results name.
-    pub(super) declared: Arc<check::Declared>,
+    pub(super) declared: Arc<declare::Declared>,
 }
 
 impl Program {
@@ -365,7 +365,7 @@ impl Program {
     pub fn readers(&self, relation: RelationId) -> impl Iterator<Item = &Source> {
         let reads = move |clause: &&Arc<Clause>| {
             let mut found = false;
-            check::reads(&clause.body, false, &mut |of, _, _| found |= of == relation);
+            strata::reads(&clause.body, false, &mut |of, _, _| found |= of == relation);
             found
         };
         self.clauses.iter().filter(reads).map(|clause| &self.sources[clause.at.file as usize])

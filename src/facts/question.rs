@@ -21,13 +21,15 @@ use nom::branch::alt;
 use nom::combinator::opt;
 use nom::sequence::preceded;
 
-use super::check::{Declared, declare_more, equivalence, kind_name, strata};
+use super::check::equivalence;
 use super::clause::{self, Made};
+use super::declare::{Declared, declare_more, kind_name};
 use super::fault::{Faults, RuleError};
 use super::lex::{self, Token, Word};
 use super::parse::{atom, disjunction, items_of};
 use super::program::{Clause, Column, Found, Kind, Program, RelationId, RelationInfo, by_file};
 use super::read::{Furthest, Input, Read, list, name, number, sign};
+use super::strata::strata;
 use super::syntax::{self, Item, Rule, Span};
 use super::word::Words;
 use crate::units::Source;
@@ -98,7 +100,7 @@ impl Program {
         let (answers, columns) = clause::asking(asked, &declared, words, &mut made, faults);
         let is_read = |clause: &Clause| {
             let mut all = true;
-            super::check::reads(&clause.body, false, &mut |of, _, at| {
+            super::strata::reads(&clause.body, false, &mut |of, _, at| {
                 if declared.unfolded.contains(&of) {
                     let name = &declared.relations[of.index()].name;
                     let what = format!("вопрос об inline-отношении «{name}»");

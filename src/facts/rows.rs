@@ -8,6 +8,7 @@ use std::cell::{Ref, RefCell, RefMut};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
+use std::thread;
 
 use datafrog::{Iteration, Relation, Variable};
 
@@ -23,6 +24,10 @@ pub(super) struct Row<const N: usize>(pub(super) [Word; N]);
 impl<const N: usize> Row<N> {
     #[inline]
     pub(super) fn of(words: &[Word]) -> Self {
+        // Most rows fill their width; then nothing is looked up to copy them.
+        if let Ok(row) = <[Word; N]>::try_from(words) {
+            return Self(row);
+        }
         let mut row = [0; N];
         row[..words.len()].copy_from_slice(words);
         Self(row)
@@ -142,9 +147,15 @@ pub(super) trait Sink {
         None
     }
 
-    /// Takes what a branch took, each row renamed.
-    fn absorb(&mut self, _: Taken, _: &dyn Fn(&mut [Word])) {}
+    /// Takes what its branches took, in the order of the pieces.
+    fn absorb(&mut self, _: Vec<Taken>, _: &[Piece], _: Option<&Rename<'_>>) {}
 }
+
+/// Rows of one branch, from one place to another.
+pub(super) type Piece = (usize, Range<usize>);
+
+/// Names the words anew that a branch has named.
+pub(super) type Rename<'a> = dyn Fn(usize, &mut [Word]) + 'a;
 
 /// A sink that a thread of its own fills.
 pub(super) trait Branch: Sink + Send {
@@ -194,21 +205,14 @@ impl<const N: usize> Branch for Beside<'_, N> {
     }
 }
 
-/// Puts rows behind others.
-fn append<const N: usize>(rows: &mut Vec<Row<N>>, mut more: Vec<Row<N>>) {
-    if rows.is_empty() {
-        *rows = more;
-    } else {
-        rows.append(&mut more);
-    }
-}
-
 /// Rows in any order, to become a [`RowSet`].
 pub(super) trait Heap: Sink {
     fn as_sink(&mut self) -> &mut (dyn Sink + 'static);
     /// Takes these columns of all rows.
     fn project(&mut self, rows: &dyn RowSet, columns: &[usize]);
     fn sort(self: Box<Self>) -> SharedRows;
+    /// The same in several threads where there are many.
+    fn sort_among(self: Box<Self>, threads: usize) -> SharedRows;
 }
 
 impl<const N: usize> Sink for Vec<Row<N>> {
@@ -232,11 +236,15 @@ impl<const N: usize> Sink for Vec<Row<N>> {
         Some(Box::new(Self::new()))
     }
 
-    fn absorb(&mut self, taken: Taken, rename: &dyn Fn(&mut [Word])) {
-        if let Ok(taken) = taken.downcast::<Self>() {
-            let mut taken = *taken;
-            taken.iter_mut().for_each(|row| rename(&mut row.0));
-            append(self, taken);
+    fn absorb(&mut self, taken: Vec<Taken>, pieces: &[Piece], rename: Option<&Rename<'_>>) {
+        let taken: Vec<&Self> = taken.iter().filter_map(|rows| rows.downcast_ref()).collect();
+        self.reserve(taken.iter().map(|rows| rows.len()).sum());
+        for (branch, range) in pieces {
+            let from = self.len();
+            self.extend_from_slice(&taken[*branch][range.clone()]);
+            if let Some(rename) = rename {
+                self[from..].iter_mut().for_each(|row| rename(*branch, &mut row.0));
+            }
         }
     }
 }
@@ -260,6 +268,42 @@ impl<const N: usize> Heap for Vec<Row<N>> {
     fn sort(self: Box<Self>) -> SharedRows {
         Arc::new(sorted(*self))
     }
+
+    fn sort_among(mut self: Box<Self>, threads: usize) -> SharedRows {
+        if threads > 1 && self.len() >= MANY {
+            sort_runs(&mut self, threads);
+        }
+        Arc::new(sorted(*self))
+    }
+}
+
+/// Rows from which on it pays to sort them in several threads.
+const MANY: usize = 1 << 16;
+
+/// Sorts rows that stand in the order of their first word, as joins find them.
+fn sort_runs<const N: usize>(rows: &mut [Row<N>], threads: usize) {
+    if !rows.is_sorted_by_key(|row| row.0[0]) {
+        return;
+    }
+    let size = rows.len().div_ceil(threads);
+    let mut rest = rows;
+    thread::scope(|scope| {
+        while !rest.is_empty() {
+            let near = size.min(rest.len());
+            let last = rest[near - 1].0[0];
+            let end = near + rest[near..].partition_point(|row| row.0[0] == last);
+            let (mine, others) = std::mem::take(&mut rest).split_at_mut(end);
+            rest = others;
+            let mut sort = move || {
+                mine.chunk_by_mut(|a, b| a.0[0] == b.0[0]).for_each(<[_]>::sort_unstable);
+            };
+            if rest.is_empty() {
+                sort();
+            } else {
+                scope.spawn(sort);
+            }
+        }
+    });
 }
 
 /// An empty heap for rows of so many columns.
@@ -353,7 +397,8 @@ pub(super) trait Growing {
     fn len(&self) -> usize;
     /// Memory held, what was pushed since included.
     fn bytes(&self) -> usize;
-    fn complete(self: Box<Self>) -> SharedRows;
+    /// All rows, put together in several threads where they are many.
+    fn complete(self: Box<Self>, threads: usize) -> SharedRows;
     /// Takes rows out, where they can be taken out.
     fn prune(&mut self, _: &HashSet<Box<[Word]>>) {}
     /// Whether the last round found something.
@@ -420,15 +465,15 @@ impl<const N: usize> Sink for Pushed<N> {
         }
     }
 
-    fn absorb(&mut self, taken: Taken, rename: &dyn Fn(&mut [Word])) {
-        match (taken.downcast::<(Vec<Row<N>>, Vec<Row<N>>)>(), &mut self.seen) {
-            (Ok(taken), Some(seen)) => {
+    fn absorb(&mut self, taken: Vec<Taken>, pieces: &[Piece], rename: Option<&Rename<'_>>) {
+        let Some(seen) = &mut self.seen else { return self.rows.absorb(taken, pieces, rename) };
+        for taken in taken {
+            if let Ok(taken) = taken.downcast::<(Vec<Row<N>>, Vec<Row<N>>)>() {
                 seen.len += taken.0.len();
-                append(&mut self.rows, taken.0);
-                append(&mut self.outside, taken.1);
+                // Copied, so that what one thread has asked for goes back when it ends.
+                self.rows.extend_from_slice(&taken.0);
+                self.outside.extend_from_slice(&taken.1);
             }
-            (Ok(_), None) => {}
-            (Err(taken), _) => self.rows.absorb(taken, rename),
         }
     }
 }
@@ -580,10 +625,12 @@ impl<const N: usize> Growing for GrowingRows<N> {
         own.map(batches).sum::<usize>() * size_of::<Row<N>>() + self.pushed.borrow().bytes()
     }
 
-    fn complete(self: Box<Self>) -> SharedRows {
+    fn complete(self: Box<Self>, threads: usize) -> SharedRows {
         let Self { rows, pushed, needs_stable, .. } = *self;
         match pushed.into_inner().seen {
-            Some(seen) if !needs_stable => Arc::new(Relation { elements: seen.rows::<N>() }),
+            Some(seen) if !needs_stable => {
+                Arc::new(Relation { elements: seen.rows_among::<N>(threads) })
+            }
             _ => Arc::new(rows.complete()),
         }
     }

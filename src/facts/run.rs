@@ -748,7 +748,7 @@ fn keep(chosen: &mut Vec<u32>, holds: impl Fn(usize) -> bool) {
 }
 
 /// A key has at most the words of a row.
-const MAX_KEY: usize = super::check::MAX_COLUMNS;
+const MAX_KEY: usize = super::declare::MAX_COLUMNS;
 
 struct Key {
     words: [Word; MAX_KEY],

@@ -5,6 +5,7 @@
 //! relation is read off the bits in order. Where pairs are thinner than [`BITS_PER_ROW`] this does not pay.
 
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
 
 use super::rows::Row;
 use super::word::Word;
@@ -80,10 +81,45 @@ impl Seen {
         is_inside.then(|| first * self.width[1] + second)
     }
 
+    /// All pairs in ascending order, read off in so many threads where they are many.
+    pub(super) fn rows_among<const N: usize>(&self, threads: usize) -> Vec<Row<N>> {
+        const MANY: usize = 1 << 18;
+        if threads < 2 || self.len < MANY {
+            return self.rows();
+        }
+        // Zeroes cost nothing until they are written to, each thread's by itself.
+        let mut rows = vec![[0; N]; self.len];
+        let size = self.bits.len().div_ceil(threads);
+        thread::scope(|scope| {
+            let mut rest = rows.as_mut_slice();
+            for (n, bits) in self.bits.chunks(size).enumerate() {
+                let ones = bits.iter().map(|word| word.load(Ordering::Relaxed).count_ones());
+                let count: usize = ones.map(|ones| ones as usize).sum();
+                let (mine, others) = std::mem::take(&mut rest).split_at_mut(count);
+                rest = others;
+                scope.spawn(move || {
+                    let mut places = mine.iter_mut();
+                    self.each(n * size, bits, |row: Row<N>| {
+                        if let Some(place) = places.next() {
+                            *place = row.0;
+                        }
+                    });
+                });
+            }
+        });
+        rows.into_iter().map(Row).collect()
+    }
+
     /// All pairs in ascending order.
     pub(super) fn rows<const N: usize>(&self) -> Vec<Row<N>> {
         let mut rows = Vec::with_capacity(self.len);
-        for (n, word) in self.bits.iter().enumerate() {
+        self.each(0, &self.bits, |row| rows.push(row));
+        rows
+    }
+
+    /// The pairs of some of the words, of which so many are before them.
+    fn each<const N: usize>(&self, first: usize, bits: &[AtomicU64], mut f: impl FnMut(Row<N>)) {
+        for (n, word) in (first..).zip(bits) {
             let mut rest = word.load(Ordering::Relaxed);
             while rest != 0 {
                 let at = n * 64 + rest.trailing_zeros() as usize;
@@ -91,9 +127,8 @@ impl Seen {
                 let mut row = [0; N];
                 row[0] = self.least[0] + (at / self.width[1]) as Word;
                 row[N - 1] = self.least[1] + (at % self.width[1]) as Word;
-                rows.push(Row(row));
+                f(Row(row));
             }
         }
-        rows
     }
 }

@@ -20,7 +20,7 @@ use super::head::Head;
 use super::limits::{self, Watch};
 use super::plan::Plan;
 use super::program::{Clause, Expr, Literal, Program};
-use super::rows::{Branch, RowSet, Sink, Taken};
+use super::rows::{Branch, Rename, RowSet, Sink, Taken};
 use super::run::{Source, Step, extent, run, run_window};
 use super::syntax::Functor;
 use super::word::{LARGE, Note, Word, Words};
@@ -80,6 +80,8 @@ pub(super) struct Join<'a> {
     pub(super) limit: usize,
 }
 
+/// Fewer rows are not worth a look at the clock.
+const MIN_ROWS: usize = 256;
 /// Rows that are joined before it is asked whether the rest is worth a thread.
 const FIRST_ROWS: usize = 32;
 /// Pieces for each thread: rows may differ much in what they lead to.
@@ -96,7 +98,8 @@ impl Join<'_> {
         let mut registers = vec![0; self.clause.variables.len()];
         finished.with_sources(self.plan, parts, |sources, words, watch| {
             let all = extent(&self.plan.steps, sources, &mut registers, words);
-            let Some(all) = all.filter(|all| *all > 1) else {
+            let is_worth = |all: &usize| *all >= MIN_ROWS || watch.limits().spread_from.is_zero();
+            let Some(all) = all.filter(is_worth) else {
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
                 run(&self.plan.steps, sources, &mut registers, words, watch, &mut head);
                 return;
@@ -104,10 +107,12 @@ impl Join<'_> {
             let begun = Instant::now();
             let mut done = 0;
             while done < all && !watch.is_over() {
-                if self.is_long(watch, begun.elapsed(), done, all)
-                    && self.spread(sources, words, watch, &registers, done..all, sink)
-                {
-                    return;
+                if let Some(wave) = wave_of(watch, begun.elapsed(), done, all) {
+                    let rows = done..all.min(done + wave);
+                    if self.spread(sources, words, watch, &registers, rows.clone(), sink) {
+                        done = rows.end;
+                        continue;
+                    }
                 }
                 let to = all.min(if done == 0 { FIRST_ROWS } else { 2 * done });
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
@@ -116,13 +121,6 @@ impl Join<'_> {
                 done = to;
             }
         });
-    }
-
-    /// Whether the rest will take long, to judge by the rows that are done.
-    fn is_long(&self, watch: &Watch, spent: Duration, done: usize, all: usize) -> bool {
-        let from = watch.limits().spread_from;
-        let rest = spent.as_secs_f64() * (all - done) as f64 / done.max(1) as f64;
-        from.is_zero() || done > 0 && rest >= from.as_secs_f64()
     }
 
     /// False where the sink has no branches.
@@ -180,12 +178,14 @@ impl Join<'_> {
         let sources: Vec<Source<'_>> = sources.iter().map(Plain::source).collect();
         let shared_bytes = words.bytes();
         let mut taken = Vec::new();
+        let mut before = 0;
         while let Some((number, window)) = pieces.next().filter(|_| !watch.is_over()) {
             let head = Head::new(self.program, self.clause, self.limit, &mut *branch, watch);
             let (steps, mut head) = (&self.plan.steps, head.beside(shared_bytes));
             run_window(steps, &sources, &mut registers, &mut words, watch, &mut head, window);
             let (numbers, note) = (words.own_numbers().len(), words.take_note());
-            taken.push(PieceDone { number, numbers, note });
+            taken.push(PieceDone { number, rows: before..branch.len(), numbers, note });
+            before = branch.len();
         }
         Done { rows: branch.taken(), words, pieces: taken }
     }
@@ -199,30 +199,45 @@ impl Join<'_> {
             }
         }
         let mut names: Vec<Vec<Word>> = vec![Vec::new(); done.len()];
+        let mut in_order = Vec::with_capacity(pieces);
         for (thread, n) in by_number.into_iter().flatten() {
             let (of, names) = (&done[thread], &mut names[thread]);
             let piece = &of.pieces[n];
+            in_order.push((thread, piece.rows.clone()));
             let new = &of.words.own_numbers()[names.len()..piece.numbers];
             names.extend(new.iter().map(|number| words.number(*number)));
             piece.note.into_iter().for_each(|note| words.note(note));
         }
         let columns = &self.program.info(self.clause.head).columns;
         let is_number: Vec<bool> = columns.iter().map(|column| column.kind.is_number()).collect();
-        for (done, names) in done.into_iter().zip(names) {
-            let first = LARGE as usize + done.words.shared_numbers();
-            let rename = |row: &mut [Word]| {
-                if names.is_empty() {
-                    return;
-                }
-                for (word, _) in row.iter_mut().zip(&is_number).filter(|(_, is_number)| **is_number)
-                {
-                    let named = (*word as usize).checked_sub(first).and_then(|at| names.get(at));
-                    *word = named.copied().unwrap_or(*word);
-                }
-            };
-            sink.absorb(done.rows, &rename);
-        }
+        let first: Vec<usize> =
+            done.iter().map(|done| LARGE as usize + done.words.shared_numbers()).collect();
+        let rename = |thread: usize, row: &mut [Word]| {
+            for (word, _) in row.iter_mut().zip(&is_number).filter(|(_, is_number)| **is_number) {
+                let at = (*word as usize).checked_sub(first[thread]);
+                let named = at.and_then(|at| names[thread].get(at));
+                *word = named.copied().unwrap_or(*word);
+            }
+        };
+        let rename: &Rename<'_> = &rename;
+        let has_names = names.iter().any(|names| !names.is_empty());
+        let rows = done.into_iter().map(|done| done.rows).collect();
+        sink.absorb(rows, &in_order, has_names.then_some(rename));
     }
+}
+
+/// Rows to be joined at once in several threads, to judge by what is done; none while the rest is not worth it. What a
+/// wave finds is copied, so no wave is more than a small part of a long join; and the first rows may be slower than the rest.
+fn wave_of(watch: &Watch, spent: Duration, done: usize, all: usize) -> Option<usize> {
+    const MAX_WAVES: usize = 8;
+    let from = watch.limits().spread_from;
+    let left = all - done;
+    let rest = spent.mul_f64(left as f64 / done.max(1) as f64);
+    if !from.is_zero() && (done == 0 || rest < from) {
+        return None;
+    }
+    let short = rest < 8 * from && done >= all / MAX_WAVES;
+    Some(if short { left } else { left.min(all.div_ceil(MAX_WAVES)) })
 }
 
 /// What a thread leaves.
@@ -234,6 +249,8 @@ struct Done {
 
 struct PieceDone {
     number: usize,
+    /// In the order in which the thread found them.
+    rows: Range<usize>,
     /// Large numbers that the thread had named when the piece was done.
     numbers: usize,
     note: Option<Note>,

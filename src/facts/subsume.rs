@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use datafrog::Iteration;
 
-use super::check::{Declared, MAX_COLUMNS};
+use super::declare::{Declared, MAX_COLUMNS};
 use super::fault::RuleError;
 use super::plan::Version;
 use super::program::{Column, Found, RelationId, RelationInfo};
@@ -285,7 +285,7 @@ impl Growing for Pruned {
             + self.pushed.borrow().bytes()
     }
 
-    fn complete(self: Box<Self>) -> SharedRows {
+    fn complete(self: Box<Self>, _: usize) -> SharedRows {
         let mut all = heap(self.columns);
         for rows in [self.rows(true), self.rows(false)] {
             (0..rows.len()).for_each(|at| all.push(&rows.row(at)[..self.columns]));

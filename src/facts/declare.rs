@@ -1,0 +1,436 @@
+//! Declarations: types and the types they are part of, records and branches, relations and what is asked of them.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use super::fault::RuleError;
+use super::program::{Column, Found, Kind, Names, RelationId, RelationInfo};
+use super::record::{self, Shape};
+use super::syntax::{Item, Name, Role, Span};
+use super::word::NO_WORD;
+use crate::units::nearest_name;
+
+/// Tuples are kept in rows of at most so many words.
+pub(super) const MAX_COLUMNS: usize = 32;
+
+/// A type: its kind and the types that it is part of.
+#[derive(Debug, Clone)]
+pub(super) struct Type {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    /// The types declared to be part of it; what is part of these in turn is looked up.
+    below: Vec<usize>,
+    /// Of a union: what its values may be.
+    parts: Vec<usize>,
+}
+
+/// What the declarations say.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Declared {
+    pub(super) relations: Vec<RelationInfo>,
+    /// For each relation the types of its columns, by position in `types`.
+    pub(super) columns: Vec<Vec<usize>>,
+    pub(super) places: Vec<Span>,
+    pub(super) names: Names,
+    pub(super) types: Vec<Type>,
+    type_names: HashMap<String, usize>,
+    /// What records and branches hold, in the order of their kinds.
+    structures: Vec<Structure>,
+    /// For each branch's name its structure.
+    branches: HashMap<String, u32>,
+    /// Relations whose rules were put where they are read: they have no tuples of their own.
+    pub(super) unfolded: BTreeSet<RelationId>,
+}
+
+/// A type of records or branches; fields by the positions of their types.
+#[derive(Debug, Clone, Default)]
+struct Structure {
+    name: String,
+    branches: Vec<(String, Vec<usize>)>,
+    is_record: bool,
+}
+
+impl Declared {
+    /// Whether every value of type `a` is a value of type `b`.
+    pub(super) fn is_subtype(&self, a: usize, b: usize) -> bool {
+        if a == b {
+            return true;
+        }
+        // A union is part of what all its parts are part of.
+        let part_of_b = self.below(b);
+        let mut open = vec![a];
+        let mut seen = HashSet::from([a]);
+        while let Some(one) = open.pop() {
+            let parts = &self.types[one].parts;
+            if part_of_b.contains(&one) {
+                continue;
+            }
+            if parts.is_empty() {
+                return false;
+            }
+            open.extend(parts.iter().copied().filter(|part| seen.insert(*part)));
+        }
+        true
+    }
+
+    /// A type and all that were declared to be part of it, one by another.
+    fn below(&self, of: usize) -> HashSet<usize> {
+        let mut found = HashSet::from([of]);
+        let mut open = vec![of];
+        while let Some(one) = open.pop() {
+            let below = self.types[one].below.iter().copied();
+            open.extend(below.filter(|other| found.insert(*other)));
+        }
+        found
+    }
+
+    /// Declares that every value of one type is one of another.
+    fn put_below(&mut self, one: usize, other: usize) {
+        self.types[other].below.push(one);
+    }
+
+    /// The structure that has a branch of this name.
+    pub(super) fn branch(&self, name: &str) -> Option<u32> {
+        self.branches.get(name).copied()
+    }
+
+    /// The first word of the branch's records and the types of its fields; of a record's own where no branch is named,
+    /// with [`NO_WORD`] for the word that records lack.
+    pub(super) fn fields(&self, structure: u32, branch: Option<&Name>) -> Option<(u32, &[usize])> {
+        let of = self.structures.get(structure as usize)?;
+        match branch {
+            None if of.is_record => Some((NO_WORD, &of.branches[0].1)),
+            None => None,
+            Some(name) => {
+                let at = of.branches.iter().position(|(known, _)| *known == name.text)?;
+                (!of.is_record).then(|| (record::tag(at), of.branches[at].1.as_slice()))
+            }
+        }
+    }
+
+    /// A type of a kind.
+    pub(super) fn type_of(&self, kind: Kind) -> usize {
+        let of_kind = || self.types.iter().position(|of| of.kind == kind);
+        primitive(kind).or_else(of_kind).unwrap_or(0)
+    }
+
+    /// A kind as messages name it.
+    pub(super) fn kind_text(&self, kind: Kind) -> String {
+        match kind {
+            Kind::Record(of) => {
+                self.structures.get(of as usize).map_or("[…]", |of| of.name.as_str()).to_owned()
+            }
+            plain => kind_name(plain).to_owned(),
+        }
+    }
+
+    /// What the values of each structure hold.
+    pub(super) fn shapes(&self) -> Vec<Shape> {
+        let kinds = |fields: &[usize]| fields.iter().map(|of| self.types[*of].kind).collect();
+        let shape = |of: &Structure| Shape {
+            branches: of.branches.iter().map(|(name, of)| (name.clone(), kinds(of))).collect(),
+            is_record: of.is_record,
+        };
+        self.structures.iter().map(shape).collect()
+    }
+
+    /// The position of a type in `types`.
+    pub(super) fn type_named(&self, name: &str) -> Option<usize> {
+        self.type_names.get(name).copied()
+    }
+
+    pub(super) fn relation(&self, name: &Name, faults: &mut Found) -> Option<RelationId> {
+        let found = self.names.find(&name.text);
+        if found.is_none() {
+            let nearest = nearest_name(&name.text, self.names.all()).map(str::to_owned);
+            let (at, name) = (name.at, name.text.clone());
+            faults.push(at, RuleError::UnknownRelation { name, nearest, at: at.into() });
+        }
+        found
+    }
+}
+
+pub(super) fn declare(items: &[Item], faults: &mut Found) -> Declared {
+    let mut declared = Declared::default();
+    for kind in [Kind::Symbol, Kind::Number, Kind::Unsigned, Kind::Float] {
+        let name = kind_name(kind);
+        declared.type_names.insert(name.into(), declared.types.len());
+        declared.types.push(Type { name: name.into(), kind, below: vec![], parts: vec![] });
+    }
+    declare_structures(items, &mut declared, faults);
+    declare_more(items, &mut declared, faults);
+    declare_fields(items, &mut declared, faults);
+    declared
+}
+
+/// Adds types and relations to those that are declared already.
+pub(super) fn declare_more(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    declare_types(items, declared, faults);
+    for item in items {
+        if let Item::Relation { names, columns, second, roles, domains } = item {
+            for name in names {
+                declare_relation(name, columns, second.as_ref(), roles, declared, faults);
+                choose(name, domains, declared, faults);
+            }
+        }
+    }
+}
+
+/// The names of records and of branched types, so that their fields may be of them.
+fn declare_structures(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        let Item::Structure { name, is_record, .. } = item else { continue };
+        if declared.type_names.contains_key(&name.text) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+            continue;
+        }
+        let kind = Kind::Record(declared.structures.len() as u32);
+        declared.type_names.insert(name.text.clone(), declared.types.len());
+        let name = name.text.clone();
+        declared.types.push(Type { name: name.clone(), kind, below: vec![], parts: vec![] });
+        declared.structures.push(Structure { name, branches: Vec::new(), is_record: *is_record });
+    }
+}
+
+/// The fields of records and branches, once all types are known.
+fn declare_fields(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        let Item::Structure { name, branches, is_record } = item else { continue };
+        let Some(Kind::Record(of)) =
+            declared.type_named(&name.text).map(|id| declared.types[id].kind)
+        else {
+            continue;
+        };
+        if !declared.structures[of as usize].branches.is_empty() {
+            continue;
+        }
+        for branch in branches {
+            let types = branch.fields.iter();
+            let types: Vec<usize> =
+                types.map(|(_, field)| type_named(field, declared, faults).unwrap_or(0)).collect();
+            if types.len() >= MAX_COLUMNS {
+                let (what, limit, at) = ("полей записи", MAX_COLUMNS, branch.name.at);
+                faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
+            }
+            let is_new =
+                *is_record || declared.branches.insert(branch.name.text.clone(), of).is_none();
+            if !is_new {
+                let (name, at) = (branch.name.text.clone(), branch.name.at);
+                faults.push(at, RuleError::Duplicate { name, at: at.into() });
+            }
+            declared.structures[of as usize].branches.push((branch.name.text.clone(), types));
+        }
+    }
+}
+
+/// The columns of a relation's choice domains.
+fn choose(name: &Name, domains: &[Vec<Name>], declared: &mut Declared, faults: &mut Found) {
+    let Some(id) = declared.names.find(&name.text) else { return };
+    let info = &mut declared.relations[id.index()];
+    for domain in domains {
+        let mut columns = Vec::with_capacity(domain.len());
+        for column in domain {
+            match info.columns.iter().position(|known| known.name == column.text) {
+                Some(at) => columns.push(at),
+                None => {
+                    let what = format!("choice-domain «{}» без такого столбца", column.text);
+                    let help = "назовите столбцы этого отношения";
+                    let at = column.at;
+                    faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
+                }
+            }
+        }
+        if columns.len() == domain.len() {
+            info.choices.push(columns);
+        }
+    }
+}
+
+/// A type may be named before it is declared: it waits until all its bases are. What is left when nothing more fits
+/// names what nobody declares.
+fn declare_types(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    let types: Vec<(&Name, &[Name], bool)> = items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Type { name, bases, is_union } => Some((name, bases.as_slice(), *is_union)),
+            _ => None,
+        })
+        .collect();
+    let mut waiting: HashMap<&str, Vec<usize>> = HashMap::new();
+    let mut missing = vec![0_usize; types.len()];
+    for (number, (_, bases, _)) in types.iter().enumerate() {
+        for base in *bases {
+            if !declared.type_names.contains_key(&base.text) {
+                waiting.entry(&base.text).or_default().push(number);
+                missing[number] += 1;
+            }
+        }
+    }
+    let mut left: BTreeSet<usize> = (0..types.len()).collect();
+    let mut ready: BTreeSet<usize> =
+        (0..types.len()).filter(|number| missing[*number] == 0).collect();
+    while let Some(next) = ready.pop_first().or_else(|| left.first().copied()) {
+        left.remove(&next);
+        ready.remove(&next);
+        let (name, bases, is_union) = types[next];
+        declare_type(name, bases, is_union, declared, faults);
+        if declared.type_names.contains_key(&name.text) {
+            for number in waiting.remove(name.text.as_str()).into_iter().flatten() {
+                missing[number] -= 1;
+                if missing[number] == 0 && left.contains(&number) {
+                    ready.insert(number);
+                }
+            }
+        }
+    }
+}
+
+/// `<:` puts the new type below its base; `=` with several bases puts it above all of them.
+fn declare_type(
+    name: &Name,
+    bases: &[Name],
+    is_union: bool,
+    declared: &mut Declared,
+    faults: &mut Found,
+) {
+    let known: Vec<usize> =
+        bases.iter().filter_map(|base| type_named(base, declared, faults)).collect();
+    let Some(first) = known.first().copied() else { return };
+    let id = declared.types.len();
+    if declared.type_names.contains_key(&name.text) {
+        let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+        faults.push(name.at, fault);
+        return;
+    }
+    let kind = declared.types[first].kind;
+    let parts = if is_union { known.clone() } else { Vec::new() };
+    declared.type_names.insert(name.text.clone(), id);
+    declared.types.push(Type { name: name.text.clone(), kind, below: Vec::new(), parts });
+    // The primitive type is above a union as it is above the union's parts.
+    declared.put_below(id, if bases.len() == 1 { first } else { primitive(kind).unwrap_or(first) });
+    if is_union {
+        for (part, base) in known.iter().zip(bases) {
+            if declared.types[*part].kind != kind {
+                let expected = declared.kind_text(kind);
+                let found = declared.kind_text(declared.types[*part].kind);
+                let fault = RuleError::Types {
+                    what: base.text.clone(),
+                    expected,
+                    found,
+                    at: base.at.into(),
+                };
+                faults.push(base.at, fault);
+            }
+        }
+        for part in known {
+            if declared.types[part].kind == kind {
+                declared.put_below(part, id);
+            }
+        }
+    }
+}
+
+fn primitive(kind: Kind) -> Option<usize> {
+    match kind {
+        Kind::Symbol => Some(0),
+        Kind::Number => Some(1),
+        Kind::Unsigned => Some(2),
+        Kind::Float => Some(3),
+        Kind::Record(_) => None,
+    }
+}
+
+pub(super) fn kind_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Symbol => "symbol",
+        Kind::Number => "number",
+        Kind::Unsigned => "unsigned",
+        Kind::Float => "float",
+        Kind::Record(_) => "record",
+    }
+}
+
+fn type_named(name: &Name, declared: &Declared, faults: &mut Found) -> Option<usize> {
+    let found = declared.type_names.get(&name.text).copied();
+    if found.is_none() {
+        let nearest =
+            nearest_name(&name.text, declared.types.iter().map(|known| known.name.as_str()));
+        let nearest = nearest.map(str::to_owned);
+        let fault = RuleError::UnknownType { name: name.text.clone(), nearest, at: name.at.into() };
+        faults.push(name.at, fault);
+    }
+    found
+}
+
+fn declare_relation(
+    name: &Name,
+    columns: &[(Name, Name)],
+    second: Option<&Name>,
+    roles: &[Role],
+    declared: &mut Declared,
+    faults: &mut Found,
+) {
+    if columns.len() > MAX_COLUMNS {
+        let (what, limit) = ("столбцов отношения", MAX_COLUMNS);
+        faults.push(name.at, RuleError::TooLarge { what, limit, at: name.at.into() });
+        return;
+    }
+    let id = RelationId(declared.relations.len() as u32);
+    for name in std::iter::once(name).chain(second) {
+        if !declared.names.insert(&name.text, id) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+        }
+    }
+    // A column of unknown type is taken for a symbol, so that the relation's other uses are still checked.
+    let types: Vec<usize> =
+        columns.iter().map(|(_, of)| type_named(of, declared, faults).unwrap_or(0)).collect();
+    let column = |((name, _), id): (&(Name, Name), &usize)| {
+        let Type { name: type_name, kind, .. } = &declared.types[*id];
+        Column { name: name.text.clone(), kind: *kind, type_name: type_name.clone() }
+    };
+    let mut info = RelationInfo {
+        name: name.text.clone(),
+        second_name: second.map(|name| name.text.clone()),
+        columns: columns.iter().zip(&types).map(column).collect(),
+        ..RelationInfo::default()
+    };
+    roles.iter().for_each(|role| give_role(*role, &[], &mut info));
+    declared.relations.push(info);
+    declared.columns.push(types);
+    declared.places.push(name.at);
+}
+
+pub(super) fn direct(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        if let Item::Directive { role, relations, parameters } = item {
+            for name in relations {
+                if let Some(id) = declared.relation(name, faults) {
+                    give_role(*role, parameters, &mut declared.relations[id.index()]);
+                }
+            }
+        }
+    }
+}
+
+fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInfo) {
+    match role {
+        Role::Input => info.input = Some(parameters.to_vec()),
+        Role::Output => {
+            if !info.outputs.iter().any(|known| known == parameters) {
+                info.outputs.push(parameters.to_vec());
+            }
+        }
+        Role::PrintSize => info.print_size = true,
+        // Becomes rules, see `equivalence`.
+        Role::Equivalence => {}
+        // Is unfolded where it must be, see `inline`.
+        Role::Inline => {}
+        // Was seen to when the component was made.
+        Role::Overridable => {}
+        Role::LimitSize => {
+            let limit = parameters.iter().find(|(name, _)| name == "n");
+            info.limit_size = limit.and_then(|(_, n)| n.parse().ok()).or(info.limit_size);
+        }
+    }
+}
