@@ -148,13 +148,8 @@ impl Corner {
         let pi = std::f32::consts::PI;
         let back = |i: [f32; 2]| [-i[1], -i[0]];
         let Self { at, heading, turn, first, second } = self;
-        let opposite = Self {
-            at,
-            heading: heading + pi,
-            turn,
-            first: back(first),
-            second: back(second),
-        };
+        let opposite =
+            Self { at, heading: heading + pi, turn, first: back(first), second: back(second) };
         let left = Self {
             at,
             heading: heading + turn,

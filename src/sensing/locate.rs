@@ -41,7 +41,7 @@ const FEWEST: usize = 20;
 /// Farthest that a repetition is looked for, and by which steps, in cm.
 const SLIDE: (f64, f64) = (2500.0, 20.0);
 /// Longest list of an ambiguous answer.
-const LIST: usize = 32;
+pub(crate) const LIST: usize = 32;
 
 /// A pose that fits a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,6 +157,13 @@ impl Locator {
         let (pose, information) = refine(&self.field, &self.faces, pose, view, 2..7);
         let fit = fit(&self.field, &self.faces, &pose, view);
         Fix { pose, covariance: covariance(&information), fit }
+    }
+
+    /// How the scan fits from exactly this pose.
+    pub(crate) fn stay(&self, view: &View, pose: &Isometry2<f64>) -> Fix {
+        let (_, information) = refine(&self.field, &self.faces, pose, view, 6..7);
+        let fit = fit(&self.field, &self.faces, pose, view);
+        Fix { pose: *pose, covariance: covariance(&information), fit }
     }
 
     /// Poses that the corners name and the probes leave, likely ones first.

@@ -28,16 +28,20 @@
 //! writes a Map or knows of words; what differs is a value, and what becomes of it is decided elsewhere.
 
 mod corners;
+mod differences;
 mod expected;
 mod faces;
 mod field;
 mod fit;
 mod locate;
+mod track;
 mod view;
 mod walls;
 
+pub use differences::{Differences, DoorSeen, Seen, Unmapped};
 pub use expected::Expected;
 pub use faces::{Face, faces_at};
 pub use fit::Fit;
 pub use locate::{Answer, Fix, Locator};
+pub use track::{Event, Tracker};
 pub use walls::Walls;

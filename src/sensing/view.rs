@@ -20,7 +20,6 @@ const SHORTEST: f64 = 25.0;
 /// A scan in the frame of its sensor.
 #[derive(Debug, Clone)]
 pub(crate) struct View {
-    pub(crate) segments: Vec<Segment<2>>,
     pub(crate) beams: Vec<Return>,
     pub(crate) corners: Vec<Corner>,
     /// Points on lines, well spread: any first few of them are all around.
@@ -30,7 +29,6 @@ pub(crate) struct View {
 /// A beam that came back.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Return {
-    pub(crate) beam: usize,
     pub(crate) u: Vector2<f64>,
     pub(crate) range: f64,
     /// Deviation of the range, in cm.
@@ -47,19 +45,19 @@ impl View {
     pub(crate) fn new(sensor: &Sensor, ranges: &[f64]) -> Self {
         let mut extractor = Extractor::new();
         let segments = extractor.segments(sensor, ranges).to_vec();
-        let all = sensor.directions().iter().zip(ranges).enumerate();
-        let returned = all.filter(|(_, (_, range))| sensor.returned(**range));
+        let all = sensor.directions().iter().zip(ranges);
+        let returned = all.filter(|(_, range)| sensor.returned(**range));
         let beams: Vec<Return> = returned
-            .map(|(beam, (u, &range))| {
+            .map(|(u, &range)| {
                 let noise = sensor.noise().along(range).sqrt();
-                Return { beam, u: *u, range, noise }
+                Return { u: *u, range, noise }
             })
             .collect();
         let stride = beams.len().div_ceil(BEAMS).max(1);
         let beams: Vec<Return> = beams.into_iter().step_by(stride).collect();
         let corners = corners(&segments);
         let probes = probes(&segments);
-        Self { segments, beams, corners, probes }
+        Self { beams, corners, probes }
     }
 }
 

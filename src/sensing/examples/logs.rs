@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use nalgebra::Isometry2;
 use orthoframe_sensing::{Answer, Locator, Walls};
-use orthoframe_vectors::read::read_log_file;
+use orthoframe_vectors::read::{read_log, read_source};
 
 fn main() {
     let mut logs = Vec::new();
@@ -31,11 +31,11 @@ fn main() {
 }
 
 fn row(path: &Path, every: usize, verbose: bool) {
-    let Ok(reading) = read_log_file(path) else {
+    let Ok(source) = read_source(path) else {
         println!("| {} | cannot be read |", path.display());
         return;
     };
-    let log = reading.log;
+    let log = read_log(&source).log;
     let mut walls = Walls::new();
     for scan in log.scans.iter().step_by(2) {
         if let Some(pose) = scan.pose {
