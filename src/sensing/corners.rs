@@ -17,11 +17,11 @@ use crate::faces::Face;
 /// Sine of the least angle between two lines that fix a pose.
 const SLANT: f64 = 0.5;
 /// Shortest face that is held for a line, in cm.
-const SHORTEST: f64 = 15.0;
+const SHORTEST: f64 = 20.0;
 /// Farthest that a face may end from where it would meet another, in cm; less where there are too many.
 const REACHES: [f64; 5] = [1000.0, 500.0, 250.0, 100.0, 30.0];
 /// Entries of an index.
-const MOST: usize = 1_500_000;
+const MOST: usize = 300_000;
 /// By how much turns may differ, in rad.
 const TURN: f32 = 0.12;
 /// By how much a place may be off, in cm.

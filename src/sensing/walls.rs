@@ -5,6 +5,9 @@ use orthoframe_vectors::Segment;
 use orthoframe_vectors::scan::{Extractor, Sensor};
 
 use crate::faces::Face;
+use crate::field::Field;
+use crate::fit::{Met, met};
+use crate::view::View;
 
 /// Two segments of one wall differ in direction by a sine of at most this.
 const TURN: f64 = 0.09;
@@ -16,6 +19,13 @@ const GAP: f64 = 15.0;
 const SHORTEST: f64 = 12.0;
 /// Scans that must have seen a wall.
 const SEEN: usize = 2;
+
+/// Fewest beams of a segment that is taken: fewer join what lies before each other.
+const BEAMS: f64 = 5.0;
+/// Pieces that are held against what went through them, in cm.
+const PIECE: f64 = 20.0;
+/// Rounds in which what is not there is taken away: each lays open what it hid.
+const ROUNDS: usize = 4;
 
 /// A line as it grows: moments of the points along its segments.
 struct Growing {
@@ -34,6 +44,7 @@ pub struct Walls {
     cells: std::collections::HashMap<(i32, i32), Vec<usize>>,
     scans: usize,
     extractor: Extractor,
+    views: Vec<(Isometry2<f64>, View)>,
 }
 
 const CELL: f64 = 100.0;
@@ -50,11 +61,14 @@ impl Walls {
         let place = |p: Vector2<f64>| (pose * Point2::from(p)).coords;
         for segment in extractor.segments(sensor, ranges) {
             let face = Face::plain(place(segment.start), place(segment.end));
-            if face.is_sound() && segment.length() >= SHORTEST {
+            let angle = segment.start.perp(&segment.end).atan2(segment.start.dot(&segment.end));
+            let is_seen = angle.abs() >= BEAMS * sensor.step();
+            if face.is_sound() && segment.length() >= SHORTEST && is_seen {
                 self.join(face, weight(segment));
             }
         }
         self.extractor = extractor;
+        self.views.push((*pose, View::new(sensor, ranges)));
         self.scans += 1;
     }
 
@@ -90,11 +104,50 @@ impl Walls {
         }
     }
 
-    /// The walls that at least two scans saw.
+    /// The walls that at least two scans saw, without what more scans went through than ended at (SPEC V9).
     #[must_use]
     pub fn faces(&self) -> Vec<Face> {
-        self.walls.iter().filter(|w| w.seen >= SEEN).map(|w| w.face).collect()
+        let whole = self.walls.iter().filter(|w| w.seen >= SEEN).map(|w| w.face);
+        let mut pieces: Vec<(usize, Face)> =
+            whole.enumerate().flat_map(|(k, face)| cut(&face).map(move |f| (k, f))).collect();
+        for _ in 0..ROUNDS {
+            let faces: Vec<Face> = pieces.iter().map(|p| p.1).collect();
+            let field = Field::new(&faces);
+            let mut counts = vec![(0_u32, 0_u32); faces.len()];
+            for (pose, view) in &self.views {
+                for beam in &view.beams {
+                    match met(&field, &faces, pose, beam) {
+                        Met::Face(face) => counts[face].0 += 1,
+                        Met::Through(face) => counts[face].1 += 1,
+                        Met::Before(_) | Met::Open => {}
+                    }
+                }
+            }
+            let mut counts = counts.into_iter();
+            let before = pieces.len();
+            pieces.retain(|_| counts.next().is_none_or(|(seen, through)| seen > through));
+            if pieces.len() == before {
+                break;
+            }
+        }
+        joined(&pieces)
     }
+}
+
+/// A face in pieces.
+fn cut(face: &Face) -> impl Iterator<Item = Face> + use<> {
+    let count = (face.length() / PIECE).ceil().max(1.0) as u32;
+    let (start, step) = (face.start, (face.end - face.start) / f64::from(count));
+    (0..count)
+        .map(move |k| Face::plain(start + step * f64::from(k), start + step * f64::from(k + 1)))
+}
+
+/// Pieces that follow each other on one wall, joined again.
+fn joined(pieces: &[(usize, Face)]) -> Vec<Face> {
+    let follows =
+        |a: &(usize, Face), b: &(usize, Face)| a.0 == b.0 && (a.1.end - b.1.start).norm() < 0.1;
+    let runs = pieces.chunk_by(follows);
+    runs.map(|run| Face::plain(run[0].1.start, run[run.len() - 1].1.end)).collect()
 }
 
 /// A segment weighs by its length, and less the less is known of it.
