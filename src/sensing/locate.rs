@@ -21,18 +21,20 @@ use crate::view::View;
 /// No sensor stands nearer to a wall, in cm.
 const NEAREST: f64 = 8.0;
 /// How far a probe may be from a face and still count, in cm.
-const PROBE: f64 = 30.0;
+const PROBE: f64 = 40.0;
 /// Probes of the first, coarse look.
 const FIRST: usize = 8;
 /// Candidates that are refined.
-const REFINED: usize = 80;
+const REFINED: usize = 200;
 /// Of them, those that are held against the whole view.
-const VIEWED: usize = 30;
+const VIEWED: usize = 40;
 /// Poses nearer to each other than this, in cm and rad, are one.
 const SAME: (f64, f64) = (40.0, 0.18);
 /// Least score of a pose that fits.
 pub(crate) const FITS: f64 = 0.45;
-/// A rival that scores less than the best by this is none, if it also leaves enough of the beams unexplained.
+/// Least score of a pose that is called the only one: a worse one may be beside one that was not found.
+const SURE: f64 = 0.75;
+/// A pose that scores less than the best by this is no rival.
 const RIVAL: f64 = 0.12;
 /// Deviations of a pose that the scan fixes: cm and rad.
 const FIXED: (f64, f64) = (8.0, 0.02);
@@ -169,7 +171,7 @@ impl Locator {
     /// Poses that the corners name and the probes leave, likely ones first.
     fn candidates(&self, view: &View) -> Vec<(f64, Isometry2<f64>)> {
         let mut found = Vec::new();
-        let least = 0.45 * FIRST.min(view.probes.len()) as f64;
+        let least = 0.4 * FIRST.min(view.probes.len()) as f64;
         for corner in &view.corners {
             for pose in self.corners.poses(corner) {
                 if let Some(score) = self.probe(view, &pose, least) {
@@ -250,7 +252,7 @@ impl Locator {
                 let shift = along * (f64::from(step) * SLIDE.1);
                 let angle = fix.pose.rotation.angle() + turn;
                 let pose = Isometry2::new(fix.pose.translation.vector + shift, angle);
-                let least = 0.45 * FIRST.min(view.probes.len()) as f64;
+                let least = 0.4 * FIRST.min(view.probes.len()) as f64;
                 if !near(&pose, &fix.pose)
                     && let Some(score) = self.probe(view, &pose, least)
                 {
@@ -291,11 +293,11 @@ fn decide(fixes: Vec<Fix>) -> Answer {
     if best.fit.score() < FITS {
         return Answer::Unknown;
     }
-    // Of rivals, the more beams speak at all, the less each of them may err.
     let least = best.fit.score() - RIVAL;
     let rivals: Vec<Fix> =
         fixes.into_iter().filter(|f| f.fit.score() >= least).take(LIST).collect();
-    if rivals.len() == 1 && best.is_fixed() && best.fit.faces >= 3 {
+    let is_sure = best.fit.score() >= SURE && best.fit.faces >= 3;
+    if rivals.len() == 1 && best.is_fixed() && is_sure {
         Answer::Unique(best)
     } else {
         Answer::Ambiguous(rivals)

@@ -109,14 +109,14 @@ proptest! {
     /// In a long corridor with doors at even distances one is never sure, wherever one stands.
     #[test]
     fn a_corridor_that_repeats_itself_is_never_unique(
-        period in 200.0..500.0, width in 150.0..300.0, jamb in 5.0..30.0, doors in 16_u32..24,
+        period in 200.0..500.0_f64, width in 150.0..300.0_f64, jamb in 5.0..30.0_f64, doors in 16_u32..24,
         x in 0.4..0.6, y in 0.3..0.7, turn in -3.1..3.1, seed in any::<u64>(),
     ) {
         let p = Vector2::new;
         let mut faces = Vec::new();
         for k in 0..doors {
             let from = f64::from(k) * period;
-            for (wall, out) in [(0.0, -jamb), (width, width + jamb)] {
+            for (wall, out) in [(0.0_f64, -jamb), (width, width + jamb)] {
                 // A niche with a shut door in it.
                 let (a, b) = (from + 50.0, from + 140.0);
                 faces.extend([
