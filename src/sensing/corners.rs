@@ -22,6 +22,10 @@ const SHORTEST: f64 = 20.0;
 const REACHES: [f64; 5] = [1000.0, 500.0, 250.0, 100.0, 30.0];
 /// Entries of an index.
 const MOST: usize = 300_000;
+/// Gaps over which faces are one line, in cm.
+const JOINED: f64 = 150.0;
+/// More faces are not joined: each is held against each line.
+const MOST_JOINED: usize = 10_000;
 /// By how much turns may differ, in rad.
 const TURN: f32 = 0.12;
 /// By how much a place may be off, in cm.
@@ -43,23 +47,26 @@ pub(crate) struct Corner {
 #[derive(Debug, Clone)]
 pub(crate) struct Corners {
     all: Vec<Corner>,
+    /// How far from their meeting the faces may end, in cm.
+    pub(crate) reach: f64,
 }
 
 impl Corners {
     pub(crate) fn new(faces: &[Face]) -> Self {
+        let faces = &lines(faces);
         let mut order: Vec<usize> =
             (0..faces.len()).filter(|k| faces[*k].length() >= SHORTEST).collect();
         let left = |k: usize| faces[k].start.x.min(faces[k].end.x);
         order.sort_by(|a, b| left(*a).total_cmp(&left(*b)));
-        let mut all = Vec::new();
+        let (mut all, mut widest) = (Vec::new(), 0.0);
         for reach in REACHES {
             all.clear();
-            let whole = gather(faces, &order, reach, &mut all);
-            if whole {
+            widest = reach;
+            if gather(faces, &order, reach, &mut all) {
                 break;
             }
         }
-        Self { all }
+        Self { all, reach: widest }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -91,6 +98,35 @@ impl Corners {
             Some(Isometry2::new(shift, f64::from(turn)))
         })
     }
+}
+
+/// Faces of one line, joined over gaps as wide as doorways: a scan may see as one what the Map has in pieces.
+fn lines(faces: &[Face]) -> Vec<Face> {
+    let mut order: Vec<&Face> = faces.iter().collect();
+    order.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    let mut lines: Vec<Face> = Vec::new();
+    for face in order {
+        let own = lines.iter_mut().filter(|_| faces.len() <= MOST_JOINED).find_map(|line| {
+            let (t, length) = (line.direction(), line.length());
+            let off = |p: &Vector2<f64>| t.perp(&(p - line.start)).abs();
+            let places = [face.start, face.end].map(|p| t.dot(&(p - line.start)));
+            let (low, high) = (places[0].min(places[1]), places[0].max(places[1]));
+            let is_one = t.perp(&face.direction()).abs() < 0.05
+                && off(&face.start).max(off(&face.end)) < 6.0
+                && low < length + JOINED
+                && high > -JOINED;
+            is_one.then_some((line, t, low, high, length))
+        });
+        match own {
+            Some((line, t, low, high, length)) => {
+                let start = line.start;
+                line.start = start + t * low.min(0.0);
+                line.end = start + t * high.max(length);
+            }
+            None => lines.push(*face),
+        }
+    }
+    lines
 }
 
 /// Corners of faces that end within `reach` of their meeting; false when they are too many.

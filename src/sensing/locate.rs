@@ -33,9 +33,9 @@ const SAME: (f64, f64) = (40.0, 0.18);
 /// Least score of a pose that fits.
 pub(crate) const FITS: f64 = 0.45;
 /// Least score of a pose that is called the only one: a worse one may be beside one that was not found.
-const SURE: f64 = 0.75;
+pub(crate) const SURE: f64 = 0.75;
 /// A pose that scores less than the best by this is no rival.
-const RIVAL: f64 = 0.12;
+pub(crate) const RIVAL: f64 = 0.12;
 /// Deviations of a pose that the scan fixes: cm and rad.
 const FIXED: (f64, f64) = (8.0, 0.02);
 /// Fewest returns that say anything.
@@ -69,6 +69,12 @@ impl Fix {
     pub fn is_fixed(&self) -> bool {
         let (place, heading) = self.deviations();
         place <= FIXED.0 && heading <= FIXED.1
+    }
+
+    /// Whether the scan fixes the pose, and most of it speaks for it, of at least three faces.
+    #[must_use]
+    pub fn is_sure(&self) -> bool {
+        self.is_fixed() && self.fit.score() >= SURE && self.fit.faces >= 3
     }
 
     /// Whether both are one pose, for all that the scans can tell.
@@ -133,8 +139,12 @@ impl Locator {
     /// Where a scan was taken, without a guess. `ranges` are cm, one a beam.
     #[must_use]
     pub fn locate(&self, sensor: &Sensor, ranges: &[f64]) -> Answer {
-        let view = View::new(sensor, ranges);
+        let view = self.look(sensor, ranges);
         self.locate_view(&view)
+    }
+
+    pub(crate) fn look(&self, sensor: &Sensor, ranges: &[f64]) -> View {
+        View::new(sensor, ranges, self.corners.reach)
     }
 
     pub(crate) fn locate_view(&self, view: &View) -> Answer {
@@ -152,7 +162,7 @@ impl Locator {
     /// How the scan fits from a pose near `pose`, refined.
     #[must_use]
     pub fn refine(&self, sensor: &Sensor, ranges: &[f64], pose: &Isometry2<f64>) -> Fix {
-        self.fix(&View::new(sensor, ranges), pose)
+        self.fix(&self.look(sensor, ranges), pose)
     }
 
     pub(crate) fn fix(&self, view: &View, pose: &Isometry2<f64>) -> Fix {
@@ -296,8 +306,7 @@ fn decide(fixes: Vec<Fix>) -> Answer {
     let least = best.fit.score() - RIVAL;
     let rivals: Vec<Fix> =
         fixes.into_iter().filter(|f| f.fit.score() >= least).take(LIST).collect();
-    let is_sure = best.fit.score() >= SURE && best.fit.faces >= 3;
-    if rivals.len() == 1 && best.is_fixed() && is_sure {
+    if rivals.len() == 1 && best.is_sure() {
         Answer::Unique(best)
     } else {
         Answer::Ambiguous(rivals)

@@ -10,7 +10,7 @@
 use nalgebra::{Isometry2, Vector2};
 use orthoframe_vectors::scan::Sensor;
 
-use crate::locate::{Answer, FITS, Fix, LIST, Locator, near};
+use crate::locate::{Answer, FITS, Fix, LIST, Locator, RIVAL, SURE, near};
 use crate::view::View;
 
 /// How much odometry errs: of the way, in cm a cm; of a turn, in rad a rad; and in any step, in cm and rad.
@@ -23,6 +23,8 @@ const REFUTED: f64 = 0.3;
 const NEW: (f64, f64) = (25.0, 0.25);
 /// Scans in a row that fit no hypothesis, after which all is looked for anew.
 const LOST: usize = 3;
+/// What odometry missed by more than this, in cm, the robot did not drive.
+const CARRIED: f64 = 150.0;
 /// Steps in a row with the same sense of error that make a lie.
 const LIES: usize = 4;
 
@@ -79,14 +81,14 @@ impl<'l> Tracker<'l> {
         let fixes: Vec<Fix> = self.hypotheses.iter().map(|h| h.fix).collect();
         match fixes.as_slice() {
             [] => Answer::Unknown,
-            [fix] if self.complete && fix.is_fixed() && fix.fit.faces >= 3 => Answer::Unique(*fix),
+            [fix] if self.complete && fix.is_sure() => Answer::Unique(*fix),
             _ => Answer::Ambiguous(fixes),
         }
     }
 
     /// After a motion by odometry, in the frame of the sensor before it, in cm and rad, with the scan there.
     pub fn step(&mut self, motion: &Isometry2<f64>, sensor: &Sensor, ranges: &[f64]) -> Event {
-        let view = View::new(sensor, ranges);
+        let view = self.locator.look(sensor, ranges);
         if self.hypotheses.is_empty() {
             self.begin(&view);
             return if self.hypotheses.is_empty() { Event::Lost } else { Event::Steady };
@@ -131,6 +133,11 @@ impl<'l> Tracker<'l> {
             self.begin(&view);
             return if self.hypotheses.is_empty() { Event::Lost } else { Event::Kidnapped };
         }
+        if best < SURE
+            && let Some(event) = self.doubt(&view, best)
+        {
+            return event;
+        }
         if self.lies >= LIES {
             return Event::OdometryLies;
         }
@@ -149,6 +156,20 @@ impl<'l> Tracker<'l> {
             Answer::Unknown => false,
         };
         (self.poor, self.lies, self.since) = (0, 0, (0.0, 0.0));
+    }
+
+    /// The scan speaks less for the pose than it should: it is asked without a guess whether it speaks for another.
+    fn doubt(&mut self, view: &View, best: f64) -> Option<Event> {
+        let Answer::Unique(found) = self.locator.locate_view(view) else { return None };
+        let is_new = !self.hypotheses.iter().any(|h| near(&h.fix.pose, &found.pose));
+        if !is_new || found.fit.score() < best + RIVAL {
+            return None;
+        }
+        let apart = |h: &Hypothesis| between(&h.fix.pose, &found.pose).0;
+        let nearest = self.hypotheses.iter().map(apart).fold(f64::INFINITY, f64::min);
+        self.hypotheses = vec![Hypothesis { fix: found, evidence: 0.0 }];
+        (self.complete, self.poor, self.lies, self.since) = (true, 0, 0, (0.0, 0.0));
+        Some(if nearest < CARRIED { Event::OdometryLies } else { Event::Kidnapped })
     }
 
     /// What an incomplete list left is not all that there is: a view of more must say so.

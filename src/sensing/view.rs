@@ -42,7 +42,8 @@ impl Return {
 }
 
 impl View {
-    pub(crate) fn new(sensor: &Sensor, ranges: &[f64]) -> Self {
+    /// With corners of lines that end within `reach` cm of their meeting.
+    pub(crate) fn new(sensor: &Sensor, ranges: &[f64], reach: f64) -> Self {
         let mut extractor = Extractor::new();
         let segments = extractor.segments(sensor, ranges).to_vec();
         let all = sensor.directions().iter().zip(ranges);
@@ -55,14 +56,14 @@ impl View {
             .collect();
         let stride = beams.len().div_ceil(BEAMS).max(1);
         let beams: Vec<Return> = beams.into_iter().step_by(stride).collect();
-        let corners = corners(&segments);
+        let corners = corners(&segments, reach);
         let probes = probes(&segments);
         Self { beams, corners, probes }
     }
 }
 
 /// The corners that say most: of long lines, and not of the same ones again and again.
-fn corners(segments: &[Segment<2>]) -> Vec<Corner> {
+fn corners(segments: &[Segment<2>], reach: f64) -> Vec<Corner> {
     let mut pairs = Vec::new();
     for (i, a) in segments.iter().enumerate() {
         for (j, b) in segments.iter().enumerate().skip(i + 1) {
@@ -70,7 +71,7 @@ fn corners(segments: &[Segment<2>]) -> Vec<Corner> {
             if least < SHORTEST {
                 continue;
             }
-            if let Some(corner) = Corner::of((a.start, a.end), (b.start, b.end), 2000.0) {
+            if let Some(corner) = Corner::of((a.start, a.end), (b.start, b.end), reach) {
                 pairs.push((least.min(150.0), i, j, corner));
             }
         }

@@ -68,7 +68,7 @@ impl Walls {
             }
         }
         self.extractor = extractor;
-        self.views.push((*pose, View::new(sensor, ranges)));
+        self.views.push((*pose, View::new(sensor, ranges, 0.0)));
         self.scans += 1;
     }
 
