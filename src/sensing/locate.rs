@@ -33,7 +33,7 @@ const SAME: (f64, f64) = (40.0, 0.18);
 /// Least score of a pose that fits.
 pub(crate) const FITS: f64 = 0.45;
 /// Least score of a pose that is called the only one: a worse one may be beside one that was not found.
-pub(crate) const SURE: f64 = 0.75;
+pub(crate) const SURE: f64 = 0.65;
 /// A pose that scores less than the best by this is no rival.
 pub(crate) const RIVAL: f64 = 0.12;
 /// Deviations of a pose that the scan fixes: cm and rad.

@@ -42,41 +42,34 @@ struct Floor {
     at: Isometry2<f64>,
 }
 
+/// Width, height, and where and how large the block in it is.
+type Room = (f64, f64, f64, f64, f64, f64);
+
 fn floors() -> impl Strategy<Value = Floor> {
     let room = (250.0..600.0, 300.0..600.0, 0.1..0.6, 0.1..0.6, 40.0..120.0, 40.0..120.0);
     (prop::collection::vec(room, 2..7), 0.1..0.9, 0.1..0.9, -3.1..3.1, any::<prop::sample::Index>())
-        .prop_map(
-            |(rooms, u, v, turn, which): (
-                Vec<(f64, f64, f64, f64, f64, f64)>,
-                f64,
-                f64,
-                f64,
-                prop::sample::Index,
-            )| {
-                let (mut faces, mut x, mut places) = (Vec::new(), 0.0, Vec::new());
-                for (w, h, a, b, c, d) in rooms {
-                    // A doorway of 90 cm at a place of its own.
-                    let door = x + 30.0 + a * (w - 150.0);
-                    let p = Vector2::new;
-                    faces.extend([
-                        Face::plain(p(x, 0.0), p(door, 0.0)),
-                        Face::plain(p(door + 90.0, 0.0), p(x + w, 0.0)),
-                        Face::plain(p(x, 0.0), p(x, h)),
-                        Face::plain(p(x, h), p(x + w, h)),
-                        Face::plain(p(x + w, h), p(x + w, 0.0)),
-                    ]);
-                    faces.extend(block(x + a * (w - c), 40.0 + b * (h - d - 40.0), c, d));
-                    places.push((x, w, h));
-                    x += w + 10.0;
-                }
-                faces.extend(
-                    outline(&[(0.0, -10.0), (0.0, -190.0), (x, -190.0), (x, -10.0)]).take(3),
-                );
-                let (left, w, h) = *which.get(&places);
-                let at = Isometry2::new(Vector2::new(left + u * w, v * h), turn);
-                Floor { faces, at }
-            },
-        )
+        .prop_map(|(rooms, u, v, turn, which): (Vec<Room>, f64, f64, f64, prop::sample::Index)| {
+            let (mut faces, mut x, mut places) = (Vec::new(), 0.0, Vec::new());
+            for (w, h, a, b, c, d) in rooms {
+                // A doorway of 90 cm at a place of its own.
+                let door = x + 30.0 + a * (w - 150.0);
+                let p = Vector2::new;
+                faces.extend([
+                    Face::plain(p(x, 0.0), p(door, 0.0)),
+                    Face::plain(p(door + 90.0, 0.0), p(x + w, 0.0)),
+                    Face::plain(p(x, 0.0), p(x, h)),
+                    Face::plain(p(x, h), p(x + w, h)),
+                    Face::plain(p(x + w, h), p(x + w, 0.0)),
+                ]);
+                faces.extend(block(x + a * (w - c), 40.0 + b * (h - d - 40.0), c, d));
+                places.push((x, w, h));
+                x += w + 10.0;
+            }
+            faces.extend(outline(&[(0.0, -10.0), (0.0, -190.0), (x, -190.0), (x, -10.0)]).take(3));
+            let (left, w, h) = *which.get(&places);
+            let at = Isometry2::new(Vector2::new(left + u * w, v * h), turn);
+            Floor { faces, at }
+        })
 }
 
 proptest! {
