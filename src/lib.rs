@@ -44,6 +44,9 @@ pub use orthoframe_geometry::{
 pub use orthoframe_robot::{Simulator, Vehicle};
 pub use orthoframe_semantics::{RelationRules, Relations};
 
+/// What is remarkable about a followed scan ([`engine::FoundScan`]).
+pub use orthoframe_sensing::Event;
+
 /// What a robot sees: the segments of [`engine::View`].
 pub use orthoframe_vectors::Segment;
 
@@ -57,6 +60,7 @@ use orthoframe_language as language;
 use orthoframe_map as map;
 use orthoframe_robot as robot;
 use orthoframe_semantics as semantics;
+use orthoframe_sensing as sensing;
 use orthoframe_store as store;
 use orthoframe_strips as strips;
 use orthoframe_units as units;

@@ -14,6 +14,7 @@ use crate::robot::Wanted;
 
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
+use super::locate::LocateArgs;
 use super::observe::ObserveCommand;
 use super::see::SeeArgs;
 use super::store::StoreCommand;
@@ -166,6 +167,8 @@ pub(super) enum Command {
     Corridor(CorridorArgs),
     /// What a robot saw: segments of a scan or a picture, things of a log, what changed (paper 3)
     See(SeeArgs),
+    /// Where the scans of a log can have been taken, by what the map has at the laser's height
+    Locate(LocateArgs),
     /// Run a Datalog program in Soufflé's dialect
     Datalog {
         program: PathBuf,

@@ -14,6 +14,7 @@ mod export;
 mod fault;
 mod import;
 mod language_server;
+mod locate;
 mod observe;
 mod plan;
 mod query;
@@ -103,6 +104,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Corridor(corridor) => corridor::run(common, corridor),
         Command::See(args) => see::run(common, args),
+        Command::Locate(args) => locate::run(common, args),
         Command::Datalog {
             program,
             facts,

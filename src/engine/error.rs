@@ -108,6 +108,17 @@ pub enum RequestError {
     #[error("скана {scan} нет, сканов {count}")]
     #[diagnostic(code(see::no_scan), help("сканы считаются с 1: --scan от 1 до {count}"))]
     NoScan { scan: usize, count: usize },
+    /// A picture, where scans are needed.
+    #[error("это картинка, а нужен журнал сканов")]
+    #[diagnostic(
+        code(locate::no_log),
+        help("назовите журнал: CARMEN, строки дальностей или Breezy")
+    )]
+    NoLog,
+    /// A scan that tells no odometry cannot be followed.
+    #[error("у скана в строке {line} нет одометрии")]
+    #[diagnostic(code(locate::no_odometry), help("уберите --follow: каждый скан сам по себе"))]
+    NoOdometry { line: usize },
     /// Scans cannot be laid beside one another.
     #[error("сканов {count}, и ни у одного нет позы: неизвестно, откуда что видно")]
     #[diagnostic(

@@ -4,9 +4,10 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{
-    Answer, Changes, Engine, Error, Heard, Journey, Outcome as Heeded, PlanStep, Relations,
-    Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things, Unanswered,
-    View, Whereabout, World, face_in_words, name_in, no_way_in_words, steps, surprise_in_words,
+    Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep,
+    Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things,
+    Unanswered, View, Whereabout, World, face_in_words, name_in, no_way_in_words, steps,
+    surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
@@ -14,6 +15,7 @@ use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
 use crate::semantics::Spot;
+use crate::sensing::Event;
 use crate::strips::Replayed;
 use crate::units::{AreaId, Point, Pose, ReplicaId};
 use crate::vectors::read::{LogError, LogFault};
@@ -275,6 +277,42 @@ fn way(world: &World, route: &Route, chain: &[(AreaId, PassframeId)]) -> Value {
         "moved_start": moved(&route.moved_start),
         "moved_goal": moved(&route.moved_goal),
     })
+}
+
+/// Where scans can have been taken.
+#[must_use]
+pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
+    let scan = |found: &FoundScan| {
+        let poses = found.poses.iter().map(|at| {
+            json!({
+                "pose": pose(at.pose),
+                "deviation_cm": round(at.deviation.0),
+                "deviation_deg": at.deviation.1,
+                "beams": at.beams,
+                "explained": at.explained,
+                "through": at.through,
+                "place": at.place.as_ref().map(|place| whereabout(world, place)),
+            })
+        });
+        json!({
+            "scan": found.scan,
+            "line": found.line,
+            "found": match (found.is_unique, found.poses.is_empty()) {
+                (true, _) => "unique",
+                (false, false) => "ambiguous",
+                (false, true) => "unknown",
+            },
+            "event": found.event.map(|event| match event {
+                Event::Steady => "steady",
+                Event::Narrowed => "narrowed",
+                Event::OdometryLies => "odometry_lies",
+                Event::Kidnapped => "kidnapped",
+                Event::Lost => "lost",
+            }),
+            "poses": poses.collect::<Vec<_>>(),
+        })
+    };
+    json!({"outcome": "scans", "found": found.iter().map(scan).collect::<Vec<_>>()})
 }
 
 pub fn whereabout(world: &World, found: &Whereabout) -> Value {

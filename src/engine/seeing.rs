@@ -110,6 +110,14 @@ impl Sighted {
         }
     }
 
+    /// None where it is a picture.
+    pub(super) fn log(&self) -> Option<&Log> {
+        match &self.source {
+            Of::Log(log) => Some(log),
+            Of::Picture(_) => None,
+        }
+    }
+
     /// What was wrong with lines of the log that were passed over.
     #[must_use]
     pub fn faults(&self) -> Option<&LogError> {

@@ -167,6 +167,11 @@ impl Sight {
         Self { faces, ends, shape }
     }
 
+    /// Every face with its ends, as it stands in the floor plan; a side that is seen through is none.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = (SeenFace, Point, Point)> + '_ {
+        self.faces.iter().zip(&self.ends).map(|(face, (a, b))| (*face, *a, *b))
+    }
+
     /// Casts one beam.
     #[must_use]
     pub fn beam(&self, from: Point, direction: f64, range: f64) -> Beam {

@@ -4,6 +4,7 @@ mod drives;
 mod faults;
 mod language_server;
 mod limits;
+mod locate;
 mod map;
 mod plans;
 mod readme;

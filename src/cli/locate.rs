@@ -1,0 +1,90 @@
+//! `ortho locate`: where the scans of a log can have been taken.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::engine::{FoundPose, FoundScan, Sighted, event_in_words, json};
+use crate::language::report::Detail;
+
+use super::args::{Common, Lang};
+use super::commands::{note, open};
+use super::fault::{Failure, drawn};
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct LocateArgs {
+    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
+    log: PathBuf,
+    /// The map; may be left out when the store has only one
+    #[arg(long, value_name = "NAME")]
+    map: Option<String>,
+    /// Which scan of the log, from 1; all when left out
+    #[arg(long, value_name = "N")]
+    scan: Option<usize>,
+    /// Of the laser above the map's zero
+    #[arg(long, value_name = "CM", default_value_t = 30.0)]
+    height: f64,
+    /// Carry what is possible along by odometry, from scan to scan
+    #[arg(long)]
+    follow: bool,
+}
+
+pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let log = Sighted::read(&args.log)?;
+    let map = engine.map_named(args.map.as_deref())?;
+    let found = engine.find_scans(map, &log, args.scan, args.height, args.follow)?;
+    if common.json {
+        let mut value = json::found_scans(engine.world()?, &found);
+        value["faults"] = json::log_faults(log.faults()).into();
+        say(&value.to_string())?;
+    } else {
+        let lines: Vec<String> = found.iter().map(|scan| tell(common.lang, scan)).collect();
+        say(&lines.join("\n"))?;
+        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+    }
+    Ok(match log.faults() {
+        Some(_) => Answer::Wrong,
+        None if found.iter().any(|scan| scan.is_unique) => Answer::Yes,
+        None => Answer::No,
+    })
+}
+
+fn tell(lang: Lang, found: &FoundScan) -> String {
+    let scan = format!("{} {}", lang.pick("Скан", "Scan"), found.scan);
+    let event = found.event.and_then(|event| event_in_words(event, lang.language()));
+    let event = event.map_or_else(String::new, |event| format!(" ({event})"));
+    let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(lang, pose)).collect();
+    match &poses[..] {
+        [] => format!("{scan}{event}: {}", lang.pick("неизвестно где", "place unknown")),
+        [only] if found.is_unique => format!("{scan}{event}: {only}"),
+        [only] => {
+            let open = lang.pick("не наверное", "not for certain");
+            format!("{scan}{event}: {open}, {only}")
+        }
+        several => {
+            let head = match lang {
+                Lang::Ru => format!("одно из мест ({})", several.len()),
+                Lang::En => format!("one of {} places", several.len()),
+            };
+            format!("{scan}{event}: {head}: {}", several.join(" "))
+        }
+    }
+}
+
+fn tell_pose(lang: Lang, found: &FoundPose) -> String {
+    let place = found.place.as_ref().map_or_else(
+        || lang.pick("Это вне всех комнат.", "That is outside of all rooms.").to_owned(),
+        |place| place.position.say_in(lang.language(), Detail::Region),
+    );
+    let (at, heading) = (found.pose.at, found.pose.heading.get());
+    let (cm, degrees) = found.deviation;
+    let unit = lang.pick("см", "cm");
+    format!(
+        "({:.0}, {:.0}), {heading:.0}°, ± {:.0} {unit} {degrees:.1}°. {place}",
+        at.x,
+        at.y,
+        cm.max(1.0)
+    )
+}

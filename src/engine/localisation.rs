@@ -1,0 +1,119 @@
+//! Where the scans of a log can have been taken, on the Map (SPEC L2, L3).
+
+use nalgebra::Isometry2;
+
+use crate::language::Language;
+use crate::sensing::{Answer, Event, Fix, Locator, Tracker, faces_at};
+use crate::units::{Deg, MapId, Point, Pose};
+
+use super::{Error, RequestError, Sighted, State, Whereabout};
+
+/// A pose that a scan fits.
+#[derive(Debug, Clone)]
+pub struct FoundPose {
+    pub pose: Pose,
+    /// Standard deviation of the position, cm, in its worst direction; of the heading, degrees.
+    pub deviation: (f64, f64),
+    /// Beams that came back, that end where the Map says, and that go through what it has.
+    pub beams: usize,
+    pub explained: usize,
+    pub through: usize,
+    /// None outside of every Area.
+    pub place: Option<Whereabout>,
+}
+
+/// What one scan says of where it was taken.
+#[derive(Debug, Clone)]
+pub struct FoundScan {
+    /// From 1.
+    pub scan: usize,
+    /// Of the log, from 1.
+    pub line: usize,
+    /// None where nothing fits; several where the scan cannot tell them apart, the best first.
+    pub poses: Vec<FoundPose>,
+    /// Whether the first of them is the only one. One alone need not be: a corridor leaves a direction open.
+    pub is_unique: bool,
+    /// What was remarkable about the step from the scan before, where that was followed.
+    pub event: Option<Event>,
+}
+
+impl State {
+    /// Where scans of a log can have been taken, by the faces of a map at `height` cm above its zero: each by itself, without
+    /// a guess, or followed from one to the next by odometry. The scan `only`, from 1, or all that there are.
+    ///
+    /// # Errors
+    /// There is no map, no such scan, no log, or a scan to be followed that has no odometry.
+    pub fn find_scans(
+        &self,
+        map: MapId,
+        log: &Sighted,
+        only: Option<usize>,
+        height: f64,
+        follow: bool,
+    ) -> Result<Vec<FoundScan>, Error> {
+        let locator = Locator::new(faces_at(self.floor(map)?, self.world()?, height));
+        let mut tracker = Tracker::new(&locator);
+        let mut before: Option<Isometry2<f64>> = None;
+        let log = log.log().ok_or(RequestError::NoLog)?;
+        if let Some(scan) = only.filter(|&scan| scan == 0 || scan > log.scans.len()) {
+            return Err(RequestError::NoScan { scan, count: log.scans.len() }.into());
+        }
+        let mut found = Vec::new();
+        for (scan, told) in (1..).zip(&log.scans) {
+            let is_asked = only.is_none_or(|only| only == scan);
+            if !is_asked && !follow || only.is_some_and(|only| scan > only) {
+                continue;
+            }
+            let sensor = log.sensor(told);
+            let (answer, event) = if follow {
+                let odometry = told.odometry.ok_or(RequestError::NoOdometry { line: told.line })?;
+                let motion = before.map_or_else(Isometry2::identity, |b| b.inverse() * odometry);
+                before = Some(odometry);
+                let event = tracker.step(&motion, sensor, &told.ranges);
+                (tracker.answer(), Some(event))
+            } else {
+                (locator.locate(sensor, &told.ranges), None)
+            };
+            if is_asked {
+                let poses = answer.fixes().iter().map(|fix| self.found_pose(map, fix)).collect();
+                let is_unique = matches!(answer, Answer::Unique(_));
+                found.push(FoundScan { scan, line: told.line, poses, is_unique, event });
+            }
+        }
+        Ok(found)
+    }
+
+    fn found_pose(&self, map: MapId, fix: &Fix) -> FoundPose {
+        let pose = Pose {
+            at: Point::from(fix.pose.translation.vector),
+            heading: Deg::from_radians(fix.pose.rotation.angle()),
+        };
+        let (place, heading) = fix.deviations();
+        FoundPose {
+            pose,
+            deviation: (place, heading.to_degrees()),
+            beams: fix.fit.beams,
+            explained: fix.fit.explained,
+            through: fix.fit.through,
+            place: self.locate(map, pose, false).ok(),
+        }
+    }
+}
+
+/// What was remarkable about a step, where anything was.
+#[must_use]
+pub fn event_in_words(event: Event, language: Language) -> Option<&'static str> {
+    let (russian, english) = match event {
+        Event::Steady => return None,
+        Event::Narrowed => ("мест стало меньше", "fewer places are left"),
+        Event::OdometryLies => {
+            ("одометрия не сходится с тем, что видно", "odometry disagrees with what is seen")
+        }
+        Event::Kidnapped => (
+            "робот не там, куда ехал: найден заново",
+            "the robot is not where it drove: found anew",
+        ),
+        Event::Lost => ("то, что видно, ни к чему не подходит", "what is seen fits nowhere"),
+    };
+    Some(language.pick(russian, english))
+}
