@@ -571,7 +571,7 @@ fn draw_vertex(canvas: &mut Canvas, vertex: &CorridorVertex, at: Point, letter: 
     }
     canvas.mark("number");
     // Three signs and more are set smaller, to stay within the mark.
-    let room = 2.0 * RADIUS - 5.0;
+    let room = 2.0 * RADIUS - 3.0;
     let size = letter * (room / text_width(&vertex.label, letter, false).max(1.0)).min(1.0);
     canvas.text(at, &vertex.label, Lettering { halo: false, ..Lettering::plain(size, INK) });
 }
