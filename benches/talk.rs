@@ -14,47 +14,7 @@ use orthoframe_language::question::Lexicon;
 use orthoframe_store::Store;
 use orthoframe_units::{Deg, Frame};
 
-const WARD: &str = r#"
-format = 1
-[type]
-area = [{ name = "Палата", name_en = "ward", traits = ["room"] }]
-object = [
-  { name = "Стол", name_en = "table", traits = ["support"] }, { name = "Кровать", name_en = "bed", traits = ["bed"] },
-  { name = "Тумбочка", name_en = "bedside table", traits = ["support", "container"] }, { name = "Стул", name_en = "chair", traits = ["seat"] },
-  { name = "Чашка", name_en = "cup", traits = ["portable"] } ]
-[orthoframe]
-floor = { name = "Пол", rect = [500, 400], height = 270 }
-top = { name = "Стол", rect = [120, 60], height = 75 }
-frame = { name = "Кровать", rect = [90, 200], height = 50 }
-box = { name = "Тумбочка", rect = [45, 40], height = 50 }
-seat = { name = "Стул", rect = [40, 40], height = 45 }
-cup = { name = "Чашка", rect = [8, 8], height = 9 }
-[object]
-desk = { name = "Стол", type = "Стол", front = "A", items = [{ id = "A", orthoframe = "top" }] }
-bed = { name = "Кровать", type = "Кровать", front = "A", items = [{ id = "A", orthoframe = "frame" }] }
-bedside = { name = "Тумбочка", type = "Тумбочка", front = "A", items = [{ id = "A", orthoframe = "box" }] }
-chair = { name = "Стул", type = "Стул", front = "A", items = [{ id = "A", orthoframe = "seat" }] }
-cup = { name = "Чашка", type = "Чашка", items = [{ id = "A", orthoframe = "cup" }] }
-[area.ward]
-name = "Палата"
-type = "Палата"
-items = [{ id = "A", orthoframe = "floor" }]
-replicas = [
-  { name = "Стол-1", object = "desk", at = [350, 330] }, { name = "Стол-2", object = "desk", at = [350, 10] },
-  { name = "Кровать-1", object = "bed", at = [10, 190] }, { name = "Кровать-2", object = "bed", at = [180, 190] },
-  { name = "Тумбочка-1", object = "bedside", at = [105, 350] }, { name = "Тумбочка-2", object = "bedside", at = [275, 350] },
-  { name = "Стул-1", object = "chair", at = [390, 280] }, { name = "Стул-2", object = "chair", at = [440, 220] },
-  { name = "Стул-3", object = "chair", at = [110, 120] }, { name = "Стул-4", object = "chair", at = [300, 120] },
-  { name = "Стул-5", object = "chair", at = [10, 60] }, { name = "Стул-6", object = "chair", at = [60, 60] },
-  { name = "Стул-7", object = "chair", at = [110, 60] }, { name = "Стул-8", object = "chair", at = [160, 60] },
-  { name = "Чашка-1", object = "cup", at = [370, 350, 75], properties = { "ЦВЕТ" = "Красный" } }, { name = "Чашка-2", object = "cup", at = [385, 350, 75] },
-  { name = "Чашка-3", object = "cup", at = [130, 375, 50] }, { name = "Чашка-4", object = "cup", at = [290, 375, 50] },
-  { name = "Чашка-5", object = "cup", at = [370, 30, 75] }, { name = "Чашка-6", object = "cup", at = [410, 30, 75] },
-]
-[map.floor]
-name = "Этаж"
-items = [{ area = "ward" }]
-"#;
+const WARD: &str = include_str!("wards/ward.toml");
 
 /// Wards side by side and back to back.
 fn hospital(wards: usize) -> World {

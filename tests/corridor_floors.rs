@@ -166,7 +166,7 @@ pub(crate) fn empty_world() -> World {
         };
         types.area.entries.insert(TypeId(id), entry);
     }
-    World { domain, maps: BTreeMap::from([(MapId(1), map)]), types, ..World::empty() }
+    World { domain, maps: [(MapId(1), map)].into_iter().collect(), types, ..World::empty() }
 }
 
 /// One corridor of any outline, doors at the middles of the given edges; described by what one sees.

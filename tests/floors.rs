@@ -53,7 +53,7 @@ impl Builder {
         Self {
             world: World {
                 domain,
-                maps: BTreeMap::from([(MapId(1), map)]),
+                maps: [(MapId(1), map)].into_iter().collect(),
                 robot,
                 ..World::empty()
             },

@@ -64,9 +64,13 @@ impl Dice {
         self.chance().then(|| make(self))
     }
 
-    fn of<K: Copy, V>(&mut self, things: &BTreeMap<K, V>) -> K {
-        let index = self.roll(things.len() as u64) as usize;
-        *things.keys().nth(index).expect("the generator makes each kind of thing first")
+    fn of<'a, K: Copy + 'a, V: 'a>(
+        &mut self,
+        things: impl IntoIterator<Item = (&'a K, &'a V)>,
+    ) -> K {
+        let ids: Vec<K> = things.into_iter().map(|(id, _)| *id).collect();
+        assert!(!ids.is_empty(), "the generator makes each kind of thing first");
+        ids[self.roll(ids.len() as u64) as usize]
     }
 
     fn type_of(&mut self, list: &TypeList) -> Option<TypeId> {

@@ -2,16 +2,17 @@
 //!
 //! **Invariant.** After an edit, relations and floors are those that deriving anew from the edited map would give.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
+use crate::geometry::Openings;
+use crate::map::{self, EditReading, Format, MapErrors, NextIds, TypeKind, World};
 use crate::store::{self, Change, Difference, ImportReport, Store, Table};
 use crate::units::{ReplicaId, Source};
 
-use super::known::Known;
+use super::known::{Floors, Known};
 use super::lexicon::form_index;
-use super::{Engine, Error, State, load};
+use super::{Engine, Error, Relations, State, load};
 
 /// Whether an edit is made or only tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,14 +151,14 @@ impl Engine {
         change: &Change,
         mode: Mode,
     ) -> Result<Edited, Error> {
-        let nothing = World::empty();
-        let before = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
-        let differences = store::compare(before, &after)?;
+        let before = self.surveyed.as_ref().map(|known| Arc::clone(&known.world));
+        let before = before.unwrap_or_else(|| Arc::new(World::empty()));
+        let differences = store::compare(&before, &after)?;
         if mode == Mode::DryRun {
             return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
         }
         let report = match &mut self.store {
-            Some(store) => Some(store.commit(&after, change)?),
+            Some(store) => Some(store.commit_change(&before, &after, change)?),
             None => None,
         };
         self.follow(after)?;
@@ -167,9 +168,10 @@ impl Engine {
     /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
     /// else it is derived anew when it is asked for.
     pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
-        let (state, store) = self.next_with_store();
-        state.follow(after);
-        state.stand_on(store);
+        self.next();
+        let state = Arc::get_mut(&mut self.state).expect("made so by the line before");
+        state.follow(after, &mut self.spares);
+        state.stand_on(self.store.as_ref());
         Ok(())
     }
 
@@ -181,9 +183,49 @@ impl Engine {
     }
 }
 
+/// What followed the map before, and was left to those who still ask it: the next edit takes it up when they are done,
+/// brings it to the map as it then is, and need not copy what others have.
+#[derive(Debug, Default)]
+pub(super) struct Spares {
+    relations: Option<Spare<Relations>>,
+    floors: Option<Spare<Floors>>,
+    /// Through which the floors lead.
+    openings: Option<Arc<Openings>>,
+}
+
+/// What followed from a map.
+#[derive(Debug)]
+struct Spare<T> {
+    of: Arc<World>,
+    what: Arc<T>,
+}
+
+impl<T: Clone> Spare<T> {
+    /// Makes what follows from `before`, and others may have, one's own: the spare one, if nobody has that any more and
+    /// it can follow to `after`; else a copy. Returns the map of which it is.
+    fn own(
+        spare: &mut Option<Self>,
+        shared: &mut Arc<T>,
+        before: &Arc<World>,
+        after: &World,
+    ) -> Arc<World> {
+        if Arc::get_mut(shared).is_some() {
+            return Arc::clone(before);
+        }
+        let is_near =
+            |of: &World| only_replicas(of, after).is_some_and(|few| few.len() <= MOST_FOLLOWED);
+        let fits = |spare: &Self| Arc::strong_count(&spare.what) == 1 && is_near(&spare.of);
+        let own = spare.take().filter(fits);
+        let Self { of, what } = own
+            .unwrap_or_else(|| Self { of: Arc::clone(before), what: Arc::new(T::clone(shared)) });
+        *spare = Some(Self { of: Arc::clone(before), what: std::mem::replace(shared, what) });
+        of
+    }
+}
+
 impl State {
     /// Takes over another map; what other states share with this one stays as it is for them.
-    fn follow(&mut self, after: World) {
+    fn follow(&mut self, after: World, spares: &mut Spares) {
         let after = Arc::new(after);
         // What rests on the map as it was would make a copy of what follows it.
         self.forget_present();
@@ -198,7 +240,7 @@ impl State {
         let ids_are_unique = self.reader.is_some();
         Arc::make_mut(&mut self.changes).note(&before, &after, changed.as_deref(), ids_are_unique);
         match changed {
-            Some(changed) => Arc::make_mut(surveyed).follow(&before, &after, &changed),
+            Some(changed) => Arc::make_mut(surveyed).follow(&before, &after, &changed, spares),
             None => {
                 let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
                 *surveyed = Arc::new(Known::surveyed(rules, after, derived));
@@ -209,41 +251,51 @@ impl State {
 
 impl Known {
     /// Takes over a map that differs in these replicas alone.
-    fn follow(&mut self, before: &World, after: &Arc<World>, changed: &[ReplicaId]) {
+    fn follow(
+        &mut self,
+        before: &Arc<World>,
+        after: &Arc<World>,
+        changed: &[ReplicaId],
+        spares: &mut Spares,
+    ) {
         self.mind.take();
         self.forms.take();
         self.world = Arc::clone(after);
         let mut followed = changed.len() <= MOST_FOLLOWED;
+        let mut openings = None;
         if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
-            let relations = Arc::make_mut(relations);
-            let openings = Arc::clone(relations.openings());
-            for &id in changed {
-                // Properties are facts too, which a move does not touch.
-                let only_moved =
-                    before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(|(b, a)| {
-                        map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
-                    });
-                // A rule that fails now fails again, and is told, when they are derived anew.
-                followed = followed && only_moved && relations.update(after, id).unwrap_or(false);
-            }
+            let led = Arc::clone(relations.openings());
+            let of = Spare::own(&mut spares.relations, relations, before, after);
+            let relations = Arc::get_mut(relations).expect("made one's own by the line before");
+            // A rule that fails now fails again, and is told, when they are derived anew.
+            followed = relations.follow_world(&of, after).unwrap_or(false);
             // Rules of the user's own may let doors join by what stands about.
-            if openings != *relations.openings() {
+            if followed && led != *relations.openings() {
                 self.floors.take();
             }
+            openings = Some(led);
         }
         if !followed {
             self.relations.take();
         }
         if let Some(floors) = self.floors.get_mut() {
+            if openings.is_none() || spares.openings != openings {
+                spares.floors = None;
+            }
+            spares.openings = openings;
+            let of = Spare::own(&mut spares.floors, floors, before, after);
+            let changed = only_replicas(&of, after).expect("it can follow");
             // A thing may leave one Map for another: each takes over what it now says of its own.
-            for floor in Arc::make_mut(floors).values_mut() {
+            for floor in
+                Arc::get_mut(floors).expect("made one's own by the line before").values_mut()
+            {
                 let is_on = |r: Option<&map::Replica>| {
                     r.is_some_and(|r| floor.scene().areas.contains_key(&r.area))
                 };
                 let own: Vec<ReplicaId> = changed
                     .iter()
                     .copied()
-                    .filter(|id| is_on(before.replicas.get(id)) || is_on(after.replicas.get(id)))
+                    .filter(|id| is_on(of.replicas.get(id)) || is_on(after.replicas.get(id)))
                     .collect();
                 if !own.is_empty() {
                     floor.rebuild(after, &own);
@@ -255,24 +307,13 @@ impl Known {
 
 /// The faults that a map did not have before.
 fn news(before: &World, after: &World) -> MapErrors {
-    let known = map::check(before);
-    let is_news = |f: &Fault| !known.iter().any(|k| k.error == f.error);
-    MapErrors { source: None, faults: map::check(after).into_iter().filter(is_news).collect() }
+    MapErrors { source: None, faults: map::news(before, after) }
 }
 
 /// The replicas that differ between two worlds that are else alike; none when they are not.
 fn only_replicas(before: &World, after: &World) -> Option<Vec<ReplicaId>> {
     let alike = before.is_same_building(after) && before.doors == after.doors;
-    let differ = |w: &BTreeMap<ReplicaId, map::Replica>, of: &BTreeMap<_, _>| -> Vec<ReplicaId> {
-        of.iter().filter(|(id, r)| w.get(id) != Some(*r)).map(|(id, _)| *id).collect()
-    };
-    alike.then(|| {
-        let mut changed = differ(&before.replicas, &after.replicas);
-        changed.extend(differ(&after.replicas, &before.replicas));
-        changed.sort_unstable();
-        changed.dedup();
-        changed
-    })
+    alike.then(|| before.replicas.changes(&after.replicas).into_iter().map(|(id, ..)| id).collect())
 }
 
 fn type_table(kind: TypeKind) -> Table {

@@ -6,6 +6,7 @@ use crate::store::{
     Change, Difference, Forgotten, ImportReport, Revision, Store, StoreError, Timestamp,
 };
 
+use super::edit::Spares;
 use super::{Engine, Error, State};
 
 /// A point of the history as a person names it: a revision's number, or a moment.
@@ -64,7 +65,8 @@ impl Engine {
         let revision = self.revision_of(when)?;
         let world = self.store()?.world_as_of(revision)?;
         let then = State::new(None, Arc::clone(&self.state.rules), world);
-        Ok(Self { store: None, state: Arc::new(then), opened: self.opened })
+        let (state, spares) = (Arc::new(then), Spares::default());
+        Ok(Self { store: None, state, spares, opened: self.opened })
     }
 
     /// What changed between two points of the history.

@@ -21,6 +21,9 @@ use super::position::nowhere_on;
 use super::route::{End, Located};
 use super::{Error, RequestError, Rules};
 
+/// The free floor of every Map.
+pub(super) type Floors = BTreeMap<MapId, FloorPlan>;
+
 /// Under this name the store keeps the relations.
 const RELATIONS: &str = "relations";
 
@@ -39,7 +42,7 @@ pub(super) struct Known {
     /// Where what follows from the map is kept for the next start.
     pub(super) derived: Option<Derived>,
     pub(super) relations: OnceLock<Arc<Relations>>,
-    pub(super) floors: OnceLock<Arc<BTreeMap<MapId, FloorPlan>>>,
+    pub(super) floors: OnceLock<Arc<Floors>>,
     /// The nouns, for questions.
     pub(super) mind: OnceLock<Arc<Mind>>,
     /// The names in all their forms, for commands.
@@ -154,7 +157,7 @@ impl Known {
     ///
     /// # Errors
     /// As [`Self::relations`].
-    pub(super) fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+    pub(super) fn floors(&self) -> Result<&Floors, Error> {
         if let Some(floors) = self.floors.get() {
             return Ok(floors);
         }

@@ -132,6 +132,8 @@ use crate::store::{ImportReport, OpenReport, Store, StoreError};
 pub struct Engine {
     store: Option<Store>,
     state: Arc<State>,
+    /// What the next edit takes up instead of a copy.
+    spares: edit::Spares,
     /// What opening the store found and mended.
     pub opened: OpenReport,
 }
@@ -165,7 +167,7 @@ impl Engine {
     /// Nothing is derived yet.
     fn new(store: Option<Store>, opened: OpenReport, rules: Rules, world: Option<World>) -> Self {
         let state = Arc::new(State::new(store.as_ref(), Arc::new(rules), world));
-        Self { store, state, opened }
+        Self { store, state, spares: edit::Spares::default(), opened }
     }
 
     /// What is known now, to be asked by any thread for as long as it likes, whatever the engine does meanwhile. It is taken

@@ -53,11 +53,12 @@ mod file;
 mod marks;
 mod object;
 mod orthoframe;
+mod records;
 mod types;
 mod world;
 
 pub use check::plane;
-pub use check::{check, doubts};
+pub use check::{check, doubts, news};
 pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
@@ -68,6 +69,7 @@ pub use file::{
 pub use marks::Mark;
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};
+pub use records::{Change, Records};
 pub use types::{Case, Forms, Gender, TypeEntry, TypeKind, TypeList, TypeLists};
 pub use world::{
     Domain, DomainMap, Entity, LiftStop, Map, MapItem, MapLink, Place, Profile, Replica,

@@ -8,7 +8,7 @@ use crate::units::{
 };
 
 use super::{
-    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, SideRef, TypeLists,
+    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, Records, SideRef, TypeLists,
 };
 
 /// One placed copy of an Object (table AreaObjects). An Area with its replicas is a Fragment.
@@ -205,13 +205,13 @@ pub enum Entity {
 #[derive(Debug, Clone, PartialEq)]
 pub struct World {
     pub domain: Domain,
-    pub maps: BTreeMap<MapId, Map>,
-    pub areas: BTreeMap<AreaId, Area>,
-    pub objects: BTreeMap<ObjectId, Object>,
-    pub orthoframes: BTreeMap<OrFrId, Orthoframe>,
-    pub doors: BTreeMap<DoorId, Door>,
-    pub replicas: BTreeMap<ReplicaId, Replica>,
-    pub places: BTreeMap<PlaceId, Place>,
+    pub maps: Records<MapId, Map>,
+    pub areas: Records<AreaId, Area>,
+    pub objects: Records<ObjectId, Object>,
+    pub orthoframes: Records<OrFrId, Orthoframe>,
+    pub doors: Records<DoorId, Door>,
+    pub replicas: Records<ReplicaId, Replica>,
+    pub places: Records<PlaceId, Place>,
     pub types: TypeLists,
     pub robot: RobotProfile,
 }
@@ -232,13 +232,13 @@ impl World {
                 maps: Vec::new(),
                 lifts: Vec::new(),
             },
-            maps: BTreeMap::new(),
-            areas: BTreeMap::new(),
-            objects: BTreeMap::new(),
-            orthoframes: BTreeMap::new(),
-            doors: BTreeMap::new(),
-            replicas: BTreeMap::new(),
-            places: BTreeMap::new(),
+            maps: Records::new(),
+            areas: Records::new(),
+            objects: Records::new(),
+            orthoframes: Records::new(),
+            doors: Records::new(),
+            replicas: Records::new(),
+            places: Records::new(),
             types: TypeLists::default(),
             robot: RobotProfile::default(),
         }
@@ -247,7 +247,9 @@ impl World {
     /// Whether another world differs from this one in its replicas and the states of its doors only.
     #[must_use]
     pub fn is_same_building(&self, other: &Self) -> bool {
-        let door = |(is, was): (&Door, &Door)| *is == Door { state: is.state, ..was.clone() };
+        let door = |(_, was, is): (DoorId, Option<&Door>, Option<&Door>)| {
+            was.zip(is).is_some_and(|(was, is)| *is == Door { state: is.state, ..was.clone() })
+        };
         self.domain == other.domain
             && self.maps == other.maps
             && self.areas == other.areas
@@ -256,8 +258,7 @@ impl World {
             && self.types == other.types
             && self.places == other.places
             && self.robot == other.robot
-            && self.doors.len() == other.doors.len()
-            && self.doors.values().zip(other.doors.values()).all(door)
+            && self.doors.changes(&other.doors).into_iter().all(door)
     }
 
     /// Where every Area stands; for work that asks for many of them, see [`Self::placement`] for one.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::map::World;
+use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
 
 use super::cell::{Cell, Key, Row};
 use super::edits::Edits;
@@ -132,34 +133,76 @@ fn noun(table: Table) -> (&'static str, Option<Table>) {
 }
 
 /// Names of what bears an id, at two revisions: a thing that is gone still has its old name.
-#[derive(Default)]
-struct Names(BTreeMap<(Table, u32), String>);
+enum Names<'a> {
+    Read(BTreeMap<(Table, u32), String>),
+    /// Looked up where they stand: before and after.
+    Of([&'a World; 2]),
+}
 
-impl Names {
-    fn add(&mut self, table: Table, row: &Row) {
-        if let Some((id, name)) = display_name(table, row) {
-            self.0.insert((table, id), name);
-        }
-    }
-
+impl Names<'_> {
     fn of(from: &Reader, to: &Reader) -> Result<Self> {
-        let mut names = Self::default();
+        let mut names = BTreeMap::new();
         for reader in [from, to] {
             for table in super::ids::tables() {
                 for (_, version) in reader.versions(table, &Key::new())? {
-                    names.add(table, &version.row);
+                    if let Some((id, name)) = display_name(table, &version.row) {
+                        names.insert((table, id), name);
+                    }
                 }
             }
         }
-        Ok(names)
+        Ok(Self::Read(names))
     }
 
     fn get(&self, table: Table, id: u32) -> String {
-        match self.0.get(&(table, id)) {
+        let name = match self {
+            Self::Read(names) => names.get(&(table, id)).map(String::as_str),
+            Self::Of([before, after]) => {
+                name_in(after, table, id).or_else(|| name_in(before, table, id))
+            }
+        };
+        match name {
             Some(name) => format!("«{name}»"),
             None => format!("№ {id}"),
         }
     }
+}
+
+/// The display name of a world's record: as [`display_name`] of its row.
+fn name_in(world: &World, table: Table, id: u32) -> Option<&str> {
+    macro_rules! keyed {
+        ($things:expr, $id:ident) => {
+            $things.get(&$id(id)).map(|thing| [thing.name.as_str(), thing.key.as_str()])
+        };
+    }
+    macro_rules! named {
+        ($things:expr, $id:ident) => {
+            $things.get(&$id(id)).map(|thing| [thing.name.as_str(), ""])
+        };
+    }
+    let types = &world.types;
+    let names = match table {
+        Table::OrFr => keyed!(world.orthoframes, OrFrId),
+        Table::Object => keyed!(world.objects, ObjectId),
+        Table::Area => keyed!(world.areas, AreaId),
+        Table::Map => keyed!(world.maps, MapId),
+        Table::Door => keyed!(world.doors, DoorId),
+        Table::AreaObjects => named!(world.replicas, ReplicaId),
+        Table::Places => named!(world.places, PlaceId),
+        Table::Domain => {
+            let domain = &world.domain;
+            (domain.id.0 == id).then(|| [domain.name.as_str(), domain.key.as_str()])
+        }
+        Table::OrtFrmTypeList => named!(types.orthoframe.entries, TypeId),
+        Table::OrtFrmShapeList => named!(types.shape.entries, TypeId),
+        Table::OrtFrmSideTypeList => named!(types.side.entries, TypeId),
+        Table::ObjectTypeList => named!(types.object.entries, TypeId),
+        Table::AreaTypeList => named!(types.area.entries, TypeId),
+        Table::MapTypeList => named!(types.map.entries, TypeId),
+        Table::DoorTypeList => named!(types.door.entries, TypeId),
+        _ => None,
+    }?;
+    names.into_iter().find(|name| !name.is_empty())
 }
 
 fn display_name(table: Table, row: &Row) -> Option<(u32, String)> {
@@ -204,11 +247,8 @@ impl Store {
 /// # Errors
 /// [`StoreError::Duplicate`](super::StoreError::Duplicate) when two parts of a world have one key.
 pub fn compare(old: &World, new: &World) -> Result<Vec<Difference>> {
-    let (old, new) = (Sheet::of(old)?, Sheet::of(new)?);
-    let mut names = Names::default();
-    for sheet in [&old, &new] {
-        sheet.iter().for_each(|(table, _, row)| names.add(table, row));
-    }
+    let names = Names::Of([old, new]);
+    let [old, new] = Sheet::of_change(old, new)?;
     let mut pairs = Pairs::default();
     for (table, key) in Edits::between(&old, &new).rows.into_keys() {
         let rows = [old.get(table, &key).cloned(), new.get(table, &key).cloned()];
@@ -229,7 +269,7 @@ impl Pairs {
         *is = is.take().or(after);
     }
 
-    fn differences(self, names: &Names) -> Vec<Difference> {
+    fn differences(self, names: &Names<'_>) -> Vec<Difference> {
         let differing = self.0.into_iter().filter(|(_, [was, is])| was != is);
         differing.map(|((table, _), rows)| difference(table, &rows, names)).collect()
     }
@@ -244,7 +284,7 @@ fn same_thing(table: Table, key: &Key, rows: &[Option<Row>; 2]) -> Key {
     }
 }
 
-fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names) -> Difference {
+fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names<'_>) -> Difference {
     let [was, is] = rows;
     let fate = match (was, is) {
         (None, _) => Fate::Created,
@@ -271,7 +311,7 @@ fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names) -> Differenc
     }
 }
 
-fn subject(table: Table, row: &Row, names: &Names) -> String {
+fn subject(table: Table, row: &Row, names: &Names<'_>) -> String {
     let (noun, owner) = noun(table);
     let id = |cell: Option<&Cell>| match cell {
         Some(Cell::Int(id)) => u32::try_from(*id).unwrap_or(0),
@@ -296,7 +336,7 @@ fn subject(table: Table, row: &Row, names: &Names) -> String {
 }
 
 /// Movements and door states have words of their own.
-fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names) -> Option<String> {
+fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names<'_>) -> Option<String> {
     match table {
         Table::AreaObjects => {
             let old = was.and_then(|row| t::AreaObjects::from_row(row));
@@ -345,7 +385,7 @@ fn door_words(door: &t::Door) -> String {
 fn replica_words(
     old: Option<&t::AreaObjects>,
     new: Option<&t::AreaObjects>,
-    names: &Names,
+    names: &Names<'_>,
 ) -> Option<String> {
     let area = |r: &t::AreaObjects| names.get(Table::Area, r.area_id);
     let (old, new) = match (old, new) {

@@ -209,6 +209,28 @@ impl Store {
         self.become_world(world, change, RevisionKind::Edit)
     }
 
+    /// The same, where it is known which world the store holds: what both worlds share is neither read nor compared.
+    ///
+    /// # Errors
+    /// As [`Store::commit`].
+    pub fn commit_change(
+        &mut self,
+        before: &World,
+        after: &World,
+        change: &Change,
+    ) -> Result<ImportReport> {
+        let [old, new] = Sheet::of_change(before, after)?;
+        let edits = Edits::between(&old, &new);
+        for (table, key) in edits.rows.keys() {
+            let held = self.reader().version(*table, key)?.filter(|v| !v.stamp.deleted);
+            if held.as_ref().map(|v| &v.row) != old.get(*table, key) {
+                // It holds another: all of it is compared.
+                return self.commit(after, change);
+            }
+        }
+        self.write(&edits, change, RevisionKind::Edit, None)
+    }
+
     /// Makes the map of the store equal to records that came from elsewhere, a base of SQL tables for one.
     /// Their ids are kept.
     ///

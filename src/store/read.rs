@@ -26,13 +26,13 @@ pub(super) fn world(sheet: &Sheet) -> Result<Option<World>> {
     let mut reader = Reader { sheet, forms: forms(sheet)? };
     Ok(Some(World {
         types: reader.types()?,
-        orthoframes: reader.orthoframes()?,
-        doors: reader.doors()?,
-        objects: reader.objects()?,
-        areas: reader.areas()?,
-        replicas: reader.replicas()?,
-        places: reader.places()?,
-        maps: reader.maps()?,
+        orthoframes: reader.orthoframes()?.into(),
+        doors: reader.doors()?.into(),
+        objects: reader.objects()?.into(),
+        areas: reader.areas()?.into(),
+        replicas: reader.replicas()?.into(),
+        places: reader.places()?.into(),
+        maps: reader.maps()?.into(),
         robot: reader.robot()?,
         domain: reader.domain(domain)?,
     }))

@@ -26,6 +26,11 @@ impl Sheet {
         super::write::records(world)
     }
 
+    /// The records in which two worlds may differ, of each of them: what is in neither sheet is the same in both worlds.
+    pub(crate) fn of_change(before: &World, after: &World) -> Result<[Self; 2]> {
+        super::write::records_of_change(before, after)
+    }
+
     /// The derived tables of a world: ObjectItemSides, AreaItemSides, AreaObjectSides, MapItemSides.
     ///
     /// # Errors
@@ -141,4 +146,66 @@ pub(crate) fn describe_key(table: Table, row: &[super::Cell]) -> String {
         .map(|(column, cell)| format!("{} {cell}", column.name))
         .collect();
     parts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Edits;
+    use crate::map::{Replica, World};
+    use crate::units::{Cm, Frame, ReplicaId};
+
+    use super::Sheet;
+
+    /// One change of one sort.
+    fn alter(world: &mut World, sort: usize) {
+        let replica = *world.replicas.keys().nth(sort * 7 % world.replicas.len()).expect("some");
+        let last = *world.replicas.keys().next_back().expect("some");
+        match sort % 13 {
+            0 | 1 => {
+                let replica = world.replicas.get_mut(&replica).expect("it is there");
+                let at = replica.frame;
+                replica.frame = Frame::new(at.x.get() + 1.0, at.y.get(), at.z.get(), at.angle);
+            }
+            2 => drop(world.replicas.remove(&replica)),
+            3 => {
+                let id = ReplicaId(last.0 + 1);
+                let twin =
+                    Replica {
+                        id, name: format!("Вещь-{}", id.0), ..world.replicas[&last].clone()
+                    };
+                world.replicas.insert(id, twin);
+            }
+            4 => world.doors.values_mut().take(2).for_each(|door| door.state.opening = 37.0),
+            5 => world.areas.values_mut().take(2).for_each(|area| area.description.push('!')),
+            6 => world.places.values_mut().take(1).for_each(|place| place.at.x += 1.0),
+            7 => drop(world.places.pop_last()),
+            8 => world.maps.values_mut().for_each(|map| map.description.push('!')),
+            9 => world.objects.values_mut().take(1).for_each(|object| object.name.push('!')),
+            10 => world.orthoframes.values_mut().take(3).for_each(|o| o.height = Cm::of(99.0)),
+            11 => world.domain.name.push('!'),
+            _ => world.robot.speed += 1.0,
+        }
+    }
+
+    /// What two worlds share makes no difference: the records of what they do not share tell all of it.
+    #[test]
+    fn the_records_of_a_change_tell_all_that_differs() {
+        for map in ["../../maps/rb2.toml", "../../maps/two-storeys.toml"] {
+            let mut few = 0;
+            let mut before = World::load(map).expect("a map of the project");
+            for step in 0..130_usize {
+                let mut after = before.clone();
+                for sort in 0..=(step / 7 % 3) {
+                    alter(&mut after, step * (sort + 1) + sort);
+                }
+                let [whole_old, whole_new] = [&before, &after].map(|w| Sheet::of(w).expect("keys"));
+                let whole = Edits::between(&whole_old, &whole_new);
+                let [old, new] = Sheet::of_change(&before, &after).expect("keys");
+                assert_eq!(Edits::between(&old, &new), whole, "{map}, step {step}");
+                few += usize::from(!whole.is_empty() && old.len() < whole_old.len() / 2);
+                before = after;
+            }
+            assert!(few > 60, "{map}: {few} of 130");
+        }
+    }
 }

@@ -2,8 +2,8 @@
 
 use crate::map::{
     Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Face, Forms, Gender, HingeSide,
-    Item, ItemLink, Map, Object, OpensTo, Orthoframe, Profile, Properties, Replica, TypeList,
-    World,
+    Item, ItemLink, Map, Object, OpensTo, Orthoframe, Place, Profile, Properties, Replica,
+    TypeList, World,
 };
 use crate::units::{Frame, TypeId};
 
@@ -107,12 +107,56 @@ pub(super) fn records(world: &World) -> Result<Sheet> {
     for replica in world.replicas.values() {
         put_replica(&mut sheet, replica)?;
     }
-    places(&mut sheet, world)?;
+    for place in world.places.values() {
+        put_place(&mut sheet, place)?;
+    }
     for map in world.maps.values() {
         put_map(&mut sheet, world, map)?;
     }
     put_domain(&mut sheet, world)?;
     Ok(sheet)
+}
+
+/// The records in which two worlds may differ, of the one and of the other: rows that are in neither are the same in both.
+/// Where most of a world is shared with the one that it was made from, few are.
+pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet; 2]> {
+    // Sizes of Objects, Areas and Maps are made of these.
+    if before.orthoframes != after.orthoframes {
+        return Ok([records(before)?, records(after)?]);
+    }
+    let mut sheets = [Sheet::default(), Sheet::default()];
+    let [old, new] = &mut sheets;
+    macro_rules! put {
+        ($things:ident, |$sheet:ident, $world:ident, $thing:ident| $put:expr) => {
+            for (_, was, is) in before.$things.changes(&after.$things) {
+                for ($sheet, $world, $thing) in [(&mut *old, before, was), (&mut *new, after, is)] {
+                    if let Some($thing) = $thing {
+                        let _ = $world;
+                        $put?;
+                    }
+                }
+            }
+        };
+    }
+    put!(doors, |sheet, world, door| put_door(sheet, door));
+    put!(objects, |sheet, world, object| put_object(sheet, world, object));
+    put!(areas, |sheet, world, area| put_area(sheet, world, area));
+    put!(replicas, |sheet, world, replica| put_replica(sheet, replica));
+    put!(places, |sheet, world, place| put_place(sheet, place));
+    if before.areas == after.areas {
+        put!(maps, |sheet, world, map| put_map(sheet, world, map));
+    } else {
+        for (sheet, world) in [(&mut *old, before), (&mut *new, after)] {
+            world.maps.values().try_for_each(|map| put_map(sheet, world, map))?;
+        }
+    }
+    for (sheet, world) in [(old, before), (new, after)] {
+        if before.types != after.types {
+            type_lists(sheet, world)?;
+        }
+        put_domain(sheet, world)?;
+    }
+    Ok(sheets)
 }
 
 fn type_lists(sheet: &mut Sheet, world: &World) -> Result<()> {
@@ -405,21 +449,18 @@ pub(super) fn replica_record(r: &Replica) -> t::AreaObjects {
     }
 }
 
-fn places(sheet: &mut Sheet, world: &World) -> Result<()> {
-    for place in world.places.values() {
-        sheet.put(&t::Places {
-            area_id: place.area.0,
-            place_id: place.id.0,
-            name: place.name.clone(),
-            name_en: place.name_en.clone(),
-            x: place.at.x,
-            y: place.at.y,
-            ang: place.heading.map(crate::units::Deg::get),
-            serves: place.serves.map(|r| r.0),
-        })?;
-        put_forms(sheet, Table::Places, place.id.0, &place.forms)?;
-    }
-    Ok(())
+fn put_place(sheet: &mut Sheet, place: &Place) -> Result<()> {
+    sheet.put(&t::Places {
+        area_id: place.area.0,
+        place_id: place.id.0,
+        name: place.name.clone(),
+        name_en: place.name_en.clone(),
+        x: place.at.x,
+        y: place.at.y,
+        ang: place.heading.map(crate::units::Deg::get),
+        serves: place.serves.map(|r| r.0),
+    })?;
+    put_forms(sheet, Table::Places, place.id.0, &place.forms)
 }
 
 /// The Orthoframe of an Area's base item, or of its only one.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
-use crate::units::{Bilingual, Cm, Point};
+use crate::units::{Bilingual, Cm, OrFrId, Point};
 use crate::{BaseVector, Orthoframe, TypeKind};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};
@@ -35,6 +35,23 @@ impl Checker<'_> {
             self.base(frame, &spot.field("base_vectors"));
             if self.faults.len() == faults_before {
                 self.sound.insert(frame.id);
+            }
+        }
+    }
+
+    /// Finds which of some Orthoframes can be measured, and says nothing of them.
+    pub(super) fn judge_bases(&mut self, ids: impl Iterator<Item = OrFrId>) {
+        let world = self.world;
+        let faults_before = self.faults.len();
+        for frame in ids.filter_map(|id| world.orthoframes.get(&id)) {
+            if !self.is_broken(Record::Orthoframe(frame.id)) && !self.sound.contains(&frame.id) {
+                let spot = Spot::of(Record::Orthoframe(frame.id));
+                self.sizes(frame, &spot);
+                self.base(frame, &spot);
+                if self.faults.len() == faults_before {
+                    self.sound.insert(frame.id);
+                }
+                self.faults.truncate(faults_before);
             }
         }
     }

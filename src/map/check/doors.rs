@@ -62,7 +62,7 @@ impl<'w> Checker<'w> {
         mounts
     }
 
-    fn door(&mut self, door: &Door, spot: &Spot) {
+    pub(super) fn door(&mut self, door: &Door, spot: &Spot) {
         let owner = Bilingual::named(("дверь", "door"), &door.name);
         self.type_exists(TypeKind::Door, door.door_type, &owner, spot);
         for (what, size) in [("width", door.width.get()), ("height", door.height.get())] {

@@ -8,6 +8,7 @@ mod doubts;
 mod group;
 mod maps;
 mod names;
+mod news;
 mod placed;
 pub mod plane;
 
@@ -16,6 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
 
 pub use doubts::doubts;
+pub use news::news;
 
 use super::fault::{COORDINATE, Fault, MapError, Record, Spot, WITHIN};
 use super::{Item, TypeKind, World};
@@ -54,14 +56,15 @@ pub(super) fn check_except(world: &World, broken: &BTreeSet<Record>) -> Vec<Faul
             placed.entry(item.area).or_insert((map.id, index));
         }
     }
-    let mut checker = Checker { world, broken, placed, sound: BTreeSet::new(), faults: Vec::new() };
+    let mut checker = Checker::new(world, broken);
+    checker.placed = placed;
     checker.bases();
     checker.groups();
     checker.doors();
     checker.maps();
     checker.domain();
     checker.replicas();
-    checker.places();
+    checker.places(|_| true);
     checker.robot();
     checker.names();
     checker.faults
@@ -76,6 +79,13 @@ struct Checker<'w> {
     /// Orthoframes whose bases can be measured.
     sound: BTreeSet<OrFrId>,
     faults: Vec<Fault>,
+}
+
+impl<'w> Checker<'w> {
+    fn new(world: &'w World, broken: &'w BTreeSet<Record>) -> Self {
+        let (placed, sound) = (BTreeMap::new(), BTreeSet::new());
+        Self { world, broken, placed, sound, faults: Vec::new() }
+    }
 }
 
 impl Checker<'_> {

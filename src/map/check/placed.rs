@@ -1,8 +1,10 @@
 //! What stands in an Area (M4): replicas within its walls, places on its floor; and the robot's own numbers.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
-use crate::units::{AreaId, Bilingual, Cm, Frame, Point};
-use crate::{Replica, RobotProfile, World};
+use crate::units::{AreaId, Bilingual, Cm, Frame, Point, ReplicaId};
+use crate::{Place, Replica, RobotProfile, World};
 
 use super::group::Body;
 use super::plane::{
@@ -37,39 +39,49 @@ impl Checker<'_> {
     }
 
     pub(super) fn replicas(&mut self) {
-        let rooms: std::collections::BTreeMap<_, _> =
+        let rooms: BTreeMap<_, _> =
             self.world.areas.keys().filter_map(|&id| Some((id, self.room(id)?))).collect();
         for replica in self.world.replicas.values() {
-            let spot = Spot::of(Record::Replica(replica.id));
-            let owner = Bilingual::quoted(&replica.name);
-            if replica.move_prob > 100 {
-                let value = f64::from(replica.move_prob);
-                let at = spot.clone().field("move_prob");
-                self.in_range("move_prob", value, false, ("от 0 до 100", "from 0 to 100"), at);
-            }
-            let is_finite = self.frame_is_finite(&replica.frame, &spot);
-            let world = self.world;
-            let area = world.areas.contains_key(&replica.area);
-            self.exists(area, &owner, ("помещение", "area"), replica.area.0, spot.clone());
-            let object = world.objects.get(&replica.object);
-            if !self.exists(
-                object.is_some(),
-                &owner,
-                ("объект", "object"),
-                replica.object.0,
-                spot.clone(),
-            ) {
-                continue;
-            }
-            self.replica_doors(replica, world, &spot);
-            if let (Some(object), Some(room), true) = (object, rooms.get(&replica.area), is_finite)
-                && !self.is_broken(Record::Object(object.id))
-                && self.is_sound(&object.items)
-            {
-                let mut bodies = self.bodies(&object.items);
-                bodies.iter_mut().for_each(|body| place(body, &replica.frame));
-                self.within(replica, &bodies, room, &spot);
-            }
+            self.replica(replica, rooms.get(&replica.area));
+        }
+    }
+
+    /// The same of these replicas alone.
+    pub(super) fn some_replicas(&mut self, ids: &BTreeSet<ReplicaId>) {
+        let world = self.world;
+        let mut rooms = BTreeMap::new();
+        for replica in ids.iter().filter_map(|id| world.replicas.get(id)) {
+            let area = replica.area;
+            let room = rooms.entry(area).or_insert_with(|| self.room(area));
+            self.replica(replica, room.as_ref());
+        }
+    }
+
+    fn replica(&mut self, replica: &Replica, room: Option<&Room>) {
+        let spot = Spot::of(Record::Replica(replica.id));
+        let owner = Bilingual::quoted(&replica.name);
+        if replica.move_prob > 100 {
+            let value = f64::from(replica.move_prob);
+            let at = spot.clone().field("move_prob");
+            self.in_range("move_prob", value, false, ("от 0 до 100", "from 0 to 100"), at);
+        }
+        let is_finite = self.frame_is_finite(&replica.frame, &spot);
+        let world = self.world;
+        let area = world.areas.contains_key(&replica.area);
+        self.exists(area, &owner, ("помещение", "area"), replica.area.0, spot.clone());
+        let object = world.objects.get(&replica.object);
+        let (id, what) = (replica.object.0, ("объект", "object"));
+        if !self.exists(object.is_some(), &owner, what, id, spot.clone()) {
+            return;
+        }
+        self.replica_doors(replica, world, &spot);
+        if let (Some(object), Some(room), true) = (object, room, is_finite)
+            && !self.is_broken(Record::Object(object.id))
+            && self.is_sound(&object.items)
+        {
+            let mut bodies = self.bodies(&object.items);
+            bodies.iter_mut().for_each(|body| place(body, &replica.frame));
+            self.within(replica, &bodies, room, &spot);
         }
     }
 
@@ -141,8 +153,8 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn places(&mut self) {
-        for place in self.world.places.values() {
+    pub(super) fn places(&mut self, is_meant: impl Fn(&Place) -> bool) {
+        for place in self.world.places.values().filter(|place| is_meant(place)) {
             let spot = Spot::of(Record::Place(place.id));
             let owner = Bilingual::named(("место", "place"), &place.name);
             let area = self.world.areas.get(&place.area);

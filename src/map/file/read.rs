@@ -183,13 +183,13 @@ impl<'n> Reader<'n> {
 
         let mut world =
             World { domain: self.domain(&maps), types, robot: self.robot(), ..World::empty() };
-        world.orthoframes = self.records(orthoframes, Self::orthoframe);
-        world.doors = self.records(doors, Self::door);
-        world.objects = self.records(objects, Self::object);
-        world.areas = self.records(areas, Self::area);
+        world.orthoframes = self.records(orthoframes, Self::orthoframe).into();
+        world.doors = self.records(doors, Self::door).into();
+        world.objects = self.records(objects, Self::object).into();
+        world.areas = self.records(areas, Self::area).into();
         world.replicas = replicas.into_iter().filter_map(|r| self.replica(r)).collect();
         world.places = places.into_iter().map(|p| self.place(p)).collect();
-        world.maps = self.records(maps, |reader, raw| reader.plan(raw, &world.areas));
+        world.maps = self.records(maps, |reader, raw| reader.plan(raw, &world.areas)).into();
         world
     }
 

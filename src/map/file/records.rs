@@ -17,7 +17,7 @@ use crate::units::{
 use crate::{
     Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
-    Permeability, Place, Replica, RobotProfile, SideRef, TypeEntry, TypeKind,
+    Permeability, Place, Records, Replica, RobotProfile, SideRef, TypeEntry, TypeKind,
 };
 
 impl Reader<'_> {
@@ -469,7 +469,7 @@ impl Reader<'_> {
     pub(super) fn plan(
         &mut self,
         raw: Raw<'_, MapId, PlanFile>,
-        areas: &BTreeMap<AreaId, Area>,
+        areas: &Records<AreaId, Area>,
     ) -> Map {
         let Raw { id, key, file, .. } = raw;
         let spot = Spot::of(Record::Map(id));
@@ -519,7 +519,7 @@ impl Reader<'_> {
     pub(super) fn area_side(
         &mut self,
         text: &str,
-        areas: &BTreeMap<AreaId, Area>,
+        areas: &Records<AreaId, Area>,
         spot: Spot,
     ) -> Option<(AreaId, SideRef)> {
         let Some((name, side)) = text.split_once('.') else {

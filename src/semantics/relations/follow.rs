@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::facts::{FactError, Value};
 use crate::feed::{Cell, Feed};
-use crate::map::{Door, Entity, Replica, World};
+use crate::map::{Entity, Replica, World};
 use crate::names::Subject;
 use crate::units::{DoorId, MapId, ReplicaId};
 
@@ -142,33 +142,32 @@ impl Relations {
             return None;
         }
         // What is gone goes first: nothing that is measured afterwards may lie beside it.
-        let gone = before.replicas.keys().filter(|id| !after.replicas.contains_key(id));
-        let mut replicas: Vec<ReplicaId> = gone.copied().collect();
-        for (id, is) in &after.replicas {
-            match before.replicas.get(id) {
-                Some(was) if was == is => continue,
+        let (mut replicas, mut stays) = (Vec::new(), Vec::new());
+        for (id, was, is) in before.replicas.changes(&after.replicas) {
+            match (was, is) {
+                (_, None) => replicas.push(id),
                 // Another name or Object is another thing.
-                Some(was)
+                (Some(was), Some(is)) => {
                     if was.name != is.name
                         || was.object != is.object
-                        || was.move_prob != is.move_prob =>
-                {
-                    return None;
+                        || was.move_prob != is.move_prob
+                    {
+                        return None;
+                    }
+                    stays.push(id);
                 }
-                Some(_) => {}
                 // What was there once, and is put back, still has its symbol.
-                None => {
-                    let symbol = self.symbols.known(Subject::Entity(Entity::Replica(*id)))?;
+                (None, Some(is)) => {
+                    let symbol = self.symbols.known(Subject::Entity(Entity::Replica(id)))?;
                     if **symbol != *is.name {
                         return None;
                     }
+                    stays.push(id);
                 }
             }
-            replicas.push(*id);
         }
-        let other_state = |(is, was): &(&Door, &Door)| is.state != was.state;
-        let doors = after.doors.values().zip(before.doors.values()).filter(other_state);
-        let doors = doors.map(|(is, _)| is.id).collect();
+        replicas.extend(stays);
+        let doors = before.doors.changes(&after.doors).into_iter().map(|(id, ..)| id).collect();
         (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
     }
 
