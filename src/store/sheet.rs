@@ -191,6 +191,7 @@ mod tests {
     #[test]
     fn the_records_of_a_change_tell_all_that_differs() {
         for map in ["../../maps/rb2.toml", "../../maps/two-storeys.toml"] {
+            let mut few = 0;
             let mut before = World::load(map).expect("a map of the project");
             for step in 0..130_usize {
                 let mut after = before.clone();
@@ -201,9 +202,10 @@ mod tests {
                 let whole = Edits::between(&whole_old, &whole_new);
                 let [old, new] = Sheet::of_change(&before, &after).expect("keys");
                 assert_eq!(Edits::between(&old, &new), whole, "{map}, step {step}");
-                assert!(!whole.is_empty() && (step % 13 > 9 || old.len() < whole_old.len()));
+                few += usize::from(!whole.is_empty() && old.len() < whole_old.len() / 2);
                 before = after;
             }
+            assert!(few > 60, "{map}: {few} of 130");
         }
     }
 }
