@@ -213,6 +213,8 @@ const heard = {
   revision: async (revision) => {
     S.state.revision = revision.revision;
     if (S.edit && !S.edit.steps) S.edit.on = revision.revision;
+    // What the word beside the map offers to undo is no longer the last.
+    if (S.toast && S.written !== revision.revision) { S.toast = null; over(); }
     time(); if (S.asOf === null) await draw(); history();
     // What is edited may have moved under one's hands.
     if (S.edit?.name && !S.edit.steps) { edit.choose(S.edit.name); render(); }

@@ -14,7 +14,7 @@ export const S = {
   linked: 'begin', stoppedBy: null, stopping: false,
   asOf: null, history: [], proposals: [],
   layers: { names: true, things: true, frames: false, dead: false, network: false, relations: true },
-  edit: null, toast: null,
+  edit: null, toast: null, written: 0,
 };
 
 export const L = (ru, en) => (S.lang === 'ru' ? ru : en);

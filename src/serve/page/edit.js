@@ -126,6 +126,7 @@ export async function write() {
   try {
     const done = await api('/api/edits', { on: edit.on, edit: edit.steps, reason: edit.why ?? '', ...edit.more });
     S.edit = { on: done.revision };
+    S.written = done.revision;
     S.toast = L(`Записано, ревизия ${done.revision}`, `Written, revision ${done.revision}`);
     announce(S.toast);
   } catch (error) { refused(edit, error); }
