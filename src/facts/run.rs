@@ -179,13 +179,13 @@ pub(super) fn extent(
     sources: &[Source<'_>],
     registers: &mut [Word],
     words: &mut Words,
+    watch: &Watch,
 ) -> Option<usize> {
     let Step::Scan(scan) = steps.first()? else { return None };
     if scan.once {
         return None;
     }
-    let (watch, mut goal) = (Watch::unlimited(), |_: &[Word], _: &mut Words| false);
-    let (watch, goal) = (&watch, &mut goal);
+    let goal = &mut |_: &[Word], _: &mut Words| false;
     let mut machine = Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() };
     let key = machine.key(&scan.key)?;
     match &sources[scan.source] {
