@@ -141,9 +141,7 @@ mod tests {
     /// What an edit would spoil is found in what it changes as by checking the whole map, whatever was already odd in it.
     #[test]
     fn what_changed_is_checked_as_the_whole_is() {
-        for (seed, map) in
-            ["../../maps/rb2.toml", "../../maps/lab.toml"].into_iter().enumerate()
-        {
+        for (seed, map) in ["../../maps/rb2.toml", "../../maps/lab.toml"].into_iter().enumerate() {
             let mut throw = dice(seed as u64 + 11);
             let first = World::load(map).expect("a map of the project");
             let (mut sound, mut faulty, mut odd) = (0, 0, 0);
