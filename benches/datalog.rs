@@ -2,6 +2,7 @@
 //!
 //! `cargo bench --bench datalog` measures all cases with criterion; `… -- --table [NAME]` prints the table of
 //! `benches/README.md`: every program on every engine in a process of its own, for time and for memory.
+//! `… -- --threads [NAME]` prints the table of one thread against two, `… -- --questions` that of questions.
 
 #[path = "datalog/by_hand.rs"]
 mod by_hand;
@@ -14,12 +15,12 @@ mod programs;
 
 use std::hint::black_box;
 use std::process::Command;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use cpu_time::ThreadTime;
 use criterion::Criterion;
 use inputs::{Box8, Edge};
-use orthoframe_facts::{Database, Program};
+use orthoframe_facts::{Database, Limits, Program};
 use orthoframe_units::Source;
 
 /// What evaluates a program.
@@ -156,10 +157,15 @@ impl Rules {
         loader.finish();
     }
 
-    /// Derived tuples, input left out.
+    /// Derived tuples, input left out; in one thread, as the other engines.
     fn run(&self, is_explained: bool) -> usize {
-        let derived =
-            self.program.evaluate(&self.database).expect("the benchmark's program is finite");
+        self.run_in(1, is_explained)
+    }
+
+    fn run_in(&self, threads: usize, is_explained: bool) -> usize {
+        let limits = Limits { threads, ..Limits::default() };
+        let derived = self.program.evaluate_within(&self.database, limits);
+        let derived = derived.expect("the benchmark's program is finite");
         if is_explained {
             black_box(derived.explain());
         }
@@ -223,6 +229,87 @@ fn in_process(case: &str, engine: Engine) -> Figures {
     Figures { tuples: next() as usize, ms: next(), mib: next() / 1024.0 }
 }
 
+/// One thread against two: the middle of runs in turn on the clock, which needs two free cores, and the most memory.
+#[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+fn threads(only: Option<&str>) {
+    const RUNS: usize = 9;
+    println!("| program | one thread, ms | two, ms | one of two | one, MiB | two, MiB |");
+    println!("|---|---|---|---|---|---|");
+    for case in CASES.iter().filter(|case| only.is_none_or(|only| case.contains(only))) {
+        let rules = Rules::of(Case::of(case));
+        let mut times = [const { Vec::new() }; 2];
+        for _ in 0..RUNS {
+            for (threads, times) in (1..).zip(&mut times) {
+                let start = Instant::now();
+                black_box(rules.run_in(threads, false));
+                times.push(start.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+        let [one, two] = times.map(|mut times| {
+            times.sort_by(f64::total_cmp);
+            times[RUNS / 2]
+        });
+        let memory = ["1", "2"].map(|threads| {
+            let program = std::env::current_exe().expect("a running benchmark has a file");
+            let child = Command::new(program).args(["--memory", case, threads]).output();
+            let told = child.expect("the benchmark starts itself").stdout;
+            String::from_utf8_lossy(&told).trim().parse::<f64>().unwrap_or(f64::NAN) / 1024.0
+        });
+        println!(
+            "| {case} | {one:.1} | {two:.1} | {:.2} | {:.0} | {:.0} |",
+            one / two,
+            memory[0],
+            memory[1]
+        );
+    }
+}
+
+/// In the child process: the most memory of one evaluation, KiB.
+fn memory(case: &str, threads: usize) -> usize {
+    let rules = Rules::of(Case::of(case));
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+    black_box(rules.run_in(threads, false));
+    peak_memory()
+}
+
+/// Questions of two joins over a hospital of 40 000 things: over what is stored alone, and over the result.
+#[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+fn questions() {
+    let (boxes, doors) = inputs::boxes(40_000, 50, 7);
+    let rules = Rules::of(Case::Spatial(boxes, doors));
+    let derived = rules.program.evaluate(&rules.database).expect("it is finite");
+    println!("| question | answers | by demand, ms | over the result, ms |");
+    println!("|---|---|---|---|");
+    for question in [
+        "?- on_top_of(X, Y), near(Y, 1203)",
+        "?- near(20011, X), on_top_of(Y, X), touching(Y, Z)",
+        "?- supported_by(X, Y), near(Y, 777), !clear(Y)",
+        "?- on_top_of(X, 40), N = count : { near(X, _) } .order N desc",
+        "?- reach(7, R), box(X, R, _, _, _, _, 0, H), H > 85, isolated(X)",
+    ] {
+        let source = Source::new("?", question);
+        let middle = |ask: &dyn Fn() -> usize| {
+            let mut times: Vec<f64> = (0..41)
+                .map(|_| {
+                    let start = ThreadTime::now();
+                    black_box(ask());
+                    start.elapsed().as_secs_f64() * 1e3
+                })
+                .collect();
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2]
+        };
+        let of_stored = || {
+            let answers = rules.program.ask(&rules.database, &source);
+            answers.expect("the question is sound").rows().len()
+        };
+        let of_result = || derived.ask(&source).expect("the question is sound").rows().len();
+        assert_eq!(of_stored(), of_result(), "{question}");
+        let (stored, result) = (middle(&of_stored), middle(&of_result));
+        println!("| `{question}` | {} | {stored:.3} | {result:.3} |", of_result());
+    }
+}
+
 #[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 fn table(only: Option<&str>) {
     println!(
@@ -277,8 +364,21 @@ fn main() {
         println!("{}", measure(case, engine.expect("the parent names one of the engines")));
         return;
     }
-    if let Some(at) = args.iter().position(|arg| arg == "--table") {
-        table(args.get(at + 1).map(String::as_str).filter(|arg| !arg.starts_with('-')));
+    if let [flag, case, threads] = args.as_slice()
+        && flag == "--memory"
+    {
+        println!("{}", memory(case, threads.parse().expect("the parent gives a number")));
+        return;
+    }
+    let name = |at: usize| args.get(at + 1).map(String::as_str).filter(|arg| !arg.starts_with('-'));
+    for (flag, print) in [("--table", table as fn(Option<&str>)), ("--threads", threads)] {
+        if let Some(at) = args.iter().position(|arg| arg == flag) {
+            print(name(at));
+            return;
+        }
+    }
+    if args.iter().any(|arg| arg == "--questions") {
+        questions();
         return;
     }
     let mut criterion = Criterion::default().sample_size(10).configure_from_args();

@@ -25,7 +25,7 @@ use super::rows::{self, Growing, RowSet, SharedRows, Sink, heap};
 use super::run::Step;
 use super::spread::{Join, Makes, can_spread};
 use super::strata::reads;
-use super::subsume::{Choosing, Chosen, Dominated, Pruned};
+use super::subsume::{Chosen, Dominated, Pruned, choosing};
 use super::syntax::Span;
 use super::word::{Note, Word};
 
@@ -482,28 +482,6 @@ impl<'a> Evaluation<'a> {
                 self.notes.push((clause.at, note));
             }
         }
-    }
-}
-
-/// A sink, through the choice of a relation that has one.
-enum MaybeChoosing<'a> {
-    Plain(&'a mut dyn Sink),
-    Choosing(Choosing<'a>),
-}
-
-impl MaybeChoosing<'_> {
-    fn as_sink(&mut self) -> &mut dyn Sink {
-        match self {
-            MaybeChoosing::Plain(sink) => &mut **sink,
-            MaybeChoosing::Choosing(sink) => sink,
-        }
-    }
-}
-
-fn choosing<'a>(sink: &'a mut dyn Sink, chosen: Option<&'a mut Chosen>) -> MaybeChoosing<'a> {
-    match chosen {
-        None => MaybeChoosing::Plain(sink),
-        Some(taken) => MaybeChoosing::Choosing(Choosing { taken, sink }),
     }
 }
 

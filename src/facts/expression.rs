@@ -347,6 +347,7 @@ fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
     let Some(function) = aggregation(&name.text) else { return input.fail("значение") };
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign("("), .. }))
         && functor(&name.text).is_some()
+        && !is_counted(rest)
     {
         return input.fail("значение");
     }
@@ -359,6 +360,28 @@ fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
         alt((delimited(sign("{"), disjunction, sign("}")), atom.map(Body::Atom))).parse(rest)?;
     let last = input.rest[input.rest.len() - rest.rest.len() - 1].at;
     Ok((rest, Expr::Aggregate { function, value, body: Box::new(body), at: name.at.to(last) }))
+}
+
+/// Whether what stands in brackets behind `max` or `min` is a value to be counted, `max (x * 2) : { … }`, and no list of
+/// arguments.
+fn is_counted(input: Input<'_>) -> bool {
+    let (mut depth, mut is_behind) = (0_usize, false);
+    for token in input.rest {
+        match &token.word {
+            Word::Sign("(" | "[" | "{") => depth += 1,
+            Word::Sign(")" | "]" | "}") => {
+                let Some(less) = depth.checked_sub(1) else { return false };
+                depth = less;
+                is_behind |= depth == 0;
+            }
+            Word::Sign(",") if depth == 1 && !is_behind => return false,
+            Word::Sign(":") if depth == 0 => return true,
+            Word::Sign("+" | "-" | "*" | "/" | "%" | "^") => {}
+            Word::Sign(_) | Word::Directive(_) if depth == 0 => return false,
+            _ => {}
+        }
+    }
+    false
 }
 
 pub(super) fn functor(word: &str) -> Option<Functor> {

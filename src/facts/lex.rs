@@ -114,6 +114,9 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
         let word = match raw {
             Raw::Name(name) => Word::Name(normal(name)),
             Raw::Directive(name) => Word::Directive(name),
+            Raw::Number(digits) if digits.matches('.').count() == 3 => {
+                Word::Number(address(digits, at, faults))
+            }
             Raw::Number(digits) if digits.contains('.') => {
                 Word::Decimal(decimal(digits, at, faults))
             }
@@ -196,7 +199,11 @@ fn digits(text: &str) -> IResult<&str, &str> {
         preceded(alt((tag("0x"), tag("0b"))), take_while1(|c: char| c.is_ascii_alphanumeric()));
     let plain = take_while1(|c: char| c.is_ascii_digit());
     let fraction = pair(char('.'), take_while1(|c: char| c.is_ascii_digit()));
-    alt((recognize(prefixed), recognize((plain, opt(fraction), opt(char('u')))))).parse(text)
+    let part = || preceded(char('.'), take_while1(|c: char| c.is_ascii_digit()));
+    let digits = take_while1(|c: char| c.is_ascii_digit());
+    let address = recognize((digits, part(), part(), part()));
+    alt((recognize(prefixed), address, recognize((plain, opt(fraction), opt(char('u'))))))
+        .parse(text)
 }
 
 fn decimal(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
@@ -208,6 +215,17 @@ fn decimal(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
             0
         },
         Decimal::millionths,
+    )
+}
+
+/// An address of four parts, `10.0.0.1`, is one number of 32 bits with a sign, as Soufflé reads it.
+fn address(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
+    text.parse::<std::net::Ipv4Addr>().map_or_else(
+        |_| {
+            faults.push(RuleError::Number { text: text.into(), at: at.into() });
+            0
+        },
+        |address| i64::from(address.to_bits() as i32),
     )
 }
 
@@ -254,6 +272,10 @@ fn quoted(text: &str) -> Option<(String, &str)> {
                 'n' => '\n',
                 't' => '\t',
                 'r' => '\r',
+                'a' => '\u{7}',
+                'b' => '\u{8}',
+                'f' => '\u{c}',
+                'v' => '\u{b}',
                 other => other,
             }),
             _ => return None,

@@ -71,6 +71,7 @@ mod explain;
 mod expression;
 mod fault;
 mod files;
+mod filter;
 mod finished;
 mod format;
 mod ground;

@@ -75,6 +75,9 @@ impl Macros {
                 self.skipping.pop();
             }
             _ if is_skipped => {}
+            // `# 1 "file.dl"`: where a preprocessor took the lines from.
+            "line" => {}
+            "" if rest.trim_start().starts_with(|c: char| c.is_ascii_digit()) => {}
             "undef" => {
                 self.known.remove(rest.trim());
             }

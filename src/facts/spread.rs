@@ -97,7 +97,7 @@ impl Join<'_> {
     ) {
         let mut registers = vec![0; self.clause.variables.len()];
         finished.with_sources(self.plan, parts, |sources, words, watch| {
-            let all = extent(&self.plan.steps, sources, &mut registers, words);
+            let all = extent(&self.plan.steps, sources, &mut registers, words, watch);
             let is_worth = |all: &usize| *all >= MIN_ROWS || watch.limits().spread_from.is_zero();
             let Some(all) = all.filter(is_worth) else {
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);

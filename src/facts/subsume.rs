@@ -293,3 +293,28 @@ impl Growing for Pruned {
         all.sort()
     }
 }
+
+/// A sink, through the choice of a relation that has one.
+pub(super) enum MaybeChoosing<'a> {
+    Plain(&'a mut dyn Sink),
+    Choosing(Choosing<'a>),
+}
+
+impl MaybeChoosing<'_> {
+    pub(super) fn as_sink(&mut self) -> &mut dyn Sink {
+        match self {
+            MaybeChoosing::Plain(sink) => &mut **sink,
+            MaybeChoosing::Choosing(sink) => sink,
+        }
+    }
+}
+
+pub(super) fn choosing<'a>(
+    sink: &'a mut dyn Sink,
+    chosen: Option<&'a mut Chosen>,
+) -> MaybeChoosing<'a> {
+    match chosen {
+        None => MaybeChoosing::Plain(sink),
+        Some(taken) => MaybeChoosing::Choosing(Choosing { taken, sink }),
+    }
+}

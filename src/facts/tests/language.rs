@@ -437,3 +437,34 @@ fn a_long_list_is_written_and_read() {
     assert_eq!(database.insert("list", &longest), Ok(true));
     assert!(database.insert("list", &[Value::Record("[1, [2".into()), 1.into()]).is_err());
 }
+
+/// What in brackets follows `max` is arguments or a value to be counted; addresses, escapes and line marks of others.
+#[test]
+fn brackets_behind_max_and_marks_of_other_programs_are_read() {
+    check(
+        r#"# 1 "made.dl"
+        #line 7 "made.dl"
+        .decl e(x: number, y: number) e(1, 2). e(3, 4).
+        .decl m(x: number) .output m
+        m(X) :- X = max (A * 2) : { e(A, _) }.
+        m(X) :- X = min (A) + (A) * 5 : e(A, _).
+        m(X) :- X = max(A, B) + 100, e(A, B).
+        m(X) :- e(A, _), X = min(max(A, 2), 9).
+        .decl a(x: number, n: number) .output a
+        a(10.0.0.1, strlen("a\b\\")). a(255.255.255.255, strlen("\v\a\"")).
+        "#,
+        &expect![[r#"
+            m(2)
+            m(3)
+            m(6)
+            m(102)
+            m(104)
+            a(-1, 3)
+            a(167772161, 3)
+        "#]],
+    );
+    let arity = shown(".decl m(x: number) .output m m(max(1)).");
+    assert!(arity.contains("у «max» аргументов 2, а дано 1"), "{arity}");
+    let address = shown(".decl m(x: number) .output m m(256.0.0.1).");
+    assert!(address.contains("256.0.0.1"), "{address}");
+}
