@@ -156,9 +156,9 @@ pub(crate) fn rb2_with_fifth_room() -> World {
     let [Entity::Map(map)] = world.find("Квартира РБ-2")[..] else { panic!("one flat") };
     let side_of_door = split_east_wall(&mut world, corridor);
 
-    let room = AreaId(next_id(&world.areas, |id| id.0));
-    let room_frame = OrFrId(next_id(&world.orthoframes, |id| id.0));
-    let door = DoorId(next_id(&world.doors, |id| id.0));
+    let room = AreaId(next_id(world.areas.keys().map(|id| id.0)));
+    let room_frame = OrFrId(next_id(world.orthoframes.keys().map(|id| id.0)));
+    let door = DoorId(next_id(world.doors.keys().map(|id| id.0)));
     let corners = [(0, 0), (300, 0), (300, 420), (0, 420), (0, 160), (0, 70)];
     let corners = corners.map(|(x, y)| Point::new(f64::from(x), f64::from(y)));
     let mut base: Vec<_> = (0..corners.len())
@@ -191,8 +191,8 @@ pub(crate) fn area_named(world: &World, name: &str) -> AreaId {
     }
 }
 
-fn next_id<Id: Ord, T>(records: &BTreeMap<Id, T>, number: impl Fn(&Id) -> u32) -> u32 {
-    records.keys().map(number).max().unwrap_or(0) + 1
+fn next_id(numbers: impl Iterator<Item = u32>) -> u32 {
+    numbers.max().unwrap_or(0) + 1
 }
 
 fn wall(id: &str, start: Point, end: Point) -> BaseVector {
@@ -268,7 +268,7 @@ fn furnish(world: &mut World, area: AreaId) {
         ("bed", "Кровать-2", "Bed 2", 100.0, 220.0),
         ("bedside", "Тумбочка-3", "Bedside table 3", 50.0, 375.0),
     ] {
-        let id = ReplicaId(next_id(&world.replicas, |id| id.0));
+        let id = ReplicaId(next_id(world.replicas.keys().map(|id| id.0)));
         let replica = Replica {
             id,
             area,
@@ -283,7 +283,7 @@ fn furnish(world: &mut World, area: AreaId) {
         };
         world.replicas.insert(id, replica);
     }
-    let id = PlaceId(next_id(&world.places, |id| id.0));
+    let id = PlaceId(next_id(world.places.keys().map(|id| id.0)));
     let place = Place {
         id,
         area,

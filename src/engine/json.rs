@@ -288,7 +288,6 @@ pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
                 "pose": pose(at.pose),
                 "deviation_cm": round(at.deviation.0),
                 "deviation_deg": at.deviation.1,
-                "beams": at.beams,
                 "explained": at.explained,
                 "through": at.through,
                 "place": at.place.as_ref().map(|place| whereabout(world, place)),
@@ -305,8 +304,7 @@ pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
             "event": found.event.map(|event| match event {
                 Event::Steady => "steady",
                 Event::Narrowed => "narrowed",
-                Event::OdometryLies => "odometry_lies",
-                Event::Kidnapped => "kidnapped",
+                Event::GivenUp => "given_up",
                 Event::Lost => "lost",
             }),
             "poses": poses.collect::<Vec<_>>(),

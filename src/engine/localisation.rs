@@ -1,9 +1,7 @@
 //! Where the scans of a log can have been taken, on the Map (SPEC L2, L3).
 
-use nalgebra::Isometry2;
-
 use crate::language::Language;
-use crate::sensing::{Answer, Event, Fix, Locator, Tracker, faces_at};
+use crate::sensing::{Answer, Belief, Chart, Event, Fit, Localiser, Options, Tracker};
 use crate::units::{Deg, MapId, Point, Pose};
 
 use super::{Error, RequestError, Sighted, State, Whereabout};
@@ -14,10 +12,9 @@ pub struct FoundPose {
     pub pose: Pose,
     /// Standard deviation of the position, cm, in its worst direction; of the heading, degrees.
     pub deviation: (f64, f64),
-    /// Beams that came back, that end where the Map says, and that go through what it has.
-    pub beams: usize,
-    pub explained: usize,
-    pub through: usize,
+    /// Share of the beams that end where the Map says, and of those that go through what it has.
+    pub explained: f64,
+    pub through: f64,
     /// None outside of every Area.
     pub place: Option<Whereabout>,
 }
@@ -51,9 +48,9 @@ impl State {
         height: f64,
         follow: bool,
     ) -> Result<Vec<FoundScan>, Error> {
-        let locator = Locator::new(faces_at(self.floor(map)?, self.world()?, height));
-        let mut tracker = Tracker::new(&locator);
-        let mut before: Option<Isometry2<f64>> = None;
+        let chart = Chart::of_map(self.world()?, self.floor(map)?, height);
+        let localiser = Localiser::new(&chart, Options::default());
+        let mut tracker = Tracker::new(&localiser);
         let log = log.log().ok_or(RequestError::NoLog)?;
         if let Some(scan) = only.filter(|&scan| scan == 0 || scan > log.scans.len()) {
             return Err(RequestError::NoScan { scan, count: log.scans.len() }.into());
@@ -67,34 +64,40 @@ impl State {
             let sensor = log.sensor(told);
             let (answer, event) = if follow {
                 let odometry = told.odometry.ok_or(RequestError::NoOdometry { line: told.line })?;
-                let motion = before.map_or_else(Isometry2::identity, |b| b.inverse() * odometry);
-                before = Some(odometry);
-                let event = tracker.step(&motion, sensor, &told.ranges);
-                (tracker.answer(), Some(event))
+                let event = tracker.scan(sensor, &told.ranges, odometry);
+                (tracker.belief().clone(), Some(event))
             } else {
-                (locator.locate(sensor, &told.ranges), None)
+                let answer = match localiser.locate(sensor, &told.ranges) {
+                    Answer::Unique(fit) => Belief::At(fit),
+                    Answer::Ambiguous(fits) => Belief::OneOf(fits),
+                    Answer::Unknown => Belief::Lost,
+                };
+                (answer, None)
+            };
+            let (fits, is_unique) = match &answer {
+                Belief::At(fit) => (std::slice::from_ref(fit), true),
+                Belief::OneOf(fits) => (fits.as_slice(), false),
+                Belief::Lost => (&[][..], false),
             };
             if is_asked {
-                let poses = answer.fixes().iter().map(|fix| self.found_pose(map, fix)).collect();
-                let is_unique = matches!(answer, Answer::Unique(_));
+                let poses = fits.iter().map(|fit| self.found_pose(map, fit)).collect();
                 found.push(FoundScan { scan, line: told.line, poses, is_unique, event });
             }
         }
         Ok(found)
     }
 
-    fn found_pose(&self, map: MapId, fix: &Fix) -> FoundPose {
+    fn found_pose(&self, map: MapId, fit: &Fit) -> FoundPose {
         let pose = Pose {
-            at: Point::from(fix.pose.translation.vector),
-            heading: Deg::from_radians(fix.pose.rotation.angle()),
+            at: Point::from(fit.pose.translation.vector),
+            heading: Deg::from_radians(fit.pose.rotation.angle()),
         };
-        let (place, heading) = fix.deviations();
+        let (place, heading) = fit.deviations();
         FoundPose {
             pose,
             deviation: (place, heading.to_degrees()),
-            beams: fix.fit.beams,
-            explained: fix.fit.explained,
-            through: fix.fit.through,
+            explained: fit.explained,
+            through: fit.through,
             place: self.locate(map, pose, false).ok(),
         }
     }
@@ -106,12 +109,9 @@ pub fn event_in_words(event: Event, language: Language) -> Option<&'static str> 
     let (russian, english) = match event {
         Event::Steady => return None,
         Event::Narrowed => ("мест стало меньше", "fewer places are left"),
-        Event::OdometryLies => {
-            ("одометрия не сходится с тем, что видно", "odometry disagrees with what is seen")
-        }
-        Event::Kidnapped => (
-            "робот не там, куда ехал: найден заново",
-            "the robot is not where it drove: found anew",
+        Event::GivenUp => (
+            "прежнее не подходит: робот перенесён, или одометрия солгала",
+            "what was believed does not fit: carried off, or the odometry lied",
         ),
         Event::Lost => ("то, что видно, ни к чему не подходит", "what is seen fits nowhere"),
     };

@@ -241,7 +241,7 @@ impl Engine {
     /// robot does is noted by the writer ([`Engine::remember_after`]), and read here after that.
     #[must_use]
     pub fn beside(state: Arc<State>) -> Self {
-        Self { store: None, state, opened: OpenReport::default() }
+        Self { store: None, state, opened: OpenReport::default(), spares: edit::Spares::default() }
     }
 
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction

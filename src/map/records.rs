@@ -16,11 +16,13 @@ const MOST: usize = 64;
 const MADE: usize = 48;
 
 type Chunk<K, V> = Vec<(K, V)>;
+/// Chunks, each with its first key.
+type Chunks<K, V> = Vec<(K, Arc<Chunk<K, V>>)>;
 
 /// A sorted map whose copies share what they have in common. Copying costs nothing, a change what it changes.
 #[derive(Clone)]
 pub struct Records<K, V> {
-    chunks: Arc<Vec<(K, Arc<Chunk<K, V>>)>>,
+    chunks: Arc<Chunks<K, V>>,
     len: usize,
 }
 

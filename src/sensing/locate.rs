@@ -1,314 +1,244 @@
-//! Where a scan was taken, without a guess (SPEC L2, L3).
-//!
-//! 1. Each corner of the scan is held against the corners of the faces: candidate poses ([`crate::corners`]).
-//! 2. A few points of the scan's lines, tried on the grid of distances, leave the likely ones.
-//! 3. These are refined and held against the whole expected view ([`crate::fit`]).
-//! 4. Rivals of the best are looked for where buildings repeat themselves: along its least certain direction.
-//! 5. What is left is counted: one pose that fits, several, or none.
-//!
-//! **Invariant**: an answer is [`Answer::Unique`] only where nothing else that was found fits nearly as well, where the
-//! scan fixes all three numbers of the pose, and where at least three faces were met: two walls alone are never enough.
+//! Where one scan can have been taken, without a guess (SPEC L2, L3).
 
-use nalgebra::{Isometry2, Matrix3, Point2, SymmetricEigen, Vector2};
-use orthoframe_vectors::scan::Sensor;
+use nalgebra::{Isometry2, Matrix3, Vector2};
 
-use crate::corners::Corners;
-use crate::faces::Face;
-use crate::field::Field;
-use crate::fit::{Fit, fit, refine};
-use crate::view::View;
+use super::chart::{Chart, degree};
+use super::refine::refine;
+use super::search::{Pyramid, is_near};
+use crate::vectors::scan::{Extractor, Sensor};
 
-/// No sensor stands nearer to a wall, in cm.
-const NEAREST: f64 = 8.0;
-/// How far a probe may be from a face and still count, in cm.
-const PROBE: f64 = 40.0;
-/// Probes of the first, coarse look.
-const FIRST: usize = 8;
-/// Candidates that are refined.
-const REFINED: usize = 200;
-/// Of them, those that are held against the whole view.
-const VIEWED: usize = 40;
-/// Poses nearer to each other than this, in cm and rad, are one.
-const SAME: (f64, f64) = (40.0, 0.18);
-/// Least score of a pose that fits.
-pub(crate) const FITS: f64 = 0.45;
-/// Least score of a pose that is called the only one: a worse one may be beside one that was not found.
-pub(crate) const SURE: f64 = 0.65;
-/// A pose that scores less than the best by this is no rival.
-pub(crate) const RIVAL: f64 = 0.12;
-/// Deviations of a pose that the scan fixes: cm and rad.
-const FIXED: (f64, f64) = (8.0, 0.02);
-/// Fewest returns that say anything.
-const FEWEST: usize = 20;
-/// Farthest that a repetition is looked for, and by which steps, in cm.
-const SLIDE: (f64, f64) = (2500.0, 20.0);
-/// Longest list of an ambiguous answer.
-pub(crate) const LIST: usize = 32;
-
-/// A pose that fits a scan.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fix {
-    /// Sensor → Map, in cm and rad.
+/// A pose that a scan fits.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Of the sensor.
     pub pose: Isometry2<f64>,
-    /// Of (x, y, heading), in cm and rad. Along what the scan does not fix it is large, but finite.
+    /// Over x, y (cm) and the turn (rad).
     pub covariance: Matrix3<f64>,
-    pub fit: Fit,
+    /// Share of the beams that end where the chart says.
+    pub explained: f64,
+    /// Share of the beams that go through what the chart has.
+    pub through: f64,
 }
 
-impl Fix {
-    /// Greatest deviation of the place, in cm, and that of the heading, in rad.
+impl Fit {
+    /// Greatest deviation of the position, in cm, and that of the heading, in rad.
     #[must_use]
     pub fn deviations(&self) -> (f64, f64) {
-        let place = self.covariance.fixed_view::<2, 2>(0, 0).into_owned();
-        let most = SymmetricEigen::new(place).eigenvalues.max();
-        (most.max(0.0).sqrt(), self.covariance[(2, 2)].max(0.0).sqrt())
+        let position = self.covariance.fixed_view::<2, 2>(0, 0).into_owned();
+        let worst = position.symmetric_eigenvalues().max();
+        (worst.max(0.0).sqrt(), self.covariance[(2, 2)].max(0.0).sqrt())
     }
 
-    /// Whether the scan fixes place and heading.
+    /// How well it fits: what goes through a wall counts against it.
     #[must_use]
-    pub fn is_fixed(&self) -> bool {
-        let (place, heading) = self.deviations();
-        place <= FIXED.0 && heading <= FIXED.1
-    }
-
-    /// Whether the scan fixes the pose, and most of it speaks for it, of at least three faces.
-    #[must_use]
-    pub fn is_sure(&self) -> bool {
-        self.is_fixed() && self.fit.score() >= SURE && self.fit.faces >= 3
-    }
-
-    /// Whether both are one pose, for all that the scans can tell.
-    #[must_use]
-    pub fn is_near(&self, other: &Isometry2<f64>) -> bool {
-        near(&self.pose, other)
+    pub fn worth(&self) -> f64 {
+        self.explained - self.through
     }
 }
 
-/// Where a scan was taken, as far as it can be told.
-#[derive(Debug, Clone, PartialEq)]
+/// What a scan says of where it was taken.
+#[derive(Debug, Clone)]
 pub enum Answer {
-    /// One pose fits, and no other.
-    Unique(Fix),
-    /// All poses found that fit, the best first; one alone where the scan leaves a direction open.
-    Ambiguous(Vec<Fix>),
-    /// None fits.
+    /// Here; nowhere else does it fit nearly as well.
+    Unique(Fit),
+    /// At one of these, the best first.
+    Ambiguous(Vec<Fit>),
+    /// At none that the chart knows, or at more than can be told.
     Unknown,
 }
 
-impl Answer {
-    /// All poses that it names.
-    #[must_use]
-    pub fn fixes(&self) -> &[Fix] {
-        match self {
-            Self::Unique(fix) => std::slice::from_ref(fix),
-            Self::Ambiguous(fixes) => fixes,
-            Self::Unknown => &[],
-        }
+/// When a pose counts.
+#[derive(Debug, Clone, Copy)]
+pub struct Options {
+    /// Share of the returns that must lie on lines.
+    pub least: f64,
+    /// How much worse than the best another place fits and is still possible.
+    pub margin: f64,
+    /// The laser's noise, in cm.
+    pub sigma: f64,
+    /// Returns farther than this are left aside, in cm: at a distance a turn of half a degree is a wall's thickness.
+    pub farthest: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { least: 0.55, margin: 0.15, sigma: 3.0, farthest: 1500.0 }
     }
 }
 
-/// The faces of a Map at the height of a sensor, ready to be recognised.
-#[derive(Debug, Clone)]
-pub struct Locator {
-    pub(crate) faces: Vec<Face>,
-    pub(crate) field: Field,
-    corners: Corners,
+/// Finds poses on a chart.
+pub struct Localiser<'c> {
+    chart: &'c Chart,
+    pyramid: Pyramid,
+    courses: [f64; 180],
+    options: Options,
 }
 
-impl Locator {
-    /// Of faces; those that are none are left out.
+/// Beams that are looked at.
+const SEARCHED: usize = 90;
+const VERIFIED: usize = 120;
+/// Places nearer than this are one, in cm.
+const APART: f64 = 60.0;
+/// Places of which more are no answer.
+const MOST_PLACES: usize = 200;
+/// Of a scan with fewer returns nothing can be said.
+const LEAST_RETURNS: usize = 25;
+
+impl<'c> Localiser<'c> {
     #[must_use]
-    pub fn new(mut faces: Vec<Face>) -> Self {
-        faces.retain(Face::is_sound);
-        let (field, corners) = (Field::new(&faces), Corners::new(&faces));
-        Self { faces, field, corners }
+    pub fn new(chart: &'c Chart, options: Options) -> Self {
+        Self { chart, pyramid: Pyramid::of(chart), courses: chart.courses(), options }
     }
 
-    /// What it recognises by.
     #[must_use]
-    pub fn faces(&self) -> &[Face] {
-        &self.faces
+    pub fn chart(&self) -> &'c Chart {
+        self.chart
     }
 
-    /// Number of corners in its index.
     #[must_use]
-    pub fn corners(&self) -> usize {
-        self.corners.len()
+    pub fn options(&self) -> &Options {
+        &self.options
     }
 
-    /// Where a scan was taken, without a guess. `ranges` are cm, one a beam.
+    /// Where the scan can have been taken. `ranges` are in cm, one a beam of the sensor.
     #[must_use]
     pub fn locate(&self, sensor: &Sensor, ranges: &[f64]) -> Answer {
-        let view = self.look(sensor, ranges);
-        self.locate_view(&view)
-    }
-
-    pub(crate) fn look(&self, sensor: &Sensor, ranges: &[f64]) -> View {
-        View::new(sensor, ranges, self.corners.reach)
-    }
-
-    pub(crate) fn locate_view(&self, view: &View) -> Answer {
-        if view.beams.len() < FEWEST || self.faces.is_empty() {
+        let returns = self.returns(sensor, ranges);
+        if returns.len() < LEAST_RETURNS {
             return Answer::Unknown;
         }
-        let mut fixes = self.refined(view, self.candidates(view));
-        if let Some(best) = fixes.first().copied() {
-            fixes.extend(self.refined(view, self.repetitions(view, &best)));
-            fixes = distinct(fixes);
-        }
-        decide(fixes)
-    }
-
-    /// How the scan fits from a pose near `pose`, refined.
-    #[must_use]
-    pub fn refine(&self, sensor: &Sensor, ranges: &[f64], pose: &Isometry2<f64>) -> Fix {
-        self.fix(&self.look(sensor, ranges), pose)
-    }
-
-    pub(crate) fn fix(&self, view: &View, pose: &Isometry2<f64>) -> Fix {
-        let (pose, information) = refine(&self.field, &self.faces, pose, view, 2..7);
-        let fit = fit(&self.field, &self.faces, &pose, view);
-        Fix { pose, covariance: covariance(&information), fit }
-    }
-
-    /// How the scan fits from exactly this pose.
-    pub(crate) fn stay(&self, view: &View, pose: &Isometry2<f64>) -> Fix {
-        let (_, information) = refine(&self.field, &self.faces, pose, view, 6..7);
-        let fit = fit(&self.field, &self.faces, pose, view);
-        Fix { pose: *pose, covariance: covariance(&information), fit }
-    }
-
-    /// Poses that the corners name and the probes leave, likely ones first.
-    fn candidates(&self, view: &View) -> Vec<(f64, Isometry2<f64>)> {
-        let mut found = Vec::new();
-        let least = 0.4 * FIRST.min(view.probes.len()) as f64;
-        for corner in &view.corners {
-            for pose in self.corners.poses(corner) {
-                if let Some(score) = self.probe(view, &pose, least) {
-                    found.push((score, pose));
+        let turns = self.turns(sensor, ranges);
+        let Options { least, margin, .. } = self.options;
+        let found = self.pyramid.search(
+            &thinned(&returns, SEARCHED),
+            &turns,
+            least * 0.8,
+            1.5 * margin,
+            APART,
+            MOST_PLACES,
+        );
+        let Some(found) = found else { return Answer::Unknown };
+        let mut fits: Vec<Fit> = Vec::new();
+        let mut is_loose = false;
+        for candidate in found {
+            match self.fit(sensor, ranges, &returns, candidate) {
+                Some(fit) => {
+                    match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
+                        Some(known) if known.worth() < fit.worth() => *known = fit,
+                        Some(_) => {}
+                        None => fits.push(fit),
+                    }
                 }
+                None => is_loose = true,
             }
         }
-        found
+        fits.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+        let Some(best) = fits.first() else { return Answer::Unknown };
+        if best.explained < least || best.worth() < least - margin {
+            return Answer::Unknown;
+        }
+        let bound = best.worth() - margin;
+        fits.retain(|fit| fit.worth() >= bound);
+        // What could slide along a corridor may be anywhere in it.
+        if is_loose && fits.len() == 1 {
+            return Answer::Unknown;
+        }
+        match fits.len() {
+            1 => Answer::Unique(fits.swap_remove(0)),
+            _ => Answer::Ambiguous(fits),
+        }
     }
 
-    /// Mean nearness of the probes to faces, from 0 to 1; none where the first few are too far.
-    fn probe(&self, view: &View, pose: &Isometry2<f64>, least: f64) -> Option<f64> {
-        if self.field.distance(&pose.translation.vector) < NEAREST {
-            return None;
-        }
-        let near = |p: &Vector2<f64>| {
-            let p = (pose * Point2::from(*p)).coords;
-            (1.0 - self.field.distance(&p) / PROBE).max(0.0)
-        };
-        let (first, rest) = view.probes.split_at(FIRST.min(view.probes.len()));
-        let sum: f64 = first.iter().map(near).sum();
-        if sum < least {
-            return None;
-        }
-        let sum = sum + rest.iter().map(near).sum::<f64>();
-        Some(sum / view.probes.len().max(1) as f64)
-    }
-
-    /// The most likely candidates, each once, refined, those that fit best first.
-    fn refined(&self, view: &View, mut found: Vec<(f64, Isometry2<f64>)>) -> Vec<Fix> {
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut kept: Vec<(f64, Isometry2<f64>)> = Vec::new();
-        for (score, pose) in found {
-            if kept.len() >= REFINED || score < kept.first().map_or(0.0, |k| 0.4 * k.0) {
-                break;
-            }
-            if !kept.iter().any(|k| near(&k.1, &pose)) {
-                kept.push((score, pose));
-            }
-        }
-        // Twice: first towards the faces, then, of the best by the probes, to the end.
-        let mut drawn: Vec<(f64, Isometry2<f64>)> = kept
+    /// The turns, by degrees, at which enough of the scan's segments run as something of the chart does: where returns lie
+    /// on lines, segments lie along them.
+    fn turns(&self, sensor: &Sensor, ranges: &[f64]) -> Vec<f64> {
+        let mut extractor = Extractor::new();
+        let segments: Vec<(usize, f64)> = extractor
+            .segments(sensor, ranges)
             .iter()
-            .map(|(_, pose)| {
-                let (pose, _) = refine(&self.field, &self.faces, pose, view, 0..4);
-                (self.closeness(view, &pose), pose)
-            })
+            .filter(|segment| segment.length() >= 20.0)
+            .map(|segment| (degree(segment.vector()), segment.length()))
             .collect();
-        drawn.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut apart: Vec<Isometry2<f64>> = Vec::new();
-        for (_, pose) in drawn {
-            if apart.len() < VIEWED && !apart.iter().any(|other| near(other, &pose)) {
-                apart.push(pose);
-            }
-        }
-        distinct(apart.iter().map(|pose| self.fix(view, pose)).collect())
-    }
-
-    /// Share of the returns near a face.
-    fn closeness(&self, view: &View, pose: &Isometry2<f64>) -> f64 {
-        let near = |p: Vector2<f64>| {
-            let p = (pose * Point2::from(p)).coords;
-            (1.0 - self.field.distance(&p) / 20.0).max(0.0)
+        let whole: f64 = segments.iter().map(|(_, length)| length).sum();
+        let fits = |turn: &usize| {
+            let shared = segments.iter().map(|(course, length)| {
+                let near = (178..=182).map(|by| self.courses[(course + turn + by) % 180]);
+                length * near.fold(0.0, f64::max)
+            });
+            shared.sum::<f64>() >= 0.8 * self.options.least * whole
         };
-        view.beams.iter().map(|beam| near(beam.point())).sum::<f64>()
-            / view.beams.len().max(1) as f64
+        (0..360).filter(fits).map(|turn| (turn as f64).to_radians()).collect()
     }
 
-    /// Poses along the least certain direction of a pose, and turned about there.
-    fn repetitions(&self, view: &View, fix: &Fix) -> Vec<(f64, Isometry2<f64>)> {
-        let place = fix.covariance.fixed_view::<2, 2>(0, 0).into_owned();
-        let eigen = SymmetricEigen::new(place);
-        let along: Vector2<f64> = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
-        let steps = (SLIDE.0 / SLIDE.1) as i32;
-        let mut found = Vec::new();
-        for turn in [0.0, std::f64::consts::PI] {
-            for step in -steps..=steps {
-                let shift = along * (f64::from(step) * SLIDE.1);
-                let angle = fix.pose.rotation.angle() + turn;
-                let pose = Isometry2::new(fix.pose.translation.vector + shift, angle);
-                let least = 0.4 * FIRST.min(view.probes.len()) as f64;
-                if !near(&pose, &fix.pose)
-                    && let Some(score) = self.probe(view, &pose, least)
-                {
-                    found.push((score, pose));
-                }
+    /// How a scan fits when it was taken near a pose; none where it holds none there.
+    #[must_use]
+    pub fn near(&self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Option<Fit> {
+        self.fit(sensor, ranges, &self.returns(sensor, ranges), pose)
+    }
+
+    fn fit(
+        &self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        returns: &[Vector2<f64>],
+        pose: Isometry2<f64>,
+    ) -> Option<Fit> {
+        let refined = refine(self.chart, returns, self.options.sigma, pose)?;
+        let (explained, through) = self.seen(sensor, ranges, &refined.pose);
+        Some(Fit { pose: refined.pose, covariance: refined.covariance, explained, through })
+    }
+
+    /// Shares of the returns that end where the chart has something, and that go through it.
+    #[must_use]
+    pub fn seen(&self, sensor: &Sensor, ranges: &[f64], pose: &Isometry2<f64>) -> (f64, f64) {
+        let every = (sensor.count() / VERIFIED).max(1);
+        let (mut explained, mut through, mut count) = (0, 0, 0);
+        for beam in (0..sensor.count().min(ranges.len())).step_by(every) {
+            let range = ranges[beam];
+            if !sensor.returned(range) || range > self.options.farthest {
+                continue;
+            }
+            count += 1;
+            let slack = 10.0 + 0.02 * range;
+            let (expected, _) = self.chart.cast(pose, sensor.bearing(beam), range + 4.0 * slack);
+            if (range - expected).abs() <= slack {
+                explained += 1;
+            } else if range > expected {
+                // Past a corner by a hair is not through it.
+                let end = pose * nalgebra::Point2::from(sensor.directions()[beam] * range);
+                let lies_on =
+                    self.chart.nearest(end).is_some_and(|(_, foot)| (foot - end).norm() <= slack);
+                if lies_on { explained += 1 } else { through += 1 }
             }
         }
-        found
+        let share = |n: usize| n as f64 / count.max(1) as f64;
+        (share(explained), share(through))
+    }
+
+    /// Where the beams end, in the sensor's frame.
+    fn returns(&self, sensor: &Sensor, ranges: &[f64]) -> Vec<Vector2<f64>> {
+        let ends = ranges.iter().zip(sensor.directions());
+        ends.filter(|(range, _)| sensor.returned(**range) && **range <= self.options.farthest)
+            .map(|(range, direction)| direction * *range)
+            .collect()
     }
 }
 
-/// The inverse of the information; where that tells nothing, a deviation of 10 m and half a turn.
-fn covariance(information: &Matrix3<f64>) -> Matrix3<f64> {
-    let floor = Matrix3::from_diagonal(&nalgebra::Vector3::new(1e-6, 1e-6, 0.1));
-    (information + floor).try_inverse().unwrap_or_else(|| Matrix3::identity() * 1e6)
-}
-
-pub(crate) fn near(a: &Isometry2<f64>, b: &Isometry2<f64>) -> bool {
-    let apart = (a.translation.vector - b.translation.vector).norm();
-    apart < SAME.0 && a.rotation.angle_to(&b.rotation).abs() < SAME.1
-}
-
-/// Each pose once, those that fit best first.
-fn distinct(mut fixes: Vec<Fix>) -> Vec<Fix> {
-    fixes.sort_by(|a, b| b.fit.score().total_cmp(&a.fit.score()));
-    let mut kept: Vec<Fix> = Vec::new();
-    for fix in fixes {
-        if !kept.iter().any(|k| near(&k.pose, &fix.pose)) {
-            kept.push(fix);
+/// So many of them, evenly chosen along their course rather than by angle: a near wall takes many beams.
+fn thinned(returns: &[Vector2<f64>], most: usize) -> Vec<Vector2<f64>> {
+    let steps = returns.windows(2).map(|pair| (pair[1] - pair[0]).norm().min(30.0));
+    let length: f64 = steps.sum();
+    let every = (length / most as f64).max(2.0);
+    let mut kept: Vec<Vector2<f64>> = Vec::new();
+    let mut since = every;
+    for (number, p) in returns.iter().enumerate() {
+        if number > 0 {
+            since += (p - returns[number - 1]).norm().min(30.0);
+        }
+        if since >= every {
+            kept.push(*p);
+            since = 0.0;
         }
     }
     kept
-}
-
-/// The answer that the poses found allow.
-fn decide(fixes: Vec<Fix>) -> Answer {
-    let Some(best) = fixes.first().copied() else { return Answer::Unknown };
-    if best.fit.score() < FITS {
-        return Answer::Unknown;
-    }
-    let least = best.fit.score() - RIVAL;
-    let rivals: Vec<Fix> =
-        fixes.into_iter().filter(|f| f.fit.score() >= least).take(LIST).collect();
-    if rivals.len() == 1 && best.is_sure() {
-        Answer::Unique(best)
-    } else {
-        Answer::Ambiguous(rivals)
-    }
 }

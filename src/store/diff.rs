@@ -191,7 +191,7 @@ fn name_in(world: &World, table: Table, id: u32) -> Option<&str> {
         Table::Places => named!(world.places, PlaceId),
         Table::Domain => {
             let domain = &world.domain;
-            (domain.id.0 == id).then(|| [domain.name.as_str(), domain.key.as_str()])
+            (domain.id.0 == id).then_some([domain.name.as_str(), domain.key.as_str()])
         }
         Table::OrtFrmTypeList => named!(types.orthoframe.entries, TypeId),
         Table::OrtFrmShapeList => named!(types.shape.entries, TypeId),

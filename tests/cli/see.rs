@@ -79,7 +79,7 @@ fn a_log_that_breaks_off_is_shown_as_far_as_it_goes() {
         (value["faults"][0]["line"].as_u64(), value["faults"][0]["column"].as_u64()),
         (Some(2), Some(401))
     );
-    place.write("no.log", "12 обезьян\n".to_owned());
+    place.write("no.log", "12 обезьян\n");
     let value = place.json(&["see", "no.log"], 2);
     assert_eq!(value["errors"][0]["code"], "vectors::log_unknown");
     assert_eq!(value["errors"][0]["line"], 1);

@@ -1,0 +1,213 @@
+//! What a laser can meet at its height, as segments, with a raster over them for what asks for much at once.
+
+use std::collections::HashSet;
+use std::f64::consts::PI;
+
+use nalgebra::{Isometry2, Point2, Vector2};
+use parry2d_f64::math::Vector as Vec2;
+use parry2d_f64::query::Ray;
+use parry2d_f64::shape::{CompositeShapeRef, Polyline};
+
+use crate::geometry::{FloorPlan, SeenFace};
+use crate::map::World;
+use crate::vectors::Segment;
+use crate::vectors::read::Scan;
+use crate::vectors::scan::{Extractor, Sensor};
+
+/// A stretch that stops a beam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    pub start: Point2<f64>,
+    pub end: Point2<f64>,
+    /// What of the Map it belongs to.
+    pub face: Option<SeenFace>,
+}
+
+impl Line {
+    pub(crate) fn direction(&self) -> Vector2<f64> {
+        (self.end - self.start).normalize()
+    }
+
+    /// The nearest point of it.
+    pub(crate) fn nearest(&self, p: Point2<f64>) -> Point2<f64> {
+        let along = self.end - self.start;
+        let share = (p - self.start).dot(&along) / along.norm_squared();
+        self.start + along * share.clamp(0.0, 1.0)
+    }
+}
+
+/// All that a laser can meet at one height.
+pub struct Chart {
+    lines: Vec<Line>,
+    shape: Option<Polyline>,
+    pub(crate) low: Point2<f64>,
+    pub(crate) high: Point2<f64>,
+    /// The lines near each bucket of [`BUCKET`] cm.
+    buckets: Vec<Vec<u32>>,
+    columns: usize,
+}
+
+/// Side of a bucket, in cm; lines up to [`NEAR`] away are in it.
+const BUCKET: f64 = 50.0;
+const NEAR: f64 = 40.0;
+/// Shorter stretches than this are no walls of a log, in cm.
+const LEAST_WALL: f64 = 25.0;
+
+/// Where walls have been seen, and along which of [`COURSES`] courses, in cells of [`CELL`] cm.
+#[derive(Default)]
+struct Covered {
+    cells: HashSet<(i32, i32, i32)>,
+}
+
+const CELL: f64 = 10.0;
+const COURSES: i32 = 24;
+
+impl Covered {
+    /// Whether a line tells of something new: then it is known from now on.
+    fn takes_in(&mut self, line: &Line) -> bool {
+        let along = line.direction();
+        let turn = along.y.atan2(along.x).rem_euclid(PI) / PI * f64::from(COURSES);
+        let course = turn.round() as i32;
+        let count = ((line.end - line.start).norm() / (CELL / 2.0)).ceil() as usize;
+        let at = |n: usize| {
+            let p = line.start + (line.end - line.start) * (n as f64 / count as f64);
+            ((p.x / CELL).floor() as i32, (p.y / CELL).floor() as i32)
+        };
+        let is_known = |(x, y): (i32, i32)| {
+            (-1..=1).any(|dx| {
+                (-1..=1).any(|dy| {
+                    (-1..=1).any(|by| {
+                        let course = (course + by).rem_euclid(COURSES);
+                        self.cells.contains(&(x + dx, y + dy, course))
+                    })
+                })
+            })
+        };
+        let known = (0..=count).filter(|&n| is_known(at(n))).count();
+        let is_new = known as f64 <= 0.9 * (count + 1) as f64;
+        if is_new {
+            let course = course.rem_euclid(COURSES);
+            self.cells.extend((0..=count).map(at).map(|(x, y)| (x, y, course)));
+        }
+        is_new
+    }
+}
+
+impl Chart {
+    /// The Map's faces at `height` cm above its zero, door leaves as they stand.
+    #[must_use]
+    pub fn of_map(world: &World, plan: &FloorPlan, height: f64) -> Self {
+        let sight = plan.sight(world, height);
+        let line = |(face, a, b): (SeenFace, crate::units::Point, crate::units::Point)| Line {
+            start: Point2::new(a.x, a.y),
+            end: Point2::new(b.x, b.y),
+            face: Some(face),
+        };
+        Self::new(sight.faces().map(line).collect())
+    }
+
+    /// The walls of scans whose poses are known.
+    #[must_use]
+    pub fn of_scans<'s>(scans: impl IntoIterator<Item = (&'s Sensor, &'s Scan)>) -> Self {
+        let mut extractor = Extractor::new();
+        let (mut lines, mut known) = (Vec::new(), Covered::default());
+        for (sensor, scan) in scans {
+            let Some(pose) = scan.pose else { continue };
+            let placed = |p: nalgebra::SVector<f64, 2>| pose * Point2::from(p);
+            let segments = extractor.segments(sensor, &scan.ranges).iter();
+            let long = segments.filter(|segment| segment.length() >= LEAST_WALL);
+            let line = |segment: &Segment<2>| Line {
+                start: placed(segment.start),
+                end: placed(segment.end),
+                face: None,
+            };
+            lines.extend(long.map(line).filter(|line| known.takes_in(line)));
+        }
+        Self::new(lines)
+    }
+
+    #[must_use]
+    pub fn new(mut lines: Vec<Line>) -> Self {
+        let is_sound = |line: &Line| {
+            let ends = [line.start.x, line.start.y, line.end.x, line.end.y];
+            ends.iter().all(|x| x.is_finite()) && (line.end - line.start).norm() > 1e-6
+        };
+        lines.retain(is_sound);
+        let (mut low, mut high) = (Point2::new(0.0, 0.0), Point2::new(0.0, 0.0));
+        if let Some(first) = lines.first() {
+            (low, high) = (first.start, first.start);
+        }
+        for p in lines.iter().flat_map(|line| [line.start, line.end]) {
+            low = low.inf(&p);
+            high = high.sup(&p);
+        }
+        let size = ((high - low) / BUCKET).map(|x| x as usize + 1);
+        let mut buckets = vec![Vec::new(); size.x * size.y];
+        for (number, line) in lines.iter().enumerate() {
+            let (a, b) = (line.start.inf(&line.end), line.start.sup(&line.end));
+            let first = ((a - low).add_scalar(-NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
+            let last = ((b - low).add_scalar(NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
+            for row in first.y..=last.y.min(size.y - 1) {
+                for column in first.x..=last.x.min(size.x - 1) {
+                    let middle = low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * BUCKET;
+                    let reach = BUCKET * std::f64::consts::FRAC_1_SQRT_2 + NEAR;
+                    if (line.nearest(middle) - middle).norm() <= reach {
+                        buckets[row * size.x + column].push(number as u32);
+                    }
+                }
+            }
+        }
+        let vertices = lines.iter().flat_map(|line| [line.start, line.end]);
+        let vertices = vertices.map(|p| Vec2::new(p.x, p.y)).collect();
+        let indices = (0..lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+        let shape = (!lines.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
+        Self { lines, shape, low, high, buckets, columns: size.x }
+    }
+
+    /// For each degree of half a turn, how much of the chart runs that way: one where three metres do, or more.
+    pub(crate) fn courses(&self) -> [f64; 180] {
+        let mut lengths = [0.0; 180];
+        for line in &self.lines {
+            let along = line.end - line.start;
+            lengths[degree(along)] += along.norm();
+        }
+        lengths.map(|length| (length / 300.0_f64).min(1.0))
+    }
+
+    #[must_use]
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    /// The line nearest to a point, with the nearest point of it, where one is within 40 cm.
+    pub(crate) fn nearest(&self, p: Point2<f64>) -> Option<(u32, Point2<f64>)> {
+        let at = (p - self.low) / BUCKET;
+        if at.x < 0.0 || at.y < 0.0 || at.x as usize >= self.columns {
+            return None;
+        }
+        let near = self.buckets.get(at.y as usize * self.columns + at.x as usize)?;
+        let foot = |&number: &u32| (number, self.lines[number as usize].nearest(p));
+        near.iter()
+            .map(foot)
+            .min_by(|(_, a), (_, b)| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
+            .filter(|(_, foot)| (foot - p).norm() <= NEAR)
+    }
+
+    /// How far a beam goes, in cm, and which line ends it; the range where nothing does.
+    #[must_use]
+    pub fn cast(&self, pose: &Isometry2<f64>, bearing: f64, range: f64) -> (f64, Option<u32>) {
+        let direction = pose.rotation * Vector2::new(bearing.cos(), bearing.sin());
+        let from = pose.translation.vector;
+        let ray = Ray::new(Vec2::new(from.x, from.y), Vec2::new(direction.x, direction.y));
+        let hit = self
+            .shape
+            .as_ref()
+            .and_then(|shape| CompositeShapeRef(shape).cast_local_ray(&ray, range, true));
+        hit.map_or((range, None), |(line, distance)| (distance, Some(line)))
+    }
+}
+
+/// The course of a line in whole degrees of half a turn.
+pub(crate) fn degree(along: Vector2<f64>) -> usize {
+    (along.y.atan2(along.x).to_degrees().rem_euclid(180.0).round() as usize) % 180
+}

@@ -1,0 +1,157 @@
+//! Poses in made buildings: what is said to be unique is right, what repeats itself is told as several, and nothing that a
+//! sensor may bring ends the program.
+
+use nalgebra::{Isometry2, Point2};
+
+use super::{Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker};
+use crate::vectors::scan::{Noise, Sensor};
+
+fn sensor() -> Sensor {
+    let half = std::f64::consts::FRAC_PI_2;
+    Sensor::new(-half, std::f64::consts::PI / 360.0, 361, (1.0, 3000.0), Noise::default())
+        .expect("a sensor")
+}
+
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Line> {
+    let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
+    let corners = corners.map(|(x, y)| Point2::new(x, y));
+    (0..4).map(|n| Line { start: corners[n], end: corners[(n + 1) % 4], face: None }).collect()
+}
+
+/// A hall with boxes of all sizes in it.
+fn hall(random: &mut fastrand::Rng) -> Chart {
+    let mut lines = rectangle(0.0, 0.0, 1500.0, 1000.0);
+    for _ in 0..12 {
+        let (x, y) = (random.f64() * 1300.0 + 50.0, random.f64() * 800.0 + 50.0);
+        lines.extend(rectangle(x, y, 20.0 + random.f64() * 120.0, 20.0 + random.f64() * 120.0));
+    }
+    Chart::new(lines)
+}
+
+fn scan(
+    chart: &Chart,
+    sensor: &Sensor,
+    pose: &Isometry2<f64>,
+    random: &mut fastrand::Rng,
+) -> Vec<f64> {
+    (0..sensor.count())
+        .map(|beam| chart.cast(pose, sensor.bearing(beam), 3000.0).0 + (random.f64() - 0.5) * 4.0)
+        .collect()
+}
+
+fn somewhere(random: &mut fastrand::Rng) -> Isometry2<f64> {
+    let (x, y) = (random.f64() * 1400.0 + 50.0, random.f64() * 900.0 + 50.0);
+    Isometry2::new(nalgebra::Vector2::new(x, y), random.f64() * std::f64::consts::TAU)
+}
+
+fn is_right(found: &Isometry2<f64>, pose: &Isometry2<f64>) -> bool {
+    (found.translation.vector - pose.translation.vector).norm() <= 20.0
+        && found.rotation.angle_to(&pose.rotation).abs().to_degrees() <= 3.0
+}
+
+#[test]
+fn what_is_unique_is_right() {
+    let (mut unique, mut several) = (0, 0);
+    for seed in 0..8 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let chart = hall(&mut random);
+        let localiser = Localiser::new(&chart, Options::default());
+        for _ in 0..5 {
+            let pose = somewhere(&mut random);
+            let ranges = scan(&chart, &sensor(), &pose, &mut random);
+            match localiser.locate(&sensor(), &ranges) {
+                Answer::Unique(fit) => {
+                    assert!(is_right(&fit.pose, &pose), "seed {seed}: {} for {pose}", fit.pose);
+                    unique += 1;
+                }
+                Answer::Ambiguous(fits) => {
+                    assert!(
+                        fits.iter().any(|fit| is_right(&fit.pose, &pose)),
+                        "seed {seed}: {pose}"
+                    );
+                    several += 1;
+                }
+                Answer::Unknown => {}
+            }
+        }
+    }
+    assert!(unique >= 25 && unique + several <= 40, "{unique} {several}");
+}
+
+#[test]
+fn a_building_that_repeats_itself_is_told_as_several_places() {
+    let mut random = fastrand::Rng::with_seed(7);
+    // Two rooms alike, and nothing else.
+    let mut lines = rectangle(0.0, 0.0, 400.0, 300.0);
+    lines.extend(rectangle(50.0, 50.0, 80.0, 30.0));
+    lines.extend(rectangle(2000.0, 0.0, 400.0, 300.0));
+    lines.extend(rectangle(2050.0, 50.0, 80.0, 30.0));
+    let chart = Chart::new(lines);
+    let localiser = Localiser::new(&chart, Options::default());
+    let pose = Isometry2::new(nalgebra::Vector2::new(300.0, 200.0), 3.5);
+    let ranges = scan(&chart, &sensor(), &pose, &mut random);
+    let Answer::Ambiguous(fits) = localiser.locate(&sensor(), &ranges) else { panic!("two rooms") };
+    let other = Isometry2::new(nalgebra::Vector2::new(2300.0, 200.0), 3.5);
+    assert!(fits.iter().any(|fit| is_right(&fit.pose, &pose)));
+    assert!(fits.iter().any(|fit| is_right(&fit.pose, &other)));
+}
+
+#[test]
+fn along_a_corridor_without_an_end_in_sight_no_place_is_told() {
+    let mut random = fastrand::Rng::with_seed(3);
+    let walls = [(0.0, 0.0), (0.0, 200.0)];
+    let line = |&(x, y): &(f64, f64)| Line {
+        start: Point2::new(x, y),
+        end: Point2::new(x + 20_000.0, y),
+        face: None,
+    };
+    let chart = Chart::new(walls.iter().map(line).collect());
+    let localiser = Localiser::new(&chart, Options::default());
+    for x in [3000.0, 9000.0, 15_000.0] {
+        let pose = Isometry2::new(nalgebra::Vector2::new(x, 90.0), 0.1);
+        let ranges = scan(&chart, &sensor(), &pose, &mut random);
+        assert!(!matches!(localiser.locate(&sensor(), &ranges), Answer::Unique(_)), "at {x}");
+    }
+}
+
+#[test]
+fn a_robot_that_was_carried_off_is_lost_and_found_again() {
+    let mut random = fastrand::Rng::with_seed(11);
+    let chart = hall(&mut random);
+    let localiser = Localiser::new(&chart, Options::default());
+    let mut tracker = Tracker::new(&localiser);
+    let (start, other) = (somewhere(&mut random), somewhere(&mut random));
+    let mut odometry = Isometry2::identity();
+    let (mut pose, by) = (start, Isometry2::new(nalgebra::Vector2::new(3.0, 0.0), 0.02));
+    let mut was_moved = false;
+    for step in 0..40 {
+        (pose, odometry) = (pose * by, odometry * by);
+        if step == 15 {
+            pose = other;
+        }
+        let ranges = scan(&chart, &sensor(), &pose, &mut random);
+        was_moved |= tracker.scan(&sensor(), &ranges, odometry) == Event::GivenUp;
+        let belief = tracker.belief().clone();
+        // Between the move and the notice it may be wrong; never before, and never later.
+        if let (Belief::At(fit), false) = (&belief, (15..19).contains(&step)) {
+            assert!(is_right(&fit.pose, &pose), "step {step}");
+        }
+    }
+    assert!(was_moved);
+    assert!(matches!(tracker.belief(), Belief::At(_)));
+}
+
+#[test]
+fn whatever_a_sensor_brings_ends_in_an_answer() {
+    let chart = hall(&mut fastrand::Rng::with_seed(1));
+    let localiser = Localiser::new(&chart, Options::default());
+    let count = sensor().count();
+    for value in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300, 3000.0, 50.0] {
+        let answer = localiser.locate(&sensor(), &vec![value; count]);
+        assert!(!matches!(answer, Answer::Unique(_)), "{value}");
+    }
+    assert!(matches!(localiser.locate(&sensor(), &[]), Answer::Unknown));
+    let nothing = Chart::new(Vec::new());
+    let localiser = Localiser::new(&nothing, Options::default());
+    assert!(matches!(localiser.locate(&sensor(), &vec![100.0; count]), Answer::Unknown));
+}
