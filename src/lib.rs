@@ -44,9 +44,6 @@ pub use orthoframe_geometry::{
 pub use orthoframe_robot::{Simulator, Vehicle};
 pub use orthoframe_semantics::{RelationRules, Relations};
 
-/// What is remarkable about a followed scan ([`engine::FoundScan`]).
-pub use orthoframe_sensing::Event;
-
 /// What a robot sees: the segments of [`engine::View`].
 pub use orthoframe_vectors::Segment;
 

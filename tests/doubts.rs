@@ -133,7 +133,9 @@ fn an_open_vessel_is_pierced_by_no_board() {
         "[orthoframe.small]\nrect = [10, 10]\nheight = 20",
         "[orthoframe.small]\nrect = [10, 10]\nheight = 20\nroof = \"permeable\"\n[orthoframe.board]\nrect = [60, 60]\nheight = 3",
     );
-    let map = map.replace("orthoframe = \"block\"", "orthoframe = \"board\", at = [0, 0, 72]");
+    let map = map
+        .replace("orthoframe = \"block\"", "orthoframe = \"board\"")
+        .replace("at = [200, 250]", "at = [200, 250, 72]");
     let stick = |map: &str| {
         map.replace("[object.radio]\ntype = \"Прибор\"\nitems = [{ id = \"A\", orthoframe = \"small\" }]",
             "[object.radio]\ntype = \"Прибор\"\nitems = [{ id = \"A\", orthoframe = \"stick\" }]\n[orthoframe.stick]\nrect = [12, 2]\nheight = 40")

@@ -310,11 +310,11 @@ mod tests {
         let goal: String = (0..500).map(|n| format!("    (p o{n})\n")).collect();
         let domain = "(define (domain d) (:predicates (p ?x)) (:action a :parameters (?x) :precondition (and) :effect (p ?x)))";
         let problem =
-            format!("(define (problem q) (:domain d) (:objects o)\n (:goal (or\n{goal})))");
+            format!("(define (problem q) (:domain d) (:objects o)\n (:goal (preference\n{goal})))");
         let faults = Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem))
             .unwrap_err();
         let told = drawn(&faults);
-        assert!(told.contains("(or") && told.lines().count() < 20, "{told}");
+        assert!(told.contains("(preference") && told.lines().count() < 20, "{told}");
     }
 
     #[test]

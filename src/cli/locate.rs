@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::engine::{FoundPose, FoundScan, Sighted, event_in_words, json};
+use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
 
 use super::args::{Common, Lang};
@@ -53,7 +53,7 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
 
 fn tell(lang: Lang, found: &FoundScan) -> String {
     let scan = format!("{} {}", lang.pick("Скан", "Scan"), found.scan);
-    let event = found.event.and_then(|event| event_in_words(event, lang.language()));
+    let event = found.event_in_words(lang.language());
     let event = event.map_or_else(String::new, |event| format!(" ({event})"));
     let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(lang, pose)).collect();
     match &poses[..] {

@@ -151,14 +151,17 @@ impl Engine {
         change: &Change,
         mode: Mode,
     ) -> Result<Edited, Error> {
-        let before = self.surveyed.as_ref().map(|known| Arc::clone(&known.world));
-        let before = before.unwrap_or_else(|| Arc::new(World::empty()));
+        let known = self.surveyed.as_ref().map(|known| Arc::clone(&known.world));
+        let had_map = known.is_some();
+        let before = known.unwrap_or_else(|| Arc::new(World::empty()));
         let differences = store::compare(&before, &after)?;
         if mode == Mode::DryRun {
             return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
         }
         let report = match &mut self.store {
-            Some(store) => Some(store.commit_change(&before, &after, change)?),
+            Some(store) if had_map => Some(store.commit_change(&before, &after, change)?),
+            // What a map has in common with the empty one is new to the store all the same.
+            Some(store) => Some(store.commit(&after, change)?),
             None => None,
         };
         self.follow(after)?;

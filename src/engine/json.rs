@@ -15,7 +15,6 @@ use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
 use crate::semantics::Spot;
-use crate::sensing::Event;
 use crate::strips::Replayed;
 use crate::units::{AreaId, Point, Pose, ReplicaId};
 use crate::vectors::read::{LogError, LogFault};
@@ -301,12 +300,7 @@ pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
                 (false, false) => "ambiguous",
                 (false, true) => "unknown",
             },
-            "event": found.event.map(|event| match event {
-                Event::Steady => "steady",
-                Event::Narrowed => "narrowed",
-                Event::GivenUp => "given_up",
-                Event::Lost => "lost",
-            }),
+            "event": found.event(),
             "poses": poses.collect::<Vec<_>>(),
         })
     };

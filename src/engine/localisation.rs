@@ -30,8 +30,7 @@ pub struct FoundScan {
     pub poses: Vec<FoundPose>,
     /// Whether the first of them is the only one. One alone need not be: a corridor leaves a direction open.
     pub is_unique: bool,
-    /// What was remarkable about the step from the scan before, where that was followed.
-    pub event: Option<Event>,
+    event: Option<Event>,
 }
 
 impl State {
@@ -103,17 +102,30 @@ impl State {
     }
 }
 
-/// What was remarkable about a step, where anything was.
-#[must_use]
-pub fn event_in_words(event: Event, language: Language) -> Option<&'static str> {
-    let (russian, english) = match event {
-        Event::Steady => return None,
-        Event::Narrowed => ("мест стало меньше", "fewer places are left"),
-        Event::GivenUp => (
-            "прежнее не подходит: робот перенесён, или одометрия солгала",
-            "what was believed does not fit: carried off, or the odometry lied",
-        ),
-        Event::Lost => ("то, что видно, ни к чему не подходит", "what is seen fits nowhere"),
-    };
-    Some(language.pick(russian, english))
+impl FoundScan {
+    /// What was remarkable about the step from the scan before, where that was followed.
+    #[must_use]
+    pub fn event(&self) -> Option<&'static str> {
+        Some(match self.event? {
+            Event::Steady => "steady",
+            Event::Narrowed => "narrowed",
+            Event::GivenUp => "given_up",
+            Event::Lost => "lost",
+        })
+    }
+
+    /// What was remarkable about the step to it, where anything was.
+    #[must_use]
+    pub fn event_in_words(&self, language: Language) -> Option<&'static str> {
+        let (russian, english) = match self.event? {
+            Event::Steady => return None,
+            Event::Narrowed => ("мест стало меньше", "fewer places are left"),
+            Event::GivenUp => (
+                "прежнее не подходит: робот перенесён, или одометрия солгала",
+                "what was believed does not fit: carried off, or the odometry lied",
+            ),
+            Event::Lost => ("то, что видно, ни к чему не подходит", "what is seen fits nowhere"),
+        };
+        Some(language.pick(russian, english))
+    }
 }

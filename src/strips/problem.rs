@@ -45,8 +45,9 @@ pub struct Problem {
     pub(super) objects: Vec<ObjectStatement>,
     pub(super) facts: Vec<Statement>,
     pub(super) goal: Vec<Statement>,
-    /// What of the goal is no plain fact.
+    /// What of the goal is no plain fact, and the objects that it names.
     pub(super) goal_formulas: Vec<Formula>,
+    pub(super) goal_objects: Vec<Name>,
     pub(super) values: Vec<(Atom, u32)>,
     pub(super) objects_closed: bool,
     pub(super) compared: Vec<(Name, Name, bool)>,
@@ -232,8 +233,19 @@ impl Problem {
         goal_formulas: Vec<Formula>,
         faults: &mut Vec<RuleFault>,
     ) -> Self {
+        let mut goal_objects = Vec::new();
+        let is_compound = |condition: &&Condition| {
+            matches!(condition, Condition::Any(..) | Condition::Quantified { .. })
+        };
+        for condition in document.goal.iter().filter(is_compound) {
+            condition.for_each_atom(&mut Vec::new(), &mut |atom, _| {
+                let objects = atom.args.iter().filter(|term| !term.is_variable);
+                goal_objects.extend(objects.map(|term| term.name.clone()));
+            });
+        }
         let mut problem = Self {
             goal_formulas,
+            goal_objects,
             values: document
                 .values
                 .iter()

@@ -63,7 +63,7 @@ impl Problem {
             closed: self.objects_closed,
         };
         resolver.objects(self);
-        let goal_formulas = resolver.formulas(&self.goal_formulas);
+        let goal_formulas = resolver.formulas(self);
         let facts = resolver.facts(&self.facts);
         let goal = resolver.goal(&self.goal);
         let impossible = resolver.comparisons(self);
@@ -250,23 +250,26 @@ impl Resolver<'_> {
     }
 
     /// The objects that a condition of the goal names are there, or are told of.
-    fn formulas(&mut self, formulas: &[Formula]) -> Vec<Formula> {
-        let mut unknown: Vec<String> = Vec::new();
-        for formula in formulas {
+    fn formulas(&mut self, problem: &Problem) -> Vec<Formula> {
+        let mut told: BTreeSet<String> = BTreeSet::new();
+        for name in &problem.goal_objects {
+            if !self.index.contains_key(&name.key()) && told.insert(name.key()) {
+                let error = self.unknown_object(&name.text);
+                self.faults.push(name.fault(error));
+            }
+        }
+        for formula in &problem.goal_formulas {
             formula.for_each_term(&mut |term| {
                 if let SchemaTerm::Constant(name) = term
                     && !self.index.contains_key(&name_key(name))
-                    && !unknown.contains(name)
+                    && told.insert(name_key(name))
                 {
-                    unknown.push(name.clone());
+                    let error = self.unknown_object(name);
+                    self.faults.push(RuleFault::placeless(error((0, 0).into())));
                 }
             });
         }
-        for name in unknown {
-            let error = self.unknown_object(&name);
-            self.faults.push(RuleFault::placeless(error((0, 0).into())));
-        }
-        formulas.to_vec()
+        problem.goal_formulas.clone()
     }
 
     fn comparisons(&mut self, problem: &Problem) -> bool {

@@ -269,6 +269,14 @@ fn conditions_beyond_literals_are_written_in_both_languages() {
         .replace("ТО ", "THEN ")
         .replace("НЕ ", "NOT ");
     assert_eq!(outcome(&english), outcome(russian));
+    // An object that nobody knows is told where it stands.
+    check(
+        "Действие: Идти (Параметры: место ?x) (Предусловие: В_(?x)) (Эффект+: Б_(?x))
+        Факты: В_(Зал) Цель: (Б_(Зал) ИЛИ Б_(Зла))",
+        &expect![[r#"
+            strips::unknown_object сценарий:2:46: неизвестный объект «Зла» | может быть, «Зал»?
+        "#]],
+    );
     // What is no fact cannot be stated, and brackets that do not end are told.
     check(
         "Действие: Идти (Параметры: место ?x) (Предусловие: (В_(?x) ИЛИ) (Эффект+: В_(?x))

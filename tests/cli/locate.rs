@@ -42,7 +42,7 @@ fn scans_are_found_where_they_were_taken() {
             let fits = found["poses"].as_array().unwrap();
             let near = |fit: &serde_json::Value| {
                 let number = |key: &str| fit["pose"][key].as_f64().unwrap();
-                let turn = (number("heading") - degrees + 180.0).rem_euclid(360.0) - 180.0;
+                let turn = (number("heading_deg") - degrees + 180.0).rem_euclid(360.0) - 180.0;
                 (number("x") - x).hypot(number("y") - y) < 5.0 && turn.abs() < 1.0
             };
             assert!(fits.iter().any(near), "{arguments:?}: {found}");
