@@ -281,7 +281,11 @@ impl<'r> Mission<'r> {
             }
             let Some(plan) = planned.solved.outcome.plan() else {
                 (reins.tell)(&Event::Planned(&planned));
-                return Ok(Ending::NoPlan(Box::new(planned)));
+                // Who is told may stop: another way that the task has is not tried then.
+                return Ok(match reins.stop.is_raised() {
+                    true => Ending::Stopped,
+                    false => Ending::NoPlan(Box::new(planned)),
+                });
             };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
             self.places.clone_from(&planned.places);
