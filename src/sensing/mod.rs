@@ -9,7 +9,7 @@
 //!
 //! # Invariants
 //!
-//! - *Nothing is passed over.* The search ([`search`]) goes through all poses of the raster by branch and bound: what it
+//! - *Nothing is passed over.* The search (`search`) goes through all poses of the raster by branch and bound: what it
 //!   leaves out cannot fit better than what it keeps. A search that was cut off answers [`Answer::Unknown`].
 //! - *Seen through a wall counts against.* A beam that is shorter than the Map has it may have met what the Map lacks; one
 //!   that is longer has gone through what the Map has.

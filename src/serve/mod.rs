@@ -1,7 +1,7 @@
 //! The operator's console: the engine opened to a browser on this machine.
 //!
 //! [`run`] moves an [`Engine`] to a thread of its own and answers over HTTP: JSON of the library's shapes, events as they
-//! happen, and a page that shows them. What may be asked stands in [`routes::ROUTES`].
+//! happen, and a page that shows them. What may be asked stands in `routes::ROUTES`.
 //!
 //! # Invariants
 //!

@@ -109,7 +109,7 @@ pub(super) fn draft(
     Ok(Some(draft))
 }
 
-/// The fact, and the operators that give it, by which a goal of several ways is met ([`Task::goal_steps`]).
+/// The fact, and the operators that give it, by which a goal of several ways is met ([`super::Task::goal_steps`]).
 pub const GOAL_STEP: &str = "GOAL";
 
 /// The goal as one conjunction. Where any of several would do, an action for each meets the one fact that is the goal then.
