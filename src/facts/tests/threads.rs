@@ -162,7 +162,6 @@ fn limits_hold_for_all_threads_together() {
 
 /// More solutions than a relation may have rows, most of them the same: none is left out.
 #[test]
-#[ignore = "takes seconds; run by hand"]
 fn solutions_are_not_rows() {
     let rules = ".decl n(x: number) .decl p(x: number, y: number)
         n(X) :- X = range(0, 520).
