@@ -8,7 +8,7 @@ use parry2d_f64::math::Vector as Vec2;
 use parry2d_f64::query::Ray;
 use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 
-use crate::geometry::{FloorPlan, SeenFace};
+use crate::geometry::{FloorPlan, SeenFace, nearest_on_segment};
 use crate::map::World;
 use crate::vectors::Segment;
 use crate::vectors::read::Scan;
@@ -30,9 +30,7 @@ impl Line {
 
     /// The nearest point of it.
     pub(crate) fn nearest(&self, p: Point2<f64>) -> Point2<f64> {
-        let along = self.end - self.start;
-        let share = (p - self.start).dot(&along) / along.norm_squared();
-        self.start + along * share.clamp(0.0, 1.0)
+        nearest_on_segment(p, self.start, self.end)
     }
 }
 

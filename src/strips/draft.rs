@@ -122,14 +122,11 @@ fn state_goal(draft: &mut Draft, mut goals: Vec<Case>) {
             draft.facts.push((GOAL_STEP.into(), Vec::new()));
             draft.goal = vec![(met, false)];
             for case in goals {
-                let part = |absent| {
-                    case.iter().filter(move |(_, negated)| *negated == absent).map(|&(n, _)| n)
-                };
                 draft.operators.push(DraftOperator {
                     name: GOAL_STEP.into(),
                     args: Vec::new(),
-                    preconditions: part(false).collect(),
-                    negative: part(true).collect(),
+                    preconditions: atoms_of(&case, false),
+                    negative: atoms_of(&case, true),
                     add_effects: vec![met],
                     del_effects: Vec::new(),
                     renewed: Vec::new(),
@@ -139,6 +136,11 @@ fn state_goal(draft: &mut Draft, mut goals: Vec<Case>) {
             }
         }
     }
+}
+
+/// The atoms that are there in a case, or those that are absent.
+fn atoms_of(case: &Case, absent: bool) -> Vec<u32> {
+    case.iter().filter(|(_, negated)| *negated == absent).map(|&(atom, _)| atom).collect()
 }
 
 /// Makes ground actions of instances.
@@ -205,10 +207,7 @@ impl Drafter<'_> {
             }
         }
         let operators = variants.into_iter().map(|Variant { case, adds, dels }| {
-            let part = |absent| {
-                case.iter().filter(move |(_, negated)| *negated == absent).map(|&(n, _)| n)
-            };
-            let mut operator = nameless(part(false).collect(), part(true).collect());
+            let mut operator = nameless(atoms_of(&case, false), atoms_of(&case, true));
             operator.add_effects.extend(adds);
             operator.del_effects.extend(dels);
             operator

@@ -489,11 +489,7 @@ impl<'a> Reachability<'a> {
     }
 
     pub(super) fn instantiate(&self, atom: &SchemaAtom, args: &[ThingId]) -> GroundAtom {
-        let value = |term: &SchemaTerm| match term {
-            SchemaTerm::Constant(name) => self.resolved.index[&name_key(name)],
-            SchemaTerm::Parameter(parameter) => args[*parameter as usize],
-        };
-        GroundAtom { predicate: atom.predicate, args: atom.args.iter().map(value).collect() }
+        self.objects.ground(atom, args)
     }
 }
 
