@@ -509,27 +509,82 @@ fn sessions_outlive_a_kill() {
     assert_eq!(operator.get("/api/state")["revision"], 2);
 }
 
-/// A judge of another make: what an operator does, done in a real Chromium. `.ci/run` says how it is installed.
+/// Assistants bear a token, and are kept out by the same gate as all others.
+#[test]
+fn an_assistant_without_the_token_is_kept_out() {
+    let token = "0123456789abcdef";
+    let console = Console::start(&["--demo", "--token", token]);
+    let hello =
+        json!({ "jsonrpc": "2.0", "id": 1, "method": "tools/list", "params": {} }).to_string();
+    let post = |host: &str, more: &str| {
+        let request = format!(
+            "POST /mcp HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nAccept: application/json, text/event-stream\r\n\
+             Content-Length: {}\r\nConnection: close\r\n{more}\r\n{hello}",
+            hello.len()
+        );
+        console.raw(request.as_bytes()).status
+    };
+    let bearer = format!("Authorization: Bearer {token}\r\n");
+    assert_eq!(post(&console.at, ""), 401);
+    assert_eq!(post(&console.at, "Authorization: Bearer 0123456789abcdee\r\n"), 401);
+    assert_eq!(post(&console.at, &format!("Authorization: Bearer {}\r\n", console.token)), 401);
+    assert_eq!(post(&console.at, &format!("{bearer}Origin: http://evil.example\r\n")), 403);
+    assert_eq!(post("evil.example", &bearer), 421);
+    // A cookie is the browser's, and drives no tools.
+    let cookie = console.operator().cookie;
+    assert_eq!(post(&console.at, &format!("Cookie: {cookie}\r\n")), 401);
+    assert!(![401, 403, 421].contains(&post(&console.at, &bearer)));
+}
+
+/// Programs of another make that speak to assistants' tools; `.ci/run` says how they are installed.
+#[test]
+fn an_assistant_works() {
+    judged(
+        "python3",
+        &["src/serve/judges/assistant.py".into(), env!("CARGO_BIN_EXE_ortho").into()],
+    );
+}
+
 #[test]
 #[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
+fn the_protocol_of_assistants_is_kept() {
+    let judges =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("target/judges/node_modules");
+    let node = judges.join(".bin/node");
+    let suite = judges.join("@modelcontextprotocol/conformance/dist/index.js");
+    if !node.exists() || !suite.exists() {
+        assert!(std::env::var_os("CI").is_none(), "the conformance suite is missing");
+        return println!("skipped: there is no conformance suite");
+    }
+    let text = |path: std::path::PathBuf| path.to_str().expect("a path in UTF-8").to_owned();
+    let ortho = env!("CARGO_BIN_EXE_ortho").to_owned();
+    let script = "src/serve/judges/conformance.py".to_owned();
+    judged("python3", &[script, ortho, text(node), text(suite)]);
+}
+
+/// What an operator does, done in a real Chromium.
+#[test]
 fn an_operator_works_in_a_browser() {
+    judged("python3", &["src/serve/judges/operator.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
+}
+
+/// Has a judge of another make, installed by `.ci/run`, look at the program. One that lacks what it needs leaves with 77.
+#[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
+fn judged(program: &str, arguments: &[String]) {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let done = Command::new("python3")
-        .arg(root.join("src/serve/judges/operator.py"))
-        .arg(env!("CARGO_BIN_EXE_ortho"))
-        .env("PYTHONPATH", root.join("target/judges"))
-        .output();
-    let Ok(done) = done else {
-        assert!(std::env::var_os("CI").is_none(), "python3 is missing");
-        return println!("skipped: there is no python3");
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(root).env("PYTHONPATH", root.join("target/judges"));
+    let Ok(done) = command.env_remove("ORTHO_STORE").output() else {
+        assert!(std::env::var_os("CI").is_none(), "{program} is missing");
+        return println!("skipped: there is no {program}");
     };
     let told = [done.stdout, done.stderr].concat();
     let told = String::from_utf8_lossy(&told);
     match done.status.code() {
         Some(0) => println!("{told}"),
         Some(77) => {
-            assert!(std::env::var_os("CI").is_none(), "the browser is missing");
-            println!("skipped: there is no browser");
+            assert!(std::env::var_os("CI").is_none(), "a judge is missing: {arguments:?}");
+            println!("skipped: {arguments:?}");
         }
         _ => panic!("{told}"),
     }

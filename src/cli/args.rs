@@ -216,6 +216,9 @@ pub(super) enum Command {
     /// The operator's console in the browser: the map, the robot on it live, talk, tasks, history and editing
     #[cfg(feature = "serve")]
     Serve(super::serve::ServeArgs),
+    /// The map and the robot for an assistant, by the Model Context Protocol on the standard streams (docs/assistants.md)
+    #[cfg(feature = "serve")]
+    Mcp(super::serve::McpArgs),
     /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
     Draw(DrawArgs),
 }

@@ -134,6 +134,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Store(command) => store::run(common, command),
         #[cfg(feature = "serve")]
         Command::Serve(args) => serve::run(common, args),
+        #[cfg(feature = "serve")]
+        Command::Mcp(args) => serve::assist(common, args),
         Command::Draw(args) => draw::run(common, args),
     }
 }

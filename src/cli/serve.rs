@@ -1,4 +1,4 @@
-//! `ortho serve`: the operator's console in the browser.
+//! `ortho serve`: the operator's console in the browser; `ortho mcp`: the same house for an assistant.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::engine::{Engine, change_now};
-use crate::serve::{Bounds, ServeError, Settings, run as serve};
+use crate::serve::{Bounds, ServeError, Settings, run as serve, run_for_assistant};
 
 use super::args::Common;
 use super::commands::{note_repairs, rules_dir, store_dir};
@@ -15,14 +15,33 @@ use super::fault::Failure;
 use super::signals::stopped_by_signals;
 use super::{Answer, say};
 
+/// What is opened, and how its robot drives.
 #[derive(Debug, Args)]
-pub(super) struct ServeArgs {
+pub(super) struct Opened {
     /// Serve this map file, in a store that lasts as long as the program
     #[arg(long, value_name = "FILE", conflicts_with = "demo")]
     map: Option<PathBuf>,
     /// The papers' flat with the simulated robot, in a store that lasts as long as the program unless --store names one
     #[arg(long)]
     demo: bool,
+    /// The simulated robot drives so many times as fast as the clock
+    #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = super::vehicle::pace)]
+    pace: f64,
+    /// An assistant that cannot ask its user is taken to do so by itself before each call that acts
+    #[arg(long)]
+    trust_client: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct McpArgs {
+    #[command(flatten)]
+    opened: Opened,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ServeArgs {
+    #[command(flatten)]
+    opened: Opened,
     /// Port; 0 takes a free one
     #[arg(long, default_value_t = 8430, value_name = "PORT")]
     port: u16,
@@ -35,48 +54,68 @@ pub(super) struct ServeArgs {
     /// A further name of this machine by which browsers may call it
     #[arg(long = "host", value_name = "NAME")]
     hosts: Vec<String>,
-    /// The simulated robot drives so many times as fast as the clock
-    #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = super::vehicle::pace)]
-    pace: f64,
 }
 
-pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> {
+/// The engine, and what both faces need of it. The folder lasts as long as the [`Scratch`].
+fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), Failure> {
     let lasts = common.store.is_some() || (args.map.is_none() && !args.demo);
     let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
     let store = if lasts { store_dir(common) } else { scratch.store.clone() };
     let rules = rules_dir(common);
-    let is_new = !store.is_dir();
     let mut engine = match args.map.is_some() || args.demo {
         true => Engine::open(&store, rules.as_deref())?,
         false => Engine::open_existing(&store, rules.as_deref())?,
     };
     note_repairs(&engine, common.lang);
     // What a store that lasts has become is not overwritten by what it once began with.
-    if is_new {
+    if engine.world().is_err() && (args.map.is_some() || args.demo) {
         let map = match &args.map {
             Some(map) => map.clone(),
             None => scratch.map()?,
         };
         engine.import(&map, &change_now(&common.user, "serve"))?;
     }
-    let loopback = IpAddr::V4(Ipv4Addr::LOCALHOST);
     let settings = Settings {
-        listen: SocketAddr::new(args.listen.unwrap_or(loopback), args.port),
-        hosts: args.hosts.clone(),
-        token: args.token.clone(),
+        listen: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0),
+        hosts: Vec::new(),
+        token: None,
         user: common.user.clone(),
         rules,
         sessions: lasts.then(|| beside(&store)),
         pace: args.pace,
         is_demo: args.demo,
         bounds: Bounds::default(),
+        store: lasts.then_some(store),
+        trusts_host: args.trust_client,
+    };
+    Ok((engine, settings, scratch))
+}
+
+pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> {
+    let (engine, settings, _scratch) = open(common, &args.opened)?;
+    let ip = args.listen.unwrap_or(settings.listen.ip());
+    let settings = Settings {
+        listen: SocketAddr::new(ip, args.port),
+        hosts: args.hosts.clone(),
+        token: args.token.clone(),
+        ..settings
     };
     let told = |address: &str| {
         let text = common.lang.pick("Откройте в браузере:", "Open in a browser:");
         // Whoever reads no output can still be served.
         let _ = say(&format!("{text} {address}"));
     };
-    match serve(engine, settings, &stopped_by_signals(), told) {
+    came_to(serve(engine, settings, &stopped_by_signals(), told))
+}
+
+/// Speaks the Model Context Protocol on the standard streams.
+pub(super) fn assist(common: &Common, args: &McpArgs) -> Result<Answer, Failure> {
+    let (engine, settings, _scratch) = open(common, &args.opened)?;
+    came_to(run_for_assistant(engine, settings, &stopped_by_signals()))
+}
+
+fn came_to(served: Result<(), ServeError>) -> Result<Answer, Failure> {
+    match served {
         Ok(()) => Ok(Answer::Yes),
         Err(ServeError::Engine(error)) => Err((*error).into()),
         Err(error) => Err(Failure::output(&std::io::Error::other(error.to_string()))),

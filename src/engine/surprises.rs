@@ -53,11 +53,19 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             Language::Russian => format!("{}: «{thing}» не видно", said(Entity::Area(*area))),
             Language::English => format!("{thing} is not seen in {}", said(Entity::Area(*area))),
         },
-        Surprise::NoReturn { door, area } => {
+        Surprise::NoReturn { door, area, by } => {
             let (door, room) = (said(Entity::Door(*door)), said(Entity::Area(*area)));
+            let (ru, en) = match by.map(thing) {
+                Some(by) => {
+                    (format!("створке мешает {by}"), format!("{by} is in the way of the leaf"))
+                }
+                None => {
+                    ("там ему негде встать".to_owned(), "it has no place to stand there".to_owned())
+                }
+            };
             language.pick(
-                format!("закрыв {door}, робот не сможет открыть её снова из «{room}»: там ему негде встать"),
-                format!("once {door} is shut, the robot could not open it again from {room}: it has no place to stand there"),
+                format!("закрыв {door}, робот не сможет открыть её снова из «{room}»: {ru}"),
+                format!("once {door} is shut, the robot could not open it again from {room}: {en}"),
             )
         }
         Surprise::Unknown { name } => match language {

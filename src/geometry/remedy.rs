@@ -152,6 +152,12 @@ impl FloorPlan {
         !strikes_robot && self.strike(world, door).is_none()
     }
 
+    /// What a door's leaves strike first on their way to standing wide open.
+    #[must_use]
+    pub fn struck_by(&self, world: &World, door: DoorId) -> Option<Blocker> {
+        self.strike(world, door).map(|strike| strike.against)
+    }
+
     /// What a door's leaves strike first when it is opened: things, and leaves of other doors.
     fn strike(&self, world: &World, door: DoorId) -> Option<Strike<Blocker>> {
         let model = world.doors.get(&door)?;

@@ -97,8 +97,9 @@ pub enum Surprise {
     Unknown { name: String },
     /// A thing that is sought is in view of no place of this Area.
     NotSeen { thing: String, area: AreaId },
-    /// Once it is shut, the robot has no place in this Area from which it could open the door again.
-    NoReturn { door: DoorId, area: AreaId },
+    /// Once it is shut, the robot could not open the door again from this Area: something stops its leaves, or there is no
+    /// place to stand.
+    NoReturn { door: DoorId, area: AreaId, by: Option<Obstruction> },
 }
 
 /// How a mission ended.
@@ -441,7 +442,7 @@ impl<'r> Mission<'r> {
             Surprise::Noticed { .. } => true,
             Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
             Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
-            Surprise::NoReturn { door, area } => {
+            Surprise::NoReturn { door, area, .. } => {
                 let door = self.belief.world.name(Entity::Door(*door)).to_owned();
                 self.belief.no_return_by(*area, door)
             }

@@ -58,7 +58,7 @@ pub(super) fn rehearse(
     let name = |door| trial.belief.world.name(Entity::Door(door)).to_owned();
     let known = match &surprise {
         Surprise::NoWay { to, .. } => Known::NoWay(area, to.clone()),
-        Surprise::NoReturn { door, area } => Known::NoReturn(*area, name(*door)),
+        Surprise::NoReturn { door, area, .. } => Known::NoReturn(*area, name(*door)),
         Surprise::Refused { refusal: Refusal::DoorJammed { door, .. }, .. } => {
             let state = trial.belief.world.doors.get(door).map(|d| d.state.status);
             // What stands open and cannot be shut from here may be from its other side, and is a way all the same.

@@ -94,7 +94,7 @@ pub(super) async fn confirm(
     let by = session.clone();
     match apart(move || Ok(asked.tasks.confirm(&by, id))).await? {
         Ok(view) => Ok(Json(view)),
-        Err(Declined::Expired(again, revision)) => {
+        Err(Declined::Expired(again)) => {
             let fault = Fault::new(
                 StatusCode::CONFLICT,
                 "serve::expired",
@@ -104,7 +104,7 @@ pub(super) async fn confirm(
             let text = json!(again.replies);
             let plan = again.plan.map(|plan| {
                 let said = plan["said"].as_str().unwrap_or_default().to_owned();
-                house.tasks.propose_anew(&session, &said, plan, revision)
+                house.tasks.propose_anew(&session, &said, plan)
             });
             Err(fault.with("task", json!(plan)).with("replies", text))
         }
@@ -115,7 +115,7 @@ pub(super) async fn confirm(
 impl From<Declined> for Fault {
     fn from(declined: Declined) -> Self {
         match declined {
-            Declined::Unknown | Declined::Expired(..) => unknown(),
+            Declined::Unknown | Declined::Expired(_) => unknown(),
             Declined::Leased { holder, seconds } => Self::new(
                 StatusCode::CONFLICT,
                 "serve::leased",
@@ -124,12 +124,18 @@ impl From<Declined> for Fault {
             )
             .with("holder", json!(holder))
             .with("seconds", json!(seconds)),
+            Declined::Busy => Self::new(
+                StatusCode::CONFLICT,
+                "serve::busy",
+                "Робот занят; когда закончит, составьте план снова.",
+                "The robot is busy; plan again when it is done.",
+            ),
             Declined::Failed(error) => Self::of(&error, None),
         }
     }
 }
 
-fn unknown() -> Fault {
+pub(super) fn unknown() -> Fault {
     Fault::new(
         StatusCode::NOT_FOUND,
         "serve::no_such_task",
@@ -263,7 +269,18 @@ pub(super) async fn edit(
     let change = by(&session, &edit.reason);
     let mode = if edit.r#try { Mode::DryRun } else { Mode::Commit };
     let text = Value::Object(edit.text).to_string();
-    write(&house, edit.on, move |engine| {
+    edited(&house, edit.on, text, change, mode).await.map(Json)
+}
+
+/// Tries or writes an edit that was made on a revision.
+pub(super) async fn edited(
+    house: &House,
+    on: u64,
+    text: String,
+    change: Change,
+    mode: Mode,
+) -> Result<Value, Fault> {
+    let written = write(house, on, move |engine| {
         let edited = engine.edit(&Source::new("правка", text), Format::Json, &change, mode)?;
         let warnings: Vec<Value> = edited
             .warnings
@@ -278,8 +295,8 @@ pub(super) async fn edit(
             "left_behind": edited.left_behind,
             "warnings": warnings,
         }))
-    })
-    .await
+    });
+    written.await.map(|Json(view)| view)
 }
 
 fn reported(outcome: &str, report: &ImportReport) -> Value {

@@ -7,13 +7,13 @@
 //! **Invariant.** One task is driven at a time. A stop needs no lease, and is raised by no queue.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Dialogue, Engine, Error, Event, Outcome, Progress, Reply, State, TaskEvents, json,
+    Dialogue, Engine, Error, Event, Outcome, Progress, Reply, State, TaskEvent, TaskEvents, json,
 };
 use crate::robot::Moment;
 use crate::units::{Language, Stop};
@@ -53,7 +53,10 @@ struct Task {
     before: Dialogue,
     /// Of the state for which the plan was made.
     revision: u64,
+    state: Weak<State>,
     plan: Value,
+    /// Where the world turns out to differ, the robot stops: no other plan was agreed to.
+    is_strict: bool,
 }
 
 #[derive(Debug, Default)]
@@ -93,9 +96,18 @@ pub(super) enum Declined {
         holder: String,
         seconds: u64,
     },
-    /// The map changed since it was planned; this is the plan now, if there is one.
-    Expired(Box<Rehearsed>, u64),
+    /// The map, or what the plan rested on, changed since it was planned; this is the plan now, if there is one.
+    Expired(Box<Rehearsed>),
+    /// The robot drives, or something waits before it.
+    Busy,
     Failed(Box<Error>),
+}
+
+/// What came of a line that was to be a question.
+#[derive(Debug)]
+pub(super) enum Answered {
+    Told(Value),
+    IsOrder,
 }
 
 /// See the head of this file.
@@ -152,7 +164,7 @@ impl Tasks {
         let planned = heard.plan.is_some();
         let mut view = json!({ "replies": heard.replies, "revision": state.revision() });
         if let Some(plan) = heard.plan {
-            view["task"] = self.propose(session, text, before, plan, state.revision());
+            view["task"] = self.propose(session, text, before, plan, &state);
         }
         if let Some(robot) = self.under_way(language) {
             view["caution"] = robot;
@@ -176,18 +188,51 @@ impl Tasks {
         Some(json!([known, place.as_deref().unwrap_or_default()].join(" ").trim()))
     }
 
+    /// Answers a question of whoever speaks. An order is not followed, and not planned.
+    ///
+    /// # Errors
+    /// There is no map, or the disk refused.
+    pub(super) fn answer(
+        &self,
+        session: &Session,
+        text: &str,
+        language: Language,
+    ) -> Result<Answered, Error> {
+        let state = self.desk.state();
+        let before = match self.book().talks.get(&session.number) {
+            Some(dialogue) => dialogue.apart(),
+            None => Dialogue::new(language),
+        };
+        let heard = rehearse(&state, &before, text)?;
+        if heard.plan.is_some() || heard.stops {
+            return Ok(Answered::IsOrder);
+        }
+        let mut view = json!({ "replies": heard.replies, "revision": state.revision() });
+        if let Some(robot) = self.under_way(language) {
+            view["caution"] = robot;
+        }
+        self.book().talks.insert(session.number, heard.dialogue);
+        Ok(Answered::Told(view))
+    }
+
+    /// A plan that waits for a word.
+    pub(super) fn planned(&self, id: u64) -> Option<Value> {
+        self.book().planned.get(&id).map(|task| task.view("planned"))
+    }
+
     fn propose(
         &self,
         session: &Session,
         text: &str,
         before: Dialogue,
         plan: Value,
-        revision: u64,
+        state: &Arc<State>,
     ) -> Value {
         let mut book = self.book();
         book.next += 1;
         let (id, text, by) = (book.next, text.to_owned(), session.clone());
-        let task = Task { id, text, by, before, revision, plan };
+        let (revision, state) = (state.revision(), Arc::downgrade(state));
+        let task = Task { id, text, by, before, revision, state, plan, is_strict: false };
         let view = task.view("planned");
         book.planned.insert(id, task);
         while book.planned.len() > REMEMBERED {
@@ -242,14 +287,45 @@ impl Tasks {
     /// # Errors
     /// See [`Declined`].
     pub(super) fn confirm(&self, session: &Session, id: u64) -> Result<Value, Declined> {
+        self.begin_when_its_turn_comes(session, id, false)
+    }
+
+    /// The same for a plan to which nothing may be added: the robot stands, and nothing waits.
+    ///
+    /// # Errors
+    /// See [`Declined`].
+    pub(super) fn confirm_alone(&self, session: &Session, id: u64) -> Result<Value, Declined> {
+        let is_busy = {
+            let book = self.book();
+            book.running.is_some() || !book.queue.is_empty()
+        };
+        if is_busy {
+            Err(Declined::Busy)
+        } else {
+            self.begin_when_its_turn_comes(session, id, true)
+        }
+    }
+
+    fn begin_when_its_turn_comes(
+        &self,
+        session: &Session,
+        id: u64,
+        is_strict: bool,
+    ) -> Result<Value, Declined> {
         self.lease(session)?;
-        let Some(task) = self.book().planned.remove(&id) else { return Err(Declined::Unknown) };
+        let Some(mut task) = self.book().planned.remove(&id) else { return Err(Declined::Unknown) };
         let state = self.desk.state();
-        if state.revision() != task.revision {
+        let is_same_state = task.state.upgrade().is_some_and(|then| Arc::ptr_eq(&then, &state));
+        if !is_same_state {
+            // What was seen since need not change the map, and yet may change the plan.
             let again = rehearse(&state, &task.before, &task.text);
             let again = again.map_err(|error| Declined::Failed(Box::new(error)))?;
-            return Err(Declined::Expired(Box::new(again), state.revision()));
+            let is_same = again.plan.as_ref().is_some_and(|plan| is_same_plan(plan, &task.plan));
+            if state.revision() != task.revision || !is_same {
+                return Err(Declined::Expired(Box::new(again)));
+            }
         }
+        task.is_strict = is_strict;
         let view = task.view("queued");
         self.book().queue.push_back(task);
         self.wake.notify_all();
@@ -258,18 +334,12 @@ impl Tasks {
     }
 
     /// Makes a task of a plan that was made anew.
-    pub(super) fn propose_anew(
-        &self,
-        session: &Session,
-        text: &str,
-        plan: Value,
-        revision: u64,
-    ) -> Value {
+    pub(super) fn propose_anew(&self, session: &Session, text: &str, plan: Value) -> Value {
         let before = match self.book().talks.get(&session.number) {
             Some(dialogue) => dialogue.apart(),
             None => Dialogue::default(),
         };
-        self.propose(session, text, before, plan, revision)
+        self.propose(session, text, before, plan, &self.desk.state())
     }
 
     /// Drops a plan or a queued task; one that is driven is stopped. False where there is none.
@@ -394,7 +464,7 @@ impl Tasks {
         let mut dialogue = task.before.apart();
         dialogue.stopped_by(stop.clone());
         let mut engine = Engine::beside(self.desk.state());
-        let mut drive = Drive::new(self, task.id, stop);
+        let mut drive = Drive { is_strict: task.is_strict, ..Drive::new(self, task.id, stop) };
         let heard = dialogue.hear(&mut engine, &task.text, &mut |engine, event| {
             drive.follow(engine, event);
         });
@@ -435,6 +505,14 @@ impl Tasks {
         self.end(&view);
     }
 
+    /// Stops a task that is driven, for a reason.
+    fn stop_for(&self, id: u64, why: &str) {
+        if let Some(running) = self.book().running.as_mut().filter(|running| running.id == id) {
+            running.stop.raise();
+            running.why.get_or_insert_with(|| why.to_owned());
+        }
+    }
+
     /// Whether who has the robot driven is still there.
     fn is_leased(&self) -> bool {
         let mut book = self.book();
@@ -471,6 +549,24 @@ impl Task {
             "revision": self.revision, "plan": self.plan,
         })
     }
+}
+
+/// Whether two plans do the same, and rest on the same.
+fn is_same_plan(one: &Value, other: &Value) -> bool {
+    let planned = |plan: &Value| -> Vec<(Value, Value)> {
+        let events = plan["events"].as_array().into_iter().flatten();
+        let planned = events.filter(|event| event["event"] == "planned");
+        planned.map(|event| (event["steps"].clone(), event["assumptions"].clone())).collect()
+    };
+    planned(one) == planned(other) && one["assumptions"] == other["assumptions"]
+}
+
+/// What is replied to a line that is heard apart, and by nobody else.
+///
+/// # Errors
+/// There is no map, or the disk refused.
+pub(super) fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
+    rehearse(state, &Dialogue::new(language), text).map(|heard| json!(heard.replies))
 }
 
 /// Hears a line apart: what it answers, and what it would have the robot do.
@@ -535,12 +631,15 @@ struct Drive<'t> {
     passed: f64,
     told: Instant,
     failure: Option<String>,
+    /// See [`Task::is_strict`].
+    is_strict: bool,
 }
 
 impl<'t> Drive<'t> {
     fn new(tasks: &'t Tasks, id: u64, stop: Stop) -> Self {
         let (events, told) = (TaskEvents::default(), Instant::now());
-        Self { tasks, id, stop, events, clock: None, passed: 0.0, told, failure: None }
+        let (clock, passed, failure) = (None, 0.0, None);
+        Self { tasks, id, stop, events, clock, passed, told, failure, is_strict: false }
     }
 
     fn follow(&mut self, engine: &Engine, event: &Event<'_>) {
@@ -557,6 +656,9 @@ impl<'t> Drive<'t> {
                     _ => {}
                 }
                 if let Some(event) = self.events.of(world, progress) {
+                    if self.is_strict && matches!(event, TaskEvent::Replanned(_)) {
+                        self.tasks.stop_for(self.id, "surprise");
+                    }
                     let mut view = json!(event);
                     view["task"] = json!(self.id);
                     self.tasks.events.tell("directive", &view);

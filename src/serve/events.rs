@@ -102,6 +102,35 @@ impl Events {
     }
 }
 
+/// Up to where one who listens within the program has heard.
+#[derive(Debug)]
+pub(super) struct Hearing {
+    number: u64,
+    last: watch::Receiver<u64>,
+}
+
+impl Events {
+    /// Begins to listen: to what is told from now on.
+    #[must_use]
+    pub(super) fn listen(&self) -> Hearing {
+        let mut last = self.last.subscribe();
+        let number = *last.borrow_and_update();
+        Hearing { number, last }
+    }
+
+    /// Waits until something is told: kinds and data, in order. What was forgotten meanwhile is left out.
+    pub(super) async fn next(&self, hearing: &mut Hearing) -> Vec<(&'static str, String)> {
+        // The sender lives as long as the events.
+        let _ = hearing.last.changed().await;
+        let now = *hearing.last.borrow_and_update();
+        let happened =
+            self.since(hearing.number).unwrap_or_else(|| self.kept().iter().cloned().collect());
+        hearing.number = now;
+        let until_now = happened.into_iter().filter(|h| h.number <= now);
+        until_now.map(|h| (h.kind, h.data)).collect()
+    }
+}
+
 /// What one listener was told so far.
 struct Listener<E> {
     events: E,

@@ -29,6 +29,12 @@ impl Fault {
         Self { status, body }
     }
 
+    /// What is sent: code, message, help, in both languages.
+    #[must_use]
+    pub(super) fn body(&self) -> &Value {
+        &self.body
+    }
+
     /// With what else is to be known.
     #[must_use]
     pub(super) fn with(mut self, field: &str, value: Value) -> Self {

@@ -12,7 +12,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use axum::http::header::{COOKIE, HOST, ORIGIN};
+use axum::http::header::{AUTHORIZATION, COOKIE, HOST, ORIGIN};
 use axum::http::{HeaderMap, Method, Uri};
 use serde::{Deserialize, Serialize};
 use subtle::ConstantTimeEq as _;
@@ -40,6 +40,14 @@ pub(super) struct Session {
     pub role: Role,
     /// The author of what is done here.
     pub name: String,
+}
+
+impl Session {
+    /// One that came by no cookie.
+    #[must_use]
+    pub(super) fn of(number: u64, role: Role, name: &str) -> Self {
+        Self { secret: String::new(), number, role, name: name.to_owned() }
+    }
 }
 
 #[derive(Debug)]
@@ -206,6 +214,28 @@ impl Gate {
             _ => false,
         };
         if is_from_here && is_same_site { Ok(()) } else { Err(Refused::Origin) }
+    }
+
+    /// Whoever bears a token that lasts (`Authorization: Bearer …`). A page of another site cannot say this header without
+    /// being asked first, so a request that bears one needs no `Origin`; one that names a foreign one is refused.
+    ///
+    /// # Errors
+    /// [`Refused::Stranger`], [`Refused::Origin`].
+    pub(super) fn bearer(&self, headers: &HeaderMap) -> Result<Session, Refused> {
+        let own = |origin: &str| {
+            let host = headers.get(HOST).and_then(|host| host.to_str().ok()).unwrap_or("?");
+            origin.eq_ignore_ascii_case(&format!("http://{host}"))
+        };
+        if !headers.get_all(ORIGIN).iter().all(|origin| origin.to_str().is_ok_and(own)) {
+            return Err(Refused::Origin);
+        }
+        let told = headers.get(AUTHORIZATION).and_then(|value| value.to_str().ok());
+        let told = told.and_then(|value| value.strip_prefix("Bearer ")).ok_or(Refused::Stranger)?;
+        let inside = self.inside();
+        let lasting = inside.tokens.iter().filter(|token| token.lasts);
+        let found = lasting.into_iter().find(|token| is_same(&token.secret, told.trim()));
+        let found = found.ok_or(Refused::Stranger)?;
+        Ok(Session::of(0, found.role, &found.name))
     }
 
     /// The session whose cookie a request bears.

@@ -11,6 +11,7 @@
 //! - An edit names the revision that it was made on; where another came first, it is not written and comes back whole.
 
 mod act;
+mod assist;
 mod desk;
 mod drawing;
 mod drive;
@@ -29,9 +30,11 @@ use std::time::Duration;
 use crate::engine::{Engine, Error};
 use crate::units::Stop;
 
+pub use assist::run as run_for_assistant;
 pub use gate::Role;
 pub use listen::Bounds;
 
+use assist::Assistant;
 use desk::Desk;
 use drive::Tasks;
 use events::Events;
@@ -56,6 +59,10 @@ pub struct Settings {
     pub pace: f64,
     pub is_demo: bool,
     pub bounds: Bounds,
+    /// The store's folder, where it outlives the program.
+    pub store: Option<PathBuf>,
+    /// Programs that call as assistants ask their user by themselves before anything is done.
+    pub trusts_host: bool,
 }
 
 /// All that answers share.
@@ -67,6 +74,20 @@ struct House {
     tasks: Arc<Tasks>,
     rules: Option<PathBuf>,
     is_demo: bool,
+}
+
+impl House {
+    /// Moves an engine into a house of its own, where nobody is inside yet.
+    fn open(engine: Engine, settings: &Settings, at: SocketAddr) -> Result<Arc<Self>, ServeError> {
+        let run = gate::random().map_err(|source| ServeError::Listen { at, source })?;
+        let events = Arc::new(Events::new(&run[..8]));
+        let desk = Desk::open(engine, Arc::clone(&events)).map_err(Box::new)?;
+        let desk = Arc::new(desk);
+        let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), settings.pace);
+        let gate = Gate::new(at, &settings.hosts, settings.sessions.clone());
+        let (rules, is_demo) = (settings.rules.clone(), settings.is_demo);
+        Ok(Arc::new(Self { gate, desk, events, tasks, rules, is_demo }))
+    }
 }
 
 /// Why nothing is served.
@@ -101,31 +122,24 @@ pub fn run(
     if !at.ip().is_loopback() && lasting.is_none() {
         return Err(ServeError::Open { at });
     }
-    let run = gate::random().map_err(failed)?;
-    let events = Arc::new(Events::new(&run[..8]));
-    let desk = Desk::open(engine, Arc::clone(&events)).map_err(Box::new)?;
-    let desk = Arc::new(desk);
-    let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), settings.pace);
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(failed)?;
+    let bound = runtime.block_on(async {
+        let listener = tokio::net::TcpListener::bind(at).await?;
+        listener.local_addr().map(|at| (listener, at))
+    });
+    let (listener, at) = bound.map_err(failed)?;
+    let house = House::open(engine, &settings, at)?;
+    let tasks = Arc::clone(&house.tasks);
     let served = runtime.block_on(async {
-        let listener = tokio::net::TcpListener::bind(at).await.map_err(failed)?;
-        let at = listener.local_addr().map_err(failed)?;
-        let gate = Gate::new(at, &settings.hosts, settings.sessions);
         if let Some(token) = lasting {
-            gate.trust(token, Role::Edit, &settings.user);
+            house.gate.trust(token, Role::Edit, &settings.user);
         }
-        let token = gate.invite(Role::Edit, &settings.user).map_err(failed)?;
-        let house = Arc::new(House {
-            gate,
-            desk,
-            events,
-            tasks: Arc::clone(&tasks),
-            rules: settings.rules,
-            is_demo: settings.is_demo,
-        });
+        let token = house.gate.invite(Role::Edit, &settings.user).map_err(failed)?;
         tell(&format!("http://{at}/?token={token}"));
-        let app = routes::router(&house);
+        let assistant =
+            Assistant::new(Arc::clone(&house), settings.store.as_deref(), settings.trusts_host);
+        let app = routes::router(&house, &assistant);
         tokio::select! {
             never = listen::serve(listener, app, settings.bounds) => match never {},
             () = raised(stop) => Ok(()),

@@ -152,7 +152,7 @@ pub(super) async fn drawing(Of(house): Of<Arc<House>>, Query(which): Query<Which
 }
 
 /// The state as it was at a revision: the map alone.
-async fn then(house: &House, revision: u64) -> Result<Arc<State>, Fault> {
+pub(super) async fn then(house: &House, revision: u64) -> Result<Arc<State>, Fault> {
     let world =
         house.desk.ask(move |engine| engine.store()?.world_as_of(revision).map_err(Error::from));
     let world = world.await??;
@@ -187,7 +187,7 @@ pub(super) async fn thing(Of(house): Of<Arc<House>>, Query(asked): Query<Named>)
     apart(move || about(&state, &asked.name, language(asked.lang.as_deref()))).await.map(Json)
 }
 
-fn about(state: &State, name: &str, language: Language) -> Result<Value, Error> {
+pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Value, Error> {
     let (world, relations) = (state.world()?, state.relations()?);
     let entity = state.find(name)?;
     let name = world.name(entity).to_owned();
@@ -291,13 +291,23 @@ fn believed(state: &State, found: &Believed) -> Result<Value, Error> {
 /// Why a relation holds or does not, down to what was measured.
 pub(super) async fn why(Of(house): Of<Arc<House>>, Query(fact): Query<Fact>) -> Answer {
     let state = house.desk.state();
-    apart(move || reasons(&state, &fact)).await.map(Json)
+    let language = language(fact.lang.as_deref());
+    apart(move || {
+        let of: Vec<&str> = fact.of.split(',').filter(|name| !name.is_empty()).collect();
+        reasons(&state, &fact.relation, &of, language)
+    })
+    .await
+    .map(Json)
 }
 
-fn reasons(state: &State, fact: &Fact) -> Result<Value, Error> {
-    let language = language(fact.lang.as_deref());
+/// The proof of a relation, or the rule that came closest.
+pub(super) fn reasons(
+    state: &State,
+    relation: &str,
+    of: &[&str],
+    language: Language,
+) -> Result<Value, Error> {
     let relations = state.relations()?;
-    let of: Vec<&str> = fact.of.split(',').filter(|name| !name.is_empty()).collect();
     let compared = |premises: &[Premise]| -> Vec<Value> {
         let measure = |premise: &Premise| match premise {
             Premise::Compared { text, left, op, right } => Some(json!({
@@ -307,7 +317,7 @@ fn reasons(state: &State, fact: &Fact) -> Result<Value, Error> {
         };
         premises.iter().filter_map(measure).collect()
     };
-    if let Some(proof) = relations.why(&fact.relation, &of)? {
+    if let Some(proof) = relations.why(relation, of)? {
         let step = |step: &crate::facts::ProofStep| {
             let mut view = json!({
                 "relation": relations.display_name(&step.fact.name, language),
@@ -327,7 +337,7 @@ fn reasons(state: &State, fact: &Fact) -> Result<Value, Error> {
         let steps: Vec<Value> = proof.steps.iter().map(step).collect();
         return Ok(json!({ "holds": true, "steps": steps }));
     }
-    Ok(match relations.why_not(&fact.relation, &of)? {
+    Ok(match relations.why_not(relation, of)? {
         WhyNot::Nearest(rule) => {
             let failed = rule.premises.iter().filter(|(_, holds)| *holds == Some(false));
             let failed: Vec<Premise> = failed.map(|(premise, _)| premise.clone()).collect();
@@ -380,6 +390,10 @@ pub(super) async fn complete(Of(house): Of<Arc<House>>, Query(begun): Query<Begu
 
 /// All revisions, the oldest first.
 pub(super) async fn history(Of(house): Of<Arc<House>>) -> Answer {
+    revisions(&house).await.map(Json)
+}
+
+pub(super) async fn revisions(house: &House) -> Result<Value, Fault> {
     let all = house.desk.ask(|engine| engine.revisions()).await??;
     let one = |r: &Revision| {
         json!({
@@ -388,17 +402,20 @@ pub(super) async fn history(Of(house): Of<Arc<House>>) -> Answer {
             "changed": r.counts.changed, "deleted": r.counts.deleted,
         })
     };
-    Ok(Json(json!({ "revisions": all.iter().map(one).collect::<Vec<_>>() })))
+    Ok(json!({ "revisions": all.iter().map(one).collect::<Vec<_>>() }))
 }
 
 /// What changed between two revisions.
 pub(super) async fn diff(Of(house): Of<Arc<House>>, Query(between): Query<Between>) -> Answer {
-    let (from, to) = (between.from, between.to);
+    changed(&house, between.from, between.to).await.map(Json)
+}
+
+pub(super) async fn changed(house: &House, from: u64, to: Option<u64>) -> Result<Value, Fault> {
     let all = house.desk.ask(move |engine| {
         let to = to.unwrap_or_else(|| engine.revision());
         engine.diff(When::Revision(from), When::Revision(to))
     });
-    Ok(Json(json!({ "from": from, "to": to, "differences": differences(&all.await??) })))
+    Ok(json!({ "from": from, "to": to, "differences": differences(&all.await??) }))
 }
 
 /// Differences with their subjects, as `ortho diff --json` gives them.
@@ -429,9 +446,13 @@ pub(super) fn differences(all: &[Difference]) -> Vec<Value> {
 
 /// What is believed to stand elsewhere than the map has it.
 pub(super) async fn proposals(Of(house): Of<Arc<House>>) -> Answer {
+    proposed(&house).await.map(Json)
+}
+
+pub(super) async fn proposed(house: &House) -> Result<Value, Fault> {
     let found = house.desk.ask(|engine| {
         let all = engine.proposals(std::time::SystemTime::now().into())?;
         all.iter().map(|one| believed(engine, one)).collect::<Result<Vec<_>, Error>>()
     });
-    Ok(Json(json!({ "proposals": found.await?? })))
+    Ok(json!({ "proposals": found.await?? }))
 }

@@ -15,6 +15,10 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{MethodRouter, get, post};
 use axum::{Extension, Router};
 
+use rmcp::transport::streamable_http_server::session::local::LocalSessionManager;
+use rmcp::transport::{StreamableHttpServerConfig, StreamableHttpService};
+
+use super::assist::Assistant;
 use super::fault::Fault;
 use super::gate::{Refused, Role, Session};
 use super::{House, act, events, read};
@@ -94,7 +98,7 @@ const PAGE: &[(&str, &str, &[u8])] = &[
 ];
 
 /// The server's answers, behind its gate.
-pub(super) fn router(house: &Arc<House>) -> Router {
+pub(super) fn router(house: &Arc<House>, assistant: &Assistant) -> Router {
     let mut api = Router::new();
     for (_, path, role, answer) in ROUTES {
         let needs = *role;
@@ -104,13 +108,37 @@ pub(super) fn router(house: &Arc<House>) -> Router {
         api = api.route(path, answer().route_layer(check));
     }
     let api = api.route_layer(from_fn_with_state(Arc::clone(house), known));
-    let mut all = api;
+    let mut all = api.merge(assistants(house, assistant));
     for (path, kind, bytes) in PAGE {
         all = all.route(path, get(move || async move { ([(CONTENT_TYPE, *kind)], *bytes) }));
     }
     all.layer(DefaultBodyLimit::max(BODY))
         .layer(from_fn_with_state(Arc::clone(house), guard))
         .with_state(Arc::clone(house))
+}
+
+/// Where assistants call, by the Model Context Protocol; let in by a token that lasts.
+const ASSISTANTS: &str = "/mcp";
+
+fn assistants(house: &Arc<House>, assistant: &Assistant) -> Router<Arc<House>> {
+    let assistant = assistant.clone();
+    // Hosts and origins are the gate's business.
+    let config = StreamableHttpServerConfig::default().disable_allowed_hosts();
+    let sessions = Arc::new(LocalSessionManager::default());
+    let service = StreamableHttpService::new(move || Ok(assistant.clone()), sessions, config);
+    let bears = from_fn_with_state(Arc::clone(house), bears);
+    Router::new().route_service(ASSISTANTS, service).route_layer(bears)
+}
+
+/// Lets pass who bears a token.
+async fn bears(Of(house): Of<Arc<House>>, mut request: Request, next: Next) -> Response {
+    match house.gate.bearer(request.headers()) {
+        Ok(session) => {
+            request.extensions_mut().insert(session);
+            next.run(request).await
+        }
+        Err(refused) => refused.into_response(),
+    }
 }
 
 impl IntoResponse for Refused {
@@ -149,6 +177,8 @@ async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Respo
         Err(refused) => refused.into_response(),
         // What says that it is too large is not waited for.
         Ok(()) if says_too_much(request.headers()) => StatusCode::PAYLOAD_TOO_LARGE.into_response(),
+        // A drive may take longer than any other answer, and tells of itself meanwhile.
+        Ok(()) if request.uri().path() == ASSISTANTS => next.run(request).await,
         Ok(()) => match token(request.uri()) {
             Some(token) => enter(&house, &token),
             None => match tokio::time::timeout(PATIENCE, next.run(request)).await {
@@ -181,7 +211,8 @@ fn says_too_much(headers: &HeaderMap) -> bool {
 /// The page itself may be opened from anywhere: it shows nothing without a cookie that other sites do not send.
 fn came_from(house: &House, request: &Request) -> Result<(), Refused> {
     let opens_page = request.method() == axum::http::Method::GET && request.uri().path() == "/";
-    if opens_page {
+    // Assistants bear a token, which `bears` looks at.
+    if opens_page || request.uri().path() == ASSISTANTS {
         return Ok(());
     }
     house.gate.check_origin(request.method(), request.headers())
@@ -229,13 +260,16 @@ async fn may(
     if session.role >= needs {
         return next.run(request).await;
     }
+    role_is_not_enough().into_response()
+}
+
+pub(super) fn role_is_not_enough() -> Fault {
     Fault::new(
         StatusCode::FORBIDDEN,
         "serve::role",
         "Для этого вашей роли мало.",
         "Your role is not enough for this.",
     )
-    .into_response()
 }
 
 async fn described() -> impl IntoResponse {

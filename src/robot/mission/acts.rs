@@ -2,7 +2,7 @@
 
 use crate::belief::Station;
 use crate::directive::Deed;
-use crate::geometry::{DoorStates, Method, NoRoute, Ride, Target};
+use crate::geometry::{Blocker, DoorStates, Method, NoRoute, Ride, Target};
 use crate::map::{DoorState, DoorStatus, Entity};
 use crate::placing::{spot_in, spot_on, spot_on_floor};
 use crate::reins::Reins;
@@ -235,8 +235,10 @@ impl Mission<'_> {
             DoorStatus::Locked => DoorState::LOCKED,
         };
         let area = self.belief.area;
-        if state.status != DoorStatus::Open && !self.could_open_again(door, area) {
-            return Err(Surprise::NoReturn { door, area }.into());
+        if state.status != DoorStatus::Open
+            && let Err(by) = self.could_open_again(door, area)
+        {
+            return Err(Surprise::NoReturn { door, area, by }.into());
         }
         let set = reins.act(|vehicle, watch| vehicle.set_door(door, state, watch));
         set.map_err(|r| refused(r, reins))?;
@@ -245,12 +247,12 @@ impl Mission<'_> {
     }
 
     /// Whether the robot, where it stands, could open a door again once it is shut: it gets to the place before the door on
-    /// its own side, and stands there out of the way of the leaves.
-    fn could_open_again(&self, door: DoorId, area: AreaId) -> bool {
+    /// its own side, and stands there out of the way of the leaves, which nothing stops. What stops them, where not.
+    fn could_open_again(&self, door: DoorId, area: AreaId) -> Result<(), Option<Obstruction>> {
         let belief = &self.belief;
-        let Some(model) = belief.world.doors.get(&door) else { return true };
+        let Some(model) = belief.world.doors.get(&door) else { return Ok(()) };
         if model.state.status != DoorStatus::Open {
-            return true;
+            return Ok(());
         }
         let shut = DoorStates::from([(door, DoorState::CLOSED)]);
         let floor = belief.floor().with_doors(&belief.world, &shut);
@@ -258,7 +260,16 @@ impl Mission<'_> {
         let areas = Some(&[area][..]);
         let way = floor.route_within(&belief.world, from, before, Method::Shortest, areas);
         let stand = way.ok().and_then(|way| way.points.last().copied());
-        stand.is_some_and(|at| floor.opens_from(&belief.world, door, at))
+        if stand.is_some_and(|at| floor.opens_from(&belief.world, door, at)) {
+            return Ok(());
+        }
+        Err(floor.struck_by(&belief.world, door).map(|blocker| match blocker {
+            Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => {
+                Obstruction::Replica(replica)
+            }
+            Blocker::DoorLeaf { door, .. } => Obstruction::Door(door),
+            Blocker::Wall { area, .. } | Blocker::Floor { area, .. } => Obstruction::Wall(area),
+        }))
     }
 
     fn put(

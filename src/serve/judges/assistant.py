@@ -1,0 +1,210 @@
+"""An assistant's work through the protocol's own Python client: over the standard streams and over HTTP, in both of the
+protocol's ways (with a handshake, and without sessions). Usage: assistant.py ORTHO. Leaves with 77 where the client is
+missing."""
+
+import asyncio
+import base64
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+try:
+    import httpx2
+    from mcp import Client, StdioServerParameters
+    from mcp.client.streamable_http import streamable_http_client
+    from mcp.types import ElicitResult, Implementation
+except ImportError:
+    sys.exit(77)
+
+ORTHO = sys.argv[1]
+TOKEN = "a token of sixteen characters or more".replace(" ", "-")
+ME = Implementation(name="judge", version="1")
+
+
+def check(what, message):
+    if not what:
+        raise AssertionError(message)
+
+
+def asker(answers, asked):
+    async def ask(_context, params):
+        asked.append(params.message)
+        return ElicitResult(action="accept", content={"approve": answers.pop(0)})
+
+    return ask
+
+
+async def work(connect, mode, log=None):
+    asked, answers = [], []
+    async with connect(mode, asker(answers, asked)) as client:
+        tools = {tool.name: tool for tool in (await client.list_tools()).tools}
+        reads = {name for name, tool in tools.items() if tool.annotations.read_only_hint}
+        check({"ask", "why", "map", "as_of"} <= reads and not {"run", "plan", "propose_edit"} & reads, reads)
+
+        async def call(tool, progress=None, **arguments):
+            result = await client.call_tool(tool, arguments, progress_callback=progress)
+            return result, result.structured_content
+
+        told, value = await call("ask", text="What is on Table 1?")
+        check(not told.is_error and "Book 4" in told.content[0].text, told)
+        _, value = await call("ask", text="And where is Chair 1?")
+        check("Chair 1" in value["text"], value)
+        told, value = await call("ask", text="Bring the medicine")
+        check(told.is_error and value["code"] == "assist::order", value)
+        _, value = await call("query", query='?- ON_TOP_OF(X, "Стол-1").')
+        check(len(value["rows"]) == 2, value)
+        _, value = await call("why", relation="ON_TOP_OF", of=["Чашка-1", "Стол-1"])
+        check(value["holds"] and value["steps"], value)
+        _, value = await call("why_not", relation="ON_TOP_OF", of=["Стул-1", "Стол-1"])
+        check(value["holds"] is False and "?" in value["text"], value)
+        _, value = await call("route", **{"from": "Точка-А", "to": "Точка-К"})
+        check(value["length_cm"] > 100 if "length_cm" in value else True, value)
+        _, value = await call("relations", of="Стол-1")
+        check(any(r["relation"] == "ON_TOP_OF" for r in value["relations"]), value)
+        picture, value = await call("map")
+        image = next(block for block in picture.content if block.type == "image")
+        check(base64.b64decode(image.data)[:4] == b"\x89PNG" and value["rooms"], "a picture of the map")
+        _, value = await call("map", name="Комната-В", picture=False)
+        check(value["kind"] == "room", value)
+
+        # Nonsense is refused, and nothing hangs or ends.
+        for name, arguments in [
+            ("ask", {}), ("ask", {"text": 7}), ("run", {"id": -1}), ("run", {"id": 999}),
+            ("observe", {"thing": "Стул-1", "x": 1e300, "y": 0}), ("observe", {"thing": "нет такого", "x": 1, "y": 1}),
+            ("query", {"query": "?- )("}), ("why", {"relation": "нет", "of": []}), ("map", {"name": "нет"}),
+            ("as_of", {"revision": 999, "text": "?"}), ("propose_edit", {"edit": {"edit": 3}}), ("route", {"from": "", "to": ""}),
+        ]:
+            result = await client.call_tool(name, arguments)
+            check(result.is_error, (name, arguments, result))
+        _, value = await call("ask", text="x" * 100000)
+        check(value["replies"][0]["outcome"] != "answered", "a line of nonsense is not understood")
+
+        # A plan, declined, then carried out with progress.
+        told, plan = await call("plan", text="Go to Point K")
+        check(plan["task"]["plan"]["outcome"] in ("done", "plan") or plan["task"]["plan"], plan)
+        number = plan["task"]["task"]
+        answers.append(False)
+        told, value = await call("run", id=number)
+        check(told.is_error and value["code"] == "assist::declined" and len(asked) == 1, value)
+        heard = []
+
+        async def hear(progress, _total, message):
+            heard.append((progress, message))
+
+        answers.append(True)
+        told, value = await call("run", hear, id=number)
+        check(not told.is_error and value["state"] == "done", value)
+        check(heard and [p for p, _ in heard] == sorted({p for p, _ in heard}), heard)
+        told, value = await call("run", id=number)
+        check(told.is_error, "a plan is good once")
+
+        # What was seen since changes the plan, though not the map: it is not begun.
+        _, plan = await call("plan", text="Bring Cup 1")
+        _, value = await call("observe", thing="Чашка-1", x=120, y=700, z=0, sure=0.95)
+        check(value["outcome"] == "noted", value)
+        answers.append(True)
+        told, value = await call("run", id=plan["task"]["task"])
+        check(told.is_error and value["code"] == "assist::expired", value)
+        _, value = await call("proposals")
+        check(any(p["name"] == "Чашка-1" for p in value["proposals"]), value)
+
+        # An edit is tried, asked about, written with an author; undone by nobody but a person.
+        edit = {"edit": [{"move": "Стул-1", "by": [10, 0]}]}
+        answers.append(False)
+        told, value = await call("propose_edit", edit=edit, reason="no")
+        check(told.is_error and value["code"] == "assist::declined", value)
+        _, before = await call("history")
+        answers.append(True)
+        told, value = await call("propose_edit", edit=edit, reason="a judge moves a chair")
+        check(not told.is_error and value["outcome"] == "edited", value)
+        _, after = await call("history")
+        check(len(after["revisions"]) == len(before["revisions"]) + 1, after)
+        check("judge" in after["revisions"][-1]["user"], after["revisions"][-1])
+        _, value = await call("as_of", revision=1, text="Where is Chair 1?")
+        check("Chair 1" in value["text"], value)
+
+        # A call that is given up stops the robot.
+        _, plan = await call("plan", text="Go to Point A")
+        if plan.get("task"):
+            answers.append(True)
+            running = asyncio.ensure_future(client.call_tool("run", {"id": plan["task"]["task"]}))
+            await asyncio.sleep(1.0)
+            running.cancel()
+            for _ in range(50):
+                _, value = await call("tasks")
+                if value["task"] is None:
+                    break
+                await asyncio.sleep(0.1)
+            check(value["task"] is None and value["ended"][-1]["state"] == "stopped", value["ended"][-1])
+    if log:
+        lines = [json.loads(line) for line in Path(log).read_text().splitlines()]
+        check({line["tool"] for line in lines} >= {"ask", "run", "propose_edit"}, "calls are noted")
+        check(all("judge" in line["client"] for line in lines), lines[0])
+
+
+def over_streams(store):
+    def connect(mode, ask, more=("--pace", "5")):
+        arguments = ["mcp", "--demo", "--store", store, *more]
+        server = StdioServerParameters(command=ORTHO, args=arguments)
+        return Client(server, mode=mode, elicitation_callback=ask, client_info=ME, read_timeout_seconds=120)
+
+    return connect
+
+
+class OverHttp:
+    """A console of its own, and a client that bears its token."""
+
+    def __init__(self, mode, ask):
+        self.mode, self.ask = mode, ask
+
+    async def __aenter__(self):
+        command = [ORTHO, "serve", "--demo", "--port", "0", "--pace", "5", "--token", TOKEN]
+        self.console = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        url = self.console.stdout.readline().split()[-1].split("?")[0] + "mcp"
+        self.http = httpx2.AsyncClient(headers={"Authorization": f"Bearer {TOKEN}"}, timeout=120)
+        self.client = Client(
+            streamable_http_client(url, http_client=self.http),
+            mode=self.mode, elicitation_callback=self.ask, client_info=ME, read_timeout_seconds=120,
+        )
+        try:
+            return await self.client.__aenter__()
+        except BaseException:
+            self.console.kill()
+            raise
+
+    async def __aexit__(self, *what):
+        try:
+            await self.client.__aexit__(*what)
+            await self.http.aclose()
+        finally:
+            self.console.kill()
+            self.console.wait()
+
+
+async def nobody_to_ask(store):
+    """A client that cannot ask drives nothing, and its edit is laid beside the store."""
+    server = StdioServerParameters(command=ORTHO, args=["mcp", "--demo", "--store", store, "--pace", "20"])
+    async with Client(server, client_info=ME, read_timeout_seconds=120) as client:
+        plan = (await client.call_tool("plan", {"text": "Go to Point K"})).structured_content
+        refused = await client.call_tool("run", {"id": plan["task"]["task"]})
+        check(refused.is_error and refused.structured_content["code"] == "assist::nobody_to_ask", refused)
+        edit = {"edit": [{"move": "Стул-1", "by": [10, 0]}]}
+        laid = (await client.call_tool("propose_edit", {"edit": edit})).structured_content
+        check(laid["outcome"] == "proposed" and Path(laid["file"]).exists(), laid)
+
+
+async def main():
+    for mode in ("auto", "legacy"):
+        with tempfile.TemporaryDirectory() as folder:
+            store = f"{folder}/store"
+            await work(over_streams(store), mode, f"{store}.calls.jsonl")
+        await work(OverHttp, mode)
+        print(mode, "works")
+    with tempfile.TemporaryDirectory() as folder:
+        await nobody_to_ask(f"{folder}/store")
+    print("all works")
+
+
+asyncio.run(main())
