@@ -55,7 +55,9 @@
 
 use orthoframe_units as units;
 
+mod apart;
 mod ask;
+mod beside;
 mod called;
 mod check;
 mod clause;
@@ -109,6 +111,7 @@ mod stored;
 mod strata;
 mod subsume;
 mod syntax;
+mod together;
 mod unify;
 mod value;
 mod why_not;
