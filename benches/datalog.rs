@@ -170,7 +170,7 @@ impl Rules {
             black_box(derived.explain());
         }
         let sizes = self.program.relations().map(|(id, info)| {
-            let is_counted = info.input.is_none() && info.name != "target";
+            let is_counted = info.inputs.is_empty() && info.name != "target";
             if is_counted { derived.len(id).expect("the relation is declared") } else { 0 }
         });
         sizes.sum()

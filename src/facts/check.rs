@@ -11,7 +11,7 @@ use super::program::{Clause, Fact, Found, Program, RelationId, Subsumption};
 use super::strata::{reads, strata};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
-use super::{idle, subsume, unify, witness};
+use super::{idle, misuse, subsume, unify, witness};
 use crate::units::Source;
 
 pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {
@@ -29,7 +29,11 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
     let closed: Vec<Rule> = items.iter().flat_map(|item| equivalence(item, faults)).collect();
     let rule = |item: &Item| if let Item::Rule(rule) = item { Some(rule.clone()) } else { None };
     let rules: Vec<Rule> = items.iter().filter_map(rule).chain(closed).chain(subsuming).collect();
-    rules.iter().for_each(|rule| single_variables(rule, faults));
+    for rule in &rules {
+        single_variables(rule, faults);
+        misuse::counting_fact(rule, faults);
+    }
+    misuse::inline(items, &declared, faults);
     let (rules, gone) = super::inline::unfold(rules, items, &declared, faults);
     let mut subsumptions = Vec::new();
     for rule in &rules {
@@ -55,6 +59,7 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
     clauses.extend(made.clauses);
     let clauses: Vec<Arc<Clause>> = clauses.into_iter().map(Arc::new).collect();
     let strata = strata(&declared, &clauses, &subsumptions, faults);
+    misuse::plans(items, &declared, &strata, faults);
     let hidden = gone.iter().copied().chain(dominated.into_keys()).collect();
     unused(&declared, &clauses, &subsumptions, &facts, &hidden, faults);
     hints(items, faults);
@@ -146,7 +151,7 @@ fn is_limit(name: &str) -> bool {
 fn hints(items: &[Item], faults: &mut Found) {
     for item in items {
         let (what, at) = match item {
-            Item::Hint { what, at } => (what.clone(), *at),
+            Item::Plan { at, .. } => (".plan".to_owned(), *at),
             Item::Pragma { name, at, .. }
                 if !is_limit(name) && !matches!(name.as_str(), "magic-transform" | "once") =>
             {
@@ -184,7 +189,7 @@ fn unused(
             continue;
         }
         let is_seen = !info.outputs.is_empty() || info.print_size;
-        if read[n] && !filled[n] && info.input.is_none() {
+        if read[n] && !filled[n] && info.inputs.is_empty() {
             faults.push(at, RuleError::NeverDerived { name, at: at.into() });
         } else if !read[n] && !is_seen {
             faults.push(at, RuleError::NeverUsed { name, at: at.into() });

@@ -205,6 +205,9 @@ fn declare_fields(items: &[Item], declared: &mut Declared, faults: &mut Found) {
             continue;
         }
         for branch in branches {
+            if *is_record {
+                twice(&branch.fields, faults);
+            }
             let types = branch.fields.iter();
             let types: Vec<usize> =
                 types.map(|(_, field)| type_named(field, declared, faults).unwrap_or(0)).collect();
@@ -303,6 +306,13 @@ fn declare_type(
         return;
     }
     let kind = declared.types[first].kind;
+    let is_closed = matches!(kind, Kind::Record(_)) || declared.types[first].parts.len() > 1;
+    if !is_union && is_closed {
+        let what = format!("подтип «{}» записи или объединения «{}»", name.text, bases[0].text);
+        let help =
+            "подтип бывает у symbol, number, unsigned, float и их подтипов; второе имя даёт «=»";
+        faults.push(name.at, RuleError::Misuse { what, help, at: name.at.into() });
+    }
     let parts = if is_union { known.clone() } else { Vec::new() };
     declared.type_names.insert(name.text.clone(), id);
     declared.types.push(Type { name: name.text.clone(), kind, below: Vec::new(), parts });
@@ -328,6 +338,11 @@ fn declare_type(
             }
         }
     }
+}
+
+/// Whether a type is one of the program's, and none of the four that there are anyway.
+pub(super) fn is_declared(id: usize) -> bool {
+    id > 3
 }
 
 fn primitive(kind: Kind) -> Option<usize> {
@@ -377,11 +392,14 @@ fn declare_relation(
     }
     let id = RelationId(declared.relations.len() as u32);
     for name in std::iter::once(name).chain(second) {
-        if !declared.names.insert(&name.text, id) {
+        // Soufflé's own four types leave their names free.
+        let is_type = declared.type_named(&name.text).is_some_and(is_declared);
+        if is_type || !declared.names.insert(&name.text, id) {
             let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
             faults.push(name.at, fault);
         }
     }
+    twice(columns, faults);
     // A column of unknown type is taken for a symbol, so that the relation's other uses are still checked.
     let types: Vec<usize> =
         columns.iter().map(|(_, of)| type_named(of, declared, faults).unwrap_or(0)).collect();
@@ -401,24 +419,65 @@ fn declare_relation(
     declared.places.push(name.at);
 }
 
+/// Columns, or a record's fields, of one name.
+fn twice(named: &[(Name, Name)], faults: &mut Found) {
+    for (n, (name, _)) in named.iter().enumerate() {
+        if named[..n].iter().any(|(known, _)| known.text == name.text) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+        }
+    }
+}
+
 pub(super) fn direct(items: &[Item], declared: &mut Declared, faults: &mut Found) {
     for item in items {
         if let Item::Directive { role, relations, parameters } = item {
+            // Soufflé reads over what it does not know, and so does this, but not silently.
+            for (known, value) in parameters.iter().filter(|(name, _)| !is_parameter(name)) {
+                let at = relations.first().map(|name| name.at).unwrap_or_default();
+                let what = format!("{known}={value}");
+                faults.push(at, RuleError::Hint { what, at: at.into() });
+            }
             for name in relations {
-                if let Some(id) = declared.relation(name, faults) {
-                    give_role(*role, parameters, &mut declared.relations[id.index()]);
+                let Some(id) = declared.relation(name, faults) else { continue };
+                let info = &mut declared.relations[id.index()];
+                let is_said = match role {
+                    Role::PrintSize => info.print_size,
+                    Role::LimitSize => info.limit_size.is_some(),
+                    _ => false,
+                };
+                if is_said {
+                    let fault =
+                        RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+                    faults.push(name.at, fault);
                 }
+                give_role(*role, parameters, info);
             }
         }
     }
 }
 
+/// What a directive may say that has an effect, here or in Soufflé.
+fn is_parameter(name: &str) -> bool {
+    matches!(
+        name,
+        "IO" | "filename"
+            | "delimiter"
+            | "headers"
+            | "rfc4180"
+            | "columns"
+            | "format"
+            | "compress"
+            | "n"
+    )
+}
+
 fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInfo) {
     match role {
-        Role::Input => info.input = Some(parameters.to_vec()),
-        Role::Output => {
-            if !info.outputs.iter().any(|known| known == parameters) {
-                info.outputs.push(parameters.to_vec());
+        Role::Input | Role::Output => {
+            let said = if role == Role::Input { &mut info.inputs } else { &mut info.outputs };
+            if !said.iter().any(|known| known == parameters) {
+                said.push(parameters.to_vec());
             }
         }
         Role::PrintSize => info.print_size = true,

@@ -3,13 +3,12 @@
 use std::fmt;
 
 use super::database::{FactError, RelationKey, Schema, find_word};
-use super::fault::{FileFaults, RuleError};
+use super::fault::FileFaults;
 use super::kept::Kept;
 use super::program::{Kind, Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::stored::{Starting, Stored};
 use super::syntax::Span;
-use super::value::MAX_TEXT;
 use super::word::{Note, Value, Word, Words};
 
 /// All relations of a program after evaluation, input facts included.
@@ -57,16 +56,7 @@ impl Derived {
     /// millionths, a text too long to be kept. At most one for each rule.
     #[must_use]
     pub fn notes(&self) -> Vec<FileFaults> {
-        let fault = |(at, note): &(Span, Note)| {
-            let fault = match *note {
-                Note::Wide(number) => RuleError::Wide { number, at: (*at).into() },
-                Note::Rounded(number) => {
-                    RuleError::Rounded { number: number.to_string(), at: (*at).into() }
-                }
-                Note::LongText => RuleError::LongText { limit: MAX_TEXT, at: (*at).into() },
-            };
-            (at.file, fault)
-        };
+        let fault = |(at, note): &(Span, Note)| (at.file, note.told(*at));
         super::program::by_file(&self.program.sources, self.notes.iter().map(fault).collect())
     }
 

@@ -13,6 +13,7 @@ use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use super::apart::{Apart, Unfinished, handed_on};
 use super::database::Database;
 use super::derived::Derived;
 use super::explain::RuleTrace;
@@ -63,6 +64,10 @@ pub enum EvaluateError {
     )]
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
 }
+
+/// How often the time from which a join is divided the rounds of a recursive relation go on in one thread, before they
+/// are: most relations are done by then.
+const ROUNDS_ALONE: u32 = 4;
 
 /// A relation's rows at most, unless `.limitsize` says less.
 pub(super) const MAX_ROWS: usize = 1 << 27;
@@ -324,6 +329,20 @@ impl<'a> Evaluation<'a> {
         };
         let (pruning_orders, orders_of) = (orders_of(&pruning), orders_of(&rounds));
         let finished = self.finished.bytes();
+        let limits = self.finished.watch.limits();
+        let alone = match stratum.relations.as_slice() {
+            [one]
+                if is_any_order
+                    && !is_pruned
+                    && choices.is_empty()
+                    && self.finished.outside.is_none() =>
+            {
+                handed_on(*one, program.info(*one).columns.len(), &rounds)
+                    .map(|column| (*one, column))
+            }
+            _ => None,
+        };
+        let since = Instant::now();
         loop {
             growing.values_mut().for_each(|rows| rows.flush());
             if is_pruned {
@@ -338,6 +357,12 @@ impl<'a> Evaluation<'a> {
             orders.changed();
             let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
             self.finished.watch.hold(held);
+            if let Some((relation, column)) = alone
+                && since.elapsed() >= ROUNDS_ALONE * limits.spread_from
+                && let Some(rows) = growing.remove(&relation)
+            {
+                return self.apart(relation, column, &rounds, rows);
+            }
             for ((clause, plan), orders) in rounds.iter().zip(&orders_of) {
                 let limit = self.limit(clause.head);
                 let is_limited = limit < MAX_ROWS;
@@ -353,11 +378,40 @@ impl<'a> Evaluation<'a> {
                 self.check_size(*relation, rows.len() + rows.sink().len())?;
             }
         }
-        let threads = self.finished.watch.limits().threads;
+        // What is put together takes its own memory.
+        let whole = growing.iter().map(|(relation, rows)| {
+            rows.bytes() + rows.len() * program.info(*relation).columns.len() * size_of::<Word>()
+        });
+        self.finished.watch.hold(finished + whole.sum::<usize>());
+        if let Some((clause, _)) = rounds.first() {
+            self.check_limits(clause)?;
+        }
         for (relation, rows) in growing {
-            self.finished.rows[relation.index()] = Some(rows.complete(threads));
+            self.finished.rows[relation.index()] = Some(rows.complete(limits.threads));
         }
         Ok(())
+    }
+
+    /// The rest of a recursive relation, each thread a part of it to the end.
+    fn apart(
+        &mut self,
+        relation: RelationId,
+        column: usize,
+        rounds: &[(&Clause, Plan)],
+        rows: Box<dyn Growing>,
+    ) -> Result<(), EvaluateError> {
+        let apart = Apart { program: self.program, relation, column, rounds };
+        let limit = self.finished.watch.limits().rows;
+        match apart.run(&mut self.finished, rows) {
+            Ok(rows) => {
+                self.finished.rows[relation.index()] = Some(rows);
+                Ok(())
+            }
+            Err(Unfinished::Rows) => self.check_size(relation, limit + 1),
+            Err(Unfinished::Limit) => {
+                rounds.first().map_or(Ok(()), |(clause, _)| self.check_limits(clause))
+            }
+        }
     }
 
     fn chosen(&self, relation: RelationId) -> Option<Chosen> {

@@ -325,6 +325,12 @@ fn call(input: Input<'_>) -> Read<'_, Expr> {
     let at = name.at.to(args.last().map_or(name.at, Expr::at));
     let wanted = functor.takes().len();
     let folds = matches!(functor, Functor::Concatenate | Functor::Smaller | Functor::Larger);
+    let empty = |at| Expr::Text(String::new(), at);
+    if functor == Functor::Concatenate && args.len() < wanted {
+        // What is joined must be texts, also where nothing is joined to them.
+        let left = args.into_iter().next().unwrap_or_else(|| empty(at));
+        return Ok((rest, Expr::Call { functor, args: vec![left, empty(at)], at }));
+    }
     if folds && args.len() > wanted && args.len() <= MAX_CHAIN {
         let joined = args.into_iter().reduce(|left, right| Expr::Call {
             functor,
@@ -385,6 +391,13 @@ fn is_counted(input: Input<'_>) -> bool {
 }
 
 pub(super) fn functor(word: &str) -> Option<Functor> {
+    // As Soufflé called them once.
+    let word = match word {
+        "itof" | "utof" => "to_float",
+        "ftoi" | "utoi" => "to_number",
+        "ftou" | "itou" => "to_unsigned",
+        word => word,
+    };
     let known = Functor::ALL.iter().copied().find(|functor| functor.word() == word);
     // The signs are functors too, but no names.
     known.filter(|_| word.starts_with(char::is_alphabetic) && word != "neg")

@@ -5,6 +5,9 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
+use super::syntax::Span;
+use super::value::MAX_TEXT;
+use super::word::Note;
 use crate::units::Source;
 
 /// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
@@ -49,6 +52,15 @@ pub enum RuleError {
     #[error("не поддерживается: {what}")]
     #[diagnostic(code(facts::unsupported), help("{help}"))]
     Unsupported {
+        what: String,
+        help: &'static str,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// What reads well and cannot be meant.
+    #[error("{what}")]
+    #[diagnostic(code(facts::misuse), help("{help}"))]
+    Misuse {
         what: String,
         help: &'static str,
         #[label("здесь")]
@@ -297,6 +309,7 @@ impl RuleError {
             | Self::Unclosed { at, .. }
             | Self::Number { at, .. }
             | Self::Unsupported { at, .. }
+            | Self::Misuse { at, .. }
             | Self::TooLarge { at, .. }
             | Self::Duplicate { at, .. }
             | Self::UnknownRelation { at, .. }
@@ -319,6 +332,18 @@ impl RuleError {
             | Self::NeverFires { at, .. }
             | Self::Product { at, .. }
             | Self::SingleVariable { at, .. } => *at,
+        }
+    }
+}
+
+impl Note {
+    /// The note as a warning about what stands there.
+    pub(super) fn told(self, at: Span) -> RuleError {
+        let at = at.into();
+        match self {
+            Self::Wide(number) => RuleError::Wide { number, at },
+            Self::Rounded(number) => RuleError::Rounded { number: number.to_string(), at },
+            Self::LongText => RuleError::LongText { limit: MAX_TEXT, at },
         }
     }
 }

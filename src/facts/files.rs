@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Write as _;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
@@ -10,6 +11,7 @@ use thiserror::Error;
 
 use super::ask::AskError;
 use super::database::{Database, FactError, Known, Loader};
+use super::decimal::Decimal;
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
 use super::explain::RuleTrace;
@@ -43,7 +45,7 @@ pub enum FilesError {
     #[diagnostic(
         code(facts::parameter),
         help(
-            "есть IO=file и для .output IO=stdout, filename, delimiter, headers, rfc4180, для .input columns=\"1:0\""
+            "есть IO=file, для .input IO=stdin, для .output IO=stdout, filename, delimiter, headers, rfc4180, для .input columns=\"1:0\""
         )
     )]
     Parameter { relation: String, name: String, value: String },
@@ -119,12 +121,12 @@ fn run(
 ) -> Result<FilesReport, FilesError> {
     let program = Program::parse_included(&with_included(program)?)?;
     for (_, info) in program.relations() {
-        info.input.iter().try_for_each(|known| check(info, known, false))?;
+        info.inputs.iter().try_for_each(|known| check(info, known, false))?;
         info.outputs.iter().try_for_each(|known| check(info, known, true))?;
     }
     let mut database = program.database();
     for (relation, info) in program.relations() {
-        if let Some(parameters) = &info.input {
+        for parameters in &info.inputs {
             read(&mut database, relation, info, parameters, facts_dir)?;
         }
     }
@@ -178,7 +180,7 @@ impl Program {
     pub fn parse_at(source: &Source, path: &Path) -> Result<Self, FilesError> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut sources = vec![source.clone()];
-        for name in includes(source.text()) {
+        for name in includes(source) {
             for more in with_included(&folder.join(name))? {
                 if sources.iter().all(|known| known.name() != more.name()) {
                     sources.push(more);
@@ -207,7 +209,7 @@ fn with_included(program: &Path) -> Result<Vec<Source>, FilesError> {
         let source = Source::read_within(&path, MAX_PROGRAM_BYTES)
             .map_err(|fault| file_error(&path, fault.into_io()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        open.extend(includes(source.text()).into_iter().rev().map(|name| folder.join(name)));
+        open.extend(includes(&source).into_iter().rev().map(|name| folder.join(name)));
         sources.push(source);
     }
     Ok(sources)
@@ -225,14 +227,16 @@ fn parameter<'a>(parameters: &'a Parameters, name: &str) -> Option<&'a str> {
 fn check(info: &RelationInfo, parameters: &Parameters, may_print: bool) -> Result<(), FilesError> {
     for (name, value) in parameters {
         let is_known = match name.as_str() {
-            "IO" => {
-                value == "file"
-                    || may_print && matches!(value.as_str(), "stdout" | "stdoutprintsize")
-            }
+            "IO" => match may_print {
+                true => matches!(value.as_str(), "file" | "stdout" | "stdoutprintsize"),
+                false => matches!(value.as_str(), "file" | "stdin"),
+            },
             "headers" | "rfc4180" => matches!(value.as_str(), "true" | "false"),
             "filename" | "delimiter" => true,
             "columns" => !may_print && file_columns(value, info.columns.len()).is_some(),
-            _ => false,
+            "format" | "compress" => false,
+            // Was told to have no effect.
+            _ => true,
         };
         if !is_known {
             let (relation, name, value) = (info.name.clone(), name.clone(), value.clone());
@@ -278,9 +282,16 @@ fn read(
     parameters: &Parameters,
     facts_dir: &Path,
 ) -> Result<(), FilesError> {
-    let path = facts_dir.join(file_name(info, parameters, "facts"));
-    let text =
-        read_text(&path, MAX_FACTS_BYTES).map_err(|fault| file_error(&path, fault.into_io()))?;
+    let is_stdin = parameter(parameters, "IO") == Some("stdin");
+    let path = match is_stdin {
+        true => PathBuf::from("stdin"),
+        false => facts_dir.join(file_name(info, parameters, "facts")),
+    };
+    let text = match is_stdin {
+        true => standard_input(),
+        false => read_text(&path, MAX_FACTS_BYTES).map_err(|fault| fault.into_io()),
+    };
+    let text = text.map_err(|cause| file_error(&path, cause))?;
     let mut loader = database.load();
     let mut tuple = Vec::new();
     let places =
@@ -320,6 +331,16 @@ fn read(
     }
     loader.finish();
     Ok(())
+}
+
+/// All that stands on the standard input, within the limit of a file of facts.
+fn standard_input() -> std::io::Result<String> {
+    let mut text = String::new();
+    std::io::stdin().lock().take(MAX_FACTS_BYTES + 1).read_to_string(&mut text)?;
+    match text.len() as u64 > MAX_FACTS_BYTES {
+        true => Err(std::io::Error::other(format!("больше {MAX_FACTS_BYTES} байт"))),
+        false => Ok(text),
+    }
 }
 
 /// The records of a text: one a line, but that a value in quotes may go over several.
@@ -400,14 +421,24 @@ fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known 
             };
             number.ok().map(|number| loader.number(number))
         }
-        Some(Kind::Float) => text.trim().parse().ok().map(|decimal| loader.decimal(decimal)),
+        Some(Kind::Float) => {
+            let text = text.trim();
+            let decimal = text.parse().ok().or_else(|| Decimal::of_powers(text));
+            decimal.map(|decimal| loader.decimal(decimal))
+        }
         Some(kind @ Kind::Record(_)) => loader.record(text, kind),
         _ => None,
     };
     value.unwrap_or_else(|| loader.symbol(text))
 }
 
-/// The relation's lines: the columns' names where they are asked for, then the tuples in order.
+/// The columns' names.
+fn header(info: &RelationInfo, parameters: &Parameters) -> String {
+    let names: Vec<&str> = info.columns.iter().map(|column| column.name.as_str()).collect();
+    names.join(delimiter(parameters))
+}
+
+/// The relation's lines: its tuples in order.
 fn lines(
     derived: &Derived,
     relation: RelationId,
@@ -416,10 +447,6 @@ fn lines(
     line: &mut dyn FnMut(&str) -> std::io::Result<()>,
 ) -> std::io::Result<()> {
     let delimiter = delimiter(parameters);
-    if has_headers(parameters) {
-        let names: Vec<&str> = info.columns.iter().map(|column| column.name.as_str()).collect();
-        line(&names.join(delimiter))?;
-    }
     if info.columns.is_empty() {
         // Soufflé writes the tuple of no columns so.
         let holds = derived.len(relation).is_ok_and(|len| len > 0);
@@ -451,6 +478,10 @@ fn write(
     path: &Path,
 ) -> std::io::Result<()> {
     write_file_with(path, |file| {
+        if has_headers(parameters) {
+            file.write_all(header(info, parameters).as_bytes())?;
+            file.write_all(b"\n")?;
+        }
         lines(derived, relation, info, parameters, &mut |line| {
             file.write_all(line.as_bytes())?;
             file.write_all(b"\n")
@@ -465,7 +496,11 @@ fn print(
     parameters: &Parameters,
     out: &mut String,
 ) {
-    let _ = writeln!(out, "---------------\n{}\n===============", info.name);
+    let _ = writeln!(out, "---------------\n{}", info.name);
+    if has_headers(parameters) {
+        let _ = writeln!(out, "{}", header(info, parameters));
+    }
+    let _ = writeln!(out, "===============");
     let done = lines(derived, relation, info, parameters, &mut |line| {
         out.push_str(line);
         out.push('\n');

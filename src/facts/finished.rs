@@ -11,6 +11,7 @@ use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
 use super::program::{Expr, RelationId};
 use super::rows::{RowSet, SharedRows};
 use super::run::{Goal, Source, Step, run};
+use super::spread::Plain;
 use super::word::{Word, Words};
 
 /// Finished relations, and what is known and built about them.
@@ -45,8 +46,22 @@ impl Finished<'_> {
         self.rows[relation.index()].as_deref().expect("strata come after those they read")
     }
 
+    /// What a provided plan reads of the relations held here, for other threads; none for what is still growing.
+    pub(super) fn plain(&self, plan: &Plan) -> Vec<Option<Plain<'_>>> {
+        let of = |request: &Request| match request {
+            Request::Growing { .. } => None,
+            Request::Whole(relation) => Some(Plain::Rows(vec![self.relation(*relation)])),
+            Request::Index { relation, key, .. } => {
+                let index = self.indexes.get(&(*relation, key.clone()));
+                Some(Plain::Index(index.expect("a provided plan has its indexes")))
+            }
+        };
+        plan.requests.iter().map(of).collect()
+    }
+
     /// Builds the indexes that a plan asks for, and points the plan's scans to their columns.
     pub(super) fn provide(&mut self, plan: &mut Plan) {
+        let threads = self.watch.limits().threads;
         let mut places: Vec<Option<Vec<usize>>> = Vec::with_capacity(plan.requests.len());
         for request in &plan.requests {
             let Request::Index { relation, key, columns } = request else {
@@ -60,9 +75,9 @@ impl Finished<'_> {
             let rows =
                 self.rows[relation.index()].as_deref().expect("strata come after those they read");
             let entry = self.indexes.entry((*relation, key.clone()));
-            let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
-            let place = columns.iter().map(|column| index.column(rows, column, &mut self.words));
-            places.push(Some(place.collect()));
+            let words = &mut self.words;
+            let index = entry.or_insert_with(|| Index::new(rows, key, words, threads));
+            places.push(Some(index.places(rows, columns, words, threads)));
         }
         for step in &mut plan.steps {
             let Step::Scan(scan) = step else { continue };

@@ -24,7 +24,8 @@ pub(super) fn warn(
 /// Relations that may have a tuple: told ones, and those of rules all of whose premises may hold. One that nothing fills
 /// is told of by itself.
 fn may_hold(declared: &Declared, clauses: &[Arc<Clause>], facts: &[Fact]) -> Vec<bool> {
-    let mut may: Vec<bool> = declared.relations.iter().map(|info| info.input.is_some()).collect();
+    let mut may: Vec<bool> =
+        declared.relations.iter().map(|info| !info.inputs.is_empty()).collect();
     facts.iter().for_each(|fact| may[fact.relation.index()] = true);
     let mut is_derived = vec![false; may.len()];
     clauses.iter().for_each(|clause| is_derived[clause.head.index()] = true);

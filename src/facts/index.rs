@@ -6,6 +6,8 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Mutex;
+use std::thread;
 
 use foldhash::fast::RandomState;
 
@@ -48,10 +50,10 @@ enum Directory {
 
 impl Index {
     /// `key` is over columns.
-    pub(super) fn new(rows: &dyn RowSet, key: &[Expr], words: &mut Words) -> Self {
+    pub(super) fn new(rows: &dyn RowSet, key: &[Expr], words: &mut Words, threads: usize) -> Self {
         let natural = key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32));
-        let mut keys: Vec<Vec<Word>> =
-            key.iter().map(|part| column(rows, None, part, words)).collect();
+        let parts: Vec<&Expr> = key.iter().collect();
+        let mut keys = columns(rows, None, &parts, words, threads);
         let mut order = None;
         if !natural {
             let sorted = sorted_order(&keys, rows.len());
@@ -71,15 +73,27 @@ impl Index {
         (words + 1) * self.len * size_of::<Word>()
     }
 
-    /// The number of the column that holds the expression, made if there is none yet.
-    pub(super) fn column(&mut self, rows: &dyn RowSet, expr: &Expr, words: &mut Words) -> usize {
-        if let Some(known) = self.columns.iter().position(|(known, _)| known == expr) {
-            return known;
+    /// The numbers of the columns that hold the expressions; those that there are not yet are made.
+    pub(super) fn places(
+        &mut self,
+        rows: &dyn RowSet,
+        exprs: &[Expr],
+        words: &mut Words,
+        threads: usize,
+    ) -> Vec<usize> {
+        let mut missing: Vec<&Expr> = Vec::new();
+        for expr in exprs {
+            if !missing.contains(&expr) && self.columns.iter().all(|(known, _)| known != expr) {
+                missing.push(expr);
+            }
         }
-        let column = column(rows, self.order.as_deref(), expr, words);
-        let is_in_place = column.iter().all(|word| is_in_place(*word));
-        self.columns.push((expr.clone(), IndexColumn { words: column, is_in_place }));
-        self.columns.len() - 1
+        let made = columns(rows, self.order.as_deref(), &missing, words, threads);
+        for (expr, words) in missing.into_iter().zip(made) {
+            let is_in_place = words.iter().all(|word| is_in_place(*word));
+            self.columns.push((expr.clone(), IndexColumn { words, is_in_place }));
+        }
+        let place = |expr| self.columns.iter().position(|(known, _)| known == expr);
+        exprs.iter().map(|expr| place(expr).expect("what was missing is made")).collect()
     }
 
     /// The place in the relation of the row at a place in the index.
@@ -117,6 +131,47 @@ impl Index {
         }
         range
     }
+}
+
+/// Rows from which on it pays to make columns in several threads.
+const MANY: usize = 1 << 14;
+
+/// The expressions over each row, one in each thread at a time.
+fn columns(
+    rows: &dyn RowSet,
+    order: Option<&[u32]>,
+    exprs: &[&Expr],
+    words: &mut Words,
+    threads: usize,
+) -> Vec<Vec<Word>> {
+    let mut made: Vec<Option<Vec<Word>>> = exprs.iter().map(|_| None).collect();
+    if threads > 1 && exprs.len() > 1 && rows.len() >= MANY {
+        words.settle();
+        let known = words.share();
+        // What is computed takes longest.
+        let mut tasks: Vec<(&Expr, &mut Option<Vec<Word>>)> =
+            exprs.iter().copied().zip(&mut made).collect();
+        tasks.sort_by_key(|(expr, _)| matches!(expr, Expr::Call(..)));
+        let tasks = Mutex::new(tasks);
+        let next = || tasks.lock().ok().and_then(|mut tasks| tasks.pop());
+        let work = || {
+            while let Some((expr, out)) = next() {
+                let mut own = known.share();
+                let column = column(rows, order, expr, &mut own);
+                // What must be named, or told, is left to the one who names in order.
+                let is_quiet = !own.has_own() && own.take_note().is_none();
+                *out = Some(column).filter(|_| is_quiet);
+            }
+        };
+        thread::scope(|scope| {
+            (1..threads.min(exprs.len())).for_each(|_| {
+                scope.spawn(work);
+            });
+            work();
+        });
+    }
+    let left = exprs.iter().zip(made);
+    left.map(|(expr, made)| made.unwrap_or_else(|| column(rows, order, expr, words))).collect()
 }
 
 /// The expression over each row, [`NO_WORD`] where it has no value.

@@ -78,7 +78,7 @@ fn inline_relations(items: &[Item], declared: &Declared) -> BTreeSet<RelationId>
     }
     inline.retain(|relation| {
         let info = &declared.relations[relation.index()];
-        info.input.is_none() && info.outputs.is_empty() && !info.print_size
+        info.inputs.is_empty() && info.outputs.is_empty() && !info.print_size
     });
     inline
 }

@@ -49,7 +49,7 @@ pub(super) struct KeptIndex {
 
 impl KeptIndex {
     fn new(rows: &dyn Stored, key: &[Expr], words: &mut Words) -> Self {
-        let base = Arc::new(Index::new(&*rows.base(), key, words));
+        let base = Arc::new(Index::new(&*rows.base(), key, words, 1));
         let mut index = Self { key: key.to_vec(), base, later: HashMap::new() };
         for slot in rows.later() {
             index.insert(rows.row(slot), slot, words);

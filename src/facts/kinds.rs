@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::clause::{Builder, Premise, Scope};
 use super::decimal::Decimal;
+use super::declare::is_declared;
 use super::fault::RuleError;
 use super::program::{Expr, Kind, RelationId, VariableId};
 use super::syntax::{self, Aggregation, Body, Span};
@@ -269,7 +270,9 @@ impl Builder<'_> {
         let before = known.of;
         let fits = match (known.kind, before) {
             (Some(known), _) if known != kind => false,
-            (_, Some(before)) if !kind.is_number() || is_user_type(before) || is_user_type(of) => {
+            // What is asked to be absent need only be comparable, as in Soufflé.
+            _ if !is_positive => true,
+            (_, Some(before)) if !kind.is_number() || is_declared(before) || is_declared(of) => {
                 self.declared.is_subtype(before, of) || self.declared.is_subtype(of, before)
             }
             _ => true,
@@ -292,7 +295,7 @@ impl Builder<'_> {
     /// Whether an expression may stand where values of a kind are wanted.
     pub(super) fn fits(&self, expr: &syntax::Expr, kind: Kind, scope: &Scope) -> bool {
         if matches!(expr, syntax::Expr::Nil(_)) {
-            return matches!(kind, Kind::Record(_));
+            return matches!(kind, Kind::Record(of) if self.declared.fields(of, None).is_some());
         }
         self.kind_of(expr, scope).is_none_or(|known| known == kind)
             || matches!(kind, Kind::Float | Kind::Unsigned) && is_whole(expr)
@@ -356,7 +359,7 @@ impl Builder<'_> {
             let kind = variable.kind.unwrap_or(column.kind);
             let narrower = variable
                 .of
-                .is_none_or(|of| !is_user_type(wanted) || declared.is_subtype(of, wanted));
+                .is_none_or(|of| !is_declared(wanted) || declared.is_subtype(of, wanted));
             if kind != column.kind || !narrower {
                 let found = match variable.of {
                     Some(of) => declared.types[of].name.clone(),
@@ -391,10 +394,6 @@ fn premises_of<'a>(
             }
         }
     }
-}
-
-fn is_user_type(id: usize) -> bool {
-    id > 3
 }
 
 /// Made of whole numbers alone, so that it may stand for a decimal as well.

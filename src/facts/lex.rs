@@ -59,8 +59,8 @@ const DIRECTIVES: &[&str] = &[
 
 /// Longest first, since the first that fits is taken.
 const SIGNS: &[&str] = &[
-    ":-", "<:", "<=", ">=", "!=", "||", "&&", ":", "<", ">", "=", "!", ",", ";", ".", "(", ")",
-    "{", "}", "[", "]", "+", "-", "*", "/", "%", "^", "|", "$", "@",
+    ":-", "<:", "<=", ">=", "!=", "||", "&&", "##", "#", ":", "<", ">", "=", "!", ",", ";", ".",
+    "(", ")", "{", "}", "[", "]", "+", "-", "*", "/", "%", "^", "|", "$", "@",
 ];
 
 /// What one word turned out to be, before its value is known.
@@ -92,7 +92,9 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
             }
         };
         let Some(first) = rest.chars().next() else { return tokens };
-        if first == '#' {
+        let before = &text[..text.len() - rest.len()];
+        let starts_line = before[before.rfind('\n').map_or(0, |at| at + 1)..].trim().is_empty();
+        if first == '#' && starts_line {
             let mut end = rest.find('\n').unwrap_or(rest.len());
             // A line goes on behind a backslash.
             while rest[..end].trim_end_matches('\r').ends_with('\\') && end < rest.len() {
@@ -125,8 +127,13 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
             }
             Raw::Number(digits) => Word::Number(number(digits, at, faults)),
             Raw::Text => match quoted(rest) {
-                Some((value, after)) => {
+                Some((value, after, unknown)) => {
                     let at = Span { end: place(rest, after).end, ..at };
+                    if let Some(letter) = unknown {
+                        let what = format!("«\\{letter}» в тексте ничего не значит");
+                        let help = r#"есть \" \' \\ \n \t \r \a \b \f \v; сама обратная черта пишется дважды"#;
+                        faults.push(RuleError::Misuse { what, help, at: at.into() });
+                    }
                     rest = after;
                     tokens.push(Token { word: Word::Text(value), at });
                     continue;
@@ -207,15 +214,15 @@ fn digits(text: &str) -> IResult<&str, &str> {
 }
 
 fn decimal(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
-    text.parse::<Decimal>().map_or_else(
-        |_| {
-            let what = format!("дробное число «{text}»");
-            let help = "дроби десятичные, не больше шести знаков после точки";
-            faults.push(RuleError::Unsupported { what, help, at: at.into() });
-            0
-        },
-        Decimal::millionths,
-    )
+    if let Ok(exact) = text.parse::<Decimal>() {
+        return exact.millionths();
+    }
+    let Some(rounded) = Decimal::rounded(text) else {
+        faults.push(RuleError::Number { text: text.into(), at: at.into() });
+        return 0;
+    };
+    faults.push(RuleError::Rounded { number: rounded.to_string(), at: at.into() });
+    rounded.millionths()
 }
 
 /// An address of four parts, `10.0.0.1`, is one number of 32 bits with a sign, as Soufflé reads it.
@@ -256,9 +263,11 @@ fn sign(text: &str) -> IResult<&str, Raw<'_>> {
     Ok((&text[known.len()..], Raw::Sign(known)))
 }
 
-/// The value of a quoted text whose opening quote is read, and what follows its closing quote.
-fn quoted(text: &str) -> Option<(String, &str)> {
+/// The value of a quoted text whose opening quote is read, what follows its closing quote, and a letter behind a
+/// backslash that means nothing there.
+fn quoted(text: &str) -> Option<(String, &str, Option<char>)> {
     let mut value = String::new();
+    let mut unknown = None;
     let mut rest = text;
     loop {
         let plain: IResult<&str, usize> =
@@ -267,7 +276,7 @@ fn quoted(text: &str) -> Option<(String, &str)> {
         value.push_str(&rest[..rest.len() - after.len()]);
         let mut next = after.chars();
         match next.next()? {
-            '"' => return Some((value, next.as_str())),
+            '"' => return Some((value, next.as_str(), unknown)),
             '\\' => value.push(match next.next()? {
                 'n' => '\n',
                 't' => '\t',
@@ -276,7 +285,11 @@ fn quoted(text: &str) -> Option<(String, &str)> {
                 'b' => '\u{8}',
                 'f' => '\u{c}',
                 'v' => '\u{b}',
-                other => other,
+                plain @ ('"' | '\'' | '\\') => plain,
+                other => {
+                    unknown.get_or_insert(other);
+                    other
+                }
             }),
             _ => return None,
         }

@@ -55,11 +55,14 @@
 
 use orthoframe_units as units;
 
+mod apart;
 mod ask;
+mod beside;
 mod called;
 mod check;
 mod clause;
 mod component;
+mod condition;
 mod database;
 mod decimal;
 mod declare;
@@ -85,6 +88,7 @@ mod lex;
 mod limits;
 mod live;
 mod magic;
+mod misuse;
 mod nearest;
 mod operand;
 mod outline;
@@ -107,6 +111,7 @@ mod stored;
 mod strata;
 mod subsume;
 mod syntax;
+mod together;
 mod unify;
 mod value;
 mod why_not;

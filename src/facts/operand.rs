@@ -9,7 +9,6 @@ use super::program::{Bounds, Compare, Expr, Kind, Literal, NumberRange};
 use super::record::NIL;
 use super::regular::{self, NoPattern};
 use super::syntax::{self, Comparison, Functor, Span};
-use super::word::Note;
 use crate::units::nearest_name;
 
 impl Builder<'_> {
@@ -171,13 +170,13 @@ impl Builder<'_> {
             return Some(Expr::Call(functor, values));
         }
         let call = Expr::Call(functor, values);
-        // What is computed from constants alone is computed here.
-        if call.has_variables() || call.counts_on() {
+        // What is computed from constants alone is computed here, where they are of the kinds that they should be.
+        if call.has_variables() || call.counts_on() || !self.is_sound {
             return Some(call);
         }
         let word = super::value::compute(&call, &|_| 0, self.words);
-        if let Some(Note::Wide(number)) = self.words.take_note() {
-            self.faults.push(at, RuleError::Wide { number, at: at.into() });
+        if let Some(note) = self.words.take_note() {
+            self.faults.push(at, note.told(at));
         }
         Some(word.map_or(call, Expr::Constant))
     }

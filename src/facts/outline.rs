@@ -31,7 +31,7 @@ pub struct Mark {
 /// be read is left out.
 #[must_use]
 pub fn outline(source: &Source) -> Vec<Mark> {
-    let items = parse::items(source.text(), 0, &mut Vec::new());
+    let items = parse::items(source, 0, &mut Vec::new());
     let mut marks = Marks { text: source.text(), found: Vec::new() };
     items.iter().for_each(|item| marks.item(item));
     marks.found.sort_by_key(|mark| (mark.range.start, mark.range.end));
@@ -125,7 +125,7 @@ impl Marks<'_> {
                 self.atom(dominating);
                 self.body(body);
             }
-            Item::Include { .. } | Item::Hint { .. } | Item::Pragma { .. } => {}
+            Item::Include { .. } | Item::Plan { .. } | Item::Pragma { .. } => {}
         }
     }
 

@@ -19,6 +19,7 @@ use super::read::{Furthest, Input, Read, list, long_name, many, name, number, si
 use super::syntax::{
     Atom, Body, Branch, Comparison, Component, Item, Name, Role, Rule, Span, Type,
 };
+use crate::units::Source;
 
 const FOREIGN: &str =
     "чужой код здесь не выполняется: посчитайте значения заранее и дайте их таблицей фактов";
@@ -27,9 +28,10 @@ const FOREIGN: &str =
 const MAX_NESTED: usize = 16;
 
 /// All items of a text; what could not be read is in `faults`.
-pub(super) fn items(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
-    let words = preprocess::expand(lex::words(text, file, faults), file, faults);
-    items_of(&words, text.len(), file, faults)
+pub(super) fn items(source: &Source, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
+    let words = lex::words(source.text(), file, faults);
+    let words = preprocess::expand(words, source, file, faults);
+    items_of(&words, source.text().len(), file, faults)
 }
 
 /// All items of these words of a text that ends there.
@@ -147,15 +149,35 @@ fn relation(input: Input<'_>) -> Read<'_, Item> {
         delimited(sign("("), opt(list(column, sign(","))), sign(")")).parse(input)?;
     let (input, second) = opt(preceded(sign("="), name)).parse(input)?;
     let (input, words) = many(qualifier)(input)?;
+    let columns = columns.unwrap_or_default();
     let (mut roles, mut domains) = (Vec::new(), Vec::new());
-    for word in words {
-        match word {
+    let mut said: Vec<String> = Vec::new();
+    for (word, qualifier) in words {
+        let is_storage = |word: &str| matches!(word, "btree" | "btree_delete" | "brie" | "eqrel");
+        let at = word.at.into();
+        if said
+            .iter()
+            .any(|known| *known == word.text || is_storage(known) && is_storage(&word.text))
+        {
+            let what = format!("свойство {} при том, что уже сказано", word.text);
+            return input.refuse(RuleError::Misuse {
+                what,
+                help: "одно слово из btree, brie, eqrel, btree_delete и каждое другое по разу",
+                at,
+            });
+        }
+        if word.text == "btree_delete" && columns.is_empty() {
+            let what = "btree_delete у отношения без столбцов".into();
+            let help = "в нём нет двух строк, чтобы одна вытеснила другую";
+            return input.refuse(RuleError::Misuse { what, help, at });
+        }
+        said.push(word.text);
+        match qualifier {
             Qualifier::Role(role) => roles.push(role),
             Qualifier::Domains(more) => domains.extend(more),
             Qualifier::Storage => {}
         }
     }
-    let columns = columns.unwrap_or_default();
     Ok((input, Item::Relation { names, columns, second, roles, domains }))
 }
 
@@ -225,7 +247,7 @@ fn instance(input: Input<'_>) -> Read<'_, Item> {
     Ok((input, Item::Instance { name, of, at }))
 }
 
-fn qualifier(input: Input<'_>) -> Read<'_, Qualifier> {
+fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
     let (rest, name) = name(input)?;
     if let [
         Token { word: Word::Sign("-"), .. },
@@ -235,31 +257,33 @@ fn qualifier(input: Input<'_>) -> Read<'_, Qualifier> {
         && name.text == "choice"
         && domain == "domain"
     {
-        return domains.map(Qualifier::Domains).parse(Input { rest: behind, ..rest });
+        let (rest, found) = domains(Input { rest: behind, ..rest })?;
+        return Ok((rest, (name, Qualifier::Domains(found))));
     }
     // A qualifier is a bare word; a word with a bracket is the next fact.
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign(_), .. })) {
         return input.fail("объявление или правило");
     }
-    match name.text.as_str() {
-        "input" => Ok((rest, Qualifier::Role(Role::Input))),
-        "output" => Ok((rest, Qualifier::Role(Role::Output))),
-        "printsize" => Ok((rest, Qualifier::Role(Role::PrintSize))),
-        "eqrel" => Ok((rest, Qualifier::Role(Role::Equivalence))),
-        "inline" => Ok((rest, Qualifier::Role(Role::Inline))),
-        "overridable" => Ok((rest, Qualifier::Role(Role::Overridable))),
+    let qualifier = match name.text.as_str() {
+        "input" => Qualifier::Role(Role::Input),
+        "output" => Qualifier::Role(Role::Output),
+        "printsize" => Qualifier::Role(Role::PrintSize),
+        "eqrel" => Qualifier::Role(Role::Equivalence),
+        "inline" => Qualifier::Role(Role::Inline),
+        "overridable" => Qualifier::Role(Role::Overridable),
         "btree" | "btree_delete" | "brie" | "no_inline" | "magic" | "no_magic" => {
-            Ok((rest, Qualifier::Storage))
+            Qualifier::Storage
         }
         word => {
             let help = "уберите это слово: отношения хранятся одинаково";
-            input.refuse(RuleError::Unsupported {
+            return input.refuse(RuleError::Unsupported {
                 what: format!("свойство {word}"),
                 help,
                 at: name.at.into(),
-            })
+            });
         }
-    }
+    };
+    Ok((rest, (name, qualifier)))
 }
 
 // .type Place <: symbol        .type Thing = Place | Tool
@@ -327,9 +351,11 @@ fn directive(role: Role, input: Input<'_>) -> Read<'_, Item> {
 
 // .plan 0:(2,1), 1:(1,2)
 fn plan(at: Span, input: Input<'_>) -> Read<'_, Item> {
+    let number = |input| number.map(|(number, _)| number).parse(input);
     let order = delimited(sign("("), opt(list(number, sign(","))), sign(")"));
-    let hint = Item::Hint { what: ".plan".into(), at };
-    list(separated_pair(number, sign(":"), order), sign(",")).map(|_| hint.clone()).parse(input)
+    list(separated_pair(number, sign(":"), order.map(Option::unwrap_or_default)), sign(","))
+        .map(|orders| Item::Plan { orders, at })
+        .parse(input)
 }
 
 // above(A, B), over(A, B) :- body.

@@ -1,11 +1,15 @@
-//! The part of C's preprocessor that rule files use: `#define`, `#undef`, `#ifdef`, `#ifndef`, `#else`, `#endif`,
-//! `#include`. It works on words, so that a fault within what a name stands for is shown where the name stands.
+//! The part of C's preprocessor that rule files use: `#define`, `#undef`, `#ifdef`, `#ifndef`, `#if`, `#elif`, `#else`,
+//! `#endif`, `#include`, `#line`, within what a name stands for `#x` and `x ## y`; and Soufflé's `__FILE__` and
+//! `__LINE__`. It works on words, so that a fault within what a name stands for is shown where the name stands.
 
 use std::collections::HashMap;
 
+use super::condition;
+use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::lex::{self, Token, Word};
 use super::syntax::Span;
+use crate::units::Source;
 
 /// What names stand for may name others; deeper or longer is taken for an endless definition.
 const MAX_DEPTH: usize = 32;
@@ -19,38 +23,76 @@ struct Macro {
     body: Vec<Token>,
 }
 
-#[derive(Debug, Default)]
-struct Macros {
+/// An open `#if`.
+#[derive(Debug, Clone, Copy)]
+struct Choice {
+    /// What stands here is left out.
+    skips: bool,
+    /// One of its parts was taken already, or none may be.
+    is_made: bool,
+}
+
+impl Choice {
+    fn of(holds: bool) -> Self {
+        Self { skips: !holds, is_made: holds }
+    }
+}
+
+struct Macros<'a> {
+    source: &'a Source,
     known: HashMap<String, Macro>,
-    /// For each open `#ifdef` whether what stands there is left out.
-    skipping: Vec<bool>,
+    open: Vec<Choice>,
     words: usize,
+    /// What `__FILE__` says, and what is added to a line's number for `__LINE__`: both as the last `#line` has it.
+    name: String,
+    shift: i64,
 }
 
 /// The words with the lines for the preprocessor followed.
-pub(super) fn expand(tokens: Vec<Token>, file: u32, faults: &mut Vec<RuleError>) -> Vec<Token> {
-    if !tokens.iter().any(|token| matches!(token.word, Word::Line(_))) {
+pub(super) fn expand(
+    tokens: Vec<Token>,
+    source: &Source,
+    file: u32,
+    faults: &mut Vec<RuleError>,
+) -> Vec<Token> {
+    let is_touched = |token: &Token| match &token.word {
+        Word::Line(_) => true,
+        Word::Name(name) => name.starts_with("__"),
+        _ => false,
+    };
+    if !tokens.iter().any(is_touched) {
         return tokens;
     }
-    let mut macros = Macros::default();
+    let mut macros = Macros {
+        source,
+        known: HashMap::new(),
+        open: Vec::new(),
+        words: 0,
+        name: source.name().to_owned(),
+        shift: 0,
+    };
     let mut out = Vec::with_capacity(tokens.len());
     let mut rest = tokens.as_slice();
     while let Some((first, behind)) = rest.split_first() {
         rest = behind;
         match &first.word {
             Word::Line(line) => macros.line(line, first.at, file, &mut out, faults),
-            _ if macros.skipping.contains(&true) => {}
+            _ if macros.skips() => {}
             _ => rest = macros.put(first, rest, 0, &mut out, faults),
         }
     }
-    if !macros.skipping.is_empty() {
+    if !macros.open.is_empty() {
         let at = tokens.last().map(|token| token.at).unwrap_or_default().into();
-        faults.push(RuleError::Unclosed { what: "#ifdef", closing: "#endif", at });
+        faults.push(RuleError::Unclosed { what: "#if", closing: "#endif", at });
     }
     out
 }
 
-impl Macros {
+impl Macros<'_> {
+    fn skips(&self) -> bool {
+        self.open.iter().any(|choice| choice.skips)
+    }
+
     fn line(
         &mut self,
         line: &str,
@@ -62,22 +104,35 @@ impl Macros {
         let line = line.trim();
         let (word, rest) =
             line.split_at(line.find(|c: char| !c.is_alphabetic()).unwrap_or(line.len()));
-        let is_skipped = self.skipping.contains(&true);
+        let is_skipped = self.skips();
         match word {
-            "ifdef" => self.skipping.push(!self.known.contains_key(rest.trim())),
-            "ifndef" => self.skipping.push(self.known.contains_key(rest.trim())),
-            "if" if matches!(rest.trim(), "0" | "1") => self.skipping.push(rest.trim() == "0"),
-            "else" if !self.skipping.is_empty() => {
-                let last = self.skipping.pop();
-                self.skipping.push(!last.unwrap_or_default());
+            // Within what is left out conditions are not even read.
+            "ifdef" | "ifndef" | "if" if is_skipped => {
+                self.open.push(Choice { skips: true, is_made: true });
             }
-            "endif" if !self.skipping.is_empty() => {
-                self.skipping.pop();
+            "ifdef" => self.open.push(Choice::of(self.known.contains_key(rest.trim()))),
+            "ifndef" => self.open.push(Choice::of(!self.known.contains_key(rest.trim()))),
+            "if" => {
+                let holds = self.holds(rest, at, file, faults);
+                self.open.push(Choice::of(holds));
+            }
+            "elif" | "else" if !self.open.is_empty() => {
+                let last = self.open.pop().unwrap_or(Choice::of(true));
+                let outer_skips = self.skips();
+                let holds = !last.is_made
+                    && !outer_skips
+                    && (word == "else" || self.holds(rest, at, file, faults));
+                self.open.push(Choice { skips: !holds, is_made: last.is_made || holds });
+            }
+            "endif" if !self.open.is_empty() => {
+                self.open.pop();
             }
             _ if is_skipped => {}
+            "line" => self.renumber(rest, at),
             // `# 1 "file.dl"`: where a preprocessor took the lines from.
-            "line" => {}
-            "" if rest.trim_start().starts_with(|c: char| c.is_ascii_digit()) => {}
+            "" if rest.trim_start().starts_with(|c: char| c.is_ascii_digit()) => {
+                self.renumber(rest, at);
+            }
             "undef" => {
                 self.known.remove(rest.trim());
             }
@@ -89,10 +144,64 @@ impl Macros {
             }
             _ => {
                 let what = format!("препроцессор C: «#{line}»");
-                let help = "есть #define, #undef, #ifdef, #ifndef, #else, #endif и #include";
+                let help = "есть #define, #undef, #ifdef, #ifndef, #if, #elif, #else, #endif, #line и #include";
                 faults.push(RuleError::Unsupported { what, help, at: at.into() });
             }
         }
+    }
+
+    /// Whether a condition holds; false, with a fault, where it is none.
+    fn holds(&mut self, text: &str, at: Span, file: u32, faults: &mut Vec<RuleError>) -> bool {
+        let mut found = Vec::new();
+        let words = lex::words(text, file, &mut found);
+        // What `defined` asks of is not put in.
+        let mut plain = Vec::with_capacity(words.len());
+        let mut rest = words.as_slice();
+        while let Some((first, behind)) = rest.split_first() {
+            rest = behind;
+            let is_defined = matches!(&first.word, Word::Name(name) if name == "defined");
+            if !is_defined {
+                rest = self.put(first, rest, 0, &mut plain, &mut found);
+                continue;
+            }
+            let ([
+                Token { word: Word::Sign("("), .. },
+                Token { word: Word::Name(name), .. },
+                Token { word: Word::Sign(")"), .. },
+                behind @ ..,
+            ]
+            | [Token { word: Word::Name(name), .. }, behind @ ..]) = rest
+            else {
+                break;
+            };
+            rest = behind;
+            let word = Word::Number(i64::from(self.known.contains_key(name)));
+            plain.push(Token { word, at });
+        }
+        let value = condition::value(&plain).filter(|_| found.is_empty() && rest.is_empty());
+        value.map_or_else(
+            || {
+                let what = format!("условие препроцессора «{}»", text.trim());
+                let help = "есть числа, имена, defined, ! && || == != < <= > >= + - * / % и скобки";
+                faults.push(RuleError::Unsupported { what, help, at: at.into() });
+                false
+            },
+            |value| value != 0,
+        )
+    }
+
+    /// `#line 7 "other.dl"`: the next line is the seventh of that text.
+    fn renumber(&mut self, rest: &str, at: Span) {
+        let mut parts = rest.trim().splitn(2, char::is_whitespace);
+        let Some(line) = parts.next().and_then(|number| number.parse::<i64>().ok()) else { return };
+        self.shift = line - 1 - self.line_of(at);
+        if let Some(name) = parts.next().and_then(|name| name.trim().split('"').nth(1)) {
+            self.name = name.to_owned();
+        }
+    }
+
+    fn line_of(&self, at: Span) -> i64 {
+        i64::try_from(self.source.position(at.start as usize).0).unwrap_or(i64::MAX)
     }
 
     fn define(&mut self, rest: &str, at: Span, file: u32, faults: &mut Vec<RuleError>) {
@@ -142,7 +251,18 @@ impl Macros {
         faults: &mut Vec<RuleError>,
     ) -> &'a [Token] {
         let known = match &token.word {
-            Word::Name(name) => self.known.get(name).cloned(),
+            Word::Name(name) => match name.as_str() {
+                "__FILE__" => {
+                    out.push(Token { word: Word::Text(self.name.clone()), at: token.at });
+                    return rest;
+                }
+                "__LINE__" => {
+                    let line = self.line_of(token.at).saturating_add(self.shift);
+                    out.push(Token { word: Word::Number(line), at: token.at });
+                    return rest;
+                }
+                name => self.known.get(name).cloned(),
+            },
             _ => None,
         };
         let Some(known) = known else {
@@ -158,7 +278,7 @@ impl Macros {
             }
             return rest;
         }
-        let (args, rest) = match &known.parameters {
+        let (args, rest): (Args, _) = match &known.parameters {
             None => (HashMap::new(), rest),
             Some(parameters) => match arguments(rest) {
                 Some((args, rest)) => (parameters.iter().cloned().zip(args).collect(), rest),
@@ -168,15 +288,7 @@ impl Macros {
                 }
             },
         };
-        let mut body: Vec<Token> = Vec::new();
-        for one in &known.body {
-            match &one.word {
-                Word::Name(name) if args.contains_key(name) => {
-                    body.extend(args[name].iter().cloned())
-                }
-                word => body.push(Token { word: word.clone(), at: token.at }),
-            }
-        }
+        let body = filled(&known.body, &args, token.at);
         self.words += body.len();
         let mut left = body.as_slice();
         while let Some((first, behind)) = left.split_first() {
@@ -184,6 +296,72 @@ impl Macros {
         }
         rest
     }
+}
+
+/// The words that stand for each parameter.
+type Args = HashMap<String, Vec<Token>>;
+
+/// What a name stands for, with the arguments for its parameters.
+fn filled(of: &[Token], args: &Args, at: Span) -> Vec<Token> {
+    let argument = |word: &Word| match word {
+        Word::Name(name) => args.get(name),
+        _ => None,
+    };
+    let mut body: Vec<Token> = Vec::new();
+    let mut rest = of;
+    while let Some((one, behind)) = rest.split_first() {
+        rest = behind;
+        match (&one.word, rest) {
+            (Word::Sign("#"), [next, behind @ ..]) if argument(&next.word).is_some() => {
+                let text = argument(&next.word).map(|words| spelt(words)).unwrap_or_default();
+                body.push(Token { word: Word::Text(text), at });
+                rest = behind;
+            }
+            (Word::Sign("##"), [next, behind @ ..]) => {
+                rest = behind;
+                let next = std::slice::from_ref(next);
+                let right = argument(&next[0].word).map_or(next, Vec::as_slice);
+                let left = body.pop();
+                let joined =
+                    left.as_ref().map(|word| spelt(std::slice::from_ref(word))).unwrap_or_default()
+                        + &right
+                            .first()
+                            .map(|word| spelt(std::slice::from_ref(word)))
+                            .unwrap_or_default();
+                let words = lex::words(&joined, at.file, &mut Vec::new());
+                body.extend(words.into_iter().map(|word| Token { word: word.word, at }));
+                body.extend(right.iter().skip(1).cloned());
+            }
+            (word, _) => match argument(word) {
+                Some(words) => body.extend(words.iter().cloned()),
+                None => body.push(Token { word: word.clone(), at }),
+            },
+        }
+    }
+    body
+}
+
+/// Words as they are written, with one space where some stood between them.
+fn spelt(words: &[Token]) -> String {
+    let mut text = String::new();
+    let mut end = None;
+    for token in words {
+        if end.is_some_and(|end| token.at.start > end) {
+            text.push(' ');
+        }
+        end = Some(token.at.end);
+        match &token.word {
+            Word::Name(name) => text.push_str(name),
+            Word::Number(number) => text += &number.to_string(),
+            Word::Unsigned(number) => text += &format!("{number}u"),
+            Word::Decimal(number) => text += &Decimal::from_millionths(*number).to_string(),
+            Word::Text(value) => text += &format!("\"{value}\""),
+            Word::Directive(word) => text += &format!(".{word}"),
+            Word::Sign(sign) => text.push_str(sign),
+            Word::Line(line) => text += &format!("#{line}"),
+        }
+    }
+    text
 }
 
 /// The words between brackets, at each comma of their own level a new argument; and what is behind.

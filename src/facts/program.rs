@@ -10,7 +10,7 @@ use super::fault::{Faults, FileFaults, RuleError};
 use super::limits::Ceilings;
 use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
 use super::word::{Value, Word, Words};
-use super::{check, component, declare, parse, strata};
+use super::{check, component, declare, misuse, parse, strata};
 use crate::units::{Source, name_key};
 
 /// A relation of a program, by position.
@@ -59,8 +59,8 @@ pub struct RelationInfo {
     /// The name in a second language, where the declaration gives one.
     pub second_name: Option<String>,
     pub columns: Vec<Column>,
-    /// `.input`, with its parameters.
-    pub input: Option<Parameters>,
+    /// `.input`, each time that it is said, with its parameters.
+    pub inputs: Vec<Parameters>,
     /// `.output`, each time that it is said, with its parameters.
     pub outputs: Vec<Parameters>,
     pub print_size: bool,
@@ -298,6 +298,7 @@ impl Program {
     }
 
     fn of_items(sources: &[Source], items: &[Item], mut faults: Found) -> Result<Self, Faults> {
+        misuse::names(items, &mut faults);
         let items = &component::expand(items.to_vec(), &mut faults);
         let mut program = check::program(sources, items, &mut faults);
         let (warnings, errors): (Vec<_>, Vec<_>) =
@@ -383,15 +384,15 @@ fn all_items(sources: &[Source], faults: &mut Found) -> Vec<Item> {
     let mut items = Vec::new();
     for (file, source) in sources.iter().enumerate() {
         let mut here = Vec::new();
-        items.extend(parse::items(source.text(), file as u32, &mut here));
+        items.extend(parse::items(source, file as u32, &mut here));
         faults.all.extend(here.into_iter().map(|fault| (file as u32, fault)));
     }
     items
 }
 
 /// The files that a text includes, as it names them.
-pub(super) fn includes(text: &str) -> Vec<String> {
-    let items = parse::items(text, 0, &mut Vec::new());
+pub(super) fn includes(source: &Source) -> Vec<String> {
+    let items = parse::items(source, 0, &mut Vec::new());
     let path = |item| match item {
         Item::Include { path, .. } => Some(path),
         _ => None,

@@ -67,11 +67,11 @@ impl Program {
         for (n, more) in more.iter().enumerate() {
             let mut here = Vec::new();
             let file = (self.sources.len() + n) as u32;
-            items.extend(super::parse::items(more.text(), file, &mut here));
+            items.extend(super::parse::items(more, file, &mut here));
             faults.all.extend(here.into_iter().map(|fault| (file, fault)));
         }
         let mut here = Vec::new();
-        let asked = read(source.text(), file, &mut items, &mut here);
+        let asked = read(source, file, &mut items, &mut here);
         faults.all.extend(here.into_iter().map(|fault| (file, fault)));
         let question =
             asked.and_then(|asked| self.extended(&sources, &items, &asked, words, &mut faults));
@@ -158,7 +158,7 @@ impl Program {
             match item {
                 Item::Rule(rule) => rules.push(rule.clone()),
                 Item::Type { .. } | Item::Relation { .. } => {}
-                Item::Hint { .. } | Item::Pragma { .. } => {}
+                Item::Plan { .. } | Item::Pragma { .. } => {}
                 other => {
                     let at = other.at();
                     let what = "такая директива в вопросе".to_owned();
@@ -254,12 +254,13 @@ fn order(
 
 /// The question of a text, and the statements before it.
 fn read(
-    text: &str,
+    source: &Source,
     file: u32,
     items: &mut Vec<Item>,
     faults: &mut Vec<RuleError>,
 ) -> Option<syntax::Question> {
-    let words = super::preprocess::expand(lex::words(text, file, faults), file, faults);
+    let text = source.text();
+    let words = super::preprocess::expand(lex::words(text, file, faults), source, file, faults);
     let at = words.iter().position(|token| token.word == Word::Sign("?-"));
     let (before, asked) = words.split_at(at.unwrap_or(0));
     items.extend(items_of(before, text.len(), file, faults));

@@ -12,9 +12,11 @@ use std::thread;
 
 use datafrog::{Iteration, Relation, Variable};
 
+use super::beside::Beside;
 use super::plan::Version;
 use super::seen::Seen;
 use super::stored::{Stored, StoredRows};
+use super::together::{Part, gathered, joined};
 use super::word::Word;
 
 /// A tuple, filled up with zeros to its width.
@@ -171,40 +173,6 @@ impl<const N: usize> Branch for Vec<Row<N>> {
     }
 }
 
-/// A branch of a relation that tells pairs apart by bits.
-struct Beside<'a, const N: usize> {
-    seen: &'a Seen,
-    new: Vec<Row<N>>,
-    /// Beyond the range of `seen`.
-    outside: Vec<Row<N>>,
-}
-
-impl<const N: usize> Sink for Beside<'_, N> {
-    #[inline]
-    fn push(&mut self, row: &[Word]) {
-        let row = Row::of(row);
-        match self.seen.insert_beside(&row) {
-            Some(true) => self.new.push(row),
-            Some(false) => {}
-            None => self.outside.push(row),
-        }
-    }
-
-    fn len(&self) -> usize {
-        self.new.len() + self.outside.len()
-    }
-
-    fn bytes(&self) -> usize {
-        Sink::bytes(&self.new) + Sink::bytes(&self.outside)
-    }
-}
-
-impl<const N: usize> Branch for Beside<'_, N> {
-    fn taken(self: Box<Self>) -> Taken {
-        Box::new((self.new, self.outside))
-    }
-}
-
 /// Rows in any order, to become a [`RowSet`].
 pub(super) trait Heap: Sink {
     fn as_sink(&mut self) -> &mut (dyn Sink + 'static);
@@ -238,15 +206,27 @@ impl<const N: usize> Sink for Vec<Row<N>> {
 
     fn absorb(&mut self, taken: Vec<Taken>, pieces: &[Piece], rename: Option<&Rename<'_>>) {
         let taken: Vec<&Self> = taken.iter().filter_map(|rows| rows.downcast_ref()).collect();
-        self.reserve(taken.iter().map(|rows| rows.len()).sum());
+        let found = pieces.iter().map(|(branch, range)| &taken[*branch][range.clone()]);
+        let mut from = self.len();
+        append(self, &found.collect::<Vec<_>>(), taken.len());
         for (branch, range) in pieces {
-            let from = self.len();
-            self.extend_from_slice(&taken[*branch][range.clone()]);
+            let to = from + range.len();
             if let Some(rename) = rename {
-                self[from..].iter_mut().for_each(|row| rename(*branch, &mut row.0));
+                self[from..to].iter_mut().for_each(|row| rename(*branch, &mut row.0));
             }
+            from = to;
         }
     }
+}
+
+/// Puts what so many threads have found behind the rows.
+fn append<const N: usize>(rows: &mut Vec<Row<N>>, found: &[&[Row<N>]], threads: usize) {
+    if rows.is_empty() {
+        *rows = gathered(found, threads);
+        return;
+    }
+    rows.reserve(found.iter().map(|found| found.len()).sum());
+    found.iter().for_each(|found| rows.extend_from_slice(found));
 }
 
 impl<const N: usize> Heap for Vec<Row<N>> {
@@ -399,6 +379,20 @@ pub(super) trait Growing {
     fn bytes(&self) -> usize;
     /// All rows, put together in several threads where they are many.
     fn complete(self: Box<Self>, threads: usize) -> SharedRows;
+    /// All rows dealt out by a column's word, for [`Self::seed`] of as many others.
+    fn split(&self, _: usize, _: usize) -> Vec<Taken> {
+        Vec::new()
+    }
+    /// Begins with these rows, of which the last round's are the new ones.
+    fn seed(&mut self, _: Taken) {}
+    /// What was derived, for [`Self::put_together`].
+    fn finish(self: Box<Self>) -> Taken {
+        Box::new(())
+    }
+    /// All rows of what others have finished.
+    fn put_together(self: Box<Self>, _: Vec<Taken>, threads: usize) -> SharedRows {
+        self.complete(threads)
+    }
     /// Takes rows out, where they can be taken out.
     fn prune(&mut self, _: &HashSet<Box<[Word]>>) {}
     /// Whether the last round found something.
@@ -458,23 +452,20 @@ impl<const N: usize> Sink for Pushed<N> {
         match &self.seen {
             None => Some(Box::new(Vec::<Row<N>>::new())),
             // Which thread finds a pair first is chance, and so is then the order of the new rows.
-            Some(seen) if is_any_order => {
-                Some(Box::new(Beside::<N> { seen, new: Vec::new(), outside: Vec::new() }))
-            }
+            Some(seen) if is_any_order => Some(Box::new(Beside::<N>::new(seen))),
             Some(_) => None,
         }
     }
 
     fn absorb(&mut self, taken: Vec<Taken>, pieces: &[Piece], rename: Option<&Rename<'_>>) {
         let Some(seen) = &mut self.seen else { return self.rows.absorb(taken, pieces, rename) };
-        for taken in taken {
-            if let Ok(taken) = taken.downcast::<(Vec<Row<N>>, Vec<Row<N>>)>() {
-                seen.len += taken.0.len();
-                // Copied, so that what one thread has asked for goes back when it ends.
-                self.rows.extend_from_slice(&taken.0);
-                self.outside.extend_from_slice(&taken.1);
-            }
-        }
+        let taken: Vec<Box<(Vec<Row<N>>, Vec<Row<N>>)>> =
+            taken.into_iter().filter_map(|taken| taken.downcast().ok()).collect();
+        // Copied, so that what one thread has asked for goes back when it ends.
+        let new: Vec<&[Row<N>]> = taken.iter().map(|taken| taken.0.as_slice()).collect();
+        seen.len += new.iter().map(|new| new.len()).sum::<usize>();
+        append(&mut self.rows, &new, taken.len());
+        taken.iter().for_each(|taken| self.outside.extend_from_slice(&taken.1));
     }
 }
 
@@ -623,6 +614,53 @@ impl<const N: usize> Growing for GrowingRows<N> {
         };
         let own = std::iter::once(&self.rows).chain(self.orders.iter().map(|(_, rows)| rows));
         own.map(batches).sum::<usize>() * size_of::<Row<N>>() + self.pushed.borrow().bytes()
+    }
+
+    fn split(&self, column: usize, parts: usize) -> Vec<Taken> {
+        let mut dealt: Vec<(Vec<Row<N>>, Vec<Row<N>>)> = vec![(Vec::new(), Vec::new()); parts];
+        // Mixed, so that words that are counted up do not all go the same way.
+        let of =
+            |row: &Row<N>| (row.0[column].wrapping_mul(0x9E37_79B1) >> 16) as usize % parts.max(1);
+        let recent = self.rows.recent.borrow();
+        let mut new = recent.elements.clone();
+        new.sort_unstable();
+        new.iter().for_each(|row| dealt[of(row)].1.push(*row));
+        let pushed = self.pushed.borrow();
+        let mut old = match &pushed.seen {
+            Some(seen) if !self.needs_stable => seen.rows(),
+            _ => {
+                let stable = self.rows.stable.borrow();
+                let mut old: Vec<Row<N>> =
+                    stable.iter().flat_map(|batch| batch.iter().copied()).collect();
+                old.sort_unstable();
+                old
+            }
+        };
+        subtract(&mut old, &new);
+        old.iter().for_each(|row| dealt[of(row)].0.push(*row));
+        dealt.into_iter().map(|rows| Box::new(rows) as Taken).collect()
+    }
+
+    fn seed(&mut self, rows: Taken) {
+        if let Ok(rows) = rows.downcast::<(Vec<Row<N>>, Vec<Row<N>>)>() {
+            let (old, new) = *rows;
+            self.rows.stable.borrow_mut().push(Relation { elements: old });
+            *self.rows.recent.borrow_mut() = Relation { elements: new };
+        }
+    }
+
+    fn finish(self: Box<Self>) -> Taken {
+        let Self { rows, pushed, needs_stable, .. } = *self;
+        Box::new(match pushed.into_inner().seen {
+            Some(seen) if !needs_stable => Part::<N>::Bits(seen),
+            _ => Part::Run(rows.complete().elements),
+        })
+    }
+
+    fn put_together(self: Box<Self>, parts: Vec<Taken>, threads: usize) -> SharedRows {
+        drop(self);
+        let parts = parts.into_iter().filter_map(|part| part.downcast::<Part<N>>().ok());
+        Arc::new(joined(parts.map(|part| *part).collect(), threads))
     }
 
     fn complete(self: Box<Self>, threads: usize) -> SharedRows {

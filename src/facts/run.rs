@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::called::Called;
-use super::decimal;
+use super::decimal::{self, Decimal};
 use super::filter::{choose, narrow, retain};
 use super::index::Index;
 use super::kept::{KeptIndex, column_word};
@@ -18,7 +18,7 @@ use super::rows::RowSet;
 use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
 use super::value;
-use super::word::{NO_WORD, Word, Words};
+use super::word::{NO_WORD, Note, Word, Words};
 
 /// Where a scan finds its rows.
 pub(super) enum Source<'a> {
@@ -627,7 +627,14 @@ impl<'a> Machine<'a, '_> {
             spare: Vec::new(),
         };
         inner.run(first);
-        count.value(function, kind)
+        let value = count.value(function, kind);
+        if let Some(rounded) =
+            value.filter(|_| function == Aggregation::Mean && kind == Kind::Float)
+            && count.sum % i128::from(count.count) != 0
+        {
+            self.words.note(Note::Rounded(Decimal::from_millionths(rounded)));
+        }
+        value
     }
 }
 

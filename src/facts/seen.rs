@@ -4,6 +4,7 @@
 //! whether a pair is new, so that duplicates are never sorted, old rows never merged, and the finished
 //! relation is read off the bits in order. Where pairs are thinner than [`BITS_PER_ROW`] this does not pay.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
@@ -63,18 +64,20 @@ impl Seen {
         Some(is_new)
     }
 
-    /// As [`Self::insert`] while other threads insert too: one of them is told that the pair is new, and counts it.
+    /// A word of bits as it stands while other threads put more there.
     #[inline]
-    pub(super) fn insert_beside<const N: usize>(&self, row: &Row<N>) -> Option<bool> {
-        let at = self.place(row)?;
-        let (word, bit) = (&self.bits[at / 64], 1 << (at % 64));
-        // Most pairs are known, and reading costs the other threads nothing.
-        let is_known = word.load(Ordering::Relaxed) & bit != 0;
-        Some(!is_known && word.fetch_or(bit, Ordering::Relaxed) & bit == 0)
+    pub(super) fn look(&self, word: usize) -> u64 {
+        self.bits[word].load(Ordering::Relaxed)
+    }
+
+    /// Puts bits into a word; those of them that stood there already.
+    #[inline]
+    pub(super) fn put(&self, word: usize, bits: u64) -> u64 {
+        self.bits[word].fetch_or(bits, Ordering::Relaxed) & bits
     }
 
     #[inline]
-    fn place<const N: usize>(&self, row: &Row<N>) -> Option<usize> {
+    pub(super) fn place<const N: usize>(&self, row: &Row<N>) -> Option<usize> {
         let first = row.0[0].wrapping_sub(self.least[0]) as usize;
         let second = row.0[N - 1].wrapping_sub(self.least[1]) as usize;
         let is_inside = first < self.width[0] && second < self.width[1];
@@ -108,6 +111,51 @@ impl Seen {
             }
         });
         rows.into_iter().map(Row).collect()
+    }
+
+    /// The range of the first words.
+    pub(super) fn firsts(&self) -> Range<u64> {
+        let least = u64::from(self.least[0]);
+        least..least + self.width[0] as u64
+    }
+
+    /// The bits of the pairs whose first word is in a range.
+    fn bits_of(&self, firsts: Range<u64>) -> Range<usize> {
+        let own = self.firsts();
+        let place = |first: u64| (first.clamp(own.start, own.end) - own.start) as usize;
+        place(firsts.start) * self.width[1]..place(firsts.end) * self.width[1]
+    }
+
+    /// How many pairs have their first word in a range.
+    pub(super) fn count(&self, firsts: Range<u64>) -> usize {
+        let mut count = 0;
+        self.each_word(self.bits_of(firsts), |_, word| count += word.count_ones() as usize);
+        count
+    }
+
+    /// The second words of the pairs with a first one, ascending.
+    pub(super) fn each_second(&self, first: u64, f: &mut impl FnMut(Word)) {
+        let bits = self.bits_of(first..first + 1);
+        let start = bits.start;
+        self.each_word(bits, |at, mut rest| {
+            while rest != 0 {
+                let bit = at + rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                f(self.least[1] + (bit - start) as Word);
+            }
+        });
+    }
+
+    /// The words that a range of bits lies in, each with its first bit's place and without the bits beyond the range.
+    fn each_word(&self, bits: Range<usize>, mut f: impl FnMut(usize, u64)) {
+        let mut at = bits.start;
+        while at < bits.end {
+            let (n, skipped) = (at / 64, at % 64);
+            let taken = (64 - skipped).min(bits.end - at);
+            let mask = (u64::MAX >> (64 - taken)) << skipped;
+            f(n * 64, self.bits[n].load(Ordering::Relaxed) & mask);
+            at += taken;
+        }
     }
 
     /// All pairs in ascending order.

@@ -279,7 +279,7 @@ impl Pieces {
 }
 
 /// A source that threads may share.
-enum Plain<'a> {
+pub(super) enum Plain<'a> {
     Index(&'a super::index::Index),
     Rows(Vec<&'a dyn RowSet>),
 }
@@ -293,7 +293,7 @@ impl<'a> Plain<'a> {
         }
     }
 
-    fn source(&self) -> Source<'a> {
+    pub(super) fn source(&self) -> Source<'a> {
         match self {
             Self::Index(index) => Source::Index(index),
             Self::Rows(parts) => Source::Rows(parts.clone()),

@@ -62,8 +62,8 @@ pub(super) enum Item {
     Override(Name),
     /// `shortest(x, a) <= shortest(x, b) :- b < a.`: the left tuple goes where the right one stands.
     Subsumption { dominated: Atom, dominating: Atom, body: Body, at: Span },
-    /// What is read and has no effect.
-    Hint { what: String, at: Span },
+    /// `.plan 0:(2,1)` behind a rule: in which order its atoms are to be joined. Read and not followed.
+    Plan { orders: Vec<(i64, Vec<i64>)>, at: Span },
     /// `.pragma "time-limit" "10"`
     Pragma { name: String, value: String, at: Span },
     /// `.input`, `.output`, `.printsize`, `.limitsize`.
@@ -82,7 +82,7 @@ impl Item {
             Self::Include { at, .. }
             | Self::Instance { at, .. }
             | Self::Subsumption { at, .. }
-            | Self::Hint { at, .. }
+            | Self::Plan { at, .. }
             | Self::Pragma { at, .. } => *at,
             Self::Relation { names, .. } | Self::Directive { relations: names, .. } => {
                 names.first().map(|name| name.at).unwrap_or_default()

@@ -201,11 +201,10 @@ fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
         Functor::BitAnd => Some(a & b),
         Functor::BitOr => Some(a | b),
         Functor::BitXor => Some(a ^ b),
-        Functor::ShiftLeft => a.checked_shl(u32::try_from(b).ok()?),
-        Functor::ShiftRight => a.checked_shr(u32::try_from(b).ok()?),
-        Functor::ShiftRightUnsigned => {
-            (a as u64).checked_shr(u32::try_from(b).ok()?).map(|bits| bits as i64)
-        }
+        // The places to shift go round, as a processor's do.
+        Functor::ShiftLeft => Some(a.wrapping_shl(b as u32)),
+        Functor::ShiftRight => Some(a.wrapping_shr(b as u32)),
+        Functor::ShiftRightUnsigned => Some((a as u64).wrapping_shr(b as u32) as i64),
         Functor::LogicalAnd | Functor::LogicalAndUnsigned => Some(i64::from(a != 0 && b != 0)),
         Functor::LogicalOr | Functor::LogicalOrUnsigned => Some(i64::from(a != 0 || b != 0)),
         Functor::LogicalXor | Functor::LogicalXorUnsigned => Some(i64::from((a != 0) != (b != 0))),
@@ -220,7 +219,6 @@ fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
         Functor::BitAndUnsigned => Some(a & b),
         Functor::BitOrUnsigned => Some(a | b),
         Functor::BitXorUnsigned => Some(a ^ b),
-        // The places to shift go round as well, as a processor's do.
         Functor::ShiftLeftUnsigned => Some(round(a << (b & 31))),
         Functor::ShiftRightOfUnsigned | Functor::ShiftRightUnsignedOfUnsigned => {
             Some(round(a >> (b & 31)))
@@ -267,7 +265,8 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
         }
         (Functor::TextToText, [a]) => text(a, variable, words),
         (Functor::DecimalToText, [a]) => {
-            number(a, variable, words).map(|number| Decimal::from_millionths(number).to_string())
+            // With all six digits, as Soufflé's to_string gives them.
+            number(a, variable, words).map(|number| Decimal::from_millionths(number).six_digits())
         }
         _ => None,
     }

@@ -233,6 +233,11 @@ impl Words {
         &self.own.numbers
     }
 
+    /// Whether a word was named here that no other table has.
+    pub(super) fn has_own(&self) -> bool {
+        self.own.len() > 0
+    }
+
     pub(super) fn note(&mut self, note: Note) {
         self.note.get_or_insert(note);
     }

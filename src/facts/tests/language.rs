@@ -468,3 +468,81 @@ fn brackets_behind_max_and_marks_of_other_programs_are_read() {
     let address = shown(".decl m(x: number) .output m m(256.0.0.1).");
     assert!(address.contains("256.0.0.1"), "{address}");
 }
+
+#[test]
+fn the_preprocessor_chooses_joins_and_names_the_place() {
+    check(
+        r##"
+#define WIDTH 10
+#define SUM(a, b) ((a) + (b))
+#define WORD(x) #x
+#define JOIN(a, b) a##b
+#if defined(WIDTH) && WIDTH * 2 == 20
+.decl n(x: number) .output n
+#elif 1
+what is left out need not be read
+#else
+nor this
+#endif
+#if 0
+#if 1
+n(1).
+#else
+n(2).
+#endif
+#elif WIDTH > 5
+n(3).
+#elif 1
+n(4).
+#endif
+JOIN(n,)(SUM(WIDTH, __LINE__)).
+.decl s(x: symbol) .output s
+s(WORD(a  b)). s(__FILE__).
+#line 70 "other.dl"
+s(__FILE__). n(__LINE__)."##,
+        &expect![[r#"
+            n(3)
+            n(34)
+            n(70)
+            s(a b)
+            s(other.dl)
+            s(t.dl)
+        "#]],
+    );
+    check(
+        "#if 1 +\n#endif\n#elif 1\n#if 1",
+        &expect![[r#"
+            1: не поддерживается: условие препроцессора «1 +»
+            3: не поддерживается: препроцессор C: «#elif 1»
+            4: #if не закрыт
+        "#]],
+    );
+}
+
+#[test]
+fn numbers_become_texts_and_others_as_in_souffle() {
+    check(
+        r#"
+        .decl f(x: float) .output f
+        f(2.0 ^ 0.5). f(16.0 ^ -0.25). f(-1.0 ^ 0.5). f(itof(3)).
+        f(X) :- X = 0.0 - 4.0, Y = X ^ 0.5, Y > 0.0.
+        .decl s(x: symbol) .output s
+        s(to_string(4.5)). s(to_string(-0.25)). s(cat("a")). s(cat()).
+        .decl n(x: number) .output n
+        f(3.14159265).
+        n(ftoi(3.9)). n(1 bshl 64). n(-1 bshru 63)."#,
+        &expect![[r#"
+            f(-1)
+            f(0.5)
+            f(1.414214)
+            f(3)
+            f(3.141593)
+            s()
+            s(-0.250000)
+            s(4.500000)
+            s(a)
+            n(1)
+            n(3)
+        "#]],
+    );
+}

@@ -68,6 +68,8 @@ const RULES: &[&str] = &[
     ".decl low(a: number, b: number) low(X, X * Y - 7000000000) :- e(X, Y). low(Y, M) :- e(X, Y), low(X, M).",
     ".decl path(a: number, b: number) path(X, Y) :- e(X, Y). path(X, Z) :- path(X, Y), e(Y, Z).",
     ".decl path(a: number, b: number) path(X, Y) :- e(X, Y). path(X, Z) :- path(X, Y), path(Y, Z).",
+    ".decl back(a: number, b: number) back(X, Y) :- e(X, Y). back(X, Z) :- e(X, Y), back(Y, Z).",
+    ".decl colour(a: number, b: number, c: number) colour(X, Y, 0) :- e(X, Y). colour(X, Z, C) :- colour(X, Y, C), e(Z, Y). colour(X, Y, 1) :- e(Y, X).",
     ".decl steps(a: number, b: number, n: number) steps(X, Y, 1) :- e(X, Y). steps(X, Z, N + 1) :- steps(X, Y, N), e(Y, Z), N < 4.",
     ".decl text(a: symbol, b: number) text(cat(to_string(X), \"-\"), Y) :- e(X, Y).",
     ".decl words(a: symbol) words(\"a\"). words(cat(A, to_string(X % 3))) :- words(A), e(X, _), strlen(A) < 4.",
@@ -114,7 +116,10 @@ fn dense_relations_come_out_as_in_one_thread() {
         .decl e(a: number, b: number) .input e
         .decl path(a: number, b: number)
         .decl both(a: number, b: number)
+        .decl back(a: number, b: number)
         .decl more(a: number, b: number)
+        back(X, Y) :- e(X, Y).
+        back(X, Z) :- e(X, Y), back(Y, Z).
         path(X, Y) :- e(X, Y).
         path(X, Z) :- path(X, Y), e(Y, Z).
         both(X, Y) :- e(X, Y).
@@ -132,7 +137,7 @@ fn dense_relations_come_out_as_in_one_thread() {
         }
         let rows = |limits: Limits| -> Vec<Vec<Vec<Value>>> {
             let derived = program.evaluate_within(&facts, limits).unwrap();
-            let all = ["path", "both", "more"].map(|name| derived.tuples(name).unwrap());
+            let all = ["path", "both", "more", "back"].map(|name| derived.tuples(name).unwrap());
             all.into_iter().map(|rows| rows.map(|row| row.values()).collect()).collect()
         };
         let alone = rows(threads(1));
@@ -157,6 +162,22 @@ fn limits_hold_for_all_threads_together() {
         let short = Limits { time: Duration::from_millis(5), ..threads(more) };
         let error = program.evaluate_within(&database, short).unwrap_err();
         assert!(matches!(error, EvaluateError::Time { .. }), "{error}");
+    }
+    let rules = ".decl e(x: number, y: number) .decl path(x: number, y: number)
+        e(X, X + 1) :- X = range(0, 3000).
+        path(X, Y) :- e(X, Y).
+        path(X, Z) :- path(X, Y), e(Y, Z).";
+    let chain = Program::parse(&Source::new("chain.dl", rules)).unwrap();
+    for more in [1, 2, 3] {
+        let few = Limits { rows: 100_000, ..threads(more) };
+        let error = chain.evaluate_within(&chain.database(), few).unwrap_err();
+        assert!(matches!(error, EvaluateError::TooMany { .. }), "{error}");
+        let short = Limits { time: Duration::from_millis(20), ..threads(more) };
+        let error = chain.evaluate_within(&chain.database(), short).unwrap_err();
+        assert!(matches!(error, EvaluateError::Time { .. }), "{error}");
+        let little = Limits { memory_bytes: 8 << 20, ..threads(more) };
+        let error = chain.evaluate_within(&chain.database(), little).unwrap_err();
+        assert!(matches!(error, EvaluateError::Memory { .. }), "{error}");
     }
 }
 
