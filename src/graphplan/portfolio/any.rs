@@ -46,22 +46,13 @@ const FEW_STATES_BY_WIDTH: usize = 50_000;
 const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
 pub(crate) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
-    let mut forward = Forward {
-        task,
-        limits,
-        relaxed: Relaxed::new(task),
-        evaluated: 0,
-        until: u64::MAX,
-        effort,
-    };
+    let mut forward = Forward::new(task, limits, effort);
     let operators = match forward.sequence()? {
         Searched::Path(operators) => operators,
         Searched::Exhausted => return Ok(Found::Exhausted),
         Searched::Open => return Ok(Found::Open),
     };
-    let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
-    drop_needless(task, &mut steps);
-    Ok(Found::Plan(in_parallel(task, steps.into_iter().flatten())))
+    Ok(Found::Plan(without_needless(task, operators)))
 }
 
 /// A plan that reaches one goal after the other, in this order, if hill climbing finds the way.
@@ -70,12 +61,33 @@ pub(crate) fn in_order(
     goals: &[FactId],
     limits: &Limits,
 ) -> Result<Option<Plan>, Limit> {
-    let (relaxed, effort) = (Relaxed::new(task), Effort::Least);
-    let mut forward = Forward { task, limits, relaxed, evaluated: 0, until: u64::MAX, effort };
-    let Some(operators) = forward.climb_in_order(goals)? else { return Ok(None) };
+    let mut forward = Forward::new(task, limits, Effort::Least);
+    let operators = forward.climb_in_order(goals)?;
+    Ok(operators.map(|operators| without_needless(task, operators)))
+}
+
+/// A plan found step by step, without following relaxed plans to their ends: it takes longer to find and mostly has
+/// fewer actions (S. Richter, M. Westphal, 2010). None where it takes more than so much effort.
+pub(crate) fn step_by_step(
+    task: &Task,
+    effort: u64,
+    limits: &Limits,
+) -> Result<Option<Plan>, Limit> {
+    let mut forward = Forward::new(task, limits, Effort::Small);
+    forward.looks_ahead = false;
+    forward.relaxed = Relaxed::by_sum(task);
+    forward.most_effort = effort;
+    let landmarks = Landmarks::of(task);
+    let state = forward.initial();
+    let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
+    let found = forward.best_first(Stage { state, attained }, landmarks.as_ref(), false)?;
+    Ok(found.map(|(operators, _)| without_needless(task, operators)))
+}
+
+fn without_needless(task: &Task, operators: Vec<OperatorId>) -> Plan {
     let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
     drop_needless(task, &mut steps);
-    Ok(Some(in_parallel(task, steps.into_iter().flatten())))
+    in_parallel(task, steps.into_iter().flatten())
 }
 
 struct Forward<'a> {
@@ -85,10 +97,27 @@ struct Forward<'a> {
     evaluated: u64,
     /// Where best-first search ends for the time being.
     until: u64,
+    /// Where it ends as well, in what looking at relaxed plans takes.
+    most_effort: u64,
     effort: Effort,
+    /// Whether best-first search also jumps to the end of a relaxed plan: sooner at a goal, by a longer way.
+    looks_ahead: bool,
 }
 
-impl Forward<'_> {
+impl<'a> Forward<'a> {
+    fn new(task: &'a Task, limits: &'a Limits, effort: Effort) -> Self {
+        Self {
+            task,
+            limits,
+            relaxed: Relaxed::new(task),
+            evaluated: 0,
+            until: u64::MAX,
+            most_effort: u64::MAX,
+            effort,
+            looks_ahead: true,
+        }
+    }
+
     /// Hill climbing, then a little width, and with the least effort no more; then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
         if self.effort != Effort::All
@@ -158,7 +187,7 @@ impl Forward<'_> {
     }
 
     fn is_over(&self) -> bool {
-        self.evaluated >= self.until
+        self.evaluated >= self.until || self.relaxed.effort >= self.most_effort
     }
 
     fn initial(&self) -> State {
@@ -358,7 +387,7 @@ impl Forward<'_> {
             if self.is_over() {
                 return Ok(None);
             }
-            if by.is_none() && nearer {
+            if by.is_none() && (nearer || !self.looks_ahead) {
                 continue;
             }
             let path: Box<[OperatorId]> = match by {
