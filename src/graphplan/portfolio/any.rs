@@ -55,14 +55,14 @@ pub(crate) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Fou
     Ok(Found::Plan(without_needless(task, operators)))
 }
 
-/// A plan that reaches one goal after the other, in this order, if hill climbing finds the way.
+/// A plan that reaches one stage after the other, if hill climbing finds the way.
 pub(crate) fn in_order(
     task: &Task,
-    goals: &[FactId],
+    stages: &[Vec<FactId>],
     limits: &Limits,
 ) -> Result<Option<Plan>, Limit> {
     let mut forward = Forward::new(task, limits, Effort::Least);
-    let operators = forward.climb_in_order(goals)?;
+    let operators = forward.climb_in_order(stages.iter().map(Vec::as_slice))?;
     Ok(operators.map(|operators| without_needless(task, operators)))
 }
 
@@ -131,7 +131,8 @@ impl<'a> Forward<'a> {
         if self.effort != Effort::All
             && let Some(landmarks) = &landmarks
         {
-            if let Some(operators) = self.climb_in_order(landmarks.goals_in_order())? {
+            let goals = landmarks.goals_in_order();
+            if let Some(operators) = self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))? {
                 return Ok(Searched::Path(operators));
             }
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
@@ -323,18 +324,22 @@ impl<'a> Forward<'a> {
 
     /// One goal after the other, none of which is undone for one that comes later (J. Koehler, J. Hoffmann, 2000, the
     /// goal agenda). A goal attained may be given up for a while, but holds again before the next has its turn.
-    fn climb_in_order(&mut self, goals: &[FactId]) -> Result<Option<Vec<OperatorId>>, Limit> {
+    fn climb_in_order<'g>(
+        &mut self,
+        stages: impl Iterator<Item = &'g [FactId]>,
+    ) -> Result<Option<Vec<OperatorId>>, Limit> {
         let mut state = self.initial();
         let mut plan = Vec::new();
-        for turn in 1..=goals.len() {
-            self.relaxed.aim_at(&goals[..turn]);
+        for stage in stages {
+            self.relaxed.aim_at(stage);
             let climbed = self.climb(state);
             self.relaxed.aim_at(&self.task.goal);
             let Some((path, end)) = climbed? else { return Ok(None) };
             plan.extend(path);
             state = end;
         }
-        Ok(Some(plan))
+        // The last stage may be less than the goal.
+        Ok(self.task.goal.iter().all(|&goal| holds(&state, goal)).then_some(plan))
     }
 
     /// What the state looked at last allows.

@@ -114,7 +114,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let errands = Errands::of(task);
     if let Some(errands) = &errands {
         best.raise(errands.at_least);
-        if let Some(plan) = any::in_order(task, &errands.goals, &some)? {
+        if let Some(plan) = any::in_order(task, &errands.stages, &some)? {
             best.offer(plan);
         }
     }
@@ -128,6 +128,9 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             Err(limit) => return Err(limit),
         }
     }
+    if best.is_proven() {
+        return Ok(None);
+    }
     let working = Working::of(task, limits)?;
     // Plans in the terms of the task that is worked on, the best of which is shortened on.
     let mut current: Vec<Plan> = Vec::new();
@@ -137,10 +140,11 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     }
     if !best.is_proven() {
         if let Some(errands) = &errands {
-            let order: Vec<FactId> =
-                errands.goals.iter().filter_map(|&goal| working.fact(goal)).collect();
-            let planned = shorten::one_by_one(working.task(), &order, ERRAND_EFFORT, limits);
-            current.extend(planned);
+            let own = |stage: &Vec<FactId>| stage.iter().map(|&fact| working.fact(fact)).collect();
+            let stages: Option<Vec<Vec<FactId>>> = errands.stages.iter().map(own).collect();
+            current.extend(stages.and_then(|stages| {
+                shorten::one_by_one(working.task(), &stages, ERRAND_EFFORT, limits)
+            }));
         }
         // A day of errands is in order already; any other plan may be as good as the first.
         if let (Working::Reduced(_), true) = (&working, current.is_empty())

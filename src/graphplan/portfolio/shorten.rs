@@ -111,18 +111,18 @@ fn replaced(
     (size(&whole) < size(plan)).then_some(whole)
 }
 
-/// One goal after the other in this order, each in the fewest steps from where the one before ended, with all goals
-/// before it kept; none where one of them takes more than so much effort.
+/// One stage after the other, each in the fewest steps from where the one before ended; none where one of them takes
+/// more than so much effort.
 pub(crate) fn one_by_one(
     task: &Task,
-    goals: &[FactId],
+    stages: &[Vec<FactId>],
     effort: u64,
     limits: &Limits,
 ) -> Option<Plan> {
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
-    for count in 1..=goals.len() {
+    for stage in stages {
         let init = state_before(task, &steps);
-        let mut goal = goals[..count].to_vec();
+        let mut goal = stage.clone();
         goal.sort_unstable();
         if goal.iter().all(|fact| init.contains(fact)) {
             continue;
