@@ -20,6 +20,8 @@ pub(crate) enum Errand {
     Fetch,
     /// Bring three things to where they belong.
     Tidy,
+    /// Bring so many things from anywhere to anywhere.
+    Day(usize),
 }
 
 /// A scenario in the rule language, without the rules.
@@ -114,9 +116,27 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
             }
             goal
         }
+        Errand::Day(things) => {
+            let mut goal = String::new();
+            for thing in 0..things {
+                let (from, to) = (random.below(rooms), random.below(rooms));
+                let to = if from == to { (to + 1) % rooms } else { to };
+                writeln!(
+                    facts,
+                    "ПРЕДМЕТ_НАХОДИТСЯ-НА_(Вещь-{thing}, Стол-{from}) ПРЕДМЕТ_ХРАНИТСЯ-НА_(Вещь-{thing}, Стол-{to})"
+                )
+                .expect("a string takes all text");
+                goal += &format!("ПРЕДМЕТ-НА-СВОЁМ-МЕСТЕ_(Вещь-{thing}) ");
+            }
+            goal
+        }
+    };
+    let name = match errand {
+        Errand::Day(things) => format!("building-{rooms}-{floors}/day-{things}"),
+        errand => format!("building-{rooms}-{floors}/{errand:?}").to_lowercase(),
     };
     Building {
-        name: format!("building-{rooms}-{floors}/{errand:?}").to_lowercase(),
+        name,
         scenario: format!("Факты:\n{facts}\nПредположения:\n{assumptions}\nЦель:\n{goal}\n"),
     }
 }

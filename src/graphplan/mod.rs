@@ -166,7 +166,7 @@ pub struct Limits {
     pub shorten: u64,
     /// What shortening may take in all, in variables set by the solver and what takes as long.
     pub shorten_effort: u64,
-    /// Who is told of a plan found soon, and of every one with fewer steps that it is shortened to.
+    /// Who is told of a plan found soon, and of every one with fewer steps or fewer actions that it is made.
     pub tell: Option<fn(&Plan)>,
     /// Who is told by [`solve_anytime`] when fewer steps than before are ruled out.
     pub tell_bound: Option<fn(usize)>,

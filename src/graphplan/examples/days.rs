@@ -1,7 +1,8 @@
 //! A robot's whole day in a large building: things to be tidied up in many rooms, over one or two storeys, or rounds.
 //!
 //! `cargo run --release -p orthoframe-graphplan --example days -- tidy 60 8 1 30`: 8 things in 60 rooms on one storey,
-//! 30 seconds. `rounds 40 0 1 30`: a look into each of 40 rooms. Tells when the first plan stood, what came after it, and
+//! 30 seconds. `rounds 40 0 1 30`: a look into each of 40 rooms. `robot 60 8 1 30`: the first by the rules in
+//! `rules/service-robot.strips`, with places, keys and a lift. Tells when the first plan stood, what came after it, and
 //! what is proven; every plan is replayed. `write` in front writes the problem to domain.pddl and problem.pddl.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to its caller")]
@@ -44,10 +45,18 @@ const DOMAIN: &str = "(define (domain day)
 /// Corridors of so many pieces, each piece with a room on either side.
 const ALONG: usize = 10;
 
+#[path = "../../../benches/planning/building.rs"]
+#[allow(dead_code, reason = "benches ask for more errands")]
+mod building;
+
 /// A small generator with a seed (xorshift64*).
 struct Random(u64);
 
 impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
     fn below(&mut self, bound: usize) -> usize {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -124,6 +133,17 @@ fn main() {
         |at: usize| -> usize { args.get(at).and_then(|text| text.parse().ok()).unwrap_or(1) };
     let (rooms, things, storeys, seconds) = (number(1), number(2), number(3), number(4));
     let is_rounds = args.first().is_some_and(|kind| kind == "rounds");
+    if args.first().is_some_and(|kind| kind == "robot") {
+        let rules = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rules/service-robot.strips");
+        let rules = std::fs::read_to_string(rules).expect("the rules stand beside the sources");
+        let day = building::building(rooms, storeys, building::Errand::Day(things));
+        if is_written {
+            std::fs::write("day.strips", rules + &day.scenario).expect("it can be written");
+            return;
+        }
+        let source = Source::new("day", &(rules + &day.scenario));
+        return plan(&Scenario::parse(&source).expect("the rules read well"), seconds);
+    }
     let problem = day(rooms, things, storeys, is_rounds);
     if is_written {
         std::fs::write("domain.pddl", DOMAIN).expect("the directory can be written to");
@@ -131,7 +151,10 @@ fn main() {
         return;
     }
     let (domain, problem) = (Source::new("domain", DOMAIN), Source::new("problem", &problem));
-    let scenario = Scenario::parse_pddl(&domain, &problem).expect("the domain reads well");
+    plan(&Scenario::parse_pddl(&domain, &problem).expect("the domain reads well"), seconds);
+}
+
+fn plan(scenario: &Scenario, seconds: usize) {
     since();
     let task = scenario.ground().expect("the problem means something");
     println!("{:.2} s: {} facts, {} operators", since(), task.facts.len(), task.operators.len());

@@ -46,36 +46,48 @@ const FEW_STATES_BY_WIDTH: usize = 50_000;
 const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
 pub(crate) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
-    let mut forward = Forward {
-        task,
-        limits,
-        relaxed: Relaxed::new(task),
-        evaluated: 0,
-        until: u64::MAX,
-        effort,
-    };
+    let mut forward = Forward::new(task, limits, effort);
     let operators = match forward.sequence()? {
         Searched::Path(operators) => operators,
         Searched::Exhausted => return Ok(Found::Exhausted),
         Searched::Open => return Ok(Found::Open),
     };
-    let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
-    drop_needless(task, &mut steps);
-    Ok(Found::Plan(in_parallel(task, steps.into_iter().flatten())))
+    Ok(Found::Plan(without_needless(task, operators)))
 }
 
-/// A plan that reaches one goal after the other, in this order, if hill climbing finds the way.
+/// A plan that reaches one stage after the other, if hill climbing finds the way.
 pub(crate) fn in_order(
     task: &Task,
-    goals: &[FactId],
+    stages: &[Vec<FactId>],
     limits: &Limits,
 ) -> Result<Option<Plan>, Limit> {
-    let (relaxed, effort) = (Relaxed::new(task), Effort::Least);
-    let mut forward = Forward { task, limits, relaxed, evaluated: 0, until: u64::MAX, effort };
-    let Some(operators) = forward.climb_in_order(goals)? else { return Ok(None) };
+    let mut forward = Forward::new(task, limits, Effort::Least);
+    let operators = forward.climb_in_order(stages.iter().map(Vec::as_slice))?;
+    Ok(operators.map(|operators| without_needless(task, operators)))
+}
+
+/// A plan found step by step, without following relaxed plans to their ends: it takes longer to find and mostly has
+/// fewer actions (S. Richter, M. Westphal, 2010). None where it takes more than so much effort.
+pub(crate) fn step_by_step(
+    task: &Task,
+    effort: u64,
+    limits: &Limits,
+) -> Result<Option<Plan>, Limit> {
+    let mut forward = Forward::new(task, limits, Effort::Small);
+    forward.looks_ahead = false;
+    forward.relaxed = Relaxed::by_sum(task);
+    forward.most_effort = effort;
+    let landmarks = Landmarks::of(task);
+    let state = forward.initial();
+    let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
+    let found = forward.best_first(Stage { state, attained }, landmarks.as_ref(), false)?;
+    Ok(found.map(|(operators, _)| without_needless(task, operators)))
+}
+
+fn without_needless(task: &Task, operators: Vec<OperatorId>) -> Plan {
     let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
     drop_needless(task, &mut steps);
-    Ok(Some(in_parallel(task, steps.into_iter().flatten())))
+    in_parallel(task, steps.into_iter().flatten())
 }
 
 struct Forward<'a> {
@@ -85,10 +97,27 @@ struct Forward<'a> {
     evaluated: u64,
     /// Where best-first search ends for the time being.
     until: u64,
+    /// Where it ends as well, in what looking at relaxed plans takes.
+    most_effort: u64,
     effort: Effort,
+    /// Whether best-first search also jumps to the end of a relaxed plan: sooner at a goal, by a longer way.
+    looks_ahead: bool,
 }
 
-impl Forward<'_> {
+impl<'a> Forward<'a> {
+    fn new(task: &'a Task, limits: &'a Limits, effort: Effort) -> Self {
+        Self {
+            task,
+            limits,
+            relaxed: Relaxed::new(task),
+            evaluated: 0,
+            until: u64::MAX,
+            most_effort: u64::MAX,
+            effort,
+            looks_ahead: true,
+        }
+    }
+
     /// Hill climbing, then a little width, and with the least effort no more; then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
         if self.effort != Effort::All
@@ -102,7 +131,8 @@ impl Forward<'_> {
         if self.effort != Effort::All
             && let Some(landmarks) = &landmarks
         {
-            if let Some(operators) = self.climb_in_order(landmarks.goals_in_order())? {
+            let goals = landmarks.goals_in_order();
+            if let Some(operators) = self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))? {
                 return Ok(Searched::Path(operators));
             }
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
@@ -158,7 +188,7 @@ impl Forward<'_> {
     }
 
     fn is_over(&self) -> bool {
-        self.evaluated >= self.until
+        self.evaluated >= self.until || self.relaxed.effort >= self.most_effort
     }
 
     fn initial(&self) -> State {
@@ -294,18 +324,22 @@ impl Forward<'_> {
 
     /// One goal after the other, none of which is undone for one that comes later (J. Koehler, J. Hoffmann, 2000, the
     /// goal agenda). A goal attained may be given up for a while, but holds again before the next has its turn.
-    fn climb_in_order(&mut self, goals: &[FactId]) -> Result<Option<Vec<OperatorId>>, Limit> {
+    fn climb_in_order<'g>(
+        &mut self,
+        stages: impl Iterator<Item = &'g [FactId]>,
+    ) -> Result<Option<Vec<OperatorId>>, Limit> {
         let mut state = self.initial();
         let mut plan = Vec::new();
-        for turn in 1..=goals.len() {
-            self.relaxed.aim_at(&goals[..turn]);
+        for stage in stages {
+            self.relaxed.aim_at(stage);
             let climbed = self.climb(state);
             self.relaxed.aim_at(&self.task.goal);
             let Some((path, end)) = climbed? else { return Ok(None) };
             plan.extend(path);
             state = end;
         }
-        Ok(Some(plan))
+        // The last stage may be less than the goal.
+        Ok(self.task.goal.iter().all(|&goal| holds(&state, goal)).then_some(plan))
     }
 
     /// What the state looked at last allows.
@@ -358,7 +392,7 @@ impl Forward<'_> {
             if self.is_over() {
                 return Ok(None);
             }
-            if by.is_none() && nearer {
+            if by.is_none() && (nearer || !self.looks_ahead) {
                 continue;
             }
             let path: Box<[OperatorId]> = match by {

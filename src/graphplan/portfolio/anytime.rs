@@ -1,12 +1,12 @@
 //! An answer always: a plan at once, better ones as they come, and a rising bound on the fewest steps, until the two
 //! meet or the effort is used up.
 //!
-//! Rounds with twice the effort of the one before: in each the best plan is shortened piece by piece, and a proof of
-//! the fewest steps is tried anew, which costs no more than as much again in all. The order of the rounds depends on
+//! Rounds with twice the effort of the one before: in each the best plan is made of fewer actions and of fewer steps,
+//! piece by piece, and a proof of the fewest steps is tried anew, which costs no more than as much again in all. The order of the rounds depends on
 //! nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
 
 use super::any::{self, Found};
-use super::shorten;
+use super::{fewer, shorten};
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Working, prove};
 use crate::strips::{FactId, Task};
@@ -114,7 +114,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let errands = Errands::of(task);
     if let Some(errands) = &errands {
         best.raise(errands.at_least);
-        if let Some(plan) = any::in_order(task, &errands.goals, &some)? {
+        if let Some(plan) = any::in_order(task, &errands.stages, &some)? {
             best.offer(plan);
         }
     }
@@ -128,6 +128,9 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             Err(limit) => return Err(limit),
         }
     }
+    if best.is_proven() {
+        return Ok(None);
+    }
     let working = Working::of(task, limits)?;
     // Plans in the terms of the task that is worked on, the best of which is shortened on.
     let mut current: Vec<Plan> = Vec::new();
@@ -137,10 +140,11 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     }
     if !best.is_proven() {
         if let Some(errands) = &errands {
-            let order: Vec<FactId> =
-                errands.goals.iter().filter_map(|&goal| working.fact(goal)).collect();
-            let planned = shorten::one_by_one(working.task(), &order, ERRAND_EFFORT, limits);
-            current.extend(planned);
+            let own = |stage: &Vec<FactId>| stage.iter().map(|&fact| working.fact(fact)).collect();
+            let stages: Option<Vec<Vec<FactId>>> = errands.stages.iter().map(own).collect();
+            current.extend(stages.and_then(|stages| {
+                shorten::one_by_one(working.task(), &stages, ERRAND_EFFORT, limits)
+            }));
         }
         // A day of errands is in order already; any other plan may be as good as the first.
         if let (Working::Reduced(_), true) = (&working, current.is_empty())
@@ -154,19 +158,35 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         }
         current.iter().for_each(|plan| best.offer(working.own(plan.clone())));
     }
+    let mut is_settled = best.is_proven() || errands.is_some();
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
         if best.is_proven() {
             break;
         }
         let effort = FIRST_EFFORT << round;
-        spent = spent.saturating_add(2 * effort);
+        spent = spent.saturating_add(3 * effort);
         if round > 0 && limits.effort.is_some_and(|most| spent > most) {
             return Ok(None);
         }
         let within =
             Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
+        // What was found soon may be far from the best that is found step by step.
+        if !is_settled {
+            match any::step_by_step(working.task(), effort, &some) {
+                Ok(Some(plan)) => {
+                    is_settled = true;
+                    best.offer(working.own(plan.clone()));
+                    current.push(plan);
+                }
+                Ok(None) | Err(Limit::Memory) => {}
+                Err(limit) => return Err(limit),
+            }
+        }
         for plan in &mut current {
+            let mut share = effort;
+            *plan = fewer::fewer(working.task(), std::mem::take(plan), limits, &mut share);
+            best.offer(working.own(plan.clone()));
             *plan = shorten::shorten(working.task(), std::mem::take(plan), &within);
             best.offer(working.own(plan.clone()));
         }

@@ -3,8 +3,10 @@
 
 pub(crate) mod any;
 mod anytime;
+mod fewer;
 mod landmarks;
 mod novelty;
+mod piece;
 mod relaxed;
 mod shorten;
 
@@ -58,8 +60,9 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     /// A graph that takes more than this part of the memory, or more steps, is left alone.
     const FEW_OF_MEMORY: usize = 16;
     const FEW_STEPS: usize = 50;
-    let shortened = |plan| {
+    let shortened = |plan: Plan| {
         limits.tell_of(&plan);
+        let plan = if limits.shorten == 0 { plan } else { with_fewer_actions(task, plan, limits) };
         Outcome::Plan(shorten::shorten(task, plan, limits))
     };
     let found = |found| match found {
@@ -102,4 +105,25 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         }
         Ok(outcome) => outcome,
     }
+}
+
+/// A plan found soon is sought once more step by step, and the one of the two that has fewer actions is made of fewer
+/// still, stretch by stretch.
+fn with_fewer_actions(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+    let told = |better: Plan, known: &Plan| {
+        if better.action_count() < known.action_count() || better.steps.len() < known.steps.len() {
+            limits.tell_of(&better);
+        }
+        better
+    };
+    let mut best = plan;
+    if let Ok(Some(other)) = any::step_by_step(task, limits.shorten_effort, limits)
+        && other.action_count() < best.action_count()
+        && other.cost(task) <= best.cost(task)
+    {
+        best = told(other, &best);
+    }
+    let mut effort = 2 * limits.shorten_effort;
+    let fewer = fewer::fewer(task, best.clone(), limits, &mut effort);
+    told(fewer, &best)
 }

@@ -6,7 +6,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use crate::bits;
-use crate::strips::{FactId, OperatorId, Task};
+use crate::strips::{FactId, Operator, OperatorId, Task};
 
 /// What holds, as bits.
 pub(crate) type State = Box<[u64]>;
@@ -35,34 +35,36 @@ pub(crate) struct Relaxed<'a> {
     adds: Vec<FactId>,
     adds_from: Vec<u32>,
     without_needs: Vec<u32>,
+    allowed: Vec<bool>,
     /// How many facts an operator needs, and how many of them are yet missing.
     needs: Vec<u32>,
     missing: Vec<u32>,
     goal: Vec<FactId>,
     is_goal: Vec<bool>,
-    /// The layer at which a fact appears, and the operator that brings it.
+    /// The layer at which a fact appears, or what it takes with all that leads to it, and the operator that brings it.
     layer: Vec<u32>,
     bringer: Vec<u32>,
     /// Operators that can be carried out in the state looked at last, ascending.
     pub(crate) applicable: Vec<OperatorId>,
+    /// What was looked at so far, in facts and operators.
+    pub(crate) effort: u64,
+    /// Whether what brings a fact is chosen by all that leads to it rather than by its layer, and for that what an
+    /// operator takes, and the facts in the order of what they take.
+    by_sum: bool,
+    takes: Vec<u32>,
+    buckets: Vec<Vec<u32>>,
 }
+
+/// What takes more than this is not told apart.
+const MOST_TAKEN: usize = 1 << 12;
 
 const NOT_YET: u32 = u32::MAX;
 
 impl<'a> Relaxed<'a> {
     pub(crate) fn new(task: &'a Task) -> Self {
-        let mut by_need = vec![Vec::new(); task.facts.len()];
         let mut added_by = vec![Vec::new(); task.facts.len()];
         for (number, operator) in task.operators.iter().enumerate() {
-            let needs = operator.preconditions.iter();
-            needs.for_each(|fact| by_need[fact.index()].push(number as u32));
             operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(number as u32));
-        }
-        let mut starts = vec![0];
-        let mut needed_by = Vec::new();
-        for operators in by_need {
-            needed_by.extend(operators);
-            starts.push(needed_by.len() as u32);
         }
         let mut adds_from = vec![0];
         let mut adds = Vec::new();
@@ -74,12 +76,13 @@ impl<'a> Relaxed<'a> {
             task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
         let mut relaxed = Self {
             task,
-            needed_by,
-            starts,
+            needed_by: Vec::new(),
+            starts: Vec::new(),
             added_by,
             adds,
             adds_from,
-            without_needs: (0..needs.len() as u32).filter(|&n| needs[n as usize] == 0).collect(),
+            without_needs: Vec::new(),
+            allowed: vec![true; needs.len()],
             missing: needs.clone(),
             needs,
             goal: Vec::new(),
@@ -87,9 +90,56 @@ impl<'a> Relaxed<'a> {
             layer: vec![NOT_YET; task.facts.len()],
             bringer: vec![NOT_YET; task.facts.len()],
             applicable: Vec::new(),
+            effort: 0,
+            by_sum: false,
+            takes: Vec::new(),
+            buckets: Vec::new(),
         };
+        relaxed.index();
         relaxed.aim_at(&task.goal);
         relaxed
+    }
+
+    /// From now on there are no other operators than these.
+    pub(crate) fn restrict(&mut self, allowed: impl Fn(usize) -> bool) {
+        (0..self.allowed.len()).for_each(|number| self.allowed[number] = allowed(number));
+        self.index();
+    }
+
+    /// Which operators of those allowed need which facts.
+    fn index(&mut self) {
+        let task = self.task;
+        let operators = || {
+            let all = task.operators.iter().enumerate();
+            all.filter(|(number, _)| self.allowed[*number])
+        };
+        self.without_needs = operators()
+            .filter(|(_, operator)| operator.preconditions.is_empty())
+            .map(|(number, _)| number as u32)
+            .collect();
+        self.starts.clear();
+        self.starts.resize(task.facts.len() + 1, 0);
+        for fact in operators().flat_map(|(_, operator)| &operator.preconditions) {
+            self.starts[fact.index() + 1] += 1;
+        }
+        (0..task.facts.len()).for_each(|fact| self.starts[fact + 1] += self.starts[fact]);
+        let mut next = self.starts.clone();
+        self.needed_by.clear();
+        self.needed_by.resize(self.starts[task.facts.len()] as usize, 0);
+        for (number, operator) in operators() {
+            for fact in &operator.preconditions {
+                self.needed_by[next[fact.index()] as usize] = number as u32;
+                next[fact.index()] += 1;
+            }
+        }
+        self.effort += task.operators.len() as u64 / 4;
+    }
+
+    /// As [`Self::new`], but relaxed plans are shorter and take longer to find: what brings a fact is what takes the
+    /// fewest actions with all that leads to it (E. Keyder, H. Geffner, 2008).
+    pub(crate) fn by_sum(task: &'a Task) -> Self {
+        let takes = vec![0; task.operators.len()];
+        Self { by_sum: true, takes, buckets: vec![Vec::new(); MOST_TAKEN], ..Self::new(task) }
     }
 
     /// From now on distances are those to these facts.
@@ -101,19 +151,36 @@ impl<'a> Relaxed<'a> {
 
     /// None when the goal is out of reach even without delete effects.
     pub(crate) fn estimate(&mut self, state: &State) -> Option<Estimate> {
-        self.spread(state).then(|| self.relaxed_plan(state))
+        let reached =
+            if self.by_sum { self.spread_by_sum(state) } else { self.spread(state, None) };
+        reached.then(|| self.relaxed_plan(state))
     }
 
     /// Steps that the goal takes at least from a state: its layer without delete effects; none when it is out of reach
     /// even so.
     pub(crate) fn depth(&mut self, state: &State) -> Option<usize> {
-        let reached = self.spread(state);
+        let reached = self.spread(state, None);
         let layers = self.goal.iter().map(|goal| self.layer[goal.index()] as usize);
         reached.then(|| layers.max().unwrap_or(0))
     }
 
-    /// Layers of facts up to the goal.
-    fn spread(&mut self, state: &State) -> bool {
+    /// For each operator the steps that must come before it, without delete effects; as many as can be told as not for
+    /// those that do not come within so many.
+    pub(crate) fn earliest(&mut self, state: &State, within: usize) -> Vec<usize> {
+        self.spread(state, Some(within as u32));
+        let needs = |operator: &Operator| {
+            let layers = operator.preconditions.iter().map(|fact| self.layer[fact.index()]);
+            layers.max().unwrap_or(0)
+        };
+        let earliest = self.task.operators.iter().map(|operator| match needs(operator) as usize {
+            soon if soon < within => soon,
+            _ => usize::MAX,
+        });
+        earliest.collect()
+    }
+
+    /// Layers of facts up to the goal, or up to a given one.
+    fn spread(&mut self, state: &State, within: Option<u32>) -> bool {
         self.layer.fill(NOT_YET);
         self.missing.copy_from_slice(&self.needs);
         let mut open = self.goal.iter().filter(|goal| !holds(state, **goal)).count();
@@ -132,10 +199,13 @@ impl<'a> Relaxed<'a> {
             next += 1;
             let layer = self.layer[fact as usize];
             // What the state itself allows is wanted whole, even if the goal holds.
-            if open == 0 && layer > 0 {
+            let is_far = within.map_or(open == 0, |within| layer >= within);
+            if is_far && layer > 0 {
                 break;
             }
-            for at in self.starts[fact as usize]..self.starts[fact as usize + 1] {
+            let users = self.starts[fact as usize]..self.starts[fact as usize + 1];
+            self.effort += u64::from(users.end - users.start);
+            for at in users {
                 let number = self.needed_by[at as usize];
                 self.missing[number as usize] -= 1;
                 if self.missing[number as usize] == 0 {
@@ -147,7 +217,69 @@ impl<'a> Relaxed<'a> {
             }
         }
         self.applicable.sort_unstable();
+        // Wiping the slate takes little for each fact and operator.
+        self.effort += (self.layer.len() + self.missing.len()) as u64 / 16 + queue.len() as u64;
         open == 0
+    }
+
+    /// What each fact up to the goal takes, with all that leads to it.
+    fn spread_by_sum(&mut self, state: &State) -> bool {
+        self.layer.fill(NOT_YET);
+        self.missing.copy_from_slice(&self.needs);
+        self.takes.fill(1);
+        self.applicable.clear();
+        let mut open = self.goal.len();
+        let (mut at, mut last, mut looked_at) = (0, 0, 0);
+        for fact in bits::members(state) {
+            self.layer[fact] = 0;
+            self.buckets[0].push(fact as u32);
+        }
+        for n in 0..self.without_needs.len() {
+            self.applicable.push(OperatorId(self.without_needs[n]));
+            last = last.max(self.brought(self.without_needs[n]));
+        }
+        // What the state itself allows is wanted whole, even if the goal holds.
+        while at <= last && (open > 0 || at == 0) {
+            let Some(fact) = self.buckets[at].pop() else {
+                at += 1;
+                continue;
+            };
+            if self.layer[fact as usize] as usize != at {
+                continue;
+            }
+            open -= usize::from(self.is_goal[fact as usize]);
+            let users = self.starts[fact as usize]..self.starts[fact as usize + 1];
+            looked_at += u64::from(users.end - users.start) + 1;
+            for user in users {
+                let number = self.needed_by[user as usize];
+                self.missing[number as usize] -= 1;
+                self.takes[number as usize] += at as u32;
+                if self.missing[number as usize] == 0 {
+                    if at == 0 {
+                        self.applicable.push(OperatorId(number));
+                    }
+                    last = last.max(self.brought(number));
+                }
+            }
+        }
+        self.buckets[at..=last].iter_mut().for_each(Vec::clear);
+        self.applicable.sort_unstable();
+        self.effort += (self.layer.len() + 2 * self.missing.len()) as u64 / 16 + 2 * looked_at;
+        open == 0
+    }
+
+    /// What an operator brings waits for its turn, which is told.
+    fn brought(&mut self, number: u32) -> usize {
+        let takes = self.takes[number as usize].min(MOST_TAKEN as u32 - 1);
+        let own = self.adds_from[number as usize]..self.adds_from[number as usize + 1];
+        for added in &self.adds[own.start as usize..own.end as usize] {
+            if self.layer[added.index()] > takes {
+                self.layer[added.index()] = takes;
+                self.bringer[added.index()] = number;
+                self.buckets[takes as usize].push(added.0);
+            }
+        }
+        takes as usize
     }
 
     fn apply(&mut self, number: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
@@ -184,10 +316,8 @@ impl<'a> Relaxed<'a> {
             }
         }
         let applicable = |number: &u32| {
-            self.task.operators[*number as usize]
-                .preconditions
-                .iter()
-                .all(|&fact| holds(state, fact))
+            let needs = &self.task.operators[*number as usize].preconditions;
+            self.allowed[*number as usize] && needs.iter().all(|&fact| holds(state, fact))
         };
         // Whatever brings a fact of the first layer helps, not only what the relaxed plan chose for it.
         let mut operators: Vec<u32> = first

@@ -6,8 +6,11 @@
 //! whole. On the way it may take more actions for fewer steps, and win them back; what it ends with has no more actions
 //! than it began with, and costs no more.
 
+use super::any::in_parallel;
+use super::piece;
+use super::relaxed::{Relaxed, State};
+use crate::bits;
 use crate::plan::Plan;
-use crate::portfolio::any::in_parallel;
 use crate::proof::{Turn, search_counted};
 use crate::strips::{FactId, OperatorId, Task};
 use crate::{Limits, Outcome};
@@ -38,15 +41,22 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
     };
     let mut plan = plan;
     let (mut left, mut effort) = (limits.shorten, limits.shorten_effort);
-    // One copy serves all pieces, which differ in where they begin and end.
-    let mut piece = task.clone();
+    // One copy serves all pieces, which differ in where they begin and end, and in what they can use in between.
+    let mut piece = Task { operators: Vec::new(), ..task.clone() };
+    let mut relaxed = Relaxed::new(task);
     let mut narrowest = 0;
     while let Some(&width) = WIDTHS.get(narrowest) {
         let mut better = false;
         let mut from = 0;
         while from < plan.steps.len() && left > 0 && effort > 0 && limits.check(0).is_ok() {
             left -= 1;
-            match replaced((task, &mut piece), &plan, (from, width), limits, &mut effort) {
+            match replaced(
+                (task, &mut piece, &mut relaxed),
+                &plan,
+                (from, width),
+                limits,
+                &mut effort,
+            ) {
                 Some(shorter) => {
                     plan = shorter;
                     if is_no_dearer(&plan) && size(&plan) < size(&best) {
@@ -75,38 +85,44 @@ fn size(plan: &Plan) -> (usize, usize) {
 
 /// The plan with a better piece in place of `width` of its steps; what the search for it takes is taken from `effort`.
 fn replaced(
-    (task, piece): (&Task, &mut Task),
+    (task, piece, relaxed): (&Task, &mut Task, &mut Relaxed<'_>),
     plan: &Plan,
     (from, width): (usize, usize),
     limits: &Limits,
     effort: &mut u64,
 ) -> Option<Plan> {
-    *effort = effort.saturating_sub(EFFORT_AN_OPERATOR * task.operators.len() as u64);
     let to = (from + width).min(plan.steps.len());
     piece.init = state_before(task, &plan.steps[..from]);
     piece.goal = needed_by(task, &plan.steps[to..]);
+    let mut state: State = vec![0; bits::words(task.facts.len())].into();
+    piece.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
+    let own = piece::within(task, relaxed, (&state, &piece.goal), to - from);
+    piece.operators = own.iter().map(|&id| task.operator(id).clone()).collect();
+    let ready = EFFORT_AN_OPERATOR * own.len() as u64 + task.operators.len() as u64;
+    *effort = effort.saturating_sub(ready);
     let within = Limits { parallel_steps: to - from, shorten: 0, ..limits.clone() };
     let turn = Turn { effort: Some(*effort), ..TURN };
     let (outcome, spent) = search_counted(piece, &within, turn);
     *effort = effort.saturating_sub(spent);
-    let Some(Outcome::Plan(found)) = outcome else { return None };
+    let Some(Outcome::Plan(mut found)) = outcome else { return None };
+    found.steps.iter_mut().flatten().for_each(|id| *id = own[id.index()]);
     let operators = plan.steps[..from].iter().chain(&found.steps).chain(&plan.steps[to..]);
     let whole = in_parallel(task, operators.flatten().copied());
     (size(&whole) < size(plan)).then_some(whole)
 }
 
-/// One goal after the other in this order, each in the fewest steps from where the one before ended, with all goals
-/// before it kept; none where one of them takes more than so much effort.
+/// One stage after the other, each in the fewest steps from where the one before ended; none where one of them takes
+/// more than so much effort.
 pub(crate) fn one_by_one(
     task: &Task,
-    goals: &[FactId],
+    stages: &[Vec<FactId>],
     effort: u64,
     limits: &Limits,
 ) -> Option<Plan> {
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
-    for count in 1..=goals.len() {
+    for stage in stages {
         let init = state_before(task, &steps);
-        let mut goal = goals[..count].to_vec();
+        let mut goal = stage.clone();
         goal.sort_unstable();
         if goal.iter().all(|fact| init.contains(fact)) {
             continue;
@@ -157,7 +173,7 @@ mod tests {
     use crate::{Outcome, solve_any, validate};
 
     thread_local! {
-        static TOLD: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
+        static TOLD: RefCell<Vec<(usize, usize)>> = const { RefCell::new(Vec::new()) };
     }
 
     #[test]
@@ -220,15 +236,18 @@ mod tests {
     }
 
     #[test]
-    fn the_first_plan_and_every_shorter_one_are_told_of() {
-        let tell: fn(&Plan) = |plan| TOLD.with_borrow_mut(|told| told.push(plan.steps.len()));
+    fn the_first_plan_and_every_better_one_are_told_of() {
+        let tell: fn(&Plan) = |plan| TOLD.with_borrow_mut(|told| told.push(size(plan)));
         let mut shortened = 0;
         for seed in 1..=1000 {
             let limits = Limits { tell: Some(tell), ..Limits::default() };
             let Outcome::Plan(plan) = solve_any(&random_task(seed), &limits) else { continue };
             let told = TOLD.take();
-            assert!(told.is_sorted_by(|longer, shorter| longer > shorter), "{seed}: {told:?}");
-            assert_eq!(told.last(), Some(&plan.steps.len()), "seed {seed}");
+            let is_better = |known: &(usize, usize), next: &(usize, usize)| {
+                next.0 < known.0 || next.1 < known.1
+            };
+            assert!(told.is_sorted_by(is_better), "{seed}: {told:?}");
+            assert_eq!(told.last().map(|told| told.0), Some(plan.steps.len()), "seed {seed}");
             shortened += usize::from(told.len() > 1);
         }
         assert!(shortened > 0);

@@ -17,6 +17,8 @@
 //! Apart from that, the walk comes to all places where something must be done; it is no shorter than the shortest tree
 //! that spans them, weighed against walks that pass a place more than once or end there (M. Held, R. Karp, 1970).
 //!
+//! Where ways branch like a tree, what must be crossed tells more than both: see [`bridges`].
+//!
 //! What is counted are operators no two of which go into one step; that is looked at pair by pair. So the bound holds
 //! for parallel steps too. Where something does not fit, there is no bound from here, and nothing is lost.
 
@@ -24,8 +26,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 
 use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 
+use bridges::Bridges;
+use relays::{Leg, relayed};
 use tour::{assignment, order, walk};
 
+mod bridges;
+mod relays;
 mod tour;
 
 /// More places or counted operators than these are not looked at.
@@ -36,8 +42,9 @@ const MOST_COUNTED: usize = 20_000;
 pub(crate) struct Errands {
     /// Proven: no plan has fewer steps.
     pub(crate) at_least: usize,
-    /// The goals in an order that makes the walk short, those that need no walk first.
-    pub(crate) goals: Vec<FactId>,
+    /// What is to hold one after the other so that the walk is short: a thing is held, then it lies where it is to be, or
+    /// where it is taken on from later.
+    pub(crate) stages: Vec<Vec<FactId>>,
 }
 
 /// A goal that asks for a walk: from where, to where, as numbers of points.
@@ -121,15 +128,21 @@ impl Errands {
         let spot = |operators: &[OperatorId], places: &Places| {
             places.spot(task, operators).and_then(|spot| spot.first().copied())
         };
+        // Where something must be done in any case.
+        let mut busy: BTreeSet<usize> = visited.iter().flat_map(|(_, spot)| spot).copied().collect();
         let mut points = vec![places.start];
         let mut errands = Vec::new();
-        let mut carried_goals = Vec::new();
+        let mut things = Vec::new();
         for (goal, thing) in carried {
             let (from, to) = (spot(&thing.first, &places)?, spot(&thing.last, &places)?);
+            for operators in [&thing.first, &thing.last] {
+                busy.extend(places.spot(task, operators).into_iter().flatten());
+            }
             points.extend([from, to]);
             errands.push(Errand { goal, from: points.len() - 2, to: points.len() - 1 });
-            carried_goals.push(errands.len() - 1);
+            things.push(thing);
         }
+        let count = things.len();
         // A visit at one of several places bounds nothing here; it still has its turn in the order.
         let mut must = vec![true; points.len()];
         for (goal, spot) in visited {
@@ -139,16 +152,76 @@ impl Errands {
             errands.push(Errand { goal, from: point, to: point });
         }
         let distance = places.distances(&points)?;
-        let assigned = assignment(&distance, &errands[..carried_goals.len()]);
-        let loaded: usize =
-            errands[..carried_goals.len()].iter().map(|e| distance[e.from][e.to]).sum();
+        let carried = &errands[..count];
+        let assigned = assignment(&distance, carried);
+        let loaded: usize = carried.iter().map(|e| distance[e.from][e.to]).sum();
         let spanned: Vec<usize> = (0..points.len()).filter(|&point| must[point]).collect();
-        let at_least = actions + (loaded + assigned).max(walk(&distance, &spanned));
-        let mut goals = settled;
-        goals.extend(order(&distance, &errands).into_iter().map(|errand| errands[errand].goal));
-        Some(Self { at_least, goals })
+        let bridges = Bridges::of(&places);
+        let crossed = bridges.moves(&distance, (&points, carried, &spanned));
+        let needed: Vec<usize> = spanned.iter().map(|&point| points[point]).collect();
+        let deeds = bridges.deeds((task, groups), &places, (&needed, &busy));
+        let walked = (loaded + assigned).max(walk(&distance, &spanned)).max(crossed);
+        let at_least = actions + walked + deeds;
+        let order = order(&distance, &errands);
+        let stages = stages((task, &places), &settled, (&points, &errands, &order), &things);
+        Some(Self { at_least, stages })
     }
 }
+
+/// What is to hold at the beginning and at the end of each leg of a walk in which things may be put down on the way.
+fn stages(
+    (task, places): (&Task, &Places),
+    settled: &[FactId],
+    (points, errands, order): (&[usize], &[Errand], &[usize]),
+    things: &[Carried],
+) -> Vec<Vec<FactId>> {
+    let mut points = points.to_vec();
+    // For each errand the points where its thing may be put down, each with the fact that it lies there.
+    let mut lies: Vec<BTreeMap<usize, FactId>> = vec![BTreeMap::new(); errands.len()];
+    if errands.len() <= MOST_RELAYED {
+        for (number, (thing, errand)) in things.iter().zip(errands).enumerate() {
+            for (place, fact) in thing.halts(task, places, (points[errand.from], points[errand.to])) {
+                lies[number].insert(points.len(), fact);
+                points.push(place);
+            }
+        }
+    }
+    let mut legs: Vec<Leg> = (order.iter())
+        .map(|&errand| Leg { errand, from: errands[errand].from, to: errands[errand].to })
+        .collect();
+    // Of all that can be come to and gone on from, it is known how far it is.
+    if let Some(distance) = places.distances(&points)
+        && errands.len() <= MOST_RELAYED
+    {
+        let halts: Vec<Vec<usize>> =
+            lies.iter().map(|lies| lies.keys().copied().collect()).collect();
+        legs = relayed(&distance, legs, &halts);
+    }
+    let mut now: BTreeMap<usize, FactId> = BTreeMap::new();
+    let mut stages = Vec::new();
+    let mut add = |now: &BTreeMap<usize, FactId>| {
+        let mut stage: Vec<FactId> = settled.iter().chain(now.values()).copied().collect();
+        stage.sort_unstable();
+        stage.dedup();
+        stages.push(stage);
+    };
+    for leg in legs {
+        if let Some(thing) = things.get(leg.errand) {
+            now.insert(leg.errand, thing.held);
+            add(&now);
+        }
+        let halted = lies[leg.errand].get(&leg.to).copied();
+        now.insert(leg.errand, halted.unwrap_or(errands[leg.errand].goal));
+        add(&now);
+    }
+    stages
+}
+
+/// Of more errands than these only the order is looked at.
+const MOST_RELAYED: usize = 24;
+
+/// Points on the way of a thing where it may be put down.
+const MOST_HALTS: usize = 48;
 
 /// Facts of which exactly one holds at any time.
 struct Group {
@@ -351,6 +424,49 @@ impl Carried {
     }
 }
 
+impl Carried {
+    /// Places on the way, or as little beside it as there are, where the thing can be put down and taken up again, each
+    /// with the fact that it lies there.
+    fn halts(
+        &self,
+        task: &Task,
+        places: &Places,
+        (from, to): (usize, usize),
+    ) -> Vec<(usize, FactId)> {
+        /// How far beside the way is looked.
+        const BESIDE: usize = 6;
+        let come = places.distances_from(from);
+        let mut found: BTreeMap<usize, (usize, FactId)> = BTreeMap::new();
+        for (&fact, operators) in &self.spots {
+            let adds = |id: &&OperatorId| task.operator(**id).add_effects.contains(&fact);
+            let puts: Vec<OperatorId> = operators.iter().filter(adds).copied().collect();
+            if puts.len() == operators.len() {
+                continue;
+            }
+            let Some(&place) = places.spot(task, &puts).as_deref().and_then(<[usize]>::first) else {
+                continue;
+            };
+            let beside = come[place].saturating_sub(come[to]);
+            if come[place] == usize::MAX || beside > BESIDE {
+                continue;
+            }
+            let go_on = places.distances_from(place);
+            if go_on[to] == usize::MAX || go_on[places.start] == usize::MAX {
+                continue;
+            }
+            let more = (come[place] + go_on[to]).saturating_sub(come[to]);
+            if more <= BESIDE {
+                found.entry(place).or_insert((more, fact));
+            }
+        }
+        let mut halts: Vec<(usize, usize, FactId)> =
+            found.into_iter().map(|(place, (more, fact))| (more, place, fact)).collect();
+        halts.sort_unstable();
+        halts.truncate(MOST_HALTS);
+        halts.into_iter().map(|(_, place, fact)| (place, fact)).collect()
+    }
+}
+
 /// Where the walker can be, and the moves between.
 struct Places {
     start: usize,
@@ -360,6 +476,8 @@ struct Places {
     ways: Vec<Vec<usize>>,
     free: Vec<Vec<usize>>,
     moves: BTreeSet<OperatorId>,
+    /// From where to where each of them leads.
+    made: Vec<(OperatorId, usize, usize)>,
     /// All facts of the walker's groups.
     walker: BTreeSet<FactId>,
 }
@@ -390,6 +508,7 @@ impl Places {
             ways: Vec::new(),
             free: Vec::new(),
             moves: BTreeSet::new(),
+            made: Vec::new(),
             walker: walker.iter().flat_map(|group| &group.facts).copied().collect(),
         };
         let mut at = 0;
@@ -412,6 +531,7 @@ impl Places {
                     places.states.push(next);
                 }
                 places.moves.insert(id);
+                places.made.push((id, at, number));
                 ways.insert(number);
             }
             places.ways.push(ways.into_iter().collect());
@@ -502,21 +622,33 @@ impl Places {
 
 /// Whether no two of these go into one step.
 fn all_exclude(task: &Task, groups: &[Group], counted: &[OperatorId]) -> bool {
-    let needs: Vec<Vec<Option<FactId>>> = counted
-        .iter()
-        .map(|&id| groups.iter().map(|group| group.needed(task.operator(id))).collect())
-        .collect();
-    let compete = |a: usize, b: usize| {
-        needs[a]
-            .iter()
-            .zip(&needs[b])
-            .any(|(one, other)| one.is_some() && other.is_some() && one != other)
-    };
+    let needs = needs(task, groups, counted);
     (0..counted.len()).all(|a| {
         (0..a).all(|b| {
-            compete(a, b) || task.operator(counted[a]).interferes(task.operator(counted[b]))
+            compete(&needs[a], &needs[b])
+                || task.operator(counted[a]).interferes(task.operator(counted[b]))
         })
     })
+}
+
+/// Whether none of these goes into one step with any of the others.
+fn excludes(task: &Task, groups: &[Group], ones: &[OperatorId], others: &[OperatorId]) -> bool {
+    let (needs_of_ones, needs_of_others) = (needs(task, groups, ones), needs(task, groups, others));
+    ones.iter().zip(&needs_of_ones).all(|(&one, own)| {
+        others.iter().zip(&needs_of_others).all(|(&other, needs)| {
+            compete(own, needs) || task.operator(one).interferes(task.operator(other))
+        })
+    })
+}
+
+/// What each needs of each group.
+fn needs(task: &Task, groups: &[Group], operators: &[OperatorId]) -> Vec<Vec<Option<FactId>>> {
+    let of = |&id: &OperatorId| groups.iter().map(|g| g.needed(task.operator(id))).collect();
+    operators.iter().map(of).collect()
+}
+
+fn compete(one: &[Option<FactId>], other: &[Option<FactId>]) -> bool {
+    one.iter().zip(other).any(|(one, other)| one.is_some() && other.is_some() && one != other)
 }
 
 #[cfg(test)]
@@ -595,13 +727,12 @@ mod tests {
             let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { continue };
             let fewest = plan.steps.len();
             assert!(found.at_least <= fewest, "seed {seed}: {} for {fewest}", found.at_least);
-            let mut goals = found.goals;
-            goals.sort_unstable();
-            assert_eq!(goals, task.goal, "seed {seed}");
+            let last = found.stages.last().unwrap_or(&task.goal);
+            assert_eq!(*last, task.goal, "seed {seed}");
             bounded += usize::from(found.at_least > 0);
             tight += usize::from(found.at_least * 5 >= fewest * 4);
         }
-        // Shut doors are not counted, and in so few rooms there are many of them.
-        assert!(bounded > 100 && tight > bounded / 3, "{bounded} bounded, {tight} within a fifth");
+        // Not every shut door is counted, and in so few rooms there are many of them.
+        assert!(bounded > 100 && tight > bounded / 2, "{bounded} bounded, {tight} within a fifth");
     }
 }

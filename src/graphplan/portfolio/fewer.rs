@@ -1,0 +1,385 @@
+//! A plan of fewer actions, stretch by stretch: a few actions in a row are sought anew, from the state before them to
+//! what the rest of the plan needs (F. Siddiqui, P. Haslum, 2015, "block deordering and local search").
+//!
+//! What stands in a row is a matter of the order. Actions that neither serve nor disturb each other may change places,
+//! so each round lays the plan out anew and brings actions about the same things together: all that one lift does, all
+//! that becomes of one passenger. A stretch is sought by best-first search over actions so far and those of a relaxed
+//! plan to go, through helpful operators only: a stretch that it misses stays as it is. The plan stays a plan
+//! throughout; it never gets more actions, nor dearer.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap, HashMap};
+
+use super::any::{drop_needless, in_parallel};
+use super::relaxed::{Relaxed, State};
+use crate::bits;
+use crate::plan::Plan;
+use crate::strips::{FactId, OperatorId, Task};
+use crate::{Limit, Limits};
+
+/// Actions sought anew at once, one size after the other.
+const WIDTHS: [usize; 4] = [6, 12, 24, 48];
+
+/// States looked at for one stretch at first; twice as many each time that nothing more is won with so many.
+const FEW_STATES: usize = 300;
+const MOST_STATES: usize = 1 << 16;
+
+/// Ways to lay a plan out.
+#[derive(Clone, Copy)]
+enum Layout {
+    AsItIs,
+    /// Next to each action the one that has most in common with it.
+    Together,
+    /// The same from the last action backward.
+    FromTheEnd,
+}
+
+/// A plan with fewer actions, or as many that cost less; as far as so much effort goes, which is taken from it.
+pub(crate) fn fewer(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64) -> Plan {
+    let most = std::mem::take(effort);
+    let (relaxed, subjects) = (Relaxed::by_sum(task), subjects(task));
+    let mut stretches = Stretches { task, limits, relaxed, subjects, most };
+    let mut row: Vec<OperatorId> = plan.operators().collect();
+    let before = row.len();
+    let cost = stretches.cost(&row);
+    // What was won stands, whatever ends it.
+    let _ = stretches.run(&mut row);
+    *effort = most.saturating_sub(stretches.relaxed.effort);
+    if row.len() == before && stretches.cost(&row) == cost {
+        return plan;
+    }
+    in_parallel(task, row.into_iter())
+}
+
+struct Stretches<'a> {
+    task: &'a Task,
+    limits: &'a Limits,
+    relaxed: Relaxed<'a>,
+    /// Of each operator the objects of which it changes something.
+    subjects: Vec<Vec<u32>>,
+    most: u64,
+}
+
+impl Stretches<'_> {
+    /// Rounds of all layouts and widths with what a stretch does not touch at rest, then of the same with all that there
+    /// is; when neither wins anything, with more states.
+    fn run(&mut self, row: &mut Vec<OperatorId>) -> Result<(), Limit> {
+        let mut states = FEW_STATES;
+        while states <= MOST_STATES {
+            let before = (row.len(), self.cost(row));
+            for others_rest in [true, false] {
+                for width in WIDTHS {
+                    for layout in [Layout::AsItIs, Layout::Together, Layout::FromTheEnd] {
+                        *row = laid_out(self.task, row, layout);
+                        self.pass(row, (width, states), others_rest)?;
+                        let mut steps: Vec<Vec<OperatorId>> =
+                            row.iter().map(|&id| vec![id]).collect();
+                        drop_needless(self.task, &mut steps);
+                        *row = steps.into_iter().flatten().collect();
+                    }
+                    if width >= 2 * row.len() {
+                        break;
+                    }
+                }
+            }
+            if (row.len(), self.cost(row)) >= before {
+                states *= 2;
+            }
+        }
+        Ok(())
+    }
+
+    /// Each stretch of so many actions once; with what it does not touch at rest, or free.
+    fn pass(
+        &mut self,
+        row: &mut Vec<OperatorId>,
+        (width, states): (usize, usize),
+        others_rest: bool,
+    ) -> Result<(), Limit> {
+        if !others_rest {
+            self.relaxed.restrict(|_| true);
+        }
+        let mut from = 0;
+        let mut state = self.initial();
+        while from < row.len() {
+            self.limits.check(0)?;
+            if self.relaxed.effort >= self.most {
+                return Err(Limit::Effort);
+            }
+            let to = (from + width).min(row.len());
+            let goal = needed_by(self.task, &row[to..]);
+            if others_rest {
+                let touched: BTreeSet<u32> = row[from..to]
+                    .iter()
+                    .flat_map(|id| &self.subjects[id.index()])
+                    .copied()
+                    .collect();
+                let subjects = &self.subjects;
+                self.relaxed.restrict(|operator| {
+                    subjects[operator].iter().all(|subject| touched.contains(subject))
+                });
+            }
+            let won = self.sought(&state, &goal, &row[from..to], states)?;
+            let next = match won {
+                // What came before may be won further by what is new.
+                Some(shorter) => {
+                    row.splice(from..to, shorter);
+                    from
+                }
+                None => from + (width / 2).max(1),
+            };
+            let next = next.min(row.len());
+            row[from..next].iter().for_each(|&id| carry_out(self.task, &mut state, id));
+            from = next;
+        }
+        Ok(())
+    }
+
+    fn cost(&self, row: &[OperatorId]) -> u64 {
+        row.iter().map(|&id| u64::from(self.task.operator(id).cost)).sum()
+    }
+
+    fn initial(&self) -> State {
+        let mut state = vec![0; bits::words(self.task.facts.len())].into_boxed_slice();
+        self.task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
+        state
+    }
+
+    /// Fewer actions that lead from a state to all that is wanted, and cost no more.
+    fn sought(
+        &mut self,
+        start: &State,
+        goal: &[FactId],
+        known: &[OperatorId],
+        most_states: usize,
+    ) -> Result<Option<Vec<OperatorId>>, Limit> {
+        let most_cost = self.cost(known);
+        self.relaxed.aim_at(goal);
+        let Some(first) = self.relaxed.estimate(start) else { return Ok(None) };
+        let mut nodes = vec![Node { from: None, actions: 0, cost: 0, helpful: first.helpful }];
+        let mut states = vec![start.clone()];
+        let mut seen: HashMap<State, u32> = HashMap::from([(start.clone(), 0)]);
+        let mut open = BinaryHeap::from([Reverse((first.distance, first.distance, 0_u32))]);
+        if first.distance == 0 {
+            return Ok((!known.is_empty()).then(Vec::new));
+        }
+        while let Some(Reverse((_, _, number))) = open.pop() {
+            let (actions, cost) = {
+                let node = &nodes[number as usize];
+                (node.actions + 1, node.cost)
+            };
+            // Some action leads from here to the goal at best.
+            if actions as usize >= known.len() {
+                continue;
+            }
+            let helpful = std::mem::take(&mut nodes[number as usize].helpful);
+            for id in helpful {
+                let cost = cost + u64::from(self.task.operator(id).cost);
+                if cost > most_cost {
+                    continue;
+                }
+                let mut state = states[number as usize].clone();
+                carry_out(self.task, &mut state, id);
+                if seen.get(&state).is_some_and(|&known| known <= actions) {
+                    continue;
+                }
+                seen.insert(state.clone(), actions);
+                let Some(estimate) = self.relaxed.estimate(&state) else { continue };
+                let next = nodes.len() as u32;
+                let from = Some((number, id));
+                if estimate.distance == 0 {
+                    nodes.push(Node { from, actions, cost, helpful: Vec::new() });
+                    return Ok(Some(path(&nodes, next)));
+                }
+                if actions as usize + 1 >= known.len() {
+                    continue;
+                }
+                nodes.push(Node { from, actions, cost, helpful: estimate.helpful });
+                states.push(state);
+                open.push(Reverse((actions + estimate.distance, estimate.distance, next)));
+            }
+            if nodes.len() >= most_states {
+                return Ok(None);
+            }
+            self.limits.check(0)?;
+        }
+        Ok(None)
+    }
+}
+
+/// Of each operator the objects of which it changes something: those that a fact it deletes and one that it adds have
+/// in common. A lift that goes from floor to floor is its own subject, the floors are not.
+fn subjects(task: &Task) -> Vec<Vec<u32>> {
+    let mut numbers: HashMap<&str, u32> = HashMap::new();
+    let subjects = task.operators.iter().map(|operator| {
+        let mut own = BTreeSet::new();
+        for &gone in &operator.del_effects {
+            for &come in &operator.add_effects {
+                let (gone, come) = (&task.fact(gone).args, &task.fact(come).args);
+                for arg in gone.iter().filter(|arg| come.contains(arg)) {
+                    let next = numbers.len() as u32;
+                    own.insert(*numbers.entry(arg).or_insert(next));
+                }
+            }
+        }
+        own.into_iter().collect()
+    });
+    subjects.collect()
+}
+
+/// A state met on the way, and by which operator.
+struct Node {
+    from: Option<(u32, OperatorId)>,
+    actions: u32,
+    cost: u64,
+    helpful: Vec<OperatorId>,
+}
+
+fn path(nodes: &[Node], to: u32) -> Vec<OperatorId> {
+    let mut path = Vec::new();
+    let mut at = to;
+    while let Some((from, by)) = nodes[at as usize].from {
+        path.push(by);
+        at = from;
+    }
+    path.reverse();
+    path
+}
+
+fn carry_out(task: &Task, state: &mut State, id: OperatorId) {
+    let operator = task.operator(id);
+    operator.del_effects.iter().for_each(|fact| bits::take(state, fact.index()));
+    operator.add_effects.iter().for_each(|fact| bits::put(state, fact.index()));
+}
+
+/// What must hold for the last actions of a plan to reach the goal.
+fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
+    let mut needed = vec![0; bits::words(task.facts.len())].into_boxed_slice();
+    task.goal.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
+    for &id in row.iter().rev() {
+        let operator = task.operator(id);
+        operator.add_effects.iter().for_each(|fact| bits::take(&mut needed, fact.index()));
+        operator.preconditions.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
+    }
+    bits::members(&needed).map(|fact| FactId(fact as u32)).collect()
+}
+
+/// For each action those before it that must stay before it: it needs what they bring, or interferes.
+fn before(task: &Task, row: &[OperatorId]) -> Vec<Vec<u32>> {
+    let stays = |earlier: OperatorId, later: OperatorId| {
+        let (earlier, later) = (task.operator(earlier), task.operator(later));
+        earlier.add_effects.iter().any(|fact| later.preconditions.binary_search(fact).is_ok())
+            || earlier.interferes(later)
+    };
+    (0..row.len())
+        .map(|at| (0..at).filter(|&e| stays(row[e], row[at])).map(|e| e as u32).collect())
+        .collect()
+}
+
+/// The same plan, with its actions in another order, as far as that is free.
+fn laid_out(task: &Task, row: &[OperatorId], layout: Layout) -> Vec<OperatorId> {
+    let before = before(task, row);
+    let mut after = vec![Vec::new(); row.len()];
+    for (later, earlier) in before.iter().enumerate() {
+        earlier.iter().for_each(|&earlier| after[earlier as usize].push(later as u32));
+    }
+    match layout {
+        Layout::AsItIs => row.to_vec(),
+        Layout::Together => together(task, row, &before, &after, (0..row.len()).collect()),
+        Layout::FromTheEnd => {
+            let ranked = (0..row.len()).rev().collect();
+            let mut laid = together(task, row, &after, &before, ranked);
+            laid.reverse();
+            laid
+        }
+    }
+}
+
+/// Actions in the order in which they cease to wait, each one that has most in common with the one before it; of those
+/// the one that comes first in `ranked`.
+fn together(
+    task: &Task,
+    row: &[OperatorId],
+    waits_for: &[Vec<u32>],
+    next: &[Vec<u32>],
+    ranked: Vec<usize>,
+) -> Vec<OperatorId> {
+    let mut waits: Vec<usize> = waits_for.iter().map(Vec::len).collect();
+    let in_common = |a: OperatorId, b: OperatorId| {
+        let (a, b) = (&task.operator(a).args, &task.operator(b).args);
+        a.iter().filter(|arg| b.contains(arg)).count()
+    };
+    let mut rank = vec![0; row.len()];
+    ranked.iter().enumerate().for_each(|(at, &action)| rank[action] = at);
+    let mut free: Vec<usize> = ranked.into_iter().filter(|&action| waits[action] == 0).collect();
+    let mut laid: Vec<OperatorId> = Vec::with_capacity(row.len());
+    let best = |free: &[usize], last: Option<OperatorId>| {
+        let key = |&at: &usize| {
+            let action = free[at];
+            let shared = last.map_or(0, |last| in_common(last, row[action]));
+            (Reverse(shared), rank[action])
+        };
+        (0..free.len()).min_by_key(key)
+    };
+    while let Some(at) = best(&free, laid.last().copied()) {
+        let action = free.swap_remove(at);
+        laid.push(row[action]);
+        for &other in &next[action] {
+            waits[other as usize] -= 1;
+            if waits[other as usize] == 0 {
+                free.push(other as usize);
+            }
+        }
+    }
+    laid
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::{Random, random_errand, random_task};
+    use crate::{Outcome, solve_any, validate};
+
+    #[test]
+    fn what_has_fewer_actions_is_a_plan_and_no_dearer() {
+        let mut won = 0;
+        for seed in 1..=3000 {
+            let mut task = if seed % 2 == 0 { random_task(seed) } else { random_errand(seed) };
+            let mut random = Random(seed);
+            if seed % 3 == 0 {
+                task.operators.iter_mut().for_each(|o| o.cost = random.below(4) as u32);
+            }
+            let at_once = Limits { shorten: 0, ..Limits::default() };
+            let Outcome::Plan(first) = solve_any(&task, &at_once) else { continue };
+            for most in [0, 1 << 8, 1 << 16] {
+                let mut effort = most;
+                let plan = fewer(&task, first.clone(), &Limits::default(), &mut effort);
+                assert!(effort <= most);
+                assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert!(plan.action_count() <= first.action_count(), "seed {seed}");
+                assert!(plan.cost(&task) <= first.cost(&task), "seed {seed}");
+                won += usize::from(plan.action_count() < first.action_count());
+            }
+        }
+        assert!(won > 20, "{won}");
+    }
+
+    #[test]
+    fn every_layout_is_the_same_plan() {
+        for seed in 1..=1000 {
+            let task = random_task(seed);
+            let at_once = Limits { shorten: 0, ..Limits::default() };
+            let Outcome::Plan(plan) = solve_any(&task, &at_once) else { continue };
+            let row: Vec<OperatorId> = plan.operators().collect();
+            for layout in [Layout::AsItIs, Layout::Together, Layout::FromTheEnd] {
+                let laid = laid_out(&task, &row, layout);
+                let (mut before, mut after) = (row.clone(), laid.clone());
+                before.sort_unstable();
+                after.sort_unstable();
+                assert_eq!(before, after, "seed {seed}");
+                let steps = laid.into_iter().map(|id| vec![id]).collect();
+                assert_eq!(validate(&task, &Plan { steps }), Ok(()), "seed {seed}");
+            }
+        }
+    }
+}
