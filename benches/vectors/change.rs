@@ -7,7 +7,7 @@ use nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
 use orthoframe_vectors::{Equality, Model, Motion, Scene, Segment, Transition, costs, difference};
 
 use super::{
-    median,
+    least, median,
     shapes::{Kind, chain, normal, stored, thing},
 };
 
@@ -76,13 +76,12 @@ fn differential() {
             }
         }
         let (before, after) = (noisy(&segments, rng), noisy(&after, rng));
-        let build = median(51, || {
+        let build = least(51, || {
             black_box(Model::of_contour(after.clone()));
         });
         let (before, after) = (Model::of_contour(before), Model::of_contour(after));
         let found = difference(&before, &after, guess.as_ref(), &equality);
-        let runs = if guess.is_some() { 51 } else { 5 };
-        let time = median(runs, || {
+        let time = least(51, || {
             black_box(difference(&before, &after, guess.as_ref(), &equality));
         });
         let sizes: Vec<usize> = found.parts.iter().map(|p| p.members.len()).collect();

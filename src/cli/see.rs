@@ -21,6 +21,9 @@ pub(super) struct SeeArgs {
     /// Which scan of the log, from 1; the first when left out
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
+    /// The segments that tell a scan best in no more than so many vertices, a corner counted once
+    #[arg(long, value_name = "N", conflicts_with_all = ["models", "against"])]
+    vertices: Option<usize>,
     /// Things instead of segments: of the scan named, or of all that tell where they were taken
     #[arg(long)]
     models: bool,
@@ -79,7 +82,7 @@ fn shown(common: &Common, args: &SeeArgs, sighted: &Sighted) -> Result<Shown, Fa
         let (value, words) = (json::changes(&changes), tell_changes(common.lang, &changes));
         return Ok(Shown { value, words, drawing });
     }
-    let view = sighted.view(scan)?;
+    let view = sighted.view(scan, args.vertices)?;
     let drawing = wanted.then(|| view.draw(language));
     let words = tell_view(common.lang, &view, sighted.scans());
     Ok(Shown { value: json::view(&view), words, drawing })
@@ -107,7 +110,11 @@ fn tell_view(lang: Lang, view: &View, scans: usize) -> String {
         ),
     };
     let lines = view.segments.iter().enumerate().map(|(k, s)| tell(lang, k, s, view.is_picture));
-    std::iter::once(head).chain(lines).collect::<Vec<_>>().join("\n")
+    let points = view.points.iter().map(|p| match lang {
+        Lang::Ru => format!("  тонкое у ({:.0}, {:.0})", p.x, p.y),
+        Lang::En => format!("  thin at ({:.0}, {:.0})", p.x, p.y),
+    });
+    std::iter::once(head).chain(lines).chain(points).collect::<Vec<_>>().join("\n")
 }
 
 /// A segment: ends, length, what the ends are.

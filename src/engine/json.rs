@@ -459,6 +459,7 @@ pub fn view(view: &View) -> Value {
         "returned": view.returns.len(),
         "pose": view.pose.map(pose),
         "segments": view.segments.iter().map(segment).collect::<Vec<_>>(),
+        "points": view.points.iter().map(|p| json!([round(p.x), round(p.y)])).collect::<Vec<_>>(),
     })
 }
 

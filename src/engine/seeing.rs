@@ -47,6 +47,8 @@ pub struct View {
     pub beams: usize,
     /// In the sensor's frame, cm; of a picture pixels, y upwards.
     pub segments: Vec<Segment<2>>,
+    /// What one beam alone struck before a segment: the leg of a chair.
+    pub points: Vec<Point>,
     /// What came back, in the same frame.
     pub returns: Vec<Point>,
     /// Of the sensor, where the log tells it.
@@ -124,17 +126,19 @@ impl Sighted {
         self.faults.as_deref()
     }
 
-    /// The segments of a scan, counted from 1.
+    /// The segments of a scan, counted from 1; with `vertices` those that tell it best in so many at most. A picture is told
+    /// as it is.
     ///
     /// # Errors
     /// There is no such scan.
-    pub fn view(&self, scan: usize) -> Result<View, Error> {
+    pub fn view(&self, scan: usize, vertices: Option<usize>) -> Result<View, Error> {
         let blank = View {
             name: self.name.clone(),
             scan,
             line: 0,
             beams: 0,
             segments: Vec::new(),
+            points: Vec::new(),
             returns: Vec::new(),
             pose: None,
             is_picture: false,
@@ -148,7 +152,13 @@ impl Sighted {
             Of::Log(log) => {
                 let told = self.scan(log, scan)?;
                 let sensor = log.sensor(told);
-                let segments = Extractor::new().segments(sensor, &told.ranges).to_vec();
+                let mut extractor = Extractor::new();
+                let segments = match vertices {
+                    Some(most) => extractor.refined(sensor, &told.ranges, most),
+                    None => extractor.segments(sensor, &told.ranges).to_vec(),
+                };
+                let points =
+                    extractor.thin(sensor, &told.ranges).map(|s| Point::from(s.start)).collect();
                 let beams = sensor.directions().iter().zip(&told.ranges);
                 let returned = beams.filter(|(_, range)| sensor.returned(**range));
                 let returns = returned.map(|(u, range)| Point::from(u * *range)).collect();
@@ -157,7 +167,7 @@ impl Sighted {
                     heading: Deg::from_radians(pose.rotation.angle()),
                 });
                 let (line, beams) = (told.line, sensor.count());
-                Ok(View { line, beams, segments, returns, pose, ..blank })
+                Ok(View { line, beams, segments, points, returns, pose, ..blank })
             }
         }
     }
@@ -196,7 +206,7 @@ impl Sighted {
                 Ok(Things { name, scene, views, without_pose, is_picture: false })
             }
             (_, scan) => {
-                let view = Model::of_contour(self.view(scan.unwrap_or(1))?.segments);
+                let view = Model::of_contour(self.view(scan.unwrap_or(1), None)?.segments);
                 let mut scene = Scene::new(equality);
                 scene.add_contours(&view, &(0..view.len()).collect::<Vec<_>>());
                 Ok(Things { name, scene, views: 1, without_pose: 0, is_picture: false })
@@ -210,7 +220,7 @@ impl Sighted {
     /// # Errors
     /// There is no such scan.
     pub fn changes(&self, before: usize, after: usize) -> Result<Changes, Error> {
-        let (first, mut second) = (self.view(before)?, self.view(after)?);
+        let (first, mut second) = (self.view(before, None)?, self.view(after, None)?);
         let mut guess = None;
         if let (Of::Log(log), Some(_), Some(_)) = (&self.source, first.pose, second.pose) {
             let poses = [before, after].map(|scan| self.scan(log, scan).ok().and_then(|s| s.pose));
@@ -234,7 +244,15 @@ impl View {
     /// As SVG: the returns, the segments, true and cut ends, the observer.
     #[must_use]
     pub fn draw(&self, language: Language) -> String {
-        let segments = self.segments.iter().map(|s| drawn(s, None, false)).collect();
+        let lines = self.segments.iter().map(|s| drawn(s, None, false));
+        let points = self.points.iter().map(|p| SeenSegment {
+            from: *p,
+            to: *p,
+            is_true: [true; 2],
+            group: None,
+            is_before: false,
+        });
+        let segments = lines.chain(points).collect();
         let title = if self.is_picture {
             self.name.clone()
         } else {

@@ -104,6 +104,12 @@ impl Line {
         n.dot(&self.centre) / n.dot(&u)
     }
 
+    /// Whether a point lies on the line, within so many deviations of a point and of the line where it was fitted.
+    pub(crate) fn admits(&self, p: Vector2<f64>, deviations: f64) -> bool {
+        let across = self.direction.perp(&(p - self.centre));
+        across * across <= deviations * deviations * 2.0 * self.expected
+    }
+
     /// Variance of one point across the line, in cm²: what the noise expects, or what is found where that is more.
     pub(crate) fn variance(&self) -> f64 {
         let found = if self.count > 2.0 { self.sse / (self.count - 2.0) } else { 0.0 };

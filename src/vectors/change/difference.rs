@@ -173,7 +173,12 @@ where
             let (stored, view) = (self.after.part(&free), self.before.part(&left));
             let index = Index::of(
                 std::slice::from_ref(&stored),
-                Options { confidence: self.equality.confidence(), ..Options::default() },
+                Options {
+                    confidence: self.equality.confidence(),
+                    // Links of unknown length are asked for by views that have some.
+                    cut_ends: !view.is_whole(),
+                    ..Options::default()
+                },
             );
             let seeds = Seeds { view: &view, model: &stored, index: &index };
             let Some(pairs) = seeds.greatest(counters) else { return };

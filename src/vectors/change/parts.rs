@@ -21,6 +21,9 @@ const OWN: f64 = 20.0;
 const POOR: f64 = 2.4;
 /// Parts that one thing falls into at one step.
 const MOST: usize = 8;
+/// Segments by which candidate motions are ranked, and how many of these are then held against all.
+const SAMPLE: usize = 20;
+const FINALISTS: usize = 6;
 /// Candidate motions looked at per part.
 const CANDIDATES: usize = 48;
 
@@ -152,8 +155,20 @@ where
             poor.iter().map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
         };
         let candidates = candidates(pairs, next, &best.squared);
-        let found =
-            candidates.into_iter().map(|m| (gain(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
+        // Of many, a few tell which motions are worth asking all of them.
+        let stride = poor.len().div_ceil(SAMPLE).max(1);
+        let of_few = |motion: &Motion<D>| -> f64 {
+            let few = poor.iter().step_by(stride);
+            few.map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
+        };
+        let mut ranked: Vec<(f64, Motion<D>)> =
+            candidates.into_iter().map(|m| (of_few(&m), m)).collect();
+        ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if stride > 1 {
+            ranked.truncate(FINALISTS);
+            ranked.iter_mut().for_each(|(sum, motion)| *sum = gain(motion));
+        }
+        let found = ranked.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, mut motion)) = found else { break };
         // What it explains better than those before, it is fitted to.
         for _ in 0..3 {

@@ -107,7 +107,7 @@ where
             })
             .collect();
         rest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut misses = 0;
+        let (mut misses, mut fitted) = (0, pairs.len());
         for (_, k) in rest {
             let moved = self.view.segments()[k].moved(&motion);
             let Some((stored, reversed, _)) =
@@ -120,8 +120,9 @@ where
                 continue;
             };
             pairs.push((k, stored, reversed));
-            // Each of the first ones turns the motion; later ones hardly do.
-            if pairs.len() < 8 || pairs.len().is_multiple_of(4) {
+            // Each of the first ones turns the motion; later ones hardly do, a quarter more together.
+            if pairs.len() < 8 || 4 * pairs.len() >= 5 * fitted {
+                fitted = pairs.len();
                 let fit = self.fitted(motion, pivot, &pairs);
                 motion = fit.step()?.0;
                 (turn, shift) = fit.deviations()?;
@@ -204,7 +205,7 @@ where
     }
 
     /// The stored segment that a moved one is a view of.
-    fn nearest(&self, moved: &Segment<D>, counters: &mut Counters) -> Option<(usize, bool, f64)> {
+    pub(super) fn nearest(&self, moved: &Segment<D>, counters: &mut Counters) -> Option<(usize, bool, f64)> {
         let reach = self.equality.radius(2 * D as u32)
             * (moved.covariance.deviation() + self.model.deviation());
         let mut near = Vec::new();

@@ -76,30 +76,38 @@ fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Op
     if !((inner && outer || near) && ahead && order) {
         return None;
     }
-    if gap == 2 {
-        // A return that no line took lies between: the faces meet only if it went no farther than their corner.
-        let between = ranges.get(((last.beam + 1) % count) as usize);
-        let between = between.copied().filter(|range| sensor.returned(*range));
-        let room =
-            |range: f64| (first.p - last.p).norm() + CLEAR * sensor.noise.along(range).sqrt();
-        if between.is_some_and(|range| (range - point.norm()).abs() > room(range)) {
-            return None;
-        }
-    }
-    // Two points make a line, but not a face: where it meets another is a vertex of the contour and no more.
-    let bend = CLEAR * CLEAR * (one.turning() + two.turning());
-    let end = if one.count > 2.0 && two.count > 2.0 && sine * sine > bend {
-        End::True(Truth::Corner)
-    } else {
-        End::Cut(Cut::Unclear)
+    let covers = |line: &Line, from: u32, forth: bool| {
+        let (step, side) = if forth { (1, 1.0) } else { (count - 1, -1.0) };
+        let beams = (1..count).map(|k| ((from + k * step) % count) as usize);
+        beams
+            .take_while(|beam| side * sensor.directions[*beam].perp(&point) > 0.0)
+            .filter_map(|beam| ranges.get(beam).map(|range| (beam, *range)))
+            .filter(|(_, range)| sensor.returned(*range))
+            .all(|(beam, range)| line.admits(sensor.directions[beam] * range, CLEAR))
     };
+    if !(covers(one, last.beam, true) && covers(two, first.beam, false)) {
+        return None;
+    }
+    let end = if bends(one, two) { End::True(Truth::Corner) } else { End::Cut(Cut::Unclear) };
     Some(meeting.tips(one, two, end))
 }
 
+/// Whether two lines that meet are two faces, and not one told twice. Two points make a line, but not a face: where it
+/// meets another is a vertex of the contour and no more.
+pub(super) fn bends(one: &Line, two: &Line) -> bool {
+    let sine = one.direction.perp(&two.direction);
+    let noise = CLEAR * CLEAR * (one.turning() + two.turning());
+    one.count > 2.0 && two.count > 2.0 && sine * sine > noise
+}
+
 /// The end of a run that meets no other: of its last point, or of its first.
-fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) -> Tip {
+pub(super) fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) -> Tip {
     let line = &run.line;
-    let hit = if after { &hits[run.to - 1] } else { &hits[run.from] };
+    let (hit, beside_it) = if after {
+        (&hits[run.to - 1], &hits[run.to - 2])
+    } else {
+        (&hits[run.from], &hits[run.from + 1])
+    };
     let beam = hit.beam as usize;
     let count = sensor.count().min(ranges.len());
     let place = likeliest(sensor, line, hit);
@@ -112,10 +120,14 @@ fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) ->
     let half = if after { 0.5 * sensor.step } else { -0.5 * sensor.step };
     let border = Vector2::new((-u.y).mul_add(half, u.x), u.x.mul_add(half, u.y));
     let farthest = line.range(border);
-    let place = match line.place(border * farthest) {
-        limit if farthest > 0.0 && after => place.min(limit),
-        limit if farthest > 0.0 => place.max(limit),
-        _ => place,
+    // Along a line that is seen nearly end on, the breadth of a beam is as long as one likes: no end is moved by more than
+    // what lies between the last two hits.
+    let room = (line.place(hit.p) - line.place(beside_it.p)).abs();
+    let limit = line.place(border * farthest);
+    let place = match limit {
+        _ if farthest <= 0.0 || (limit - place).abs() > room => place,
+        _ if after => place.min(limit),
+        _ => place.max(limit),
     };
     let mut place_of_end = place;
     let beside = |steps: usize| match (after, sensor.is_closed() && count == sensor.count()) {
@@ -141,6 +153,8 @@ fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) ->
                     let noise = CLEAR * sensor.noise.along(found).sqrt();
                     let reach = line.place(sensor.directions[next] * on_line);
                     let gap = if after { reach - place } else { place - reach };
+                    let between = (u + sensor.directions[next]).normalize();
+                    let midway = line.place(between * line.range(between));
                     if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise {
                         End::Cut(Cut::Occluded)
                     } else if on_line > 0.0
@@ -149,8 +163,7 @@ fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, after: bool) ->
                         && !beside(2).is_some_and(back)
                     {
                         // The face ends somewhere between two beams.
-                        let between = (u + sensor.directions[next]).normalize();
-                        place_of_end = line.place(between * line.range(between));
+                        place_of_end = midway.clamp(place - room, place + room);
                         along += gap * gap / 12.0 + (place_of_end - 0.5 * (place + reach)).powi(2);
                         End::True(Truth::Free)
                     } else {

@@ -8,12 +8,12 @@
 //! 4. A point at a border goes to the line that it lies nearer to; neighbours that one line explains as well are one,
 //!    over a breakpoint too (a wall seen at a grazing angle is torn by its own perspective).
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 
 use super::ends;
 use super::sensor::Sensor;
 use crate::line::{Line, ROUGHNESS, Sums};
-use crate::segment::Segment;
+use crate::segment::{Covariance, End, Segment, Truth};
 
 /// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
 const OBLIQUE: f64 = 0.175;
@@ -25,6 +25,10 @@ const JOIN: f64 = 25.0;
 const NEAR: usize = 8;
 /// A last point this many deviations off its line is none of it.
 const TRIM: f64 = 2.0;
+/// Points on either side of a spike that make it one line.
+const LINE: usize = 3;
+/// Points that may be the rest of two lines' corner.
+pub(super) const FEW: usize = 3;
 /// Fewest points of a segment.
 const FEWEST: usize = 2;
 
@@ -44,15 +48,24 @@ pub(crate) struct Run {
     pub(crate) line: Line,
 }
 
+/// A return far from both its neighbours.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spike {
+    pub(super) beam: u32,
+    /// Of the hit that follows.
+    pub(super) at: usize,
+}
+
 /// Finds segments in scans; keeps its buffers from scan to scan.
 #[derive(Debug, Default, Clone)]
 pub struct Extractor {
-    pub(crate) hits: Vec<Hit>,
-    pub(crate) sums: Vec<Sums>,
-    clusters: Vec<usize>,
+    pub(super) hits: Vec<Hit>,
+    pub(super) sums: Vec<Sums>,
+    pub(super) clusters: Vec<usize>,
     chords: Vec<(usize, usize)>,
-    pub(crate) runs: Vec<Run>,
-    spikes: Vec<u32>,
+    pub(super) runs: Vec<Run>,
+    pub(super) spikes: Vec<Spike>,
+    pub(super) bridged: Vec<u32>,
     segments: Vec<Segment<2>>,
 }
 
@@ -72,9 +85,9 @@ impl Extractor {
             let start = self.surest_border();
             self.find(sensor, ranges, start);
         }
+        self.bridge(sensor);
         self.trim(sensor);
         self.runs.retain(|run| run.to - run.from >= FEWEST);
-        self.bridge();
         self.segments.clear();
         ends::segments(sensor, ranges, &self.hits, &self.runs, &mut self.segments);
         &self.segments
@@ -110,26 +123,55 @@ impl Extractor {
         self.hits[self.runs[at].from].beam as usize
     }
 
-    /// Beams whose returns lie off the segment that the last scan's neighbours of theirs make: single spikes over which a
-    /// line goes on.
+    /// Beams of the last scan whose returns lie off the line that goes on over them: single spikes.
     #[must_use]
     pub fn bridged(&self) -> &[u32] {
-        &self.spikes
+        &self.bridged
     }
 
-    /// Spikes that no run bridges are forgotten.
-    fn bridge(&mut self) {
-        let (hits, runs) = (&self.hits, &self.runs);
-        self.spikes.retain(|spike| {
-            runs.iter().any(|run| {
-                let (first, last) = (hits[run.from].beam, hits[run.to - 1].beam);
-                if first <= last {
-                    first < *spike && *spike < last
-                } else {
-                    *spike > first || *spike < last
-                }
-            })
-        });
+    /// What stands before a line of the last scan and was struck by one beam alone (the leg of a chair): a point, as wide as
+    /// a beam at most. A spike beyond a line is a false return or a gap, and nothing.
+    pub fn thin(&self, sensor: &Sensor, ranges: &[f64]) -> impl Iterator<Item = Segment<2>> {
+        let of = |beam: u32| {
+            let at = self.spikes.iter().find(|spike| spike.beam == beam)?.at;
+            Some((sensor.directions[beam as usize], ranges[beam as usize], self.hits.get(at)?.r))
+        };
+        let before = self
+            .bridged
+            .iter()
+            .filter_map(move |beam| of(*beam))
+            .filter(|(_, own, behind)| own < behind);
+        before.map(|(u, range, _)| {
+            let half = (0.5 * sensor.step).max(sensor.noise.bearing) * range;
+            let along = u * u.transpose();
+            let covariance =
+                along * sensor.noise.along(range) + (Matrix2::identity() - along) * (half * half);
+            let covariance = Covariance { start: covariance, end: covariance, cross: covariance };
+            Segment {
+                start: u * range,
+                end: u * range,
+                ends: [End::True(Truth::Free); 2],
+                covariance,
+            }
+        })
+    }
+
+    /// A line goes on over a spike where it is a line on both sides of it; elsewhere the spike tears it.
+    fn bridge(&mut self, sensor: &Sensor) {
+        self.bridged.clear();
+        for index in 0..self.spikes.len() {
+            let Spike { beam, at } = self.spikes[index];
+            let next = self.runs.partition_point(|run| run.to <= at);
+            let Some(run) = self.runs.get(next).copied().filter(|run| run.from < at) else {
+                continue;
+            };
+            if (at - run.from).min(run.to - at) >= LINE {
+                self.bridged.push(beam);
+                continue;
+            }
+            let parts = [(run.from, at), (at, run.to)].map(|(from, to)| self.run(from, to, sensor));
+            self.runs.splice(next..=next, parts);
+        }
     }
 
     /// Steps 1 and 2: hits, their sums, and where the clusters begin.
@@ -155,7 +197,7 @@ impl Extractor {
             if place > start && place + 1 < start + count {
                 let (before, after) = (range(place - 1), range(place + 1));
                 if is_spike(sensor, before, r, after) {
-                    self.spikes.push(beam as u32);
+                    self.spikes.push(Spike { beam: beam as u32, at: self.hits.len() });
                     continue;
                 }
             }
@@ -204,7 +246,7 @@ impl Extractor {
         }
     }
 
-    fn run(&self, from: usize, to: usize, sensor: &Sensor) -> Run {
+    pub(super) fn run(&self, from: usize, to: usize, sensor: &Sensor) -> Run {
         let mut line = Line::seen(&self.sums, from, to, &sensor.noise);
         if (self.hits[to - 1].p - self.hits[from].p).dot(&line.direction) < 0.0 {
             line.direction = -line.direction;
@@ -247,6 +289,16 @@ impl Extractor {
         }
     }
 
+    /// Where the points `from..to` part, so that those before lie on the one line and the others on the other.
+    pub(super) fn border(&self, one: &Line, other: &Line, from: usize, to: usize) -> Option<usize> {
+        let on = |line: &Line, at: usize| {
+            let off = line.direction.perp(&(self.hits[at].p - line.centre));
+            off * off < SPLIT * SPLIT * line.expected
+        };
+        let border = from + (from..to).take_while(|at| on(one, *at)).count();
+        (border..to).all(|at| on(other, at)).then_some(border)
+    }
+
     /// A few points between two longer lines, each of which lies on one of the two, are no line of their own: the
     /// border was found some points beside the corner.
     fn share_out(&mut self, sensor: &Sensor) {
@@ -255,18 +307,12 @@ impl Extractor {
         while next < self.runs.len() {
             let run = self.runs[next];
             let (from, to) = (run.from, run.to);
-            let sides = (kept > 0 && next + 1 < self.runs.len() && to - from < 4)
+            let sides = (kept > 0 && next + 1 < self.runs.len() && to - from <= FEW)
                 .then(|| (self.runs[kept - 1], self.runs[next + 1]))
-                .filter(|(a, b)| a.to - a.from > 3 && b.to - b.from > 3 && !self.is_torn(a, &run))
+                .filter(|(a, b)| a.to - a.from > FEW && b.to - b.from > FEW)
+                .filter(|(a, _)| !self.is_torn(a, &run))
                 .filter(|(_, b)| !self.is_torn(&run, b));
-            let on = |run: &Run, at: usize| {
-                let off = run.line.direction.perp(&(self.hits[at].p - run.line.centre));
-                off * off < SPLIT * SPLIT * run.line.expected
-            };
-            let border = sides.and_then(|(a, b)| {
-                let of_a = (from..to).take_while(|at| on(&a, *at)).count();
-                (from + of_a..to).all(|at| on(&b, at)).then_some(from + of_a)
-            });
+            let border = sides.and_then(|(a, b)| self.border(&a.line, &b.line, from, to));
             match (border, sides) {
                 (Some(border), Some((a, b))) => {
                     self.runs[kept - 1] = self.run(a.from, border, sensor);
@@ -332,8 +378,7 @@ impl Extractor {
                     break;
                 }
                 let joint = self.run(before.from, run.to, sensor);
-                let cost = |line: &Line| line.sse / line.expected;
-                if cost(&joint.line) - cost(&before.line) - cost(&run.line) > JOIN {
+                if !is_one(&before, &run, &joint) {
                     break;
                 }
                 run = joint;
@@ -344,6 +389,12 @@ impl Extractor {
         }
         self.runs.truncate(kept);
     }
+}
+
+/// Whether one line explains two runs as well as one line each does.
+pub(super) fn is_one(one: &Run, other: &Run, joint: &Run) -> bool {
+    let cost = |run: &Run| run.line.sse / run.line.expected;
+    cost(joint) - cost(one) - cost(other) <= JOIN
 }
 
 /// Where to begin a closed scan: at its greatest jump, so that the beginning cuts no line.

@@ -1,8 +1,11 @@
 //! A scan of a range sensor as segments (SPEC V2).
 
+mod adjust;
 mod cast;
 mod ends;
 mod extract;
+mod optimal;
+mod refine;
 mod sensor;
 
 pub use cast::{Struck, cast};
