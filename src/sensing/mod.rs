@@ -38,4 +38,6 @@ pub use raster::{CellState, Raster};
 pub use track::{Belief, Event, Tracker};
 
 #[cfg(test)]
+mod operative_tests;
+#[cfg(test)]
 mod tests;

@@ -26,8 +26,8 @@ use crate::vectors::scan::Sensor;
 
 /// Sight without a return ends here, in cm: what lies beyond is of no use to a drive.
 const HORIZON: f64 = 1000.0;
-/// Neighbouring returns farther apart than this, and than a face seen at a sharp angle has them, are of two faces, in cm.
-const TORN: f64 = 12.0;
+/// Neighbouring returns that are farther apart than beams are there, and so much more, are of two faces, in cm.
+const TORN: f64 = 3.0;
 /// The sharpest angle at which a face is taken for one, as the sine.
 const SHARP: f64 = 0.15;
 /// How far returns may lie off the vector that stands for them, in cm and as a share of their range.
@@ -234,11 +234,22 @@ fn outline(
     for number in 0..count {
         let next = (number + 1) % count;
         let (a, b) = (points[number], points[next]);
-        let gap = (b.at - a.at).norm();
-        let turn = sensor.step() * a.range.max(b.range) / SHARP;
+        let apart = b.at - a.at;
+        let (gap, spacing) = (apart.norm(), sensor.step() * a.range.max(b.range));
+        // A wall along which one looks goes on as it came; what stands before a wall does not.
+        let goes_on = |from: usize, to: usize| {
+            let other = points[to % count].at - points[from % count].at;
+            let long = other.norm();
+            long >= 0.3 * gap
+                && other.dot(&apart) > 0.0
+                && other.perp(&apart).abs() <= 0.12 * long * gap
+        };
+        let is_one = gap <= 2.5 * spacing + TORN
+            || gap <= spacing / SHARP
+                && (goes_on(number + count - 1, number) || goes_on(number + 1, number + 2));
         let is_face = raw[number] == Bound::Face(None)
             && raw[next] == Bound::Face(None)
-            && gap <= TORN.max(turn)
+            && is_one
             && (is_closed || next > 0);
         points[number].bound = if is_face { Bound::Face(None) } else { Bound::Sight };
     }
