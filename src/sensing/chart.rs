@@ -43,6 +43,8 @@ pub struct Chart {
     /// The lines near each bucket of [`BUCKET`] cm.
     buckets: Vec<Vec<u32>>,
     columns: usize,
+    /// Lower left corner of the first bucket: what lies a little outside of all lines is near one too.
+    corner: Point2<f64>,
 }
 
 /// Side of a bucket, in cm; lines up to [`NEAR`] away are in it.
@@ -139,15 +141,17 @@ impl Chart {
             low = low.inf(&p);
             high = high.sup(&p);
         }
-        let size = ((high - low) / BUCKET).map(|x| x as usize + 1);
+        let corner = low - Vector2::repeat(NEAR);
+        let size = ((high - low).add_scalar(2.0 * NEAR) / BUCKET).map(|x| x as usize + 1);
         let mut buckets = vec![Vec::new(); size.x * size.y];
         for (number, line) in lines.iter().enumerate() {
             let (a, b) = (line.start.inf(&line.end), line.start.sup(&line.end));
-            let first = ((a - low).add_scalar(-NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
-            let last = ((b - low).add_scalar(NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
+            let first = ((a - corner).add_scalar(-NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
+            let last = ((b - corner).add_scalar(NEAR) / BUCKET).map(|x| x.max(0.0) as usize);
             for row in first.y..=last.y.min(size.y - 1) {
                 for column in first.x..=last.x.min(size.x - 1) {
-                    let middle = low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * BUCKET;
+                    let middle =
+                        corner + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * BUCKET;
                     let reach = BUCKET * std::f64::consts::FRAC_1_SQRT_2 + NEAR;
                     if (line.nearest(middle) - middle).norm() <= reach {
                         buckets[row * size.x + column].push(number as u32);
@@ -159,7 +163,7 @@ impl Chart {
         let vertices = vertices.map(|p| Vec2::new(p.x, p.y)).collect();
         let indices = (0..lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         let shape = (!lines.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
-        Self { lines, shape, low, high, buckets, columns: size.x }
+        Self { lines, shape, low, high, buckets, columns: size.x, corner }
     }
 
     /// For each degree of half a turn, how much of the chart runs that way: one where three metres do, or more.
@@ -179,7 +183,7 @@ impl Chart {
 
     /// The line nearest to a point, with the nearest point of it, where one is within 40 cm.
     pub(crate) fn nearest(&self, p: Point2<f64>) -> Option<(u32, Point2<f64>)> {
-        let at = (p - self.low) / BUCKET;
+        let at = (p - self.corner) / BUCKET;
         if at.x < 0.0 || at.y < 0.0 || at.x as usize >= self.columns {
             return None;
         }
@@ -189,6 +193,20 @@ impl Chart {
             .map(foot)
             .min_by(|(_, a), (_, b)| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
             .filter(|(_, foot)| (foot - p).norm() <= NEAR)
+    }
+
+    /// The first line that a beam meets between two distances, and how far it lies, in cm.
+    pub(crate) fn next_on(
+        &self,
+        pose: &Isometry2<f64>,
+        bearing: f64,
+        from: f64,
+        to: f64,
+    ) -> Option<(f64, u32)> {
+        let ahead = pose.rotation * Vector2::new(bearing.cos(), bearing.sin()) * from;
+        let begun = Isometry2::new(pose.translation.vector + ahead, pose.rotation.angle());
+        let (distance, line) = self.cast(&begun, bearing, to - from);
+        line.map(|line| (from + distance, line)).filter(|_| to > from)
     }
 
     /// How far a beam goes, in cm, and which line ends it; the range where nothing does.

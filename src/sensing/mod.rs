@@ -20,14 +20,24 @@ use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
 mod chart;
+mod differences;
+mod discern;
 mod locate;
+mod operative;
+mod raster;
 mod refine;
 mod search;
 mod track;
 
 pub use chart::{Chart, Line};
+pub use differences::{Differences, DoorSeen, Inspector, ThingLook, ThingSeen, Unmapped};
+pub use discern::{Move, telling_move};
 pub use locate::{Answer, Fit, Localiser, Options};
+pub use operative::{Bound, Operative};
+pub use raster::{CellState, Raster};
 pub use track::{Belief, Event, Tracker};
 
+#[cfg(test)]
+mod operative_tests;
 #[cfg(test)]
 mod tests;

@@ -17,6 +17,16 @@ pub enum Belief {
     Lost,
 }
 
+impl From<Answer> for Belief {
+    fn from(answer: Answer) -> Self {
+        match answer {
+            Answer::Unique(fit) => Self::At(fit),
+            Answer::Ambiguous(fits) => Self::OneOf(fits),
+            Answer::Unknown => Self::Lost,
+        }
+    }
+}
+
 /// What was remarkable about a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event {
@@ -67,11 +77,7 @@ impl<'l> Tracker<'l> {
             _ => Vec::new(),
         };
         if known.is_empty() {
-            self.belief = match self.localiser.locate(sensor, ranges) {
-                Answer::Unique(fit) => Belief::At(fit),
-                Answer::Ambiguous(fits) => Belief::OneOf(fits),
-                Answer::Unknown => Belief::Lost,
-            };
+            self.belief = self.localiser.locate(sensor, ranges).into();
             self.doubts = 0;
             return if matches!(self.belief, Belief::Lost) { Event::Lost } else { Event::Steady };
         }
