@@ -366,7 +366,7 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
     let program = rules.program();
     let declared: Vec<String> = program
         .relations()
-        .filter(|(_, info)| info.input.is_some())
+        .filter(|(_, info)| !info.inputs.is_empty())
         .map(|(_, info)| {
             let columns: Vec<String> =
                 info.columns.iter().map(|c| format!("{}: {}", c.name, c.type_name)).collect();
