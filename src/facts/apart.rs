@@ -9,6 +9,7 @@ use std::thread;
 
 use datafrog::Iteration;
 
+use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
 use super::head::Head;
 use super::limits::{self, Watch};
@@ -48,24 +49,48 @@ pub(super) fn handed_on(
     (0..columns).find(|column| rounds.iter().all(|(clause, _)| hands_on(clause, *column)))
 }
 
+impl Evaluation<'_> {
+    /// The rest of a recursive relation, each thread a part of it to the end.
+    pub(super) fn apart(
+        &mut self,
+        relation: RelationId,
+        column: usize,
+        rounds: &[(&Clause, Plan)],
+        rows: Box<dyn Growing>,
+    ) -> Result<(), EvaluateError> {
+        let apart = Apart { program: self.program, relation, column, rounds };
+        let limit = self.finished.watch.limits().rows;
+        match apart.run(&mut self.finished, rows) {
+            Ok(rows) => {
+                self.finished.rows[relation.index()] = Some(rows);
+                Ok(())
+            }
+            Err(Unfinished::Rows) => self.check_size(relation, limit + 1),
+            Err(Unfinished::Limit) => {
+                rounds.first().map_or(Ok(()), |(clause, _)| self.check_limits(clause))
+            }
+        }
+    }
+}
+
 /// Why a relation was not derived to its end.
-pub(super) enum Unfinished {
+enum Unfinished {
     /// The watch says which limit was reached.
     Limit,
     /// It outgrew the rows that it may have.
     Rows,
 }
 
-pub(super) struct Apart<'a> {
-    pub(super) program: &'a Program,
-    pub(super) relation: RelationId,
-    pub(super) column: usize,
-    pub(super) rounds: &'a [(&'a Clause, Plan)],
+struct Apart<'a> {
+    program: &'a Program,
+    relation: RelationId,
+    column: usize,
+    rounds: &'a [(&'a Clause, Plan)],
 }
 
 impl Apart<'_> {
     /// Derives the rest of a relation that has new rows.
-    pub(super) fn run(
+    fn run(
         &self,
         finished: &mut Finished<'_>,
         rows: Box<dyn Growing>,

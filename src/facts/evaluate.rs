@@ -13,7 +13,7 @@ use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::apart::{Apart, Unfinished, handed_on};
+use super::apart::handed_on;
 use super::database::Database;
 use super::derived::Derived;
 use super::explain::RuleTrace;
@@ -202,7 +202,11 @@ impl<'a> Evaluation<'a> {
         self.program.info(relation).limit_size.unwrap_or(MAX_ROWS)
     }
 
-    fn check_size(&self, relation: RelationId, size: usize) -> Result<(), EvaluateError> {
+    pub(super) fn check_size(
+        &self,
+        relation: RelationId,
+        size: usize,
+    ) -> Result<(), EvaluateError> {
         let limit = self.finished.watch.limits().rows;
         if size <= limit {
             return Ok(());
@@ -211,7 +215,7 @@ impl<'a> Evaluation<'a> {
         Err(EvaluateError::TooMany { relation, limit })
     }
 
-    fn check_limits(&self, clause: &Clause) -> Result<(), EvaluateError> {
+    pub(super) fn check_limits(&self, clause: &Clause) -> Result<(), EvaluateError> {
         self.program.check_limits(clause, &self.finished.watch)
     }
 
@@ -390,28 +394,6 @@ impl<'a> Evaluation<'a> {
             self.finished.rows[relation.index()] = Some(rows.complete(limits.threads));
         }
         Ok(())
-    }
-
-    /// The rest of a recursive relation, each thread a part of it to the end.
-    fn apart(
-        &mut self,
-        relation: RelationId,
-        column: usize,
-        rounds: &[(&Clause, Plan)],
-        rows: Box<dyn Growing>,
-    ) -> Result<(), EvaluateError> {
-        let apart = Apart { program: self.program, relation, column, rounds };
-        let limit = self.finished.watch.limits().rows;
-        match apart.run(&mut self.finished, rows) {
-            Ok(rows) => {
-                self.finished.rows[relation.index()] = Some(rows);
-                Ok(())
-            }
-            Err(Unfinished::Rows) => self.check_size(relation, limit + 1),
-            Err(Unfinished::Limit) => {
-                rounds.first().map_or(Ok(()), |(clause, _)| self.check_limits(clause))
-            }
-        }
     }
 
     fn chosen(&self, relation: RelationId) -> Option<Chosen> {

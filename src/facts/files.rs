@@ -85,8 +85,8 @@ pub struct FilesReport {
 ///
 /// A relation `r` is read from `r.facts` and written to `r.csv` unless its directive says `filename="…"`;
 /// `delimiter="…"` replaces the tab, `headers=true` stands for a first line with the columns' names, `rfc4180=true`
-/// for values in quotes, `columns="1:0"` for the file's columns to read, and `IO=stdout` prints instead of writing
-/// a file.
+/// for values in quotes, `columns="1:0"` for the file's columns to read; `IO=stdin` reads the standard input, and
+/// `IO=stdout` prints instead of writing a file.
 ///
 /// # Errors
 /// [`FilesError`] with the place in the program or in the file of facts.
