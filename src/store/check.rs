@@ -27,7 +27,7 @@ use super::version::Version;
 pub enum Severity {
     /// Good to know.
     Note,
-    /// The store mends it, at the next opening or snapshot; nothing is lost.
+    /// The store mends it, at the next opening or snapshot, at the latest with `gc`; nothing is lost.
     Mendable,
     /// Something is lost, or wrong.
     Broken,

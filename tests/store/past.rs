@@ -131,7 +131,8 @@ fn one_broken_file_of_the_past_is_mended_and_two_are_refused() {
         bytes[at] ^= 4;
         std::fs::write(path, bytes).unwrap();
     };
-    let places = [3, 40, whole.len() / 2, whole.len() - 5, whole.len() - 30, whole.len() - 60];
+    // In its blocks a twin is read only where the other is broken, and by `fsck`.
+    let places = [3, 20, whole.len() / 2, whole.len() - 5, whole.len() - 30, whole.len() - 60];
     for (n, place) in places.into_iter().enumerate() {
         let (one, other) = if n % 2 == 0 { (run, twin) } else { (twin, run) };
         flip(one, place);
