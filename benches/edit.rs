@@ -1,7 +1,7 @@
-//! One durable edit of a hospital, with the relations and the floor kept in step: at several sizes of the map, while nobody
-//! else has the state before it, and while others do.
+//! One durable edit of a hospital, of every kind, with the relations and the floor kept in step: at several sizes of the
+//! map, while nobody else has the state before it and while others do; as a value and as a text.
 //!
-//! `cargo bench --bench edit [-- WARDS ...]`; a ward holds 20 things.
+//! `cargo bench --bench edit [-- WARDS ...]`; a ward holds 20 things and a door to the next one.
 
 mod wards;
 
@@ -11,21 +11,46 @@ use std::time::Duration;
 use cpu_time::ProcessTime;
 use orthoframe::Engine;
 use orthoframe::engine::{Method, Mode, State, World, change_now};
-use orthoframe_map::Format;
-use orthoframe_store::{Change, Store};
-use orthoframe_units::{Deg, Frame, ReplicaId, Source};
+use orthoframe_map::{Format, Replica};
+use orthoframe_store::Store;
+use orthoframe_units::{Deg, DoorId, Frame, ReplicaId, Source};
 
 const WARD: &str = include_str!("wards/ward.toml");
+/// The ward's floor, and the same with a door in one wall and a hole before the neighbour's door in the other.
+const FLOOR: &str = r#"rect = [500, 400], height = 270 }"#;
+const FLOOR_WITH_DOORS: &str = r#"points = [[0, 0], [500, 0], [500, 100], [500, 200], [500, 400], [0, 400], [0, 200], [0, 100]], height = 270, side = { C = { permeability = "conditional" }, G = { permeability = "permeable" } } }"#;
+const ITEMS: &str = r#"items = [{ id = "A", orthoframe = "floor" }]"#;
+const DOOR: &str = r#"
+[door.door]
+name = "Дверь"
+kind = "hinged"
+width = 100
+height = 200
+state = "open"
+leaves = [{ hinge = "right" }]
+[map.floor]"#;
 /// Edits of each kind.
-const EDITS: usize = 60;
+const EDITS: usize = 40;
 /// So many states before the last are still held.
 const HELD: usize = 2;
 
-/// Wards side by side and back to back.
+/// Wards side by side and back to back, each with a door to the next.
 fn hospital(wards: usize) -> World {
-    wards::hospital(WARD, wards, usize::MAX, |n| {
+    let items =
+        format!("{ITEMS}\ndoors = [{{ door = \"door\", side = \"A.C\", opens = \"inside\" }}]");
+    let text = WARD.replace(FLOOR, FLOOR_WITH_DOORS).replace(ITEMS, &items);
+    let text = text.replace("\n[map.floor]", DOOR);
+    let mut world = wards::hospital(&text, wards, usize::MAX, |n| {
         Frame::new((n % 45) as f64 * 520.0, (n / 45) as f64 * 420.0, 0.0, Deg::ZERO)
-    })
+    });
+    let door = world.doors.values().next().expect("the ward has a door").clone();
+    for area in world.areas.values_mut() {
+        let id = DoorId(area.id.0);
+        area.doors.iter_mut().for_each(|mount| mount.door = id);
+        let (name, key) = (format!("Дверь-{}", id.0), format!("door-{}", id.0));
+        world.doors.insert(id, orthoframe_map::Door { id, name, key, ..door.clone() });
+    }
+    world
 }
 
 /// The chairs of wards all over the hospital.
@@ -35,23 +60,87 @@ fn chairs(world: &World, wards: usize) -> Vec<ReplicaId> {
     (0..EDITS).filter_map(|n| find(&name(n))).collect()
 }
 
-/// Median and worst of some times.
+/// Median and nine of ten of some times.
 #[expect(clippy::print_stdout, reason = "a bench prints its figures")]
 fn tell(what: &str, mut times: Vec<Duration>) {
     times.sort();
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
     let [median, most] = [times[times.len() / 2], times[times.len() * 9 / 10]];
-    println!("  {what}: {:.2} ms of processor time, nine of ten below {:.2}", ms(median), ms(most));
+    println!("| {what} | {:.2} | {:.2} |", ms(median), ms(most));
 }
 
-fn shift(engine: &mut Engine, chair: ReplicaId, by: f64, change: &Change) {
-    let shifted = engine.edit_world(change, Mode::Commit, |world| {
-        let chair = world.replicas.get_mut(&chair).expect("it is there");
-        let at = chair.frame.origin();
-        chair.frame = Frame::new(at.x, at.y + by, chair.frame.z.get(), chair.frame.angle);
-    });
-    assert_eq!(shifted.expect("it may stand there").differences.len(), 1);
+/// A kind of edit: its name, how it alters a chair of a world, and the same as a step of a text.
+type Kind = (&'static str, fn(&mut World, ReplicaId, usize), fn(&Replica, usize) -> String);
+
+fn shifted(frame: &Frame, by: f64, turn: f64) -> Frame {
+    Frame::new(frame.x.get(), frame.y.get() + by, frame.z.get(), frame.angle + Deg::of(turn))
 }
+
+const KINDS: [Kind; 7] = [
+    (
+        "move",
+        |world, id, _| {
+            let chair = world.replicas.get_mut(&id).expect("it is there");
+            chair.frame = shifted(&chair.frame, 1.0, 0.0);
+        },
+        |chair, _| format!("move = \"{}\"\nby = [0, -1]\n", chair.name),
+    ),
+    (
+        "turn",
+        |world, id, _| {
+            let chair = world.replicas.get_mut(&id).expect("it is there");
+            chair.frame = shifted(&chair.frame, 0.0, 5.0);
+        },
+        |chair, _| format!("turn = \"{}\"\nby = -5\n", chair.name),
+    ),
+    (
+        "property",
+        |world, id, n| {
+            let chair = world.replicas.get_mut(&id).expect("it is there");
+            chair.properties.insert("ЦВЕТ".to_owned(), format!("Цвет-{n}"));
+        },
+        |chair, n| {
+            format!("set = \"{}\"\nproperty = \"ЦВЕТ\"\nvalue = \"Другой-{n}\"\n", chair.name)
+        },
+    ),
+    (
+        "rename",
+        |world, id, n| {
+            let chair = world.replicas.get_mut(&id).expect("it is there");
+            chair.name = format!("Кресло-{n}-{}", id.0);
+        },
+        |chair, n| format!("rename = \"{}\"\nto = \"Табурет-{n}-{}\"\n", chair.name, chair.id.0),
+    ),
+    (
+        "door",
+        |world, id, _| {
+            let area = world.replicas[&id].area;
+            let door = world.doors.get_mut(&DoorId(area.0)).expect("each ward has its own");
+            door.state = orthoframe_map::DoorState::CLOSED;
+        },
+        |chair, _| format!("state = \"Дверь-{}\"\nis = \"open\"\n", chair.area.0),
+    ),
+    (
+        "add",
+        |world, id, n| {
+            let last = *world.replicas.keys().next_back().expect("there are some");
+            let (new, name) = (ReplicaId(last.0 + 1), format!("Скамья-{n}-{}", id.0));
+            let chair = world.replicas[&id].clone();
+            let frame = shifted(&chair.frame, 3.0, 0.0);
+            world.replicas.insert(new, Replica { id: new, name, frame, ..chair });
+        },
+        |chair, n| {
+            let (area, at) = (chair.area.0 - 1, chair.frame.origin());
+            let place = format!("object = \"chair\"\narea = \"ward-{area}\"\n");
+            format!("place = \"Пуф-{n}-{}\"\n{place}at = [{}, {}]\n", chair.id.0, at.x, at.y - 3.0)
+        },
+    ),
+    (
+        "remove",
+        |world, id, _| drop(world.replicas.remove(&id)),
+        |chair, _| format!("remove = \"{}\"\n", chair.name),
+    ),
+];
 
 #[expect(clippy::print_stdout, reason = "a bench prints its figures")]
 fn measure(wards: usize) {
@@ -65,34 +154,45 @@ fn measure(wards: usize) {
     let mut engine = Engine::open(&dir, None).expect("the store is sound");
     engine.relations().expect("they end");
     let _ = engine.route("Палата-0", "Стул-1-0", Method::Shortest).expect("the floors are built");
-    println!("{} things", world.replicas.len());
-    let chairs = chairs(&world, wards);
-    let timed = |engine: &mut Engine, chair, by| {
-        let clock = ProcessTime::now();
-        shift(engine, chair, by, &change);
-        clock.elapsed()
-    };
-    let alone = chairs.iter().map(|&chair| timed(&mut engine, chair, 1.0)).collect();
-    tell("nobody has the state before", alone);
-    let mut held: Vec<Arc<State>> = Vec::new();
-    let mut shared = Vec::new();
-    for &chair in &chairs {
-        held.push(engine.state().expect("there is a map"));
-        held.drain(..held.len().saturating_sub(HELD - 1));
-        shared.push(timed(&mut engine, chair, -1.0));
+    println!("\n{} things, {} doors\n", world.replicas.len(), world.doors.len());
+    println!("| edit | median, ms | nine of ten below |\n|---|---|---|");
+    let all = chairs(&world, wards);
+    for (what, alter, text) in KINDS {
+        let mut edit = |engine: &mut Engine, chair: ReplicaId, n: usize| {
+            let clock = ProcessTime::now();
+            let edited = engine.edit_world(&change, Mode::Commit, |world| alter(world, chair, n));
+            let spent = clock.elapsed();
+            assert!(!edited.expect("it is sound").differences.is_empty());
+            spent
+        };
+        let (alone, others) = all.split_at(all.len() / 2);
+        let times = alone.iter().enumerate().map(|(n, &chair)| edit(&mut engine, chair, n));
+        let times = times.collect();
+        tell(what, times);
+        let mut held: Vec<Arc<State>> = Vec::new();
+        let mut times = Vec::new();
+        for (n, &chair) in others.iter().enumerate() {
+            held.push(engine.state().expect("there is a map"));
+            held.drain(..held.len().saturating_sub(HELD - 1));
+            times.push(edit(&mut engine, chair, n + all.len()));
+        }
+        drop(held);
+        tell(&format!("{what}, while the state before is asked"), times);
+        let left: Vec<Replica> =
+            all.iter().filter_map(|id| engine.world().ok()?.replicas.get(id).cloned()).collect();
+        let texts = left.iter().take(8).enumerate().map(|(n, chair)| {
+            let source = Source::new("edit.toml", format!("[[edit]]\n{}", text(chair, n)));
+            let clock = ProcessTime::now();
+            let edited = engine.edit(&source, Format::Toml, &change, Mode::Commit);
+            let spent = clock.elapsed();
+            assert!(!edited.expect("it is sound").differences.is_empty());
+            spent
+        });
+        let times: Vec<Duration> = texts.collect();
+        if !times.is_empty() {
+            tell(&format!("{what}, as a text"), times);
+        }
     }
-    tell("the last state is asked by others", shared);
-    let texts = chairs.iter().take(5).map(|id| {
-        let name = &world.replicas[id].name;
-        let text = format!("[[edit]]\nmove = \"{name}\"\nby = [0, 1]\n");
-        let source = Source::new("edit.toml", text);
-        let clock = ProcessTime::now();
-        let edited = engine.edit(&source, Format::Toml, &change, Mode::Commit);
-        edited.expect("it may stand there");
-        clock.elapsed()
-    });
-    let texts = texts.collect();
-    tell("as a text", texts);
 }
 
 fn main() {

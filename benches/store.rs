@@ -4,6 +4,9 @@
 //! `cargo bench --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
 //! SQLite (WAL, synchronous=FULL) does the same work in the same run, turn by turn, on the same disk. The directory is
 //! taken from `ORTHO_BENCH_DIR`, or the target directory, since /tmp may be in memory.
+//!
+//! `cargo bench --bench store -- --years [OBSERVATIONS EDITS]` makes a store of ten years of a robot (10 000 000 and 100 000,
+//! of a hospital of 40 000 things) and opens it, each time in a process of its own.
 
 #[cfg(feature = "sqlite")]
 #[path = "store/sqlite.rs"]
@@ -14,8 +17,10 @@ use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use criterion::Criterion;
-use orthoframe_store::{Change, Edits, Key, Store, Timestamp, records::AreaObjects};
-use orthoframe_units::AreaId;
+use orthoframe_store::{
+    Change, Edits, Key, Observation, Seen, Store, Timestamp, records::AreaObjects,
+};
+use orthoframe_units::{AreaId, Deg, Frame, ReplicaId};
 
 const RECORDS: u32 = 100_000;
 const BATCH: usize = 1000;
@@ -197,7 +202,127 @@ fn table() {
     row("opening 100 000 records, all verified", &mut ours, &mut []);
 }
 
+/// Things of the building in which a robot worked for years.
+const THINGS: u32 = 40_000;
+
+/// What the robot saw next: things one after the other, a little off where they were.
+fn look(n: u32) -> Observation {
+    let thing = replica(n.wrapping_mul(7919) % THINGS);
+    let frame = Frame::new(thing.x + f64::from(n % 5), thing.y, 0.0, Deg::of(thing.ang));
+    Observation {
+        replica: ReplicaId(thing.repl_id),
+        at: Timestamp(1_790_000_000_000 + i64::from(n) * 31_000),
+        seen: Some(Seen { area: AreaId(thing.area_id), frame }),
+        sure: 0.9,
+        observer: "робот".to_owned(),
+    }
+}
+
+/// Makes the store of years, or goes on with it where a run before ended.
+#[expect(clippy::print_stdout, reason = "a table on the terminal")]
+fn live(dir: &std::path::Path, observations: u32, edits: u32) {
+    const AT_ONCE: u32 = 5_000;
+    let clock = (Instant::now(), ProcessTime::now());
+    let mut store = Store::open(dir).expect("a new store").0;
+    let records: Vec<AreaObjects> = (0..THINGS).map(replica).collect();
+    fill(&mut store, &records);
+    let share = edits.div_ceil(observations.div_ceil(AT_ONCE));
+    let (mut seen, mut edited) = (0, 0);
+    while seen < observations {
+        let next: Vec<_> = (seen..observations.min(seen + AT_ONCE)).map(look).collect();
+        store.observe(&next).expect("the disk has room");
+        seen += AT_ONCE;
+        for _ in 0..share.min(edits - edited) {
+            let n = edited.wrapping_mul(104_729) % THINGS;
+            let place = AreaObjects { x: f64::from(edited), ..replica(n) };
+            store.apply(&Edits::new().put(&place), &change()).expect("the disk has room");
+            edited += 1;
+        }
+    }
+    let spent = (clock.0.elapsed().as_secs_f64(), clock.1.elapsed().as_secs_f64());
+    println!(
+        "{seen} observations and {edited} edits of {THINGS} things noted in {:.0} s, {:.0} s of processor time",
+        spent.0, spent.1
+    );
+}
+
+/// The most memory that this process held, in MB.
+fn most_memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kb = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+    kb.unwrap_or(f64::NAN) / 1024.0
+}
+
+/// Opens a store and asks it something of long ago; tells what that took.
+#[expect(clippy::print_stdout, reason = "a table on the terminal")]
+fn look_back(dir: &std::path::Path) {
+    let clock = (Instant::now(), ProcessTime::now());
+    let (store, report) = Store::open(dir).expect("the store is whole");
+    let opened = (clock.0.elapsed(), clock.1.elapsed(), most_memory());
+    let ms = |time: Duration| time.as_secs_f64() * 1e3;
+    println!(
+        "opened in {:.0} ms, {:.0} ms of processor time, {:.0} MB; {} frames replayed",
+        ms(opened.0),
+        ms(opened.1),
+        opened.2,
+        report.replayed
+    );
+    let of = ReplicaId(replica(7919 % THINGS).repl_id);
+    let clock = Instant::now();
+    let seen = store.reader().observations(of).expect("whole records").len();
+    println!("all {seen} observations of one thing: {:.2} ms", ms(clock.elapsed()));
+    let clock = Instant::now();
+    let story = store.reader().replica_history(of).expect("whole records").len();
+    println!("its {story} places on the map: {:.2} ms", ms(clock.elapsed()));
+    let clock = Instant::now();
+    let revisions = store.revisions().expect("whole records").len();
+    println!("the list of {revisions} revisions: {:.0} ms", ms(clock.elapsed()));
+    let clock = Instant::now();
+    let known = store.reader().observed().expect("whole records").len();
+    println!(
+        "the {known} things that were seen: {:.0} ms; {:.0} MB",
+        ms(clock.elapsed()),
+        most_memory()
+    );
+}
+
+/// Ten years of a robot.
+#[expect(clippy::print_stdout, reason = "a table on the terminal")]
+fn years(numbers: &[u32]) {
+    let (observations, edits) = match numbers {
+        [observations, edits, ..] => (*observations, *edits),
+        _ => (10_000_000, 100_000),
+    };
+    let dir = scratch();
+    let own = std::env::current_exe().expect("this program has a file");
+    let run = |what: &str| {
+        let mut child = std::process::Command::new(&own);
+        child.args([what, &dir.path().display().to_string()]);
+        child.args([observations.to_string(), edits.to_string()]);
+        assert!(child.status().expect("it starts").success());
+    };
+    run("--live");
+    let size = |dir: PathBuf| -> u64 {
+        let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
+        entries.filter_map(|entry| Some(entry.metadata().ok()?.len())).sum()
+    };
+    for part in ["journal", "snapshots", "past", "sled"] {
+        println!("{part}: {} MB", size(dir.path().join(part)) >> 20);
+    }
+    (0..3).for_each(|_| run("--look-back"));
+}
+
 fn main() {
+    let args: Vec<String> = std::env::args().collect();
+    let numbers: Vec<u32> = args.iter().filter_map(|arg| arg.parse().ok()).collect();
+    let dir = || PathBuf::from(args.get(2).expect("a directory"));
+    match args.get(1).map(String::as_str) {
+        Some("--live") => return live(&dir(), numbers[0], numbers[1]),
+        Some("--look-back") => return look_back(&dir()),
+        _ if args.iter().any(|arg| arg == "--years") => return years(&numbers),
+        _ => {}
+    }
     if std::env::args().any(|arg| arg == "--quick-table") {
         return table();
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
-use orthoframe_map::{NextIds, World, check, edit};
+use orthoframe_map::{NameIndex, Naming, NextIds, World, check, edit};
 use orthoframe_semantics::{Profile, derive};
 use orthoframe_units::{Frame, ReplicaId, Source};
 
@@ -328,6 +328,7 @@ fn no_edit_text_makes_the_reader_panic() {
         "\"\"",
     ];
     let mut dice = crate::store_world::Dice::new(5);
+    let names = NameIndex::of(&world);
     for _ in 0..400 {
         let mut text = String::new();
         for _ in 0..dice.roll(5) {
@@ -338,8 +339,8 @@ fn no_edit_text_makes_the_reader_panic() {
                 text.push_str(&format!("{} = {}\n", word(&mut dice), word(&mut dice)));
             }
         }
-        let done =
-            edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), &|_| Vec::new());
+        let naming = Naming { exact: &names, in_other_words: &|_| Vec::new() };
+        let done = edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), naming);
         if let Some(edited) = done.world {
             assert!(check(&edited).iter().all(|f| f.is_warning()), "{text}");
         } else {

@@ -83,12 +83,17 @@ pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
         "таблицы не ведутся, всё остаётся в журнале и снимках",
         "the tables are not kept, everything stays in journal and snapshots",
     );
+    let past = lang.pick(
+        "файл прошлого был утрачен или испорчен и записан заново по второму",
+        "a file of the past was lost or broken, and is written anew from its twin",
+    );
     let shut = lang.pick("писать в него нельзя", "it cannot be written");
     for (what, why) in [
         (tables, &opened.tables_rebuilt),
         (journal, &opened.journal_renewed),
         (read, &opened.read_from_tables),
         (off, &opened.tables_off),
+        (past, &opened.past_mended),
         (shut, &opened.not_writable),
     ] {
         if let Some(why) = why {

@@ -6,12 +6,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::geometry::Openings;
-use crate::map::{self, EditReading, Format, MapErrors, NextIds, TypeKind, World};
+use crate::map::{
+    self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, TypeKind, World,
+};
 use crate::store::{self, Change, Difference, ImportReport, Store, Table};
-use crate::units::{ReplicaId, Source};
+use crate::units::{DoorId, ReplicaId, Source};
 
 use super::known::{Floors, Known};
-use super::lexicon::form_index;
 use super::{Engine, Error, Relations, State, load};
 
 /// Whether an edit is made or only tried.
@@ -38,6 +39,17 @@ pub struct Edited {
 /// Beyond so many moved things, deriving all relations anew costs less than following each move.
 const MOST_FOLLOWED: usize = 16;
 
+impl State {
+    /// The faults that a map did not have before.
+    fn news(&self, before: &World, after: &World) -> MapErrors {
+        let known = || match &self.surveyed {
+            Some(known) => known.names().clone(),
+            None => NameIndex::of(before),
+        };
+        MapErrors { source: None, faults: map::news(before, after, known) }
+    }
+}
+
 impl Engine {
     /// Works a text of edits into the map, or into an empty one: see [`map::edit`]. A reason in the text counts where `change` has none.
     ///
@@ -50,16 +62,17 @@ impl Engine {
         change: &Change,
         mode: Mode,
     ) -> Result<Edited, Error> {
-        let nothing = World::empty();
-        let world = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
+        let nothing = (World::empty(), NameIndex::default());
+        let known = self.surveyed.as_ref().map(|known| (known.world(), known.names()));
+        let (world, exact) = known.unwrap_or((&nothing.0, &nothing.1));
         let ids = self.next_ids(world)?;
-        let index = std::cell::OnceCell::new();
-        let names = |name: &str| {
-            let index = index.get_or_init(|| form_index(world));
-            index.find(name).into_iter().map(|hit| *hit.id).collect()
+        let in_other_words = |name: &str| {
+            let hits = self.surveyed.as_ref().map(|known| known.forms().find(name));
+            hits.into_iter().flatten().map(|hit| *hit.id).collect()
         };
+        let naming = Naming { exact, in_other_words: &in_other_words };
         let EditReading { world: edited, faults, reason, carriers } =
-            map::edit(world, source, format, ids, &names);
+            map::edit(world, source, format, ids, naming);
         let Some(edited) = edited else { return Err(faults.into()) };
         let reason = reason.filter(|_| change.reason.is_empty());
         let change =
@@ -91,7 +104,7 @@ impl Engine {
         if carriers.is_empty() {
             return Ok((after, warnings, left_behind));
         }
-        let faults = news(before, &after);
+        let faults = self.news(before, &after);
         if faults.has_errors() {
             return Err(faults.into());
         }
@@ -113,7 +126,7 @@ impl Engine {
         let before = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
         let mut after = before.clone();
         alter(&mut after);
-        let faults = news(before, &after);
+        let faults = self.news(before, &after);
         if faults.has_errors() {
             return Err(faults.into());
         }
@@ -216,7 +229,7 @@ impl<T: Clone> Spare<T> {
             return Arc::clone(before);
         }
         let is_near =
-            |of: &World| only_replicas(of, after).is_some_and(|few| few.len() <= MOST_FOLLOWED);
+            |of: &World| only_things(of, after).is_some_and(|(few, _)| few.len() <= MOST_FOLLOWED);
         let fits = |spare: &Self| Arc::strong_count(&spare.what) == 1 && is_near(&spare.of);
         let own = spare.take().filter(fits);
         let Self { of, what } = own
@@ -239,11 +252,13 @@ impl State {
             return;
         };
         let before = Arc::clone(&surveyed.world);
-        let changed = only_replicas(&before, &after);
+        let changed = only_things(&before, &after);
         let ids_are_unique = self.reader.is_some();
-        Arc::make_mut(&mut self.changes).note(&before, &after, changed.as_deref(), ids_are_unique);
+        // A door that stands otherwise may be spoken of in other words.
+        let things = changed.as_ref().filter(|(_, doors)| doors.is_empty()).map(|(ids, _)| &**ids);
+        Arc::make_mut(&mut self.changes).note(&before, &after, things, ids_are_unique);
         match changed {
-            Some(changed) => Arc::make_mut(surveyed).follow(&before, &after, &changed, spares),
+            Some((changed, _)) => Arc::make_mut(surveyed).follow(&before, &after, &changed, spares),
             None => {
                 let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
                 *surveyed = Arc::new(Known::surveyed(rules, after, derived));
@@ -253,7 +268,7 @@ impl State {
 }
 
 impl Known {
-    /// Takes over a map that differs in these replicas alone.
+    /// Takes over a map that differs in these replicas and in the states of doors alone.
     fn follow(
         &mut self,
         before: &Arc<World>,
@@ -261,8 +276,19 @@ impl Known {
         changed: &[ReplicaId],
         spares: &mut Spares,
     ) {
-        self.mind.take();
-        self.forms.take();
+        let told_alike = before.doors == after.doors
+            && changed
+                .iter()
+                .all(|id| is_told_alike(before.replicas.get(id), after.replicas.get(id)));
+        if let Some(mind) = self.mind.take().filter(|_| told_alike) {
+            self.mind = Arc::new(mind.renewed()).into();
+        }
+        if !told_alike {
+            self.forms.take();
+        }
+        if let Some(names) = self.names.get_mut() {
+            names.follow(before, after);
+        }
         self.world = Arc::clone(after);
         let mut followed = changed.len() <= MOST_FOLLOWED;
         let mut openings = None;
@@ -287,36 +313,29 @@ impl Known {
             }
             spares.openings = openings;
             let of = Spare::own(&mut spares.floors, floors, before, after);
-            let changed = only_replicas(&of, after).expect("it can follow");
-            // A thing may leave one Map for another: each takes over what it now says of its own.
             for floor in
                 Arc::get_mut(floors).expect("made one's own by the line before").values_mut()
             {
-                let is_on = |r: Option<&map::Replica>| {
-                    r.is_some_and(|r| floor.scene().areas.contains_key(&r.area))
-                };
-                let own: Vec<ReplicaId> = changed
-                    .iter()
-                    .copied()
-                    .filter(|id| is_on(of.replicas.get(id)) || is_on(after.replicas.get(id)))
-                    .collect();
-                if !own.is_empty() {
-                    floor.rebuild(after, &own);
-                }
+                floor.follow(&of, after);
             }
         }
     }
 }
 
-/// The faults that a map did not have before.
-fn news(before: &World, after: &World) -> MapErrors {
-    MapErrors { source: None, faults: map::news(before, after) }
+/// The replicas and the doors that differ between two worlds of one building; none when more does.
+fn only_things(before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
+    before.is_same_building(after).then(|| {
+        let replicas = before.replicas.changes(&after.replicas).into_iter();
+        let doors = before.doors.changes(&after.doors).into_iter();
+        (replicas.map(|(id, ..)| id).collect(), doors.map(|(id, ..)| id).collect())
+    })
 }
 
-/// The replicas that differ between two worlds that are else alike; none when they are not.
-fn only_replicas(before: &World, after: &World) -> Option<Vec<ReplicaId>> {
-    let alike = before.is_same_building(after) && before.doors == after.doors;
-    alike.then(|| before.replicas.changes(&after.replicas).into_iter().map(|(id, ..)| id).collect())
+/// Whether two states of a thing are spoken of in the same words: it was put elsewhere at the most.
+fn is_told_alike(was: Option<&Replica>, is: Option<&Replica>) -> bool {
+    let (Some(was), Some(is)) = (was, is) else { return false };
+    let (area, frame, move_prob) = (is.area, is.frame, is.move_prob);
+    *is == Replica { area, frame, move_prob, ..was.clone() }
 }
 
 fn type_table(kind: TypeKind) -> Table {

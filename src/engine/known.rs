@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
-use crate::map::{Entity, World};
+use crate::map::{Entity, NameIndex, World};
 use crate::semantics::{Followed, Relations, derive};
 use crate::store::Derived;
 use crate::units::{AreaId, MapId, Point, ReplicaId};
@@ -47,6 +47,8 @@ pub(super) struct Known {
     pub(super) mind: OnceLock<Arc<Mind>>,
     /// The names in all their forms, for commands.
     pub(super) forms: OnceLock<Arc<FormIndex<Entity>>>,
+    /// The names as the world spells them.
+    pub(super) names: OnceLock<NameIndex>,
 }
 
 impl Known {
@@ -63,6 +65,7 @@ impl Known {
             floors: OnceLock::new(),
             mind: OnceLock::new(),
             forms: OnceLock::new(),
+            names: OnceLock::new(),
         }
     }
 
@@ -207,6 +210,11 @@ impl Known {
     /// Every name in every form, indexed when first asked for.
     pub(super) fn forms(&self) -> &FormIndex<Entity> {
         self.forms.get_or_init(|| Arc::new(form_index(&self.world)))
+    }
+
+    /// Who bears which name, looked up when first asked for.
+    pub(super) fn names(&self) -> &NameIndex {
+        self.names.get_or_init(|| NameIndex::of(&self.world))
     }
 
     pub(super) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {

@@ -2,7 +2,7 @@
 //!
 //! **Invariant.** A load keeps its place on what bears it; what the edit moves itself is where the edit puts it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::{Replica, World};
 use crate::semantics::Relations;
@@ -19,19 +19,18 @@ pub(super) fn carry(
         let (old, new) = (before.replicas.get(&id)?, after.replicas.get(&id)?);
         Some(old.area == new.area && old.frame == new.frame)
     };
-    let mut loads = Vec::new();
-    for &id in before.replicas.keys().filter(|id| stands_as_before(**id, after) == Some(true)) {
-        // Rules of the user's own might make things bear one another in a ring.
-        let mut seen = BTreeSet::from([id]);
-        let mut at = id;
-        while let Some(support) = relations.support_of(at).filter(|s| seen.insert(*s)) {
-            match stands_as_before(support, after) {
-                Some(true) => at = support,
-                Some(false) => {
-                    loads.push((id, support));
-                    break;
+    let changes = before.replicas.changes(&after.replicas).into_iter();
+    let moved = changes.map(|(id, ..)| id).filter(|id| stands_as_before(*id, after) == Some(false));
+    let mut loads = BTreeMap::new();
+    for support in moved.collect::<Vec<_>>() {
+        let mut open = vec![support];
+        while let Some(at) = open.pop() {
+            for id in relations.borne_by(at) {
+                // Rules of the user's own might make things bear one another in a ring.
+                if stands_as_before(id, after) == Some(true) && !loads.contains_key(&id) {
+                    loads.insert(id, support);
+                    open.push(id);
                 }
-                None => break,
             }
         }
     }

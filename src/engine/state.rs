@@ -263,8 +263,8 @@ impl State {
     /// # Errors
     /// Nothing bears the name, or several things do.
     pub fn find(&self, name: &str) -> Result<Entity, Error> {
-        let world = self.world()?;
-        let mut found = world.find(name);
+        let known = self.surveyed()?;
+        let (world, mut found) = (known.world(), known.names().find(known.world(), name));
         let mut near = Vec::new();
         if found.is_empty() {
             let index = self.forms()?;

@@ -13,13 +13,13 @@ use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
 use super::blocker::Blocker;
+use super::cells::CellKey;
 use super::leaf::opening_of;
 use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::things;
-use super::search::CellKey;
 
 /// One thing in the way.
 #[derive(Debug, Clone, PartialEq)]

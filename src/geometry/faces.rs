@@ -10,10 +10,10 @@ use crate::map::World;
 use crate::units::{Point, ReplicaId};
 
 use super::blocker::Blocker;
+use super::eye::Eye;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Prism;
-use super::seen::Eye;
 use super::view::is_solid;
 use super::{Bounds, Polygon};
 

@@ -9,10 +9,10 @@ use petgraph::unionfind::UnionFind;
 
 use crate::units::Point;
 
+use super::cells::{CellKey, Cells, Edge};
 use super::floor::FragmentFloor;
 use super::mesh::{NONE, Passage};
 use super::plan::FloorPlan;
-use super::search::{CellKey, Cells, Edge};
 use super::strait::Strait;
 
 /// Where two Fragments' centre spaces touch on a doorway's line.

@@ -13,10 +13,11 @@ use std::sync::{Arc, OnceLock};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::map::{DoorState, RobotProfile, World};
+use crate::map::{DoorState, Object, Replica, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
+use super::cells::CellKey;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
@@ -28,7 +29,6 @@ use super::opening::Opening;
 use super::openings::{Openings, STEP_REACH};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
-use super::search::CellKey;
 use super::site::{DoorStates, SLACK, Site};
 use super::strait::{self, Strait};
 use super::{Bounds, Passframe, PassframeId, Region};
@@ -240,40 +240,56 @@ impl FloorPlan {
     #[must_use]
     pub fn with_doors(&self, world: &World, states: &DoorStates) -> Self {
         let mut plan = self.clone();
+        plan.set_doors(world, world, states);
+        plan
+    }
+
+    fn set_doors(&mut self, before: &World, after: &World, states: &DoorStates) {
+        let differs =
+            |(door, state): &(&DoorId, &DoorState)| self.door_state(before, **door) != **state;
         let mut stale = Vec::new();
-        for (&door, &state) in states {
-            let before = self.door_state(world, door);
-            plan.states.insert(door, state);
-            if before != state {
-                for doorway in self.doorways.iter().filter(|d| d.door == Some(door)) {
-                    stale.extend(doorway.areas);
-                    // The leaf may stand before a neighbour's door.
-                    stale.extend(self.next_to(doorway));
-                }
+        for (&door, _) in states.iter().filter(differs) {
+            for doorway in self.doorways.iter().filter(|d| d.door == Some(door)) {
+                stale.extend(doorway.areas);
+                // The leaf may stand before a neighbour's door.
+                stale.extend(self.next_to(doorway));
             }
+        }
+        self.states.extend(states);
+        if stale.is_empty() {
+            return;
         }
         stale.sort_unstable();
         stale.dedup();
-        plan.renew(world, &stale);
-        plan
+        self.renew(after, &stale);
     }
 
     /// Follows a world from one state to another that differs in its replicas and the states of its doors alone.
     pub fn follow(&mut self, before: &World, after: &World) {
-        let differs = |id: &&ReplicaId| before.replicas.get(*id) != after.replicas.get(*id);
-        let all = before.replicas.keys().chain(after.replicas.keys());
-        let mut changed: Vec<ReplicaId> = all.filter(differs).copied().collect();
-        changed.sort_unstable();
-        changed.dedup();
-        self.rebuild(after, &changed);
-        let doors: DoorStates = after
-            .doors
-            .iter()
-            .filter(|(id, door)| before.doors.get(id).is_none_or(|d| d.state != door.state))
-            .map(|(id, door)| (*id, door.state))
-            .collect();
+        let has = |replica: Option<&Replica>| {
+            replica.is_some_and(|replica| self.scene.areas.contains_key(&replica.area))
+        };
+        // A thing may leave one Map for another: each takes over what is said of its own.
+        let changes = before.replicas.changes(&after.replicas).into_iter();
+        let mut changed: BTreeSet<ReplicaId> =
+            changes.filter(|(_, was, is)| has(*was) || has(*is)).map(|(id, ..)| id).collect();
+        let doors = before.doors.changes(&after.doors).into_iter();
+        let doors: DoorStates = doors.filter_map(|(id, _, is)| Some((id, is?.state))).collect();
         if !doors.is_empty() {
-            *self = self.with_doors(before, &doors);
+            // Doors of furniture stand as they do on every replica that does not say otherwise.
+            let moves =
+                |object: &&Object| object.doors.iter().any(|mount| doors.contains_key(&mount.door));
+            let hung: BTreeSet<_> = after.objects.values().filter(moves).map(|o| o.id).collect();
+            if !hung.is_empty() {
+                let bearing = after.replicas.values().filter(|r| hung.contains(&r.object));
+                changed.extend(bearing.filter(|r| has(Some(r))).map(|r| r.id));
+            }
+        }
+        if !changed.is_empty() {
+            self.rebuild(after, &changed.into_iter().collect::<Vec<_>>());
+        }
+        if !doors.is_empty() {
+            self.set_doors(before, after, &doors);
         }
     }
 

@@ -14,11 +14,12 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId};
 
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::blocker::Blocker;
+use super::cells::CellKey;
 use super::network::{Marks, Walkable};
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
 use super::scene::Scene;
-use super::search::{CellKey, shortest};
+use super::search::shortest;
 use super::strait;
 
 /// Where to.

@@ -35,6 +35,7 @@ use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
 use super::apart::{distance, segment_distance};
+use super::cells::CellKey;
 use super::coverage::{body, meeting, over, shrunk};
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes};
@@ -43,7 +44,6 @@ use super::narrows::Narrows;
 use super::network::Piece;
 use super::plan::FloorPlan;
 use super::route::Anchor;
-use super::search::CellKey;
 use super::site::SLACK;
 use super::{Bounds, Polygon};
 

@@ -10,8 +10,8 @@ use std::collections::{BinaryHeap, HashMap};
 
 use crate::units::Point;
 
+use super::cells::{CellKey, Cells, Edge, side};
 use super::nearest_on_segment;
-use super::search::{CellKey, Cells, Edge, side};
 
 /// The taut way along a short chain of cells; none where no chain leads to the goal's cell.
 pub(super) fn along_cells(

@@ -51,6 +51,7 @@ mod doorway;
 mod fault;
 mod file;
 mod marks;
+mod name_index;
 mod object;
 mod orthoframe;
 mod records;
@@ -63,10 +64,11 @@ pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{
-    EditReading, Format, NextIds, Reading, Truth, edit, json_schema, kinds, locate, read,
+    EditReading, Format, Naming, NextIds, Reading, Truth, edit, json_schema, kinds, locate, read,
     read_file, read_truth,
 };
 pub use marks::Mark;
+pub use name_index::NameIndex;
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};
 pub use records::{Change, Records};

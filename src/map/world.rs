@@ -330,6 +330,23 @@ impl World {
         })
     }
 
+    /// The names that an entity bears, Russian and English; empty ones among them, and for what is not of this world.
+    #[must_use]
+    pub fn both_names(&self, entity: Entity) -> [&str; 2] {
+        macro_rules! names {
+            ($records:ident, $id:expr) => {
+                self.$records.get(&$id).map_or([""; 2], |r| [r.name.as_str(), r.name_en.as_str()])
+            };
+        }
+        match entity {
+            Entity::Map(id) => names!(maps, id),
+            Entity::Area(id) => names!(areas, id),
+            Entity::Door(id) => names!(doors, id),
+            Entity::Replica(id) => names!(replicas, id),
+            Entity::Place(id) => names!(places, id),
+        }
+    }
+
     /// The display name of an entity.
     ///
     /// # Panics

@@ -14,7 +14,7 @@ use crate::units::{Cm, DoorId, ReplicaId, Vector};
 use super::body::{Block, Kind};
 use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
 use super::names::{Subject, Symbols};
-use crate::geometry::Openings;
+use crate::geometry::{Opening, Openings};
 
 /// A value of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -242,14 +242,14 @@ impl Feed<'_> {
         let robot = &self.world.robot;
         let width = Cm::of(robot.passing_width());
         row!(sink, "robot", width.to_tenths_mm(), robot.height.to_tenths_mm());
-        self.openings(sink);
+        self.openings(|_| true, sink);
         self.parts(sink);
         self.properties(sink);
     }
 
-    pub(super) fn openings(&self, sink: &mut impl Sink) {
+    pub(super) fn openings(&self, wanted: impl Fn(&Opening) -> bool, sink: &mut impl Sink) {
         let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
-        for o in self.openings.iter() {
+        for o in self.openings.iter().filter(|o| wanted(o)) {
             let name = &o.name;
             let kind = if o.is_passage() { "passage" } else { "door" };
             let door = o.door.and_then(|door| self.world.doors.get(&door));

@@ -3,6 +3,7 @@
 //! **Invariant:** two different things never share a symbol; a thing whose name is its own keeps it unchanged.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use foldhash::fast::RandomState;
@@ -25,6 +26,17 @@ pub enum Subject {
 pub struct Symbols {
     of: HashMap<Subject, Arc<str>, RandomState>,
     subjects: BTreeMap<Arc<str>, Subject>,
+    /// Of every symbol the hash of the name as people spell it.
+    taken: HashSet<u64, RandomState>,
+    /// Names, so hashed, that more than one subject would have had.
+    contested: HashSet<u64, RandomState>,
+}
+
+/// Two names that meet are held for one, which costs a derivation and no more.
+fn hash(name: &str) -> u64 {
+    let mut hasher = std::hash::DefaultHasher::new();
+    hasher.write(name_key(name).as_bytes());
+    hasher.finish()
 }
 
 impl Symbols {
@@ -32,7 +44,7 @@ impl Symbols {
     #[must_use]
     pub fn of(world: &World) -> Self {
         let mut symbols = Self::default();
-        let mut taken = HashSet::new();
+        let Self { of, subjects, taken, contested } = &mut symbols;
         let mut give = |subject: Subject, name: &str, key: &str, n: u32| {
             let wanted = if name.is_empty() { key } else { name };
             let numbered = (0..).map(|i| format!("{wanted} #{}", n + i));
@@ -41,11 +53,18 @@ impl Symbols {
                 .into_iter()
                 .filter(|c| !c.is_empty() && c != " ()")
                 .chain(numbered)
-                .find(|c| taken.insert(name_key(c)))
+                .find(|c| {
+                    let hash = hash(c);
+                    let is_free = taken.insert(hash);
+                    if !is_free {
+                        contested.insert(hash);
+                    }
+                    is_free
+                })
                 .expect("the numbers do not end");
             let symbol: Arc<str> = symbol.into();
-            symbols.subjects.insert(Arc::clone(&symbol), subject);
-            symbols.of.insert(subject, symbol);
+            subjects.insert(Arc::clone(&symbol), subject);
+            of.insert(subject, symbol);
         };
         for a in world.areas.values() {
             give(Subject::Entity(Entity::Area(a.id)), &a.name, &a.key, a.id.0);
@@ -82,6 +101,52 @@ impl Symbols {
     #[must_use]
     pub fn known(&self, subject: Subject) -> Option<&Arc<str>> {
         self.of.get(&subject)
+    }
+
+    /// Whether naming everything anew would give these replicas of an edited world their names for symbols, and all others
+    /// the symbols that they have: no such name, the one before or the one now, is wanted by anything else.
+    pub(super) fn can_give(&self, names: &[(ReplicaId, &str)]) -> bool {
+        let mut new = HashSet::new();
+        names.iter().all(|(id, name)| {
+            let was = self.known(Subject::Entity(Entity::Replica(*id)));
+            let is_own = was.is_none_or(|was| !self.contested.contains(&hash(was)));
+            is_own
+                && !name.is_empty()
+                && !self.taken.contains(&hash(name))
+                && new.insert(hash(name))
+        })
+    }
+
+    /// Gives a replica its name for a symbol; see [`Symbols::can_give`]. The symbol before still leads to it until
+    /// [`Symbols::retire`].
+    pub(super) fn give(&mut self, id: ReplicaId, name: &str) {
+        let subject = Subject::Entity(Entity::Replica(id));
+        let symbol: Arc<str> = name.into();
+        self.taken.insert(hash(name));
+        self.subjects.insert(Arc::clone(&symbol), subject);
+        self.of.insert(subject, symbol);
+    }
+
+    /// The symbols of these replicas, for [`Symbols::retire`].
+    pub(super) fn of_replicas<'i>(
+        &'i self,
+        ids: impl IntoIterator<Item = &'i ReplicaId>,
+    ) -> Vec<(ReplicaId, Arc<str>)> {
+        let symbol = |id: &ReplicaId| {
+            Some((*id, Arc::clone(self.known(Subject::Entity(Entity::Replica(*id)))?)))
+        };
+        ids.into_iter().filter_map(symbol).collect()
+    }
+
+    /// Forgets of these symbols those that replicas had and have no more.
+    pub(super) fn retire(&mut self, before: &[(ReplicaId, Arc<str>)]) {
+        for (id, was) in before {
+            let now = self.known(Subject::Entity(Entity::Replica(*id)));
+            if now.is_some_and(|now| now != was) {
+                self.subjects.remove(was);
+                self.taken.remove(&hash(was));
+            }
+        }
     }
 
     /// What a name means, spelled as people spell: case and ё do not matter.

@@ -13,11 +13,12 @@ use super::frame::{FILE_HEADER, format_stated};
 use super::journal::{numbered, snapshot_dir, snapshot_files};
 use super::keep::Store;
 use super::open::{Place, SledShelf, check_format, lock, write_format};
+use super::past::Past;
 use super::reader::replica_index;
 use super::schema::key_of;
-use super::snapshot::{check_snapshot, write_snapshot};
+use super::snapshot::{check_snapshot, write_snapshot_of};
 use super::tables::Table;
-use super::trees::{HISTORY, REPLICAS, Trees};
+use super::trees::{HISTORY, REPLICAS, RUNS, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
 
@@ -26,7 +27,7 @@ use super::version::Version;
 pub enum Severity {
     /// Good to know.
     Note,
-    /// The next opening mends it; nothing is lost.
+    /// The store mends it, at the next opening or snapshot, at the latest with `gc`; nothing is lost.
     Mendable,
     /// Something is lost, or wrong.
     Broken,
@@ -113,7 +114,10 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
             if lock.is_ok() && opened.replayed > 0 && opened.tables_rebuilt.is_none() {
                 report.find(Severity::Note, "таблицы sled отстали от журнала");
             }
-            check_records(&**vault.trees(), &mut report)?;
+            check_past(vault.past(), &mut report);
+            if let Err(error) = check_records(&**vault.trees(), &mut report) {
+                report.find(Severity::Broken, error.to_string());
+            }
             check_map(Store::over(vault, dir, None), &mut report);
             for kind in broken_derived(&*disk, dir)? {
                 let text = format!("выведенное из карты ({kind}) испорчено, будет выведено заново");
@@ -132,6 +136,21 @@ fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Resu
         }
     }
     Ok(())
+}
+
+/// Both files of every run. What can be read in one of them, the next opening mends.
+fn check_past(past: &Past, report: &mut FsckReport) {
+    for (_, run) in past.runs().iter() {
+        match run {
+            Err(error) => report.find(Severity::Broken, error.to_string()),
+            Ok(run) => {
+                report.records += run.records;
+                for error in run.check() {
+                    report.find(Severity::Mendable, error.to_string());
+                }
+            }
+        }
+    }
 }
 
 /// Every version of every record: checksum, cells, key.
@@ -219,6 +238,15 @@ fn check_size(backup: &Path) -> Result<()> {
     }
 }
 
+/// Writes all records, of the past too, as a snapshot of a store that has no runs.
+fn write_backup(path: &Path, trees: &dyn Trees) -> Result<()> {
+    let lsn = trees.state()?.lsn;
+    let mut digests = digests(trees)?;
+    digests.remove(&RUNS);
+    write_snapshot_of(&RealDisk, path, trees, &State { lsn, digests }, |tree| tree != RUNS)?;
+    Ok(())
+}
+
 /// Makes of a backup the least that is a store.
 fn fill(backup: &Path, dir: &Path, lsn: u64) -> Result<()> {
     let snapshots = snapshot_dir(dir);
@@ -237,8 +265,7 @@ impl Store {
     /// [`StoreError::Io`].
     pub fn backup(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let state = self.vault.trees().state()?;
-        write_snapshot(&RealDisk, path, &**self.vault.trees(), &state)?;
+        write_backup(path, &**self.vault.trees())?;
         // Whoever relies on a copy wants to know that it can be read.
         check_snapshot(&RealDisk, path).map(|_| ())
     }
@@ -266,7 +293,12 @@ impl Store {
                 let _ = std::fs::remove_dir(dir);
             }
         })?;
-        Ok(Self::open(dir)?.0)
+        let mut store = Self::open(dir)?.0;
+        // What is past need not stay in memory; if this fails, the next snapshot sees to it.
+        if let Err(error) = store.checkpoint() {
+            tracing::warn!(%error, "the past stays in memory");
+        }
+        Ok(store)
     }
 
     /// Takes a snapshot now: the next opening has less to replay.

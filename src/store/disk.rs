@@ -21,6 +21,16 @@ pub(crate) trait Placed: Send + Sync {
     fn sync(&self) -> io::Result<()>;
 }
 
+/// A file that is there, read in pieces.
+pub(crate) trait Reading: Send + Sync {
+    fn length(&self) -> io::Result<u64>;
+    /// So many bytes from a place on; an error where there are fewer.
+    fn read_at(&self, place: u64, length: usize) -> io::Result<Vec<u8>>;
+}
+
+/// Appends a file's contents.
+pub(crate) type Filling<'a> = dyn FnMut(&mut dyn Appender) -> io::Result<()> + 'a;
+
 /// A file system as the store sees it.
 pub(crate) trait Disk: Send + Sync {
     fn create_dir(&self, dir: &Path) -> io::Result<()>;
@@ -31,6 +41,8 @@ pub(crate) trait Disk: Send + Sync {
     fn appender(&self, path: &Path) -> io::Result<Box<dyn Appender>>;
     /// Opens a file that is there, to write in place.
     fn placed(&self, path: &Path) -> io::Result<Box<dyn Placed>>;
+    /// Opens a file that is there, to read in pieces.
+    fn reading(&self, path: &Path) -> io::Result<Box<dyn Reading>>;
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
     fn remove(&self, path: &Path) -> io::Result<()>;
     /// The directory's entries outlive a power cut once this returns.
@@ -45,12 +57,16 @@ pub(crate) trait Disk: Send + Sync {
 
     /// Puts a file in place whole or not at all, power cut or no.
     fn replace(&self, path: &Path, parts: &[Vec<u8>]) -> io::Result<()> {
+        self.replace_by(path, &mut |file| parts.iter().try_for_each(|part| file.append(part)))
+    }
+
+    /// The same, of a file that is too large to be held at once.
+    fn replace_by(&self, path: &Path, fill: &mut Filling<'_>) -> io::Result<()> {
         let aside = aside_name(path);
         // An attempt that failed before may have left its beginning.
         self.remove_if_there(&aside)?;
         let mut file = self.appender(&aside)?;
-        let written =
-            parts.iter().try_for_each(|part| file.append(part)).and_then(|()| file.sync());
+        let written = fill(&mut *file).and_then(|()| file.sync());
         drop(file);
         if let Err(error) = written.and_then(|()| self.rename(&aside, path)) {
             // On a full disk the beginning of a file is only in the way.
@@ -100,6 +116,25 @@ impl Placed for File {
     }
 }
 
+impl Reading for File {
+    fn length(&self) -> io::Result<u64> {
+        Ok(self.metadata()?.len())
+    }
+
+    fn read_at(&self, place: u64, length: usize) -> io::Result<Vec<u8>> {
+        let mut bytes = vec![0; length];
+        #[cfg(unix)]
+        std::os::unix::fs::FileExt::read_exact_at(self, &mut bytes, place)?;
+        #[cfg(not(unix))]
+        {
+            let mut file = self.try_clone()?;
+            file.seek(SeekFrom::Start(place))?;
+            io::Read::read_exact(&mut file, &mut bytes)?;
+        }
+        Ok(bytes)
+    }
+}
+
 impl Disk for RealDisk {
     fn create_dir(&self, dir: &Path) -> io::Result<()> {
         fs::create_dir_all(dir)
@@ -127,6 +162,10 @@ impl Disk for RealDisk {
 
     fn placed(&self, path: &Path) -> io::Result<Box<dyn Placed>> {
         Ok(Box::new(OpenOptions::new().write(true).open(path)?))
+    }
+
+    fn reading(&self, path: &Path) -> io::Result<Box<dyn Reading>> {
+        Ok(Box::new(File::open(path)?))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {

@@ -19,6 +19,7 @@ use super::cell::{Bytes, put_bytes, put_varint};
 pub(crate) const FORMAT: u32 = 1;
 pub(crate) const JOURNAL: &[u8; 8] = b"ORTHOJNL";
 pub(crate) const SNAPSHOT: &[u8; 8] = b"ORTHOSNP";
+pub(crate) const RUN: &[u8; 8] = b"ORTHORUN";
 pub(crate) const FILE_HEADER: usize = 24;
 const FRAME_MAGIC: &[u8; 4] = b"OFJ\x01";
 const FRAME_HEADER: usize = 20;

@@ -3,6 +3,8 @@
 //! What any revision from the given one on can see is kept, and so is the list of revisions. Ids of what is
 //! forgotten are still never given again.
 
+use std::sync::Arc;
+
 use super::edits::{Change, Draft};
 use super::error::{Result, StoreError};
 use super::frame::Op;
@@ -45,8 +47,8 @@ impl Store {
             let op = Op { tree, key: key.to_vec(), value: None };
             draft.writes.push(Write { op, old: Some(old.to_vec()) });
         };
-        let trees = self.vault.trees();
-        let old = superseded(&**trees, revision)?;
+        let trees = Arc::clone(self.vault.trees());
+        let old = superseded(&*trees, revision)?;
         for (key, bytes) in &old {
             remove(&mut draft, HISTORY, key, bytes);
         }
@@ -80,7 +82,9 @@ impl Store {
         };
         self.put_log(&mut draft, &mark, &stamp)?;
         self.vault.commit(draft.writes)?;
-        let not_freed = self.checkpoint().err().map(|why| why.to_string());
+        // Runs are written anew without what is gone.
+        let freed = self.vault.put_past(true).and_then(|()| self.checkpoint());
+        let not_freed = freed.err().map(|why| why.to_string());
         Ok(Forgotten { versions: dropped, not_freed })
     }
 }

@@ -378,10 +378,31 @@ impl Store {
         record: &T,
         stamp: &Stamp,
     ) -> Result<()> {
+        let key = key_of_record(record);
+        let old = self.vault.get(T::TABLE.code(), key.as_bytes())?;
+        self.put_over(draft, record, old, stamp)
+    }
+
+    /// The same of a record that is known to be new.
+    pub(super) fn put_new<T: Record>(
+        &self,
+        draft: &mut Draft,
+        record: &T,
+        stamp: &Stamp,
+    ) -> Result<()> {
+        self.put_over(draft, record, None, stamp)
+    }
+
+    fn put_over<T: Record>(
+        &self,
+        draft: &mut Draft,
+        record: &T,
+        old: Option<Vec<u8>>,
+        stamp: &Stamp,
+    ) -> Result<()> {
         let row = record.to_row();
         check_numbers(T::TABLE, &row)?;
         let key = key_of_record(record).as_bytes().to_vec();
-        let old = self.vault.get(T::TABLE.code(), &key)?;
         let bytes = Version { stamp: stamp.clone(), row }.encode(T::TABLE, &key);
         draft.put(T::TABLE.code(), key, bytes, old);
         Ok(())

@@ -25,7 +25,8 @@
 //!
 //! A transaction is one checksummed journal frame, on the disk before it is acknowledged; readers read memory,
 //! each at its revision; sled is an index that follows on a thread of its own and that snapshot and journal can
-//! rebuild, and only `store/trees.rs` names it. Ids are never given twice and nothing is overwritten without
+//! rebuild, and only `store/trees.rs` names it. What is past lies in runs on the disk (`past`), each in two files, and is read
+//! when it is asked for, its checksum tested. Ids are never given twice and nothing is overwritten without
 //! trace. Observations, the robot's pose, and what it opened, switched or carried never change the map. What the
 //! papers' tables lack stands in marked columns and tables. After a failed journal write nothing more is written
 //! until the store is opened again.
@@ -50,9 +51,11 @@ mod keep;
 mod memory;
 mod observe;
 mod open;
+mod past;
 mod read;
 mod reader;
 mod robot;
+mod run;
 mod schema;
 mod sheet;
 mod sides;

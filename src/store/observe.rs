@@ -8,11 +8,17 @@
 //! - Seen where it was believed to be: `c := 1 - (1 - c)(1 - s)`. Not seen there: `c := c (1 - s)`.
 //! - Seen elsewhere: the new place has `s`, the old one `c (1 - s)`; the surer one is believed.
 //!
+//! What all that was seen of a replica came to is kept beside it (`Beliefs`), so that the past need not be read to know
+//! what is believed now. It goes with one survey of the replica and with the last moment of which anything is known;
+//! whoever asks of another moment, or another survey, has all of it gone through.
+//!
 //! A belief that contradicts the map is a [`Proposal`]; a person confirms it, which is an edit of the map, or
 //! rejects it, and then the observations up to that moment count no more.
 
+use std::collections::BTreeMap;
+
 use crate::map::Replica;
-use crate::units::{AreaId, Cm, Deg, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::cell::Key;
 use super::edits::{Change, Draft, Edits, ImportReport};
@@ -88,6 +94,11 @@ fn faded(confidence: f64, move_prob: u8, hours: f64) -> f64 {
     confidence * 0.5f64.powf(hours.max(0.0) / half_life)
 }
 
+/// 0..=1, whatever was said.
+fn share(sure: f64) -> f64 {
+    if sure.is_nan() { 0.0 } else { sure.clamp(0.0, 1.0) }
+}
+
 fn is_same(a: &Seen, b: &Seen) -> bool {
     let high = (a.frame.z.get() - b.frame.z.get()).abs();
     a.area == b.area && (a.frame.origin() - b.frame.origin()).norm().hypot(high) <= SAME_PLACE
@@ -103,7 +114,75 @@ struct Opinion {
     missed: Option<Timestamp>,
 }
 
+/// A replica as the map has it.
+struct Surveyed {
+    id: ReplicaId,
+    place: Seen,
+    move_prob: u8,
+    /// In which revision it was written down so, and when.
+    survey: (u64, Timestamp),
+}
+
+/// Stands for the survey where a belief is not kept in step.
+const NO_SURVEY: u32 = u32::MAX;
+
+/// Whether what is kept began from this survey.
+fn is_of(known: &t::Beliefs, replica: &Surveyed) -> bool {
+    u64::from(known.survey) == replica.survey.0
+}
+
+impl Default for Opinion {
+    fn default() -> Self {
+        let (at, place) = (Timestamp::default(), Seen { area: AreaId(0), frame: Frame::IDENTITY });
+        Self { place, confidence: 0.0, at, since: at, last_seen: None, missed: None }
+    }
+}
+
 impl Opinion {
+    fn belief(mut self, replica: &Surveyed, now: Timestamp) -> Belief {
+        self.fade(replica.move_prob, now);
+        let Self { place, confidence, since, last_seen, missed, .. } = self;
+        let is_surveyed = is_same(&place, &replica.place);
+        Belief { place, confidence, since, last_seen, missed, is_surveyed }
+    }
+
+    /// One more look at a replica.
+    fn take(&mut self, replica: &Surveyed, seen: &Observation) {
+        self.fade(replica.move_prob, seen.at);
+        self.learn(seen.seen, share(seen.sure));
+    }
+
+    fn of(r: &t::Beliefs) -> Self {
+        let frame = Frame::new(r.x, r.y, r.z, Deg::of(r.ang));
+        Self {
+            place: Seen { area: AreaId(r.area_id), frame },
+            confidence: r.confidence,
+            at: Timestamp(r.at),
+            since: Timestamp(r.since),
+            last_seen: r.last_seen.map(Timestamp),
+            missed: r.missed.map(Timestamp),
+        }
+    }
+
+    fn record(&self, replica: ReplicaId, newest: Timestamp, survey: u32) -> t::Beliefs {
+        let frame = &self.place.frame;
+        t::Beliefs {
+            repl_id: replica.0,
+            newest: newest.0,
+            survey,
+            area_id: self.place.area.0,
+            x: frame.x.get(),
+            y: frame.y.get(),
+            z: frame.z.get(),
+            ang: frame.angle.get(),
+            confidence: self.confidence,
+            at: self.at.0,
+            since: self.since.0,
+            last_seen: self.last_seen.map(|at| at.0),
+            missed: self.missed.map(|at| at.0),
+        }
+    }
+
     fn fade(&mut self, move_prob: u8, now: Timestamp) {
         self.confidence = faded(self.confidence, move_prob, now.hours_since(self.at));
         self.at = now;
@@ -143,10 +222,8 @@ impl Reader {
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
     pub fn observed(&self) -> Result<Vec<ReplicaId>> {
-        let records = self.records::<t::Observations>(&Key::new())?;
-        let mut ids: Vec<ReplicaId> = records.iter().map(|r| ReplicaId(r.repl_id)).collect();
-        ids.dedup();
-        Ok(ids)
+        let records = self.records::<t::Beliefs>(&Key::new())?;
+        Ok(records.into_iter().map(|r| ReplicaId(r.repl_id)).collect())
     }
 
     /// Where a version of a replica's record puts it; none for a mark of deletion.
@@ -162,34 +239,84 @@ impl Reader {
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
     pub fn belief(&self, replica: &Replica, now: Timestamp) -> Result<Belief> {
-        let surveyed = Seen { area: replica.area, frame: replica.frame };
+        let surveyed = self.survey(replica)?;
+        let known = self.record::<t::Beliefs>(&Key::new().id(replica.id.0))?;
+        let opinion = match known {
+            None => self.opinion_without(&surveyed, now)?,
+            Some(r) if is_of(&r, &surveyed) && now.0 >= r.newest => Opinion::of(&r),
+            Some(_) => self.opinion(&surveyed, now)?,
+        };
+        Ok(opinion.belief(&surveyed, now))
+    }
+
+    /// The same, with all that was ever seen of the replica gone through once more.
+    ///
+    /// # Errors
+    /// As [`Reader::belief`].
+    pub fn belief_from_all(&self, replica: &Replica, now: Timestamp) -> Result<Belief> {
+        let surveyed = self.survey(replica)?;
+        Ok(self.opinion(&surveyed, now)?.belief(&surveyed, now))
+    }
+
+    fn survey(&self, replica: &Replica) -> Result<Surveyed> {
         let key = Key::new().id(replica.area.0).id(replica.object.0).id(replica.id.0);
         let version = self.version(Table::AreaObjects, &key)?;
-        let written = version.map_or(Timestamp::default(), |v| v.stamp.at);
-        let rejected = self
-            .records::<t::Verdicts>(&Key::new().id(replica.id.0))?
-            .into_iter()
-            .map(|v| Timestamp(v.at))
-            .filter(|at| *at <= now)
-            .max();
-        let from = rejected.map_or(written, |at| at.max(written));
-        let mut opinion = Opinion {
-            place: surveyed,
-            confidence: 1.0,
-            at: from,
-            since: from,
-            last_seen: None,
-            missed: None,
-        };
-        let observations = self.observations(replica.id)?;
-        for seen in observations.into_iter().filter(|o| o.at <= now && o.at >= from) {
-            opinion.fade(replica.move_prob, seen.at);
-            opinion.learn(seen.seen, seen.sure);
+        let survey = version.map_or((0, Timestamp::default()), |v| (v.stamp.revision, v.stamp.at));
+        let (id, move_prob) = (replica.id, replica.move_prob);
+        let place = Seen { area: replica.area, frame: replica.frame };
+        Ok(Surveyed { id, place, move_prob, survey })
+    }
+
+    /// A replica of the map as it stands.
+    fn surveyed(&self, id: ReplicaId) -> Result<Option<Surveyed>> {
+        for key in self.replica_keys(id)? {
+            let version = self.version(Table::AreaObjects, &key)?;
+            let Some(version) = version.filter(|v| !v.stamp.deleted) else { continue };
+            let r: t::AreaObjects = super::reader::record(&version.row)?;
+            let frame = Frame::new(r.x, r.y, r.z, Deg::of(r.ang));
+            let place = Seen { area: AreaId(r.area_id), frame };
+            let survey = (version.stamp.revision, version.stamp.at);
+            return Ok(Some(Surveyed { id, place, move_prob: r.move_prob as u8, survey }));
         }
-        opinion.fade(replica.move_prob, now);
-        let Opinion { place, confidence, since, last_seen, missed, .. } = opinion;
-        let is_surveyed = is_same(&place, &surveyed);
-        Ok(Belief { place, confidence, since, last_seen, missed, is_surveyed })
+        Ok(None)
+    }
+
+    /// The last moment, up to `now`, at which a person said that what was seen counts no more, and how much of that
+    /// moment's.
+    fn rejected(&self, replica: ReplicaId, now: Timestamp) -> Result<Option<(Timestamp, u32)>> {
+        let verdicts = self.records::<t::Verdicts>(&Key::new().id(replica.0))?.into_iter();
+        let all = verdicts.map(|v| (Timestamp(v.at), v.same));
+        Ok(all.filter(|(at, _)| *at <= now).max())
+    }
+
+    /// What is thought of a replica of which nothing counts that was seen.
+    fn opinion_without(&self, replica: &Surveyed, now: Timestamp) -> Result<Opinion> {
+        let (place, written) = (replica.place, replica.survey.1);
+        let rejected = self.rejected(replica.id, now)?;
+        let from = rejected.map_or(written, |(at, _)| at.max(written));
+        let (confidence, last_seen, missed) = (1.0, None, None);
+        Ok(Opinion { place, confidence, at: from, since: from, last_seen, missed })
+    }
+
+    /// What is thought of a replica after all that was seen of it up to a moment: gone through from the beginning.
+    fn opinion(&self, replica: &Surveyed, now: Timestamp) -> Result<Opinion> {
+        let rejected = self.rejected(replica.id, now)?;
+        let (revision, written) = replica.survey;
+        // What happened in one millisecond is told apart by what was written first.
+        let counts = |o: &t::Observations, noted: u64| {
+            let at = Timestamp(o.at);
+            let is_new = at > written || (at == written && noted >= revision);
+            at <= now && is_new && rejected.is_none_or(|last| (at, o.no) >= last)
+        };
+        let mut opinion = self.opinion_without(replica, now)?;
+        for (_, version) in self.versions(Table::Observations, &Key::new().id(replica.id.0))? {
+            let noted = version.stamp.revision;
+            let record: t::Observations = super::reader::record(&version.row)?;
+            if counts(&record, noted) {
+                opinion.take(replica, &observation(record));
+            }
+        }
+        Ok(opinion)
     }
 
     /// Where the robot stood last, when, and who said so.
@@ -220,6 +347,23 @@ pub(super) fn pose_record(map: MapId, pose: &Pose) -> t::RobotPose {
 /// The robot of the Domain; the tables have room for more.
 const ROBOT: u32 = 1;
 
+fn record_of(o: &Observation, no: u32) -> t::Observations {
+    let seen = o.seen.unwrap_or(Seen { area: AreaId(0), frame: Frame::IDENTITY });
+    t::Observations {
+        repl_id: o.replica.0,
+        at: o.at.0,
+        no,
+        seen: o.seen.is_some(),
+        area_id: seen.area.0,
+        x: seen.frame.x.get(),
+        y: seen.frame.y.get(),
+        z: seen.frame.z.get(),
+        ang: seen.frame.angle.get(),
+        sure: share(o.sure),
+        observer: o.observer.clone(),
+    }
+}
+
 fn observation(r: t::Observations) -> Observation {
     let frame = Frame::new(r.x, r.y, r.z, Deg::of(r.ang));
     Observation {
@@ -247,30 +391,68 @@ impl Store {
         observations: &[Observation],
         draft: &mut Draft,
     ) -> Result<()> {
-        let mut taken = std::collections::BTreeMap::<(ReplicaId, Timestamp), u32>::new();
+        let reader = self.reader();
+        let mut by_replica = BTreeMap::<ReplicaId, Vec<&Observation>>::new();
         for o in observations {
-            let prefix = Key::new().id(o.replica.0).int(o.at.0);
-            let before = self.reader().records::<t::Observations>(&prefix)?.len() as u32;
-            let no = taken.entry((o.replica, o.at)).or_insert(before);
-            let seen = o.seen.unwrap_or(Seen { area: AreaId(0), frame: Frame::IDENTITY });
-            let number = |length: Cm| length.get();
-            let record = t::Observations {
-                repl_id: o.replica.0,
-                at: o.at.0,
-                no: *no,
-                seen: o.seen.is_some(),
-                area_id: seen.area.0,
-                x: number(seen.frame.x),
-                y: number(seen.frame.y),
-                z: number(seen.frame.z),
-                ang: seen.frame.angle.get(),
-                sure: if o.sure.is_nan() { 0.0 } else { o.sure.clamp(0.0, 1.0) },
-                observer: o.observer.clone(),
-            };
-            *no += 1;
-            self.put_log(draft, &record, &self.stamp(&o.observer, o.at))?;
+            by_replica.entry(o.replica).or_default().push(o);
+        }
+        for (replica, seen) in by_replica {
+            let known = reader.record::<t::Beliefs>(&Key::new().id(replica.0))?;
+            let newest = known.as_ref().map(|r| r.newest);
+            let mut taken = BTreeMap::<Timestamp, u32>::new();
+            for o in &seen {
+                // Of what is later than all that was seen nothing need be looked up.
+                let is_latest = newest.is_none_or(|newest| o.at.0 > newest);
+                let before = if is_latest { 0 } else { self.seen_at(replica, o.at)? };
+                let no = taken.entry(o.at).or_insert(before);
+                self.put_new(draft, &record_of(o, *no), &self.stamp(&o.observer, o.at))?;
+                *no += 1;
+            }
+            let belief = self.belief_after(replica, &seen, known)?;
+            let last = seen[seen.len() - 1];
+            self.put_log(draft, &belief, &self.stamp(&last.observer, last.at))?;
         }
         Ok(())
+    }
+
+    /// How often a replica was seen, or missed, at a moment.
+    fn seen_at(&self, replica: ReplicaId, at: Timestamp) -> Result<u32> {
+        let prefix = Key::new().id(replica.0).int(at.0);
+        Ok(self.reader().records::<t::Observations>(&prefix)?.len() as u32)
+    }
+
+    /// What is thought of a replica after what is about to be noted.
+    fn belief_after(
+        &self,
+        id: ReplicaId,
+        seen: &[&Observation],
+        known: Option<t::Beliefs>,
+    ) -> Result<t::Beliefs> {
+        let reader = self.reader();
+        let before = known.as_ref().map(|r| Timestamp(r.newest));
+        let latest = seen.iter().map(|o| o.at).max().unwrap_or_default();
+        let newest = before.map_or(latest, |before| before.max(latest));
+        let Some(replica) = reader.surveyed(id)? else {
+            // What the map has not is noted, and nothing is thought of it.
+            return Ok(Opinion::default().record(id, newest, NO_SURVEY));
+        };
+        let rejected = reader.rejected(id, newest)?;
+        let from = rejected.map_or(replica.survey.1, |(at, _)| at.max(replica.survey.1));
+        let is_later = before.is_none_or(|before| seen[0].at >= before);
+        let is_plain = is_later && seen[0].at >= from && seen.is_sorted_by_key(|o| o.at);
+        if !is_plain {
+            // Whoever asks goes through all of it.
+            return Ok(Opinion::default().record(id, newest, NO_SURVEY));
+        }
+        let mut opinion = match (&known, before) {
+            (Some(r), _) if is_of(r, &replica) => Opinion::of(r),
+            (Some(_), Some(before)) => reader.opinion(&replica, before)?,
+            _ => reader.opinion_without(&replica, newest)?,
+        };
+        for o in seen {
+            opinion.take(&replica, o);
+        }
+        Ok(opinion.record(id, newest, replica.survey.0 as u32))
     }
 
     /// Notes where the robot stands.
@@ -330,14 +512,26 @@ impl Store {
     /// # Errors
     /// [`StoreError::ReadOnly`], [`StoreError::Io`].
     pub fn reject(&mut self, replica: ReplicaId, change: &Change) -> Result<()> {
+        let same = self.seen_at(replica, change.at)?;
         let record = t::Verdicts {
             repl_id: replica.0,
             at: change.at.0,
             verdict: REJECTED.into(),
             reason: change.reason.clone(),
+            same,
         };
         let mut draft = Draft::default();
-        self.put_log(&mut draft, &record, &self.stamp(&change.user, change.at))?;
+        let stamp = self.stamp(&change.user, change.at);
+        self.put_log(&mut draft, &record, &stamp)?;
+        if let Some(known) = self.reader().record::<t::Beliefs>(&Key::new().id(replica.0))? {
+            // Whoever asks goes through all of it, until more is seen.
+            let newest = Timestamp(known.newest).max(change.at);
+            self.put_log(
+                &mut draft,
+                &Opinion::of(&known).record(replica, newest, NO_SURVEY),
+                &stamp,
+            )?;
+        }
         self.vault.commit(draft.writes)
     }
 

@@ -6,6 +6,7 @@
 //!       lock        held while a program has the store open for writing
 //!       journal/    00000000000000000001.journal ...
 //!       snapshots/  00000000000000004711.snapshot ...
+//!       past/       00000000000000004711.run and .twin ...: what is past, see `past`
 //!       sled/       the trees
 //!       derived/    relations, Passframes: what can be computed anew
 //!       aside/      broken parts, kept for whoever wants to look

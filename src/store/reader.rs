@@ -301,7 +301,7 @@ impl Reader {
     }
 
     /// The keys of AreaObjects that a replica ever had.
-    fn replica_keys(&self, replica: ReplicaId) -> Result<Vec<Key>> {
+    pub(super) fn replica_keys(&self, replica: ReplicaId) -> Result<Vec<Key>> {
         let mut keys = Vec::new();
         self.trees.scan(REPLICAS, &replica.0.to_be_bytes(), &mut |key, _| {
             let (id, place) = key.split_at(key.len().min(4));
@@ -332,7 +332,7 @@ pub(crate) fn replica_index(key: &[u8]) -> Vec<u8> {
     [&key[split..], &key[..split]].concat()
 }
 
-fn record<T: Record>(row: &Row) -> Result<T> {
+pub(super) fn record<T: Record>(row: &Row) -> Result<T> {
     T::from_row(row).ok_or_else(|| StoreError::BadRecord {
         table: T::TABLE.name(),
         key: describe_key(T::TABLE, row),

@@ -63,9 +63,20 @@ pub(super) fn write_snapshot(
     trees: &dyn Trees,
     state: &State,
 ) -> Result<u64> {
+    write_snapshot_of(disk, path, trees, state, |_| true)
+}
+
+/// The same of some trees only.
+pub(super) fn write_snapshot_of(
+    disk: &dyn Disk,
+    path: &Path,
+    trees: &dyn Trees,
+    state: &State,
+    is_wanted: impl Fn(u8) -> bool,
+) -> Result<u64> {
     let mut chunks = vec![file_header(SNAPSHOT, state.lsn)];
     let (mut ops, mut size) = (Vec::new(), 0);
-    for (tree, _) in tree_names() {
+    for (tree, _) in tree_names().filter(|(tree, _)| is_wanted(*tree)) {
         trees.scan(tree, &[], &mut |key, value| {
             size += key.len() + value.len();
             ops.push(Op { tree, key: key.to_vec(), value: Some(value.to_vec()) });

@@ -524,12 +524,14 @@ tables! {
         key kind: String = "Kind",
         col last_id: u32 = "LastID",
     }
-    /// What a person said of the observations up to a moment: that they are wrong.
+    /// What a person said of the observations up to a moment: that they are wrong. Of those of the very moment it speaks
+    /// of the first `Same`.
     Log Verdicts = 64 {
         key repl_id: u32 = "ReplID",
         key at: i64 = "At",
         col verdict: String = "Verdict",
         col reason: String = "Reason",
+        col same: u32 = "Same",
     }
     /// Doors that stand otherwise than the map says, as the robot saw or left them.
     Log DoorStates = 65 {
@@ -546,6 +548,24 @@ tables! {
     Log DeviceStates = 67 {
         key repl_id: u32 = "ReplID",
         col is_on: bool = "IsOn",
+    }
+    /// What all that was seen of a replica came to, so that it need not be gone through again: see `observe`.
+    Log Beliefs = 68 {
+        key repl_id: u32 = "ReplID",
+        // Of the last of all that was seen, counted or not.
+        col newest: i64 = "Newest",
+        // The revision in which the place was written down from which this began.
+        col survey: u32 = "Survey",
+        col area_id: u32 = "AreaID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col z: f64 = "Z",
+        col ang: f64 = "Ang",
+        col confidence: f64 = "Confidence",
+        col at: i64 = "At",
+        col since: i64 = "Since",
+        col last_seen: Option<i64> = "LastSeen",
+        col missed: Option<i64> = "Missed",
     }
 }
 
@@ -660,7 +680,7 @@ mod tests {
     #[test]
     fn codes_stay_what_they_are() {
         let codes: Vec<u8> = Table::ALL.iter().map(|t| t.code()).collect();
-        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=67).collect();
+        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=68).collect();
         assert_eq!(codes, expected);
         assert!(Table::ALL.iter().all(|t| Table::from_code(t.code()) == Some(*t)));
     }

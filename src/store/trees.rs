@@ -29,10 +29,18 @@ pub(crate) const CHANGES: u8 = 201;
 /// Every key under which a replica ever stood, by its id: a replica that goes to another Area gets another key.
 pub(crate) const REPLICAS: u8 = 202;
 
+/// The runs in which the past is kept, by their order; see `past`.
+pub(crate) const RUNS: u8 = 203;
+
 /// All trees of a store by their codes, with their names.
 pub(crate) fn tree_names() -> impl Iterator<Item = (u8, &'static str)> {
     let tables = Table::ALL.iter().filter(|t| t.is_stored()).map(|t| (t.code(), t.name()));
-    tables.chain([(HISTORY, "~history"), (CHANGES, "~changes"), (REPLICAS, "~replicas")])
+    tables.chain([
+        (HISTORY, "~history"),
+        (CHANGES, "~changes"),
+        (REPLICAS, "~replicas"),
+        (RUNS, "~runs"),
+    ])
 }
 
 /// The sequence number up to which frames were applied, and what the trees then hold.

@@ -2,6 +2,7 @@
 
 mod history;
 mod losses;
+mod past;
 mod readers;
 mod records;
 mod recovery;

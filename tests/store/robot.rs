@@ -94,3 +94,27 @@ fn the_robot_is_found_where_it_was_left() {
     let (map, back, stamp) = open(dir.path()).reader().robot_pose().unwrap().unwrap();
     assert_eq!((map, back, stamp.at, stamp.revision), (MapId(1), pose, at(2), 0));
 }
+
+/// Much may happen in one millisecond, by a clock that is no finer: what was written first is told apart all the same.
+#[test]
+fn what_was_seen_in_the_moment_of_a_verdict_counts_if_it_was_seen_after_it() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let (chair, elsewhere) = chair(&mut store);
+    let proposed = |store: &Store| store.proposals(at(2)).unwrap().len();
+    for again in 0..3 {
+        assert_eq!(proposed(&store), 0, "{again}");
+        store.observe(&[look(&chair, 1, Some(elsewhere), 0.8)]).unwrap();
+        assert_eq!(proposed(&store), 1, "{again}");
+        store.reject(chair.id, &Change::new("Мастер", at(1), "нет")).unwrap();
+    }
+    // A survey of the same moment says where the thing is, whatever was seen before it.
+    store.observe(&[look(&chair, 1, Some(elsewhere), 0.8)]).unwrap();
+    let mut map = load(&store);
+    map.replicas.get_mut(&chair.id).unwrap().frame = Frame::new(60.0, 0.0, 0.0, Deg::ZERO);
+    store.commit(&map, &Change::new("Мастер", at(1), "сюда")).unwrap();
+    let chair = load(&store).replicas[&chair.id].clone();
+    assert!(store.reader().belief(&chair, at(2)).unwrap().is_surveyed);
+    store.observe(&[look(&chair, 1, Some(elsewhere), 0.8)]).unwrap();
+    assert!(!store.reader().belief(&chair, at(2)).unwrap().is_surveyed);
+}

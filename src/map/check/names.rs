@@ -1,10 +1,10 @@
 //! Names: whatever a person can speak of bears a name of its own, in either language.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{Bilingual, name_key};
-use crate::{Entity, TypeKind, World};
+use crate::units::{Bilingual, ReplicaId, name_key};
+use crate::{Entity, NameIndex, TypeKind, World};
 
 use super::Checker;
 
@@ -15,18 +15,56 @@ impl Checker<'_> {
         for (entity, name) in world.names() {
             let first = *bearers.entry(name_key(name)).or_insert(entity);
             if first != entity {
-                let error = MapError::DuplicateName {
-                    name: name.to_owned(),
-                    first: title(world, first),
-                    second: title(world, entity),
-                };
-                self.contradiction(error, spot(entity, world, name), spot(first, world, name));
+                self.borne_twice(name, first, entity);
             }
         }
         self.nameless();
         for kind in TypeKind::ALL {
             self.type_names(kind);
         }
+    }
+
+    /// The same of these names, and of these things, where all others are known to be in order or as they were.
+    pub(super) fn some_names(
+        &mut self,
+        spoken: &BTreeSet<&str>,
+        bearers: &NameIndex,
+        ids: &BTreeSet<ReplicaId>,
+    ) {
+        let world = self.world;
+        let keys: BTreeSet<String> = spoken.iter().map(|name| name_key(name)).collect();
+        let mut twice = Vec::new();
+        for key in &keys {
+            let all = bearers.find(world, key);
+            let Some((&first, others)) = all.split_first() else { continue };
+            for &entity in others {
+                let names = world.both_names(entity).into_iter().enumerate();
+                let of_key = names.filter(|(_, n)| !n.is_empty() && name_key(n) == *key);
+                twice.extend(of_key.map(|(field, name)| (entity, field, name, first)));
+            }
+        }
+        // In the order of the whole check.
+        twice.sort_unstable();
+        for (entity, _, name, first) in twice {
+            self.borne_twice(name, first, entity);
+        }
+        for id in ids {
+            if world.replicas.get(id).is_some_and(|r| r.name.trim().is_empty()) {
+                self.has_no_name(Entity::Replica(*id));
+            }
+        }
+    }
+
+    fn borne_twice(&mut self, name: &str, first: Entity, second: Entity) {
+        let world = self.world;
+        let [one, other] = [first, second].map(|entity| title(world, entity));
+        let error = MapError::DuplicateName { name: name.to_owned(), first: one, second: other };
+        self.contradiction(error, spot(second, world, name), spot(first, world, name));
+    }
+
+    fn has_no_name(&mut self, entity: Entity) {
+        let at = Spot::of(record(entity)).field("name");
+        self.fault(MapError::NoName { what: kind(entity).into() }, at);
     }
 
     fn nameless(&mut self) {
@@ -41,8 +79,7 @@ impl Checker<'_> {
             .chain(w.places.values().map(|p| (Entity::Place(p.id), &p.name)));
         let nameless: Vec<_> = named.filter(|(_, name)| name.trim().is_empty()).collect();
         for (entity, _) in nameless {
-            let at = Spot::of(record(entity)).field("name");
-            self.fault(MapError::NoName { what: kind(entity).into() }, at);
+            self.has_no_name(entity);
         }
     }
 

@@ -7,34 +7,46 @@ use std::collections::BTreeSet;
 
 use crate::fault::{Fault, Record, Spot};
 use crate::units::{DoorId, ReplicaId};
-use crate::{Replica, World};
+use crate::{Entity, NameIndex, Replica, World};
 
 use super::{Checker, check};
 
 /// The faults that a map has after an edit, and had not before. Where things and the states of doors alone differ, only
-/// these are checked: it costs what was changed, and the names of the whole map where one of them changed.
+/// these are checked: it costs what was changed. `names` is asked for the names of the map before, where one of them changed.
 #[must_use]
-pub fn news(before: &World, after: &World) -> Vec<Fault> {
+pub fn news(before: &World, after: &World, names: impl FnOnce() -> NameIndex) -> Vec<Fault> {
     if !before.is_same_building(after) {
         return whole_news(before, after);
     }
     let changes = before.replicas.changes(&after.replicas);
-    let names = |r: Option<&Replica>| r.map(|r| (r.name.clone(), r.name_en.clone()));
-    let renamed = changes.iter().any(|(_, was, is)| names(*was) != names(*is));
-    let mut ids: BTreeSet<ReplicaId> = changes.into_iter().map(|(id, ..)| id).collect();
+    let both = |r: Option<&Replica>| r.map(|r| (r.name.clone(), r.name_en.clone()));
+    let mut ids: BTreeSet<ReplicaId> = changes.iter().map(|(id, ..)| *id).collect();
     let doors = before.doors.changes(&after.doors).into_iter().map(|(id, ..)| id).collect();
-    let after_faults = Asked { ids: &ids, doors: &doors, renamed }.of(after);
-    if renamed {
-        // What is said of a thing is known if it was said of another of that name.
-        let named: BTreeSet<String> = ids
-            .iter()
-            .filter_map(|id| after.replicas.get(id))
-            .map(|replica| replica.name.clone())
-            .collect();
-        let twins = before.replicas.values().filter(|r| named.contains(&r.name)).map(|r| r.id);
-        ids.extend(twins);
+    let renamed = changes.iter().map(|(_, was, is)| (both(*was), both(*is)));
+    let renamed: Vec<_> = renamed.filter(|(was, is)| was != is).collect();
+    if renamed.is_empty() {
+        let asked = Asked { ids: &ids, doors: &doors, names: None };
+        return without(asked.of(after), &asked.of(before));
     }
-    let known = Asked { ids: &ids, doors: &doors, renamed }.of(before);
+    let bearers = names();
+    let mut bearers_after = bearers.clone();
+    bearers_after.follow(before, after);
+    let spoken = renamed.iter().flat_map(|(was, is)| [was, is]).flatten();
+    let spoken: BTreeSet<&str> =
+        spoken.flat_map(|(name, name_en)| [name.as_str(), name_en.as_str()]).collect();
+    let names = Some((&spoken, &bearers_after));
+    let after_faults = Asked { ids: &ids, doors: &doors, names }.of(after);
+    // What is said of a thing is known if it was said of another of that name.
+    let twins = renamed.iter().filter_map(|(_, is)| is.as_ref()).flat_map(|(name, _)| {
+        let twin = |entity| match entity {
+            Entity::Replica(id) if before.replicas[&id].name == *name => Some(id),
+            _ => None,
+        };
+        bearers.find(before, name).into_iter().filter_map(twin)
+    });
+    ids.extend(twins);
+    let names = Some((&spoken, &bearers));
+    let known = Asked { ids: &ids, doors: &doors, names }.of(before);
     without(after_faults, &known)
 }
 
@@ -52,7 +64,8 @@ fn without(faults: Vec<Fault>, known: &[Fault]) -> Vec<Fault> {
 struct Asked<'a> {
     ids: &'a BTreeSet<ReplicaId>,
     doors: &'a BTreeSet<DoorId>,
-    renamed: bool,
+    /// Names that something bore or bears now, and who bears them; none where no name changed.
+    names: Option<(&'a BTreeSet<&'a str>, &'a NameIndex)>,
 }
 
 impl Asked<'_> {
@@ -64,7 +77,7 @@ impl Asked<'_> {
         let objects = replicas().filter_map(|r| world.objects.get(&r.object)).map(|o| &o.items);
         let areas = replicas().filter_map(|r| world.areas.get(&r.area)).map(|a| &a.items);
         let meant = |place: &crate::Place| place.serves.is_some_and(|id| self.ids.contains(&id));
-        let rooms = world.places.values().filter(|place| self.renamed && meant(place));
+        let rooms = world.places.values().filter(|place| self.names.is_some() && meant(place));
         let rooms = rooms.filter_map(|place| world.areas.get(&place.area)).map(|a| &a.items);
         let items = objects.chain(areas).chain(rooms).flatten();
         checker.judge_bases(items.map(|item| item.orthoframe));
@@ -72,9 +85,9 @@ impl Asked<'_> {
             checker.door(door, &Spot::of(Record::Door(door.id)));
         }
         checker.some_replicas(self.ids);
-        if self.renamed {
+        if let Some((spoken, bearers)) = self.names {
             checker.places(meant);
-            checker.names();
+            checker.some_names(spoken, bearers, self.ids);
         }
         checker.faults
     }
@@ -84,7 +97,7 @@ impl Asked<'_> {
 mod tests {
     use super::whole_news;
     use crate::units::{AreaId, Deg, DoorId, Frame, ObjectId, ReplicaId};
-    use crate::{DoorState, DoorStatus, MapErrors, Replica, World, check, news};
+    use crate::{DoorState, DoorStatus, MapErrors, NameIndex, Replica, World, check, news};
 
     /// A row of numbers that looks like chance.
     fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
@@ -151,7 +164,7 @@ mod tests {
                 for _ in 0..=throw(3) {
                     alter(&mut after, &mut throw);
                 }
-                let found = news(&before, &after);
+                let found = news(&before, &after, || NameIndex::of(&before));
                 assert_eq!(found, whole_news(&before, &after), "{map}, step {step}");
                 odd += usize::from(!found.is_empty());
                 if !(MapErrors { source: None, faults: check(&after) }).has_errors() {

@@ -25,7 +25,7 @@ use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::{Bilingual, FileFault, Source};
 
-pub use edit::{EditReading, NextIds, edit, kinds};
+pub use edit::{EditReading, Naming, NextIds, edit, kinds};
 pub use schema::json_schema;
 pub use truth::{Truth, read_truth};
 

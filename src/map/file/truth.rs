@@ -8,11 +8,11 @@ use std::collections::BTreeSet;
 
 use super::edit::edit_judged;
 use super::node::{self, Value};
-use super::{Format, NextIds, locate, read, report};
+use super::{Format, Naming, NextIds, locate, read, report};
 use crate::counterpart::Counterparts;
 use crate::fault::{Fault, MapError, MapErrors, Record, Spot};
 use crate::units::{ReplicaId, Source};
-use crate::{Entity, World};
+use crate::{Entity, NameIndex, World};
 
 /// What a text says is really so.
 #[derive(Debug, Clone)]
@@ -26,14 +26,14 @@ pub struct Truth {
 }
 
 /// Reads what is really so. `away` is what nobody finds where `believed` has it: in a hand, or handed over.
-/// `names` is that of [`super::edit`].
+/// `in_other_words` is that of [`Naming`].
 #[must_use]
 pub fn read_truth(
     believed: &World,
     away: &BTreeSet<ReplicaId>,
     source: &Source,
     format: Format,
-    names: &dyn Fn(&str) -> Vec<Entity>,
+    in_other_words: &dyn Fn(&str) -> Vec<Entity>,
 ) -> Truth {
     let in_their_ids =
         |world: &World| Counterparts::of(believed, world).translated(believed, world);
@@ -66,7 +66,8 @@ pub fn read_truth(
         }));
         found
     };
-    let done = edit_judged(believed, source, format, NextIds::after(believed), names, &judge);
+    let naming = Naming { exact: &NameIndex::of(believed), in_other_words };
+    let done = edit_judged(believed, source, format, NextIds::after(believed), naming, &judge);
     let world = done.world.map(|world| in_their_ids(&world));
     Truth { world, faults: done.faults, carriers: done.carriers }
 }

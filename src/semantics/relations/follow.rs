@@ -3,14 +3,14 @@
 //!
 //! **Invariant**: afterwards the derived relations are those that [`derive()`](super::derive) gives of the other world.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::facts::{FactError, Value};
 use crate::feed::{Cell, Feed};
-use crate::map::{Entity, Replica, World};
+use crate::map::{Entity, Object, World};
 use crate::names::Subject;
-use crate::units::{DoorId, MapId, ReplicaId};
+use crate::units::{DoorId, MapId, ObjectId, ReplicaId};
 
 use super::rows::{note, tuple};
 use super::{RelationError, Relations, derive};
@@ -77,14 +77,22 @@ impl Followed {
 }
 
 impl Relations {
-    /// Follows from the world of these relations to one that differs in places, properties and door states of its
-    /// replicas, in replicas that were taken away or put back, and in the states of its doors. `false` where more differs,
+    /// Follows from the world of these relations to one that differs in places, names, properties and door states of its
+    /// replicas, in replicas that were taken away or put there, and in the states of its doors. `false` where more differs,
     /// or so much that deriving anew is cheaper; then nothing is changed.
     ///
     /// # Errors
     /// As [`derive()`](super::derive).
     pub fn follow_world(&mut self, before: &World, after: &World) -> Result<bool, RelationError> {
         let Some((replicas, doors)) = self.followed(before, after) else { return Ok(false) };
+        let Some(named) = self.named(before, after, &replicas) else { return Ok(false) };
+        let symbols = self.symbols.of_replicas(named.keys());
+        // What is new has no symbol that could be told before.
+        for (id, name) in &named {
+            if self.symbols.known(Subject::Entity(Entity::Replica(*id))).is_none() {
+                self.symbols.give(*id, name);
+            }
+        }
         let mut rows = Difference::default();
         self.openings_and_properties(before, &replicas, &doors, |rel, row| {
             rows.out.insert((rel, row));
@@ -104,6 +112,18 @@ impl Relations {
             };
             change.single_before.iter().for_each(|s| feed.single(id, s, &mut put));
             change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut put));
+            for &map in before.maps.keys() {
+                rows.out.insert(self.asked(id, map));
+            }
+            if let Some(name) = named.get(&id) {
+                self.symbols.give(id, name);
+            }
+            let feed = Feed {
+                world,
+                symbols: &self.symbols,
+                measured: &self.measured,
+                openings: &self.openings,
+            };
             let mut back: Vec<(&'static str, Vec<Value>)> = Vec::new();
             let mut put = |rel: &'static str, cells: &[Cell<'_>]| back.push((rel, tuple(cells)));
             change.single_after.iter().for_each(|s| feed.single(id, s, &mut put));
@@ -113,9 +133,6 @@ impl Relations {
                 }
             }
             rows.into.extend(back);
-            for &map in before.maps.keys() {
-                rows.out.insert(self.asked(id, map));
-            }
             if let Some(map) = self.measured.map_of(id).filter(|_| self.measured.asks_of_all()) {
                 rows.into.insert(self.asked(id, map));
             }
@@ -127,7 +144,46 @@ impl Relations {
         self.settle(&mut rows)?;
         self.live.update()?;
         self.follow();
+        self.symbols.retire(&symbols);
         Ok(true)
+    }
+
+    /// The replicas that get another symbol, with their names; none where others might get another one with them.
+    fn named<'w>(
+        &self,
+        before: &World,
+        after: &'w World,
+        replicas: &[ReplicaId],
+    ) -> Option<BTreeMap<ReplicaId, &'w str>> {
+        let mut named = Vec::new();
+        for id in replicas {
+            let Some(is) = after.replicas.get(id) else { continue };
+            let symbol = self.symbols.known(Subject::Entity(Entity::Replica(*id)));
+            let has_own = symbol.is_some_and(|symbol| **symbol == *is.name);
+            match before.replicas.get(id) {
+                // What was there once, and is put back, still has its symbol.
+                None if has_own => {}
+                Some(was) if was.name == is.name => {
+                    // A symbol that is not the name may be made of the English one.
+                    if !has_own && was.name_en != is.name_en {
+                        return None;
+                    }
+                }
+                _ => named.push((*id, is.name.as_str())),
+            }
+        }
+        // A passage without a name is called by what no thing is called, with a number where it must be.
+        let of_opening = |name: &str| {
+            let is_like = |own: &str| {
+                own.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+            };
+            self.openings.iter().any(|o| o.door.is_none() && is_like(&o.name))
+        };
+        let old = named.iter().filter_map(|(id, _)| before.replicas.get(id)).map(|r| &*r.name);
+        if old.chain(named.iter().map(|(_, name)| *name)).any(of_opening) {
+            return None;
+        }
+        self.symbols.can_give(&named).then(|| named.into_iter().collect())
     }
 
     /// The row by which OUTSIDE is derived of a thing.
@@ -146,24 +202,9 @@ impl Relations {
         for (id, was, is) in before.replicas.changes(&after.replicas) {
             match (was, is) {
                 (_, None) => replicas.push(id),
-                // Another name or Object is another thing.
-                (Some(was), Some(is)) => {
-                    if was.name != is.name
-                        || was.object != is.object
-                        || was.move_prob != is.move_prob
-                    {
-                        return None;
-                    }
-                    stays.push(id);
-                }
-                // What was there once, and is put back, still has its symbol.
-                (None, Some(is)) => {
-                    let symbol = self.symbols.known(Subject::Entity(Entity::Replica(id)))?;
-                    if **symbol != *is.name {
-                        return None;
-                    }
-                    stays.push(id);
-                }
+                // What is made otherwise is another thing.
+                (Some(was), Some(is)) if was.object != is.object => return None,
+                (_, Some(_)) => stays.push(id),
             }
         }
         replicas.extend(stays);
@@ -186,16 +227,21 @@ impl Relations {
             measured: &self.measured,
             openings: &self.openings,
         };
-        if !doors.is_empty() {
-            feed.openings(&mut sink);
-        }
+        let names: BTreeSet<&str> = self
+            .openings
+            .iter()
+            .filter(|o| o.door.is_some_and(|door| doors.contains(&door)))
+            .map(|o| o.name.as_str())
+            .collect();
+        feed.openings(|opening| names.contains(opening.name.as_str()), &mut sink);
         doors.iter().for_each(|&door| feed.door_properties(door, &mut sink));
         // A door of furniture tells the state of what it belongs to.
-        let bears =
-            |r: &&Replica| world.objects[&r.object].doors.iter().any(|m| doors.contains(&m.door));
+        let hung = |o: &&Object| o.doors.iter().any(|mount| doors.contains(&mount.door));
+        let hung: BTreeSet<ObjectId> = world.objects.values().filter(hung).map(|o| o.id).collect();
         let mut changed: BTreeSet<ReplicaId> = replicas.iter().copied().collect();
-        if !doors.is_empty() {
-            changed.extend(world.replicas.values().filter(bears).map(|r| r.id));
+        if !hung.is_empty() {
+            let bearing = world.replicas.values().filter(|r| hung.contains(&r.object));
+            changed.extend(bearing.map(|r| r.id));
         }
         changed.into_iter().for_each(|id| feed.replica_properties(id, &mut sink));
     }

@@ -48,12 +48,20 @@ impl Relations {
         }
         if let Some(rests_on) = find("RESTS_ON") {
             for tuple in self.live.removed(rests_on) {
-                symbols.replica_of(tuple.symbol(0)).map(|id| self.supports.remove(&id));
+                if let Some((load, support)) =
+                    symbols.replica_of(tuple.symbol(0)).zip(symbols.replica_of(tuple.symbol(1)))
+                {
+                    self.supports.remove(&load);
+                    self.loads.remove(&(support, load));
+                }
             }
             for tuple in self.live.added(rests_on) {
-                self.supports.extend(
-                    symbols.replica_of(tuple.symbol(0)).zip(symbols.replica_of(tuple.symbol(1))),
-                );
+                if let Some((load, support)) =
+                    symbols.replica_of(tuple.symbol(0)).zip(symbols.replica_of(tuple.symbol(1)))
+                {
+                    self.supports.insert(load, support);
+                    self.loads.insert((support, load));
+                }
             }
         }
         if let Some(on_top) = find("ON_TOP_OF") {
@@ -100,8 +108,9 @@ impl Relations {
         let on_floor = pairs("STANDS_ON_FLOOR").filter_map(|t| {
             Some((symbols.area_of(t.symbol(1))?, symbols.replica_of(t.symbol(0))?))
         });
-        let (areas, supports, bearing) = (areas.collect(), supports.collect(), bearing.collect());
-        let on_floor = on_floor.collect();
+        let (areas, bearing) = (areas.collect(), bearing.collect());
+        let (supports, on_floor): (BTreeMap<_, _>, _) = (supports.collect(), on_floor.collect());
+        self.loads = supports.iter().map(|(load, support)| (*support, *load)).collect();
         (self.areas, self.supports, self.bearing) = (areas, supports, bearing);
         self.on_floor = on_floor;
     }

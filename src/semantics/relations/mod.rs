@@ -61,7 +61,9 @@ pub struct Relations {
     /// Each thing with the Areas in which it is.
     areas: BTreeSet<(ReplicaId, AreaId)>,
     supports: BTreeMap<ReplicaId, ReplicaId>,
-    /// What bears something, and what it bears.
+    /// The same from below: what bears, and what it bears.
+    loads: BTreeSet<(ReplicaId, ReplicaId)>,
+    /// What has something on top of it, and what that is.
     bearing: BTreeSet<(ReplicaId, ReplicaId)>,
     /// Each Area with what stands on its floor.
     on_floor: BTreeSet<(AreaId, ReplicaId)>,
@@ -159,6 +161,7 @@ impl Relations {
             live,
             areas: BTreeSet::new(),
             supports: BTreeMap::new(),
+            loads: BTreeSet::new(),
             bearing: BTreeSet::new(),
             on_floor: BTreeSet::new(),
         };

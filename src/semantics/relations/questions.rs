@@ -148,6 +148,12 @@ impl Relations {
         self.supports.get(&id).copied()
     }
 
+    /// What stands on a thing or lies in it, by itself, in the order of ids.
+    pub fn borne_by(&self, id: ReplicaId) -> impl Iterator<Item = ReplicaId> + '_ {
+        let all = self.loads.range((id, ReplicaId(0))..);
+        all.take_while(move |(support, _)| *support == id).map(|(_, load)| *load)
+    }
+
     /// Whether something stands on a thing.
     #[must_use]
     pub fn bears_something(&self, id: ReplicaId) -> bool {

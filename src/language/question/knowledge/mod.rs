@@ -22,7 +22,7 @@ use crate::semantics::{Relations, Subject};
 use crate::units::{AreaId, OpeningId, Point, ReplicaId, TypeId};
 use crate::words::Language;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// The tuples of one relation, both ways.
 #[derive(Debug, Default)]
@@ -159,7 +159,7 @@ impl KnownOpening {
 /// What is looked up once a map: nouns, relations both ways, doors. It belongs to one state of the relations.
 #[derive(Debug)]
 pub struct Mind {
-    pub lexicon: Lexicon,
+    pub lexicon: Arc<Lexicon>,
     pairs: [OnceLock<Pairs>; RELATIONS.len()],
     openings: OnceLock<Vec<KnownOpening>>,
     by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
@@ -171,8 +171,18 @@ impl Mind {
     /// The nouns of a world; all else when it is first asked for.
     #[must_use]
     pub fn of(world: &World) -> Self {
+        Self::with(Arc::new(Lexicon::of(world)))
+    }
+
+    /// The same nouns, of a world in which things stand elsewhere and all else is as it was.
+    #[must_use]
+    pub fn renewed(&self) -> Self {
+        Self::with(Arc::clone(&self.lexicon))
+    }
+
+    fn with(lexicon: Arc<Lexicon>) -> Self {
         Self {
-            lexicon: Lexicon::of(world),
+            lexicon,
             pairs: std::array::from_fn(|_| OnceLock::new()),
             openings: OnceLock::new(),
             by_type: OnceLock::new(),

@@ -13,24 +13,27 @@
 //! is = "locked"
 //! ```
 //!
-//! The map as it stands is written out as a tree, the text is worked into it, and the whole is read and checked
-//! as any map file is. So an edit can do what a file can say, is refused for what a file is refused for, and every
-//! fault has its place in the text of the edits.
+//! The map as it stands is written out as a tree, the text is worked into it, and the whole is read as any map file is.
+//! Of an edit that speaks of things and doors alone, which most do, the tree is that of the records that it names (`part`),
+//! and the map takes over what became of them. What changed is checked. So an edit can do what a file can say, is refused
+//! for what a file is refused for, and every fault has its place in the text of the edits.
 
+mod part;
 mod steps;
 mod tree;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::node::{self, Span, Value};
+use super::node::{self, Node, Span, Value};
 use super::read::{self, Draft};
 use super::{Format, LIMIT, report, write};
 use crate::fault::{Fault, MapError};
 use crate::units::{ReplicaId, Source};
-use crate::{Entity, MapErrors, TypeKind, World, check};
+use crate::{Entity, MapErrors, NameIndex, TypeKind, World, check};
 
 pub use tree::kinds;
 
+use part::{part_of, with_part};
 use steps::Steps;
 use tree::{Kind, Tree};
 
@@ -94,17 +97,17 @@ pub struct EditReading {
     pub carriers: BTreeSet<ReplicaId>,
 }
 
-/// Works edits into a checked world. `names` finds what a name means that the map does not spell so: another case
-/// form, for one; it may be a function that finds nothing.
+/// Works edits into a checked world.
 ///
 /// ```
-/// use orthoframe_map::{Format, NextIds, World, edit};
+/// use orthoframe_map::{Format, NameIndex, Naming, NextIds, World, edit};
 /// use orthoframe_units::Source;
 ///
 /// # std::env::set_current_dir("../..").unwrap();
 /// let world = World::load("maps/rb2.toml").unwrap();
 /// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
-/// let done = edit(&world, &text, Format::Toml, NextIds::after(&world), &|_| Vec::new());
+/// let naming = Naming { exact: &NameIndex::of(&world), in_other_words: &|_| Vec::new() };
+/// let done = edit(&world, &text, Format::Toml, NextIds::after(&world), naming);
 /// assert!(done.world.is_none());
 /// let fault = &done.faults.faults[0]; // «Стул-1» стоит вне своего помещения …
 /// assert_eq!(done.faults.position(fault), Some((3, 6)));
@@ -115,9 +118,18 @@ pub fn edit(
     source: &Source,
     format: Format,
     ids: NextIds,
-    names: &dyn Fn(&str) -> Vec<Entity>,
+    naming: Naming<'_>,
 ) -> EditReading {
-    edit_judged(world, source, format, ids, names, &|_| Vec::new())
+    edit_judged(world, source, format, ids, naming, &|_| Vec::new())
+}
+
+/// How names that an edit speaks of are understood.
+#[derive(Clone, Copy)]
+pub struct Naming<'a> {
+    /// As the map spells them.
+    pub exact: &'a NameIndex,
+    /// What a name means that the map does not spell so: another case form, for one.
+    pub in_other_words: &'a dyn Fn(&str) -> Vec<Entity>,
 }
 
 /// The same, where the edited world has also to please a judge: what that finds is told as the faults of the map are.
@@ -126,7 +138,7 @@ pub(super) fn edit_judged(
     source: &Source,
     format: Format,
     ids: NextIds,
-    names: &dyn Fn(&str) -> Vec<Entity>,
+    naming: Naming<'_>,
     judge: &dyn Fn(&World) -> Vec<Fault>,
 ) -> EditReading {
     let text = source.text();
@@ -147,37 +159,71 @@ pub(super) fn edit_judged(
     if !matches!(&edits.value, Value::Table(entries) if !entries.is_empty()) {
         return fail(vec![Fault::new(MapError::NoEdits, Vec::new())]);
     }
-    let base = node::parse(&write::to_numbered_toml(world), Format::Toml)
-        .expect("what is written can be parsed");
-    let mut steps = Steps::new(Tree::new(base, text.len()), world, ids, names);
-    steps.take(&edits);
-    let Steps { tree, misprints, reason, only, carriers, .. } = steps;
-    let root = tree.finish();
-    let Draft { world: edited, faults, origins, broken, left_out } = read::build(&root);
-    let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
-    all.extend(faults);
-    // What a step did not do is missed by others: its own fault is enough.
-    let is_whole = all.is_empty();
-    let known = check(world);
-    let news = super::super::check::check_except(&edited, &broken);
-    let judged = if is_whole { judge(&edited) } else { Vec::new() };
-    let news = news.into_iter().filter(|f| !known.iter().any(|k| k.error == f.error));
-    for mut fault in news.chain(judged) {
-        fault.locate(&origins, &left_out);
-        all.push(fault);
-    }
-    for fault in &mut all {
-        fault.spans.retain(|span| span.offset() + span.len() <= text.len());
-        if let (true, Some(step)) = (fault.spans.is_empty(), &only) {
-            fault.spans.push(Span::clone(step).into());
+    let work = Work { world, source, edits: &edits, ids: &ids, naming, judge };
+    // What does not go smoothly is told with all that the map has.
+    part_of(world, &edits, &naming)
+        .and_then(|part| work.on(&part, true))
+        .or_else(|| work.on(world, false))
+        .expect("the whole map is always gone through")
+}
+
+/// An edit on its way into a map.
+struct Work<'a> {
+    world: &'a World,
+    source: &'a Source,
+    edits: &'a Node,
+    ids: &'a NextIds,
+    naming: Naming<'a>,
+    judge: &'a dyn Fn(&World) -> Vec<Fault>,
+}
+
+impl Work<'_> {
+    /// Works the edits into the tree of the map, or of a part of it; none where they do not go into the part smoothly.
+    fn on(&self, of: &World, is_part: bool) -> Option<EditReading> {
+        let Self { world, source, edits, naming, judge, .. } = *self;
+        let text = source.text();
+        let base = node::parse(&write::to_numbered_toml(of), Format::Toml)
+            .expect("what is written can be parsed");
+        let tree = Tree::new(base, text.len());
+        let mut steps = Steps::new(tree, world, self.ids.clone(), naming.in_other_words);
+        steps.take(edits);
+        let Steps { tree, misprints, reason, only, carriers, .. } = steps;
+        let root = tree.finish();
+        let Draft { world: edited, faults, origins, broken, left_out } = read::build(&root);
+        let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
+        all.extend(faults);
+        // What a step did not do is missed by others: its own fault is enough.
+        let is_whole = all.is_empty();
+        if is_part && !is_whole {
+            return None;
         }
+        let edited = if is_part { with_part(world, of, &edited) } else { edited };
+        let news = if is_whole {
+            crate::news(world, &edited, || naming.exact.clone())
+        } else {
+            let known = check(world);
+            let found = super::super::check::check_except(&edited, &broken).into_iter();
+            found.filter(|f| !known.iter().any(|k| k.error == f.error)).collect()
+        };
+        let judged = if is_whole { judge(&edited) } else { Vec::new() };
+        for mut fault in news.into_iter().chain(judged) {
+            fault.locate(&origins, &left_out);
+            all.push(fault);
+        }
+        for fault in &mut all {
+            fault.spans.retain(|span| span.offset() + span.len() <= text.len());
+            if let (true, Some(step)) = (fault.spans.is_empty(), &only) {
+                fault.spans.push(Span::clone(step).into());
+            }
+        }
+        if !is_whole {
+            all.retain(|fault| !fault.spans.is_empty());
+        }
+        // What is told at one place in the same words is told once.
+        all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
+        all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
+        let faults = report(source, all);
+        let world = (!faults.has_errors()).then_some(edited);
+        Some(EditReading { world, faults, reason, carriers })
     }
-    if !is_whole {
-        all.retain(|fault| !fault.spans.is_empty());
-    }
-    // What is told at one place in the same words is told once.
-    all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
-    all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
-    let faults = report(source, all);
-    EditReading { world: (!faults.has_errors()).then_some(edited), faults, reason, carriers }
 }

@@ -14,11 +14,15 @@
 //! | broken | whole and not behind it | a new snapshot and a new journal are written from the trees |
 //! | broken | broken | refused, both named |
 //!
+//! All of this is said of what is young; what is past lies in runs beside it, which transactions name (see `past`).
+//!
 //! What cannot be mended, on a full disk for one, leaves the store open for reading.
 //!
 //! **Invariant**: when [`Vault::commit`] returns `Ok`, the frame is on the disk; after it returned an error
 //! from the journal, nothing more is written until the store is opened again. The trees decide nothing: whatever
 //! they do, a store whose snapshot and journal are whole opens and takes what it is given.
+
+mod runs;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,6 +37,7 @@ use super::journal::{
     snapshot_files,
 };
 use super::memory::MemoryTrees;
+use super::past::{Layered, Past, is_past};
 use super::snapshot::{load_snapshot, write_snapshot};
 use super::trees::{State, Trees, digests};
 
@@ -57,6 +62,8 @@ pub struct OpenReport {
     pub tables_off: Option<String>,
     /// Which of the small files `FORMAT` and `head` were lost or broken, and are written anew.
     pub marks_renewed: Vec<&'static str>,
+    /// A file of the past that was lost or broken, and was written anew from its twin.
+    pub past_mended: Option<String>,
     /// Why nothing can be written though the store was opened for writing.
     pub not_writable: Option<String>,
 }
@@ -95,8 +102,13 @@ pub(crate) trait Shelf: Send {
 pub(crate) struct Vault {
     disk: Arc<dyn Disk>,
     dir: PathBuf,
-    /// The records in memory.
+    /// The young records, in memory.
+    memory: Arc<MemoryTrees>,
+    /// The same with the past behind them, which readers read.
     trees: Arc<dyn Trees>,
+    past: Arc<Past>,
+    /// Files of runs that are not in use any more, each with the transaction since when: older snapshots may need them.
+    retired: Vec<(u64, u64)>,
     /// sled, following memory; none in a store that is only read.
     behind: Option<Behind>,
     state: State,
@@ -110,8 +122,8 @@ pub(crate) struct Vault {
     journal_bytes: u64,
 }
 
-/// A snapshot is taken when the journal outgrows this, or twice the last snapshot if that is more.
-const CHECKPOINT_BYTES: u64 = 64 << 20;
+/// A snapshot is taken when the journal outgrows this, or the last snapshot if that is more.
+const CHECKPOINT_BYTES: u64 = 16 << 20;
 const SNAPSHOTS_KEPT: usize = 3;
 
 /// Why a store takes nothing.
@@ -254,11 +266,16 @@ impl Vault {
         report.tables_off = trees.as_ref().err().cloned();
         let threaded = shelf.has_thread();
         let behind = Behind::new(Arc::clone(&memory), trees, head.clone(), dirty, threaded)?;
+        let past = Arc::new(Past::open(&*disk, dir, &*memory)?);
+        let layered = Layered { young: Arc::clone(&memory), past: Arc::clone(&past) };
         let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
         let mut vault = Self {
             disk,
             dir: dir.to_owned(),
-            trees: memory,
+            memory,
+            trees: Arc::new(layered),
+            past,
+            retired: Vec::new(),
             behind: Some(behind),
             state,
             journal: None,
@@ -272,6 +289,7 @@ impl Vault {
             report.not_writable = Some(error.to_string());
             vault.read_only = Some(ReadOnly::because(error.to_string()));
         }
+        vault.care_for_runs(&mut report);
         Ok((vault, report))
     }
 
@@ -310,7 +328,7 @@ impl Vault {
             report.torn_bytes = log.torn;
         }
         report.fill(&brought.state, brought.frames);
-        Ok((Self::only_read(disk, dir, brought), report))
+        Ok((Self::only_read(disk, dir, brought)?, report))
     }
 
     /// What an opening for writing would find and mend; nothing is mended.
@@ -335,14 +353,20 @@ impl Vault {
             report.marks_renewed.push("head");
         }
         report.fill(&brought.state, brought.frames);
-        Ok((Self::only_read(disk, dir, brought), report))
+        Ok((Self::only_read(disk, dir, brought)?, report))
     }
 
-    fn only_read(disk: Arc<dyn Disk>, dir: &Path, brought: Brought) -> Self {
-        Self {
+    fn only_read(disk: Arc<dyn Disk>, dir: &Path, brought: Brought) -> Result<Self> {
+        let memory = Arc::new(brought.memory);
+        let past = Arc::new(Past::open(&*disk, dir, &*memory)?);
+        let layered = Layered { young: Arc::clone(&memory), past: Arc::clone(&past) };
+        Ok(Self {
             disk,
             dir: dir.to_owned(),
-            trees: Arc::new(brought.memory),
+            memory,
+            trees: Arc::new(layered),
+            past,
+            retired: Vec::new(),
             behind: None,
             state: brought.state,
             journal: None,
@@ -352,7 +376,7 @@ impl Vault {
             }),
             checkpoint_at: u64::MAX,
             journal_bytes: 0,
-        }
+        })
     }
 
     /// The records, and the trees that are to follow them.
@@ -485,9 +509,20 @@ impl Vault {
         self.behind.as_ref().map_or(Ok(()), Behind::catch_up)
     }
 
+    /// The young records alone.
+    #[cfg(test)]
+    pub(crate) fn memory(&self) -> &Arc<MemoryTrees> {
+        &self.memory
+    }
+
+    pub(crate) fn past(&self) -> &Arc<Past> {
+        &self.past
+    }
+
     /// A record as it stands; does not ask a tree that is empty.
     pub(crate) fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
-        if self.state.digests.contains_key(&tree) { self.trees.get(tree, key) } else { Ok(None) }
+        let asked = is_past(tree) || self.state.digests.contains_key(&tree);
+        if asked { self.trees.get(tree, key) } else { Ok(None) }
     }
 
     pub(crate) fn disk(&self) -> Arc<dyn Disk> {
@@ -510,8 +545,23 @@ impl Vault {
     }
 
     /// One transaction: on the disk when this returns.
-    pub(crate) fn commit(&mut self, changes: Vec<Change>) -> Result<()> {
+    pub(crate) fn commit(&mut self, mut changes: Vec<Change>) -> Result<()> {
         self.check_writable()?;
+        let has_runs = !self.past.runs().is_empty();
+        for change in changes.iter_mut().filter(|change| is_past(change.op.tree)) {
+            // What is counted is young; what is gone from the past is said to be gone.
+            change.old = self.memory.get(change.op.tree, &change.op.key)?;
+            if change.op.value.is_none() && has_runs {
+                change.op.value = Some(Vec::new());
+            }
+        }
+        self.write(changes)?;
+        self.checkpoint_if_due();
+        Ok(())
+    }
+
+    /// A transaction of young records.
+    fn write(&mut self, changes: Vec<Change>) -> Result<()> {
         let touched = self.digests_after(&changes);
         let ops: Vec<Op> = changes.into_iter().map(|c| c.op).collect();
         let lsn = self.state.lsn + 1;
@@ -525,7 +575,6 @@ impl Vault {
         if let Some(behind) = &self.behind {
             behind.apply(ops, &self.state)?;
         }
-        self.checkpoint_if_due();
         Ok(())
     }
 
@@ -573,6 +622,8 @@ impl Vault {
     /// Takes a snapshot, begins a new journal, and drops what three snapshots no longer need.
     pub(crate) fn checkpoint(&mut self) -> Result<()> {
         self.check_writable()?;
+        self.put_past(false)?;
+        self.mend_runs();
         // What a snapshot makes superfluous in the journal, sled should not miss; if it does, it is built anew.
         if let Some(Err(error)) = self.behind.as_ref().map(Behind::flush) {
             tracing::warn!(%error, "sled misses what goes into a snapshot");
@@ -588,22 +639,23 @@ impl Vault {
         }
         self.drop_old_files()?;
         self.journal_bytes = 0;
-        self.checkpoint_at = CHECKPOINT_BYTES.max(2 * size);
+        self.checkpoint_at = CHECKPOINT_BYTES.max(size);
         Ok(())
     }
 
     fn write_snapshot(&self) -> Result<u64> {
         let path = numbered(&snapshot_dir(&self.dir), self.state.lsn, "snapshot");
-        write_snapshot(&*self.disk, &path, &*self.trees, &self.state)
+        write_snapshot(&*self.disk, &path, &*self.memory, &self.state)
     }
 
-    fn drop_old_files(&self) -> Result<()> {
+    fn drop_old_files(&mut self) -> Result<()> {
         let snapshots = snapshot_files(&*self.disk, &self.dir)?;
         let Some(dropped) = snapshots.len().checked_sub(SNAPSHOTS_KEPT) else { return Ok(()) };
         for (_, path) in &snapshots[..dropped] {
             self.remove(path)?;
         }
         let oldest = snapshots[dropped].0;
+        self.drop_old_runs(oldest)?;
         let journals = numbered_files(&*self.disk, &journal_dir(&self.dir), "journal")?;
         for pair in journals.windows(2) {
             // All frames of a file lie before the first of the next one.

@@ -1,0 +1,125 @@
+//! Who bears which name, kept in step with a world edit by edit.
+//!
+//! **Invariant**: after [`NameIndex::follow`] it is what [`NameIndex::of`] makes of the edited world.
+
+use std::hash::Hasher;
+
+use crate::units::name_key;
+use crate::{Entity, Records, Replica, World};
+
+/// Everything that bears a name, found by it without a search through the world. A copy shares what it has in common.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct NameIndex {
+    /// By the hash of the name as [`name_key`] spells it, in the order of [`Entity`], each once.
+    bearers: Records<u64, Vec<Entity>>,
+}
+
+/// The same on every machine; two names that meet are told apart by the world.
+fn hash(key: &str) -> u64 {
+    let mut hasher = std::hash::DefaultHasher::new();
+    hasher.write(key.as_bytes());
+    hasher.finish()
+}
+
+impl NameIndex {
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        let mut bearers = std::collections::BTreeMap::<u64, Vec<Entity>>::new();
+        for (entity, name) in world.names() {
+            bearers.entry(hash(&name_key(name))).or_default().push(entity);
+        }
+        for all in bearers.values_mut() {
+            all.sort_unstable();
+            all.dedup();
+        }
+        Self { bearers: bearers.into() }
+    }
+
+    /// Follows a world to one that differs in its replicas alone, of those that bear names.
+    pub fn follow(&mut self, before: &World, after: &World) {
+        for (id, was, is) in before.replicas.changes(&after.replicas) {
+            let [old, new] = [was, is].map(keys);
+            for key in old.iter().filter(|key| !new.contains(key)) {
+                self.leave(*key, Entity::Replica(id));
+            }
+            for key in new.iter().filter(|key| !old.contains(key)) {
+                self.enter(*key, Entity::Replica(id));
+            }
+        }
+    }
+
+    fn enter(&mut self, key: u64, entity: Entity) {
+        match self.bearers.get_mut(&key) {
+            Some(all) => {
+                if let Err(at) = all.binary_search(&entity) {
+                    all.insert(at, entity);
+                }
+            }
+            None => drop(self.bearers.insert(key, vec![entity])),
+        }
+    }
+
+    fn leave(&mut self, key: u64, entity: Entity) {
+        let Some(all) = self.bearers.get_mut(&key) else { return };
+        all.retain(|bearer| *bearer != entity);
+        if all.is_empty() {
+            self.bearers.remove(&key);
+        }
+    }
+
+    /// As [`World::find`] of the world of this index.
+    #[must_use]
+    pub fn find(&self, world: &World, name: &str) -> Vec<Entity> {
+        let key = name_key(name);
+        let all = self.bearers.get(&hash(&key)).map_or(&[][..], Vec::as_slice);
+        let bears = |entity: &&Entity| {
+            world.both_names(**entity).iter().any(|n| !n.is_empty() && name_key(n) == key)
+        };
+        all.iter().filter(bears).copied().collect()
+    }
+}
+
+/// The hashes of a replica's names.
+fn keys(replica: Option<&Replica>) -> Vec<u64> {
+    let Some(replica) = replica else { return Vec::new() };
+    let names = [&replica.name, &replica.name_en].into_iter().filter(|name| !name.is_empty());
+    names.map(|name| hash(&name_key(name))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::ReplicaId;
+
+    #[test]
+    fn it_finds_what_a_search_finds_and_follows_edits() {
+        let mut world = World::load("../../maps/lab.toml").expect("a map of the project");
+        let mut index = NameIndex::of(&world);
+        let ids: Vec<ReplicaId> = world.replicas.keys().copied().collect();
+        let names: Vec<String> = world.names().map(|(_, name)| name.to_owned()).collect();
+        for step in 0..400_usize {
+            let before = world.clone();
+            let id = ids[step * 31 % ids.len()];
+            let other = &names[step * 17 % names.len()];
+            match world.replicas.get_mut(&id) {
+                None => {
+                    let twin = world.replicas.values().next().expect("some are left").clone();
+                    let twin = Replica { id, name: format!("Вещь-{step}"), ..twin };
+                    world.replicas.insert(id, twin);
+                }
+                Some(_) if step % 5 == 0 => drop(world.replicas.remove(&id)),
+                Some(replica) if step % 3 == 0 => replica.name_en.clone_from(other),
+                Some(replica) => replica.name.clone_from(other),
+            }
+            index.follow(&before, &world);
+            assert_eq!(index, NameIndex::of(&world), "step {step}");
+            for name in names.iter().skip(step % 7).step_by(7) {
+                let typed = name.to_uppercase();
+                let mut found = world.find(&typed);
+                found.sort_unstable();
+                found.dedup();
+                assert_eq!(index.find(&world, &typed), found, "step {step}: {name}");
+            }
+        }
+    }
+}
