@@ -132,7 +132,9 @@ impl<'a> Forward<'a> {
             && let Some(landmarks) = &landmarks
         {
             let goals = landmarks.goals_in_order();
-            if let Some(operators) = self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))? {
+            if let Some(operators) =
+                self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))?
+            {
                 return Ok(Searched::Path(operators));
             }
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
