@@ -36,6 +36,9 @@ mod groups;
 mod relays;
 mod tour;
 
+/// Tasks with more operators than this are no robot's day.
+const MOST_OPERATORS: usize = 200_000;
+
 /// More places or counted operators than these are not looked at.
 const MOST_PLACES: usize = 4_000;
 const MOST_COUNTED: usize = 200_000;
@@ -59,6 +62,9 @@ struct Errand {
 impl Errands {
     /// None where the task is not of this kind.
     pub(crate) fn of(task: &Task) -> Option<Self> {
+        if task.operators.len() > MOST_OPERATORS {
+            return None;
+        }
         let Groups(groups) = Groups::of(task);
         (0..groups.len())
             .filter_map(|walker| Self::with_walker(task, &groups, walker))
