@@ -49,8 +49,8 @@
 //!   only undoes the one before, and, where every two operators exclude each other and every shorter plan is
 //!   refuted, what can hold after exactly so many steps; both hold of some plan of the fewest actions.
 //! - *Fewest actions.* After the fewest steps are proven, a bound on the number (or cost) of actions sinks
-//!   until the solver refutes it or the given effort is used up; a plan found soon is shortened piece by piece
-//!   to a given effort, stays a plan throughout, and ends with no more actions than it began with.
+//!   until the solver refutes it or the given effort is used up; a plan found soon is made of fewer actions and then
+//!   of fewer steps piece by piece to a given effort, stays a plan throughout, and never gets more actions or dearer.
 //! - *Why a goal is out of reach* is found apart from planning, from the rules (`strips/lack`): what is told to
 //!   be missing holds in no relaxed future, and what is told to help was neither stated nor can be brought
 //!   about; what was withdrawn comes first. What is told is data (`Said`) until it is worded, by the phrases of

@@ -13,6 +13,7 @@ use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
 use super::landmarks::{Attained, Landmarks};
 use super::novelty::{self, Searched};
+use super::parallel::{drop_needless, in_parallel};
 use super::relaxed::{Estimate, Relaxed, State, holds};
 use crate::bits;
 use crate::plan::Plan;
@@ -132,7 +133,9 @@ impl<'a> Forward<'a> {
             && let Some(landmarks) = &landmarks
         {
             let goals = landmarks.goals_in_order();
-            if let Some(operators) = self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))? {
+            if let Some(operators) =
+                self.climb_in_order((1..=goals.len()).map(|turn| &goals[..turn]))?
+            {
                 return Ok(Searched::Path(operators));
             }
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
@@ -575,87 +578,4 @@ impl Seen {
         }
         pieces.into_iter().rev().flat_map(|by| by.iter().copied()).collect()
     }
-}
-
-/// Takes out operators that the goal does without, together with those that only served them.
-pub(crate) fn drop_needless(task: &Task, steps: &mut [Vec<OperatorId>]) {
-    let mut before = vec![false; task.facts.len()];
-    task.init.iter().for_each(|fact| before[fact.index()] = true);
-    let mut dropped = Vec::new();
-    for step in 0..steps.len() {
-        let mut at = 0;
-        while at < steps[step].len() {
-            if does_without(task, steps, (step, at), before.clone(), &mut dropped) {
-                for &(step, at) in dropped.iter().rev() {
-                    steps[step].remove(at);
-                }
-            } else {
-                at += 1;
-            }
-        }
-        carry_out(task, &steps[step], |_| true, &mut before);
-    }
-}
-
-/// Whether the goal is reached without one operator and without all that it enabled; these are told.
-fn does_without(
-    task: &Task,
-    steps: &[Vec<OperatorId>],
-    one: (usize, usize),
-    mut state: Vec<bool>,
-    dropped: &mut Vec<(usize, usize)>,
-) -> bool {
-    dropped.clear();
-    for (step, operators) in steps.iter().enumerate().skip(one.0) {
-        let known = dropped.len();
-        for (at, &id) in operators.iter().enumerate() {
-            let needs = &task.operator(id).preconditions;
-            if (step, at) == one || !needs.iter().all(|fact| state[fact.index()]) {
-                dropped.push((step, at));
-            }
-        }
-        let stays = |at: usize| !dropped[known..].contains(&(step, at));
-        carry_out(task, operators, stays, &mut state);
-    }
-    task.goal.iter().all(|fact| state[fact.index()])
-}
-
-/// The state after those operators of a step that are wanted.
-fn carry_out(
-    task: &Task,
-    operators: &[OperatorId],
-    wanted: impl Fn(usize) -> bool,
-    state: &mut [bool],
-) {
-    let chosen = || operators.iter().enumerate().filter(|(at, _)| wanted(*at)).map(|(_, id)| *id);
-    for id in chosen() {
-        task.operator(id).del_effects.iter().for_each(|fact| state[fact.index()] = false);
-    }
-    for id in chosen() {
-        task.operator(id).add_effects.iter().for_each(|fact| state[fact.index()] = true);
-    }
-}
-
-/// Each operator in the first step after all that it depends on or interferes with.
-pub(crate) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorId>) -> Plan {
-    let mut placed: Vec<(OperatorId, usize)> = Vec::new();
-    let mut steps: Vec<Vec<OperatorId>> = Vec::new();
-    for id in operators {
-        let operator = task.operator(id);
-        let follows = |earlier: OperatorId| {
-            let earlier = task.operator(earlier);
-            earlier.add_effects.iter().any(|fact| operator.preconditions.contains(fact))
-                || earlier.interferes(operator)
-        };
-        let after =
-            placed.iter().filter(|(earlier, _)| follows(*earlier)).map(|(_, step)| step + 1);
-        let step = after.max().unwrap_or(0);
-        if steps.len() <= step {
-            steps.resize(step + 1, Vec::new());
-        }
-        steps[step].push(id);
-        placed.push((id, step));
-    }
-    steps.iter_mut().for_each(|step| step.sort_unstable());
-    Plan { steps }
 }

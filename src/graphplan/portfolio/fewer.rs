@@ -10,7 +10,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
-use super::any::{drop_needless, in_parallel};
+use super::parallel::{drop_needless, in_parallel};
 use super::relaxed::{Relaxed, State};
 use crate::bits;
 use crate::plan::Plan;
@@ -34,21 +34,18 @@ enum Layout {
     FromTheEnd,
 }
 
-/// A plan with fewer actions, or as many that cost less; as far as so much effort goes, which is taken from it.
+/// A plan with fewer actions, as far as so much effort goes, which is taken from it. Of those met on the way it is the
+/// one that has the least of actions and steps together: what little is won at the end may put in a row what could
+/// be done at once.
 pub(crate) fn fewer(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64) -> Plan {
     let most = std::mem::take(effort);
     let (relaxed, subjects) = (Relaxed::by_sum(task), subjects(task));
-    let mut stretches = Stretches { task, limits, relaxed, subjects, most };
-    let mut row: Vec<OperatorId> = plan.operators().collect();
-    let before = row.len();
-    let cost = stretches.cost(&row);
+    let row: Vec<OperatorId> = plan.operators().collect();
+    let mut stretches = Stretches { task, limits, relaxed, subjects, most, best: plan };
     // What was won stands, whatever ends it.
-    let _ = stretches.run(&mut row);
+    let _ = stretches.run(row);
     *effort = most.saturating_sub(stretches.relaxed.effort);
-    if row.len() == before && stretches.cost(&row) == cost {
-        return plan;
-    }
-    in_parallel(task, row.into_iter())
+    stretches.best
 }
 
 struct Stretches<'a> {
@@ -58,35 +55,48 @@ struct Stretches<'a> {
     /// Of each operator the objects of which it changes something.
     subjects: Vec<Vec<u32>>,
     most: u64,
+    best: Plan,
 }
 
 impl Stretches<'_> {
     /// Rounds of all layouts and widths with what a stretch does not touch at rest, then of the same with all that there
     /// is; when neither wins anything, with more states.
-    fn run(&mut self, row: &mut Vec<OperatorId>) -> Result<(), Limit> {
+    fn run(&mut self, mut row: Vec<OperatorId>) -> Result<(), Limit> {
         let mut states = FEW_STATES;
         while states <= MOST_STATES {
-            let before = (row.len(), self.cost(row));
+            let before = (row.len(), self.cost(&row));
             for others_rest in [true, false] {
                 for width in WIDTHS {
                     for layout in [Layout::AsItIs, Layout::Together, Layout::FromTheEnd] {
-                        *row = laid_out(self.task, row, layout);
-                        self.pass(row, (width, states), others_rest)?;
+                        row = laid_out(self.task, &row, layout);
+                        let ended = self.pass(&mut row, (width, states), others_rest);
                         let mut steps: Vec<Vec<OperatorId>> =
                             row.iter().map(|&id| vec![id]).collect();
                         drop_needless(self.task, &mut steps);
-                        *row = steps.into_iter().flatten().collect();
+                        row = steps.into_iter().flatten().collect();
+                        self.offer(&row);
+                        ended?;
                     }
                     if width >= 2 * row.len() {
                         break;
                     }
                 }
             }
-            if (row.len(), self.cost(row)) >= before {
+            if (row.len(), self.cost(&row)) >= before {
                 states *= 2;
             }
         }
         Ok(())
+    }
+
+    fn offer(&mut self, row: &[OperatorId]) {
+        let sum = |plan: &Plan| plan.action_count() + plan.steps.len();
+        if row.len() <= self.best.action_count() && self.cost(row) <= self.best.cost(self.task) {
+            let plan = in_parallel(self.task, row.iter().copied());
+            if sum(&plan) < sum(&self.best) {
+                self.best = plan;
+            }
+        }
     }
 
     /// Each stretch of so many actions once; with what it does not touch at rest, or free.

@@ -6,6 +6,7 @@ mod anytime;
 mod fewer;
 mod landmarks;
 mod novelty;
+pub(crate) mod parallel;
 mod piece;
 mod relaxed;
 mod shorten;
@@ -13,6 +14,7 @@ mod shorten;
 pub use anytime::{solve_anytime, solve_soon};
 
 use crate::bits;
+use crate::proof::errands::Errands;
 use crate::proof::{Tried, Turn, Working, prove, search};
 use crate::strips::Task;
 use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, with_stack};
@@ -30,7 +32,8 @@ pub(crate) fn steps_at_least(task: &Task) -> usize {
 pub fn bounded(task: &Task, plan: Plan, limits: &Limits) -> (Plan, usize) {
     /// What the proof may take.
     const EFFORT: u64 = 1 << 21;
-    let at_once = steps_at_least(task).min(plan.steps.len());
+    let walked = Errands::of(task).map_or(0, |errands| errands.at_least);
+    let at_once = steps_at_least(task).max(walked).min(plan.steps.len());
     if at_once == plan.steps.len() || limits.check(0).is_err() {
         return (plan, at_once);
     }
@@ -73,6 +76,11 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     };
     let at_once = steps_at_least(task);
     let tries = || -> Result<Outcome, Unfinished> {
+        if let Some(errands) = Errands::of(task)
+            && let Some(plan) = any::in_order(task, &errands.stages, limits)?
+        {
+            return Ok(shortened(plan));
+        }
         if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
             return Ok(outcome);
         }
@@ -116,9 +124,11 @@ fn with_fewer_actions(task: &Task, plan: Plan, limits: &Limits) -> Plan {
         }
         better
     };
+    let size = |plan: &Plan| plan.action_count() + plan.steps.len();
     let mut best = plan;
     if let Ok(Some(other)) = any::step_by_step(task, limits.shorten_effort, limits)
-        && other.action_count() < best.action_count()
+        && other.action_count() <= best.action_count()
+        && size(&other) < size(&best)
         && other.cost(task) <= best.cost(task)
     {
         best = told(other, &best);

@@ -6,7 +6,7 @@
 //! whole. On the way it may take more actions for fewer steps, and win them back; what it ends with has no more actions
 //! than it began with, and costs no more.
 
-use super::any::in_parallel;
+use super::parallel::in_parallel;
 use super::piece;
 use super::relaxed::{Relaxed, State};
 use crate::bits;
@@ -135,7 +135,7 @@ pub(crate) fn one_by_one(
         };
         steps.extend(found.steps);
     }
-    super::any::drop_needless(task, &mut steps);
+    super::parallel::drop_needless(task, &mut steps);
     Some(in_parallel(task, steps.into_iter().flatten()))
 }
 

@@ -97,10 +97,11 @@ type Steps = Vec<Vec<ActionId>>;
 
 impl<'a> Search<'a> {
     pub(crate) fn new(task: &'a Task, limits: Limits) -> Self {
+        let symmetry = Symmetry::of(task, &limits);
         Self {
             task,
             limits,
-            no_goods: NoGoods::new(Symmetry::of(task), task.facts.len()),
+            no_goods: NoGoods::new(symmetry, task.facts.len()),
             rivals: Rivals::default(),
             ticks: 0,
             allowed: 0,

@@ -70,7 +70,7 @@ fn improve(
         else {
             return Ok(());
         };
-        crate::portfolio::any::drop_needless(task, &mut better.steps);
+        crate::portfolio::parallel::drop_needless(task, &mut better.steps);
         if weight_of(task, &better) >= best {
             return Ok(());
         }

@@ -8,6 +8,7 @@
 
 use super::solver::{Literal, Solver};
 use super::symmetry::users_of_alike;
+use crate::Limits;
 use crate::strips::{OperatorId, Task};
 
 pub(crate) struct FirstUse {
@@ -18,8 +19,8 @@ pub(crate) struct FirstUse {
 }
 
 impl FirstUse {
-    pub(crate) fn of(task: &Task) -> Self {
-        Self { users: users_of_alike(task), used: Vec::new() }
+    pub(crate) fn of(task: &Task, limits: &Limits) -> Self {
+        Self { users: users_of_alike(task, limits), used: Vec::new() }
     }
 
     /// Adds a step, the variables of whose operators are given.

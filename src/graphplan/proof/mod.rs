@@ -26,7 +26,7 @@ mod transition;
 
 pub use replan::Learned;
 
-use crate::portfolio::any;
+use crate::portfolio::{any, parallel};
 use crate::strips::{FactId, Task};
 use crate::{Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, with_stack};
 use extract::{Extraction, Search};
@@ -274,7 +274,7 @@ fn by_levels(
             if graph.top() >= too_few {
                 match extractor.extract(graph)? {
                     Extraction::Plan(mut plan) => {
-                        any::drop_needless(task, &mut plan.steps);
+                        parallel::drop_needless(task, &mut plan.steps);
                         let encoding = &mut extractor.encoding;
                         let plan = fewest::fewest(task, graph, encoding, plan, limits);
                         return Ok(Some(Outcome::Plan(plan)));

@@ -166,6 +166,7 @@ impl NoGoods {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Limits;
     use crate::strips::{Fact, Task};
 
     fn facts(ids: &[u32]) -> Vec<FactId> {
@@ -184,7 +185,7 @@ mod tests {
                 .collect(),
             ..Task::default()
         };
-        let mut no_goods = NoGoods::new(Symmetry::of(&task), 8);
+        let mut no_goods = NoGoods::new(Symmetry::of(&task, &Limits::default()), 8);
         no_goods.insert(&facts(&[1, 4]), 3);
         no_goods.insert(&facts(&[2, 5, 7]), 5);
         assert_eq!(no_goods.subset_of(&facts(&[0, 1, 2, 4]), 3), Some(facts(&[1, 4])));
@@ -208,7 +209,7 @@ mod tests {
             init: facts(&[0, 2, 4]),
             ..Task::default()
         };
-        let mut no_goods = NoGoods::new(Symmetry::of(&task), 6);
+        let mut no_goods = NoGoods::new(Symmetry::of(&task, &Limits::default()), 6);
         no_goods.insert(&facts(&[1, 3]), 2);
         assert_eq!(no_goods.subset_of(&facts(&[3, 5]), 2), Some(facts(&[3, 5])));
         assert_eq!(no_goods.subset_of(&facts(&[0, 3]), 2), None);

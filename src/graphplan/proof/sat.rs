@@ -15,6 +15,7 @@ use crate::{Limit, Limits};
 
 pub(crate) struct Encoding<'a> {
     task: &'a Task,
+    limits: Limits,
     solver: Solver,
     /// Per level, the variable of each fact that may hold there.
     facts: Vec<Vec<Option<Literal>>>,
@@ -57,6 +58,7 @@ impl<'a> Encoding<'a> {
         let serial = if shorter_refuted { Serial::of(task, limits) } else { None };
         Self {
             task,
+            limits: limits.clone(),
             solver: Solver::new(limits),
             facts: Vec::new(),
             operators: Vec::new(),
@@ -240,7 +242,7 @@ impl<'a> Encoding<'a> {
                 }
             }
         }
-        let first_use = self.first_use.get_or_insert_with(|| FirstUse::of(self.task));
+        let first_use = self.first_use.get_or_insert_with(|| FirstUse::of(self.task, &self.limits));
         first_use.add_step(&mut self.solver, &variables);
         self.operators.push(variables);
     }

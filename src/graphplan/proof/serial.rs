@@ -32,7 +32,10 @@ impl Serial {
         let possible: Vec<OperatorId> =
             task.operator_ids().filter(|id| pairs.applicable[id.index()]).collect();
         let mut so_far = possible.iter().enumerate();
-        if !so_far.all(|(at, &a)| possible[..at].iter().all(|&b| exclude(task, &pairs, a, b))) {
+        let excludes_all = |(at, &a): (usize, &OperatorId)| {
+            limits.check(0).is_ok() && possible[..at].iter().all(|&b| exclude(task, &pairs, a, b))
+        };
+        if !so_far.all(excludes_all) {
             return None;
         }
         let mut keeps = vec![None; operators];

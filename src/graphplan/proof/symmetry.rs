@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
+use crate::Limits;
 use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 
 /// For each fact, the object of it that may be exchanged, and the fact's image for the first of its kin.
@@ -24,11 +25,13 @@ pub(crate) struct Role {
 }
 
 impl Symmetry {
-    pub(crate) fn of(task: &Task) -> Self {
+    /// Once a limit is reached no further objects are found to be alike.
+    pub(crate) fn of(task: &Task, limits: &Limits) -> Self {
         let index = Index::new(task);
         let mut roles = vec![None; task.facts.len()];
         let mut taken: HashSet<&Arc<str>> = HashSet::new();
-        let mut classes = index.classes(|a, b| index.interchangeable(a, b));
+        let mut classes =
+            index.classes(|a, b| limits.check(0).is_ok() && index.interchangeable(a, b));
         classes.sort_by_key(|class| std::cmp::Reverse(class.len()));
         for class in classes {
             // A fact may speak of one exchangeable object only: images of sets are then found object by object.
@@ -62,13 +65,14 @@ impl Symmetry {
 
 /// For each class of objects that neither initial state nor goal nor costs tell apart, for each object in the order of
 /// names, the operators that it takes part in.
-pub(crate) fn users_of_alike(task: &Task) -> Vec<Vec<Vec<OperatorId>>> {
+pub(crate) fn users_of_alike(task: &Task, limits: &Limits) -> Vec<Vec<Vec<OperatorId>>> {
     let index = Index::new(task);
     let users = |object: &Arc<str>| -> Vec<OperatorId> {
         let numbers = index.operators_of.get(object).into_iter().flatten();
         numbers.map(|&number| OperatorId(number as u32)).collect()
     };
-    let classes = index.classes(|a, b| index.interchangeable(a, b) && index.serve_alike(a, b));
+    let are_alike = |a: &_, b: &_| index.interchangeable(a, b) && index.serve_alike(a, b);
+    let classes = index.classes(|a, b| limits.check(0).is_ok() && are_alike(a, b));
     classes.into_iter().map(|class| class.into_iter().map(users).collect()).collect()
 }
 
@@ -244,7 +248,7 @@ mod tests {
 
     /// The image of each fact, itself where it has none.
     fn images(task: &Task) -> Vec<u32> {
-        let symmetry = Symmetry::of(task);
+        let symmetry = Symmetry::of(task, &Limits::default());
         task.fact_ids().map(|fact| symmetry.role(fact).map_or(fact, |role| role.image).0).collect()
     }
 
@@ -256,10 +260,13 @@ mod tests {
 
     #[test]
     fn what_the_goal_tells_apart_is_not_used_in_order() {
-        assert_eq!(users_of_alike(&task()), [[vec![OperatorId(1)], vec![OperatorId(2)]]]);
+        assert_eq!(
+            users_of_alike(&task(), &Limits::default()),
+            [[vec![OperatorId(1)], vec![OperatorId(2)]]]
+        );
         let mut task = task();
         task.operators[2].cost = 2;
-        assert!(users_of_alike(&task).is_empty());
+        assert!(users_of_alike(&task, &Limits::default()).is_empty());
     }
 
     #[test]

@@ -11,7 +11,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Errand, Group, Places, bringers, excludes};
+use super::groups::{Group, excludes};
+use super::{Errand, Places, bringers};
 use crate::strips::{FactId, OperatorId, Task};
 
 pub(super) struct Bridges {

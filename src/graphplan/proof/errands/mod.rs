@@ -24,19 +24,24 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 
-use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
+use crate::strips::{FactId, Operator, OperatorId, Task};
 
 use bridges::Bridges;
+use groups::{Group, Groups, all_exclude, is_balanced};
 use relays::{Leg, relayed};
 use tour::{assignment, order, walk};
 
 mod bridges;
+mod groups;
 mod relays;
 mod tour;
 
+/// Tasks with more operators than this are no robot's day.
+const MOST_OPERATORS: usize = 200_000;
+
 /// More places or counted operators than these are not looked at.
 const MOST_PLACES: usize = 4_000;
-const MOST_COUNTED: usize = 20_000;
+const MOST_COUNTED: usize = 200_000;
 
 /// What a walk must do, and how long it is at least.
 pub(crate) struct Errands {
@@ -57,7 +62,10 @@ struct Errand {
 impl Errands {
     /// None where the task is not of this kind.
     pub(crate) fn of(task: &Task) -> Option<Self> {
-        let groups = groups(task);
+        if task.operators.len() > MOST_OPERATORS {
+            return None;
+        }
+        let Groups(groups) = Groups::of(task);
         (0..groups.len())
             .filter_map(|walker| Self::with_walker(task, &groups, walker))
             .max_by_key(|errands| errands.at_least)
@@ -129,7 +137,8 @@ impl Errands {
             places.spot(task, operators).and_then(|spot| spot.first().copied())
         };
         // Where something must be done in any case.
-        let mut busy: BTreeSet<usize> = visited.iter().flat_map(|(_, spot)| spot).copied().collect();
+        let mut busy: BTreeSet<usize> =
+            visited.iter().flat_map(|(_, spot)| spot).copied().collect();
         let mut points = vec![places.start];
         let mut errands = Vec::new();
         let mut things = Vec::new();
@@ -180,7 +189,8 @@ fn stages(
     let mut lies: Vec<BTreeMap<usize, FactId>> = vec![BTreeMap::new(); errands.len()];
     if errands.len() <= MOST_RELAYED {
         for (number, (thing, errand)) in things.iter().zip(errands).enumerate() {
-            for (place, fact) in thing.halts(task, places, (points[errand.from], points[errand.to])) {
+            for (place, fact) in thing.halts(task, places, (points[errand.from], points[errand.to]))
+            {
                 lies[number].insert(points.len(), fact);
                 points.push(place);
             }
@@ -223,119 +233,6 @@ const MOST_RELAYED: usize = 24;
 /// Points on the way of a thing where it may be put down.
 const MOST_HALTS: usize = 48;
 
-/// Facts of which exactly one holds at any time.
-struct Group {
-    number: usize,
-    facts: BTreeSet<FactId>,
-}
-
-type Name<'t> = (&'t str, bool);
-
-fn name(fact: &Fact) -> Name<'_> {
-    (&fact.predicate, fact.negated)
-}
-
-impl Group {
-    fn has(&self, fact: &FactId) -> bool {
-        self.facts.contains(fact)
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        self.facts.iter().any(|fact| other.has(fact))
-    }
-
-    /// What an operator needs of the group.
-    fn needed(&self, operator: &Operator) -> Option<FactId> {
-        operator.preconditions.iter().copied().find(|fact| self.has(fact))
-    }
-
-    fn is_changed_by(&self, operator: &Operator) -> bool {
-        operator.del_effects.iter().any(|fact| self.has(fact))
-    }
-
-    /// Whether this group is one more part of where the walker is: whatever changes it needs the first, and some of what
-    /// changes the first needs it in turn.
-    fn goes_with(&self, first: &Self, task: &Task) -> bool {
-        let changing = |group: &Self| {
-            task.operators
-                .iter()
-                .filter(|operator| group.is_changed_by(operator))
-                .collect::<Vec<_>>()
-        };
-        !self.meets(first)
-            && changing(self).iter().all(|operator| first.needed(operator).is_some())
-            && changing(first).iter().any(|operator| self.needed(operator).is_some())
-    }
-
-    /// Whether whatever changes the group needs a place and moves nowhere.
-    fn is_hand(&self, task: &Task, walker: &[&Self]) -> bool {
-        let mut changers =
-            task.operators.iter().filter(|operator| self.is_changed_by(operator)).peekable();
-        changers.peek().is_some()
-            && changers.all(|operator| {
-                !walker.iter().any(|group| group.is_changed_by(operator))
-                    && walker.iter().any(|group| group.needed(operator).is_some())
-            })
-    }
-}
-
-/// Whether exactly one of these facts always holds.
-fn is_balanced(task: &Task, has: impl Fn(&FactId) -> bool) -> bool {
-    task.init.iter().filter(|fact| has(fact)).count() == 1
-        && task.operators.iter().all(|operator| {
-            let brings = operator
-                .add_effects
-                .iter()
-                .filter(|fact| has(fact) && !operator.preconditions.contains(fact));
-            let gives = |fact: &&FactId| has(fact) && operator.preconditions.contains(fact);
-            let needs = operator.preconditions.iter().filter(|fact| has(fact)).count();
-            let deletes = operator.del_effects.iter().filter(|fact| has(fact)).count();
-            let given = operator.del_effects.iter().filter(gives).count();
-            // What is deleted was needed, so it held; one at most can have held, and one comes for it.
-            deletes == given && needs <= 1 && brings.count() == given
-        })
-}
-
-/// Groups of all facts of a few predicates.
-fn groups(task: &Task) -> Vec<Group> {
-    let mut found: Vec<(BTreeSet<Name<'_>>, Group)> = Vec::new();
-    let names: BTreeSet<Name<'_>> = task.init.iter().map(|&fact| name(task.fact(fact))).collect();
-    for first in names {
-        let mut members = BTreeSet::from([first]);
-        let grown = loop {
-            let has = |fact: &FactId| members.contains(&name(task.fact(*fact)));
-            if is_balanced(task, has) {
-                break true;
-            }
-            // What is given up for a member, or comes for one, may be a member too.
-            let other = task.operators.iter().find_map(|operator| {
-                let brings = operator.add_effects.iter().filter(|fact| has(fact)).count();
-                let gives = operator.del_effects.iter().filter(|fact| has(fact)).count();
-                let list = match brings.cmp(&gives) {
-                    std::cmp::Ordering::Greater => &operator.del_effects,
-                    std::cmp::Ordering::Less => &operator.add_effects,
-                    std::cmp::Ordering::Equal => return None,
-                };
-                let outside: Vec<_> = list.iter().filter(|fact| !has(fact)).collect();
-                // The one with the fewest arguments is the likeliest.
-                outside.into_iter().min_by_key(|fact| task.fact(**fact).args.len()).copied()
-            });
-            match other {
-                Some(other) if members.len() < 4 => members.insert(name(task.fact(other))),
-                _ => break false,
-            };
-        };
-        if grown && !found.iter().any(|(known, _)| *known == members) {
-            let facts: BTreeSet<FactId> =
-                task.fact_ids().filter(|&fact| members.contains(&name(task.fact(fact)))).collect();
-            if facts.len() > 1 {
-                found.push((members, Group { number: found.len(), facts }));
-            }
-        }
-    }
-    found.into_iter().map(|(_, group)| group).collect()
-}
-
 fn bringers(task: &Task, fact: FactId) -> impl Iterator<Item = OperatorId> {
     task.operator_ids().filter(move |&id| task.operator(id).add_effects.contains(&fact))
 }
@@ -375,15 +272,12 @@ impl Carried {
             where_.extend(given.filter(|fact| !hand.has(fact)));
         }
         // Of several lists that say the same (on something, in a place), any that balances will do.
-        let by_name: BTreeSet<Name<'_>> =
-            where_.iter().map(|&fact| name(task.fact(fact))).collect();
+        let name = |fact: FactId| (&task.fact(fact).predicate, task.fact(fact).negated);
+        let by_name: BTreeSet<_> = where_.iter().map(|&fact| name(fact)).collect();
         let narrowed = by_name.iter().map(|one| BTreeSet::from([*one])).chain([by_name.clone()]);
         let spots = narrowed.into_iter().find_map(|names| {
-            let mut group: BTreeSet<FactId> = where_
-                .iter()
-                .copied()
-                .filter(|&fact| names.contains(&name(task.fact(fact))))
-                .collect();
+            let mut group: BTreeSet<FactId> =
+                where_.iter().copied().filter(|&fact| names.contains(&name(fact))).collect();
             group.insert(one);
             // What puts it where nobody takes it from again belongs to it as well.
             for &id in &puts {
@@ -393,7 +287,7 @@ impl Carried {
                     group.extend(adds.take(1));
                 }
             }
-            is_balanced(task, |fact| group.contains(fact)).then_some(group)
+            is_balanced(task, |fact| group.contains(fact), |_, _| false).then_some(group)
         })?;
         let spots: BTreeMap<FactId, Vec<OperatorId>> = spots
             .into_iter()
@@ -443,7 +337,8 @@ impl Carried {
             if puts.len() == operators.len() {
                 continue;
             }
-            let Some(&place) = places.spot(task, &puts).as_deref().and_then(<[usize]>::first) else {
+            let Some(&place) = places.spot(task, &puts).as_deref().and_then(<[usize]>::first)
+            else {
                 continue;
             };
             let beside = come[place].saturating_sub(come[to]);
@@ -618,37 +513,6 @@ impl Places {
         });
         rows.collect()
     }
-}
-
-/// Whether no two of these go into one step.
-fn all_exclude(task: &Task, groups: &[Group], counted: &[OperatorId]) -> bool {
-    let needs = needs(task, groups, counted);
-    (0..counted.len()).all(|a| {
-        (0..a).all(|b| {
-            compete(&needs[a], &needs[b])
-                || task.operator(counted[a]).interferes(task.operator(counted[b]))
-        })
-    })
-}
-
-/// Whether none of these goes into one step with any of the others.
-fn excludes(task: &Task, groups: &[Group], ones: &[OperatorId], others: &[OperatorId]) -> bool {
-    let (needs_of_ones, needs_of_others) = (needs(task, groups, ones), needs(task, groups, others));
-    ones.iter().zip(&needs_of_ones).all(|(&one, own)| {
-        others.iter().zip(&needs_of_others).all(|(&other, needs)| {
-            compete(own, needs) || task.operator(one).interferes(task.operator(other))
-        })
-    })
-}
-
-/// What each needs of each group.
-fn needs(task: &Task, groups: &[Group], operators: &[OperatorId]) -> Vec<Vec<Option<FactId>>> {
-    let of = |&id: &OperatorId| groups.iter().map(|g| g.needed(task.operator(id))).collect();
-    operators.iter().map(of).collect()
-}
-
-fn compete(one: &[Option<FactId>], other: &[Option<FactId>]) -> bool {
-    one.iter().zip(other).any(|(one, other)| one.is_some() && other.is_some() && one != other)
 }
 
 #[cfg(test)]

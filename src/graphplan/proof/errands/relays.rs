@@ -114,10 +114,8 @@ mod tests {
             let (errands, between) = (1 + random.below(6), random.below(4));
             let places: Vec<usize> =
                 (0..1 + 2 * errands + between).map(|_| random.below(40)).collect();
-            let distance: Vec<Vec<usize>> = places
-                .iter()
-                .map(|a| places.iter().map(|b| a.abs_diff(*b)).collect())
-                .collect();
+            let distance: Vec<Vec<usize>> =
+                places.iter().map(|a| places.iter().map(|b| a.abs_diff(*b)).collect()).collect();
             let legs: Vec<Leg> = (0..errands)
                 .map(|errand| Leg { errand, from: 1 + 2 * errand, to: 2 + 2 * errand })
                 .collect();
