@@ -110,6 +110,11 @@ impl Sighted {
         }
     }
 
+    /// The file.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// None where it is a picture.
     pub(super) fn log(&self) -> Option<&Log> {
         match &self.source {

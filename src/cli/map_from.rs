@@ -1,0 +1,65 @@
+//! `ortho map-from`: a map of the walls that a log saw.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::engine::{Sighted, json as views, map_file, map_from};
+use crate::map::Format;
+use crate::units::write_file;
+
+use super::args::{Common, Lang};
+use super::commands::note;
+use super::fault::{Failure, drawn};
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct MapFromArgs {
+    /// A log whose scans tell their poses (CARMEN, rows of ranges; also gzipped)
+    log: PathBuf,
+    /// Map file to write, as TOML, YAML or JSON by its name; standard output when left out
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// To what size walls are told apart
+    #[arg(long, value_name = "CM", default_value_t = 5.0, value_parser = cell)]
+    cell: f64,
+}
+
+fn cell(text: &str) -> Result<f64, String> {
+    let size: f64 = text.parse().map_err(|_| "не число".to_owned())?;
+    if (1.0..=100.0).contains(&size) { Ok(size) } else { Err("от 1 до 100 см".to_owned()) }
+}
+
+pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure> {
+    let log = Sighted::read(&args.log)?;
+    let built = map_from(&log, args.cell)?;
+    let format = args.out.as_deref().map_or(Format::Toml, Format::of);
+    let text = map_file(&built.world, format);
+    let Some(path) = &args.out else {
+        return say(text.trim_end());
+    };
+    write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
+    let (rooms, doors, things) =
+        (built.world.areas.len(), built.world.doors.len(), built.world.replicas.len());
+    if common.json {
+        let value = json!({
+            "outcome": "map", "file": path.display().to_string(),
+            "rooms": rooms, "doors": doors, "things": things,
+            "faults": views::log_faults(log.faults()),
+        });
+        say(&value.to_string())?;
+    } else {
+        let told = if common.lang == Lang::En {
+            format!("{}: {rooms} rooms, {doors} doorways, {things} things.", path.display())
+        } else {
+            format!(
+                "{}: помещений {rooms}, проходов {doors}, предметов {things}.",
+                path.display()
+            )
+        };
+        say(&told)?;
+        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+    }
+    Ok(if log.faults().is_some() { Answer::Wrong } else { Answer::Yes })
+}
