@@ -12,9 +12,9 @@ use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
 
+use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
-use super::differences::DifferencesArgs;
 use super::locate::LocateArgs;
 use super::map_from::MapFromArgs;
 use super::observe::ObserveCommand;

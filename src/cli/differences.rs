@@ -5,7 +5,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use crate::engine::{LASER_HEIGHT, PosesFrom, Sighted, differences_in_words, json};
+use crate::engine::{Sighted, json};
 
 use super::args::Common;
 use super::commands::{note, open};
@@ -23,7 +23,7 @@ pub(super) struct DifferencesArgs {
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
     /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = LASER_HEIGHT)]
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
     height: f64,
     /// The log tells the poses, in the map's frame; else they are found
     #[arg(long)]
@@ -37,9 +37,8 @@ pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Fai
     let mut engine = open(common)?;
     let log = Sighted::read(&args.log)?;
     let map = engine.map_named(args.map.as_deref())?;
-    let from = if args.posed { PosesFrom::Log } else { PosesFrom::Map };
     let now = SystemTime::now().into();
-    let seen = engine.differences(map, &log, args.scan, args.height, from, now)?;
+    let seen = engine.differences(map, &log, args.scan, args.height, args.posed, now)?;
     if args.keep {
         engine.keep_differences(&seen, now)?;
     }
@@ -48,7 +47,7 @@ pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Fai
         value["faults"] = json::log_faults(log.faults()).into();
         say(&value.to_string())?;
     } else {
-        say(&differences_in_words(engine.world()?, &seen, common.lang.language()).join("\n"))?;
+        say(&seen.in_words(engine.world()?, common.lang.language()).join("\n"))?;
         log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
     }
     Ok(match log.faults() {

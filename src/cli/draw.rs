@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::engine::{
-    Drawing, Engine, LASER_HEIGHT, Lens, Method, PosesFrom, RequestError, Sighted, TaskAnswer, directive_in_words, face_in_words,
-    no_way_in_words, opens_in_words, parse_pose, ride_in_words,
+    Drawing, Engine, Lens, Method, RequestError, Sighted, TaskAnswer, directive_in_words,
+    face_in_words, no_way_in_words, opens_in_words, parse_pose, ride_in_words,
 };
 use crate::language::Language;
 use crate::robot::Directive;
@@ -80,7 +80,7 @@ struct SightArgs {
     #[arg(long, value_name = "NAME")]
     map: Option<String>,
     /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = LASER_HEIGHT)]
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
     height: f64,
     /// The log tells the poses, in the map's frame; else the pose is found
     #[arg(long)]
@@ -209,9 +209,10 @@ fn draw_sight(common: &Common, args: &SightArgs) -> Result<Vec<String>, Failure>
     let engine = open(common)?;
     let map = engine.map_named(args.map.as_deref())?;
     let log = Sighted::read(&args.log)?;
-    let from = if args.posed { PosesFrom::Log } else { PosesFrom::Map };
-    let Some(seen) = engine.sighting(map, &log, args.scan, args.height, from)? else {
-        note(common.lang.pick("Неизвестно, где этот скан снят.", "Where it was taken is not known."));
+    let Some(seen) = engine.sighting(map, &log, args.scan, args.height, args.posed)? else {
+        note(
+            common.lang.pick("Неизвестно, где этот скан снят.", "Where it was taken is not known."),
+        );
         return Ok(Vec::new());
     };
     if seen.is_one_of > 1 {

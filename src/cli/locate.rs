@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::engine::{FoundPose, FoundScan, LASER_HEIGHT, Sighted, json, move_in_words};
+use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
 
 use super::args::{Common, Lang};
@@ -23,7 +23,7 @@ pub(super) struct LocateArgs {
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
     /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = LASER_HEIGHT)]
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
     height: f64,
     /// Carry what is possible along by odometry, from scan to scan
     #[arg(long)]
@@ -68,8 +68,8 @@ fn tell(lang: Lang, found: &FoundScan) -> String {
                 Lang::Ru => format!("одно из мест ({})", several.len()),
                 Lang::En => format!("one of {} places", several.len()),
             };
-            let telling = found.telling.map_or_else(String::new, |by| {
-                let told = move_in_words(by, lang.language());
+            let telling = found.telling_in_words(lang.language());
+            let telling = telling.map_or_else(String::new, |told| {
                 format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
             });
             format!("{scan}{event}: {head}: {}{telling}", several.join(" "))

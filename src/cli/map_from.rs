@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use crate::engine::{Sighted, json as views, map_file, map_from};
+use crate::engine::{Engine, Sighted, json as views};
 use crate::map::Format;
 use crate::units::write_file;
 
@@ -33,15 +33,14 @@ fn cell(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure> {
     let log = Sighted::read(&args.log)?;
-    let built = map_from(&log, args.cell)?;
+    let built = log.to_map(args.cell)?.world;
     let format = args.out.as_deref().map_or(Format::Toml, Format::of);
-    let text = map_file(&built.world, format);
+    let (rooms, doors, things) = (built.areas.len(), built.doors.len(), built.replicas.len());
+    let text = Engine::in_memory(built, None)?.export_map(format)?;
     let Some(path) = &args.out else {
         return say(text.trim_end());
     };
     write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
-    let (rooms, doors, things) =
-        (built.world.areas.len(), built.world.doors.len(), built.world.replicas.len());
     if common.json {
         let value = json!({
             "outcome": "map", "file": path.display().to_string(),
@@ -53,10 +52,7 @@ pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure
         let told = if common.lang == Lang::En {
             format!("{}: {rooms} rooms, {doors} doorways, {things} things.", path.display())
         } else {
-            format!(
-                "{}: помещений {rooms}, проходов {doors}, предметов {things}.",
-                path.display()
-            )
+            format!("{}: помещений {rooms}, проходов {doors}, предметов {things}.", path.display())
         };
         say(&told)?;
         log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));

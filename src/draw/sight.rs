@@ -170,9 +170,8 @@ pub fn beside(left: &str, right: &str) -> String {
         let value = head.split(&format!(" {name}=\"")).nth(1)?.split('"').next()?;
         value.parse::<f64>().ok()
     };
-    let size = |svg: &str| {
-        (number(svg, "width").unwrap_or(800.0), number(svg, "height").unwrap_or(600.0))
-    };
+    let size =
+        |svg: &str| (number(svg, "width").unwrap_or(800.0), number(svg, "height").unwrap_or(600.0));
     let (one, other) = (size(left), size(right));
     // Both as high as the higher one.
     let height = one.1.max(other.1);

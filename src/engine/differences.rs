@@ -21,15 +21,6 @@ use super::{Engine, Error, RequestError, Sighted, State};
 /// A scan is held against the map where its pose is known as well as this, in cm and degrees.
 const POSE_KNOWN: (f64, f64) = (12.0, 1.5);
 
-/// From where the poses of scans are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PosesFrom {
-    /// Found on the map; followed by odometry where the log has it.
-    Map,
-    /// The log tells them, in the map's frame.
-    Log,
-}
-
 /// What scans say of a thing of the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ThingNews {
@@ -68,7 +59,8 @@ pub struct Differing {
 
 impl State {
     /// What scans of a log see that a map has otherwise, by a laser at `height` cm above the Map's zero: of the scan `only`,
-    /// from 1, or of all.
+    /// from 1, or of all. Their poses are found on the map, and followed by odometry where the log has it; or the log tells
+    /// them, in the map's frame (`posed`).
     ///
     /// # Errors
     /// As [`State::find_scans`].
@@ -78,7 +70,7 @@ impl State {
         log: &Sighted,
         only: Option<usize>,
         height: f64,
-        from: PosesFrom,
+        posed: bool,
         at: Timestamp,
     ) -> Result<Differing, Error> {
         let (world, floor) = (self.world()?, self.floor(map)?);
@@ -97,9 +89,9 @@ impl State {
             }
             scans += 1;
             let sensor = log.sensor(scan);
-            let fits = match from {
-                PosesFrom::Map => found_on_map(&localiser, &mut tracker, log, scan),
-                PosesFrom::Log => {
+            let fits = match posed {
+                false => found_on_map(&localiser, &mut tracker, log, scan),
+                true => {
                     let pose = scan.pose.ok_or(RequestError::NoPose { line: scan.line })?;
                     let near = localiser.near(sensor, &scan.ranges, pose);
                     // What the log tells is made exact where the map allows it.
@@ -261,9 +253,10 @@ impl Engine {
         memory.obstacles.retain(|old| old.stands(at) && !seen.gone.contains(old));
         for new in &seen.obstacles {
             // Seen again, it is the same obstacle; the last look knows best how large it is.
-            let known = memory.obstacles.iter_mut().find(|old| {
-                old.area == new.area && distance(old, new) <= SAME_OBSTACLE
-            });
+            let known = memory
+                .obstacles
+                .iter_mut()
+                .find(|old| old.area == new.area && distance(old, new) <= SAME_OBSTACLE);
             match known {
                 Some(old) => *old = new.clone(),
                 None => memory.obstacles.push(new.clone()),
@@ -297,77 +290,81 @@ impl Differing {
         let [only] = &self.found[..] else { return None };
         Some(only.pose)
     }
-}
 
-/// What differs, a line for each.
-#[must_use]
-pub fn differences_in_words(world: &World, seen: &Differing, language: Language) -> Vec<String> {
-    let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
-    let mut lines = vec![match language {
-        Language::Russian => format!("Сканов {}, из них с известным местом {}.", seen.scans, seen.held),
-        Language::English => format!("{} scans, {} of them with a known pose.", seen.scans, seen.held),
-    }];
-    let name = |entity: Entity| named(world, entity, language);
-    let area = |id: AreaId| name(Entity::Area(id));
-    let mut same = 0;
-    for (&id, &(news, sure)) in &seen.things {
-        let thing = name(Entity::Replica(id));
-        let sure = (sure * 100.0).round();
-        match (news, language) {
-            (ThingNews::There, _) => same += 1,
-            (ThingNews::Missed, Language::Russian) => {
-                lines.push(format!("{thing}: на месте нет ({sure} %)"));
+    /// What differs, a line for each.
+    #[must_use]
+    pub fn in_words(&self, world: &World, language: Language) -> Vec<String> {
+        let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
+        let mut lines = vec![match language {
+            Language::Russian => {
+                format!("Сканов {}, из них с известным местом {}.", self.scans, self.held)
             }
-            (ThingNews::Missed, Language::English) => {
-                lines.push(format!("{thing}: not in its place ({sure} %)"));
+            Language::English => {
+                format!("{} scans, {} of them with a known pose.", self.scans, self.held)
             }
-            (ThingNews::Moved(to), _) => {
-                let (at, turn) = (to.frame.origin(), to.frame.angle.get());
-                let (x, y, room) = (at.x.round(), at.y.round(), area(to.area));
-                let now = pick("теперь", "now at");
-                lines.push(format!("{thing}: {now} ({x}, {y}), {turn:.0}°, {room} ({sure} %)"));
+        }];
+        let name = |entity: Entity| named(world, entity, language);
+        let area = |id: AreaId| name(Entity::Area(id));
+        let mut same = 0;
+        for (&id, &(news, sure)) in &self.things {
+            let thing = name(Entity::Replica(id));
+            let sure = (sure * 100.0).round();
+            match (news, language) {
+                (ThingNews::There, _) => same += 1,
+                (ThingNews::Missed, Language::Russian) => {
+                    lines.push(format!("{thing}: на месте нет ({sure} %)"));
+                }
+                (ThingNews::Missed, Language::English) => {
+                    lines.push(format!("{thing}: not in its place ({sure} %)"));
+                }
+                (ThingNews::Moved(to), _) => {
+                    let (at, turn) = (to.frame.origin(), to.frame.angle.get());
+                    let (x, y, room) = (at.x.round(), at.y.round(), area(to.area));
+                    let now = pick("теперь", "now at");
+                    lines.push(format!("{thing}: {now} ({x}, {y}), {turn:.0}°, {room} ({sure} %)"));
+                }
             }
         }
-    }
-    for (&id, news) in &seen.doors {
-        if news.is_as_mapped {
-            same += 1;
-            continue;
-        }
-        let door = name(Entity::Door(id));
-        let sure = (news.sure * 100.0).round();
-        let state = match news.state.status {
-            DoorStatus::Open => {
-                let (low, high) = news.between;
-                format!("{} ({low:.0}–{high:.0} %)", pick("открыто", "open"))
+        for (&id, news) in &self.doors {
+            if news.is_as_mapped {
+                same += 1;
+                continue;
             }
-            DoorStatus::Closed | DoorStatus::Locked => pick("закрыто", "closed"),
-        };
-        lines.push(format!("{door}: {state} ({sure} %)"));
+            let door = name(Entity::Door(id));
+            let sure = (news.sure * 100.0).round();
+            let state = match news.state.status {
+                DoorStatus::Open => {
+                    let (low, high) = news.between;
+                    format!("{} ({low:.0}–{high:.0} %)", pick("открыто", "open"))
+                }
+                DoorStatus::Closed | DoorStatus::Locked => pick("закрыто", "closed"),
+            };
+            lines.push(format!("{door}: {state} ({sure} %)"));
+        }
+        for obstacle in &self.obstacles {
+            let corners: Vec<Point> = obstacle.pieces.iter().flatten().copied().collect();
+            let bounds = Bounds::of(corners);
+            let (size, at) = (bounds.max - bounds.min, nalgebra::center(&bounds.min, &bounds.max));
+            let sure = (obstacle.sure * 100.0).round();
+            let unit = pick("см", "cm");
+            lines.push(format!(
+                "{}: {:.0} × {:.0} {unit}, ({:.0}, {:.0}), {} ({sure} %)",
+                pick("на карте этого нет", "not on the map"),
+                size.x,
+                size.y,
+                at.x,
+                at.y,
+                area(obstacle.area)
+            ));
+        }
+        if !self.gone.is_empty() {
+            let gone = pick("прежних препятствий больше нет", "obstacles that are gone");
+            lines.push(format!("{gone}: {}", self.gone.len()));
+        }
+        lines.push(match language {
+            Language::Russian => format!("Как на карте: {same}."),
+            Language::English => format!("As on the map: {same}."),
+        });
+        lines
     }
-    for obstacle in &seen.obstacles {
-        let corners: Vec<Point> = obstacle.pieces.iter().flatten().copied().collect();
-        let bounds = Bounds::of(corners);
-        let (size, at) = (bounds.max - bounds.min, nalgebra::center(&bounds.min, &bounds.max));
-        let sure = (obstacle.sure * 100.0).round();
-        let unit = pick("см", "cm");
-        lines.push(format!(
-            "{}: {:.0} × {:.0} {unit}, ({:.0}, {:.0}), {} ({sure} %)",
-            pick("на карте этого нет", "not on the map"),
-            size.x,
-            size.y,
-            at.x,
-            at.y,
-            area(obstacle.area)
-        ));
-    }
-    if !seen.gone.is_empty() {
-        let gone = pick("прежних препятствий больше нет", "obstacles that are gone");
-        lines.push(format!("{gone}: {}", seen.gone.len()));
-    }
-    lines.push(match language {
-        Language::Russian => format!("Как на карте: {same}."),
-        Language::English => format!("As on the map: {same}."),
-    });
-    lines
 }

@@ -3,9 +3,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::differences::{Differing, ThingNews};
 use super::{
-    Answer, Changes, Differing, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep,
-    Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, ThingNews, Things,
+    Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep,
+    Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things,
     Unanswered, View, Whereabout, World, face_in_words, name_in, no_way_in_words, steps,
     surprise_in_words,
 };

@@ -1,11 +1,10 @@
 //! Where the scans of a log can have been taken, on the Map (SPEC L2, L3).
 
 use crate::language::Language;
-use crate::sensing::{
-    Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, telling_move,
-};
+use crate::sensing::{Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, telling_move};
 use crate::units::{Deg, MapId, Point, Pose};
 
+use super::news::move_in_words;
 use super::{Error, RequestError, Sighted, State, Whereabout};
 
 /// A pose that a scan fits.
@@ -117,6 +116,12 @@ impl FoundScan {
             Event::GivenUp => "given_up",
             Event::Lost => "lost",
         })
+    }
+
+    /// The move that would tell the poses apart, where several fit and one does: «повернуться на 90° налево».
+    #[must_use]
+    pub fn telling_in_words(&self, language: Language) -> Option<String> {
+        self.telling.map(|by| move_in_words(by, language))
     }
 
     /// What was remarkable about the step to it, where anything was.

@@ -12,11 +12,10 @@ use crate::store::{FoundAt, Timestamp};
 use crate::units::{MapId, ReplicaId};
 
 use super::memory::ROBOT;
+use super::obstacles::is_obstacle;
 use super::position::describe;
-use super::{Error, State, decimal, is_obstacle};
+use super::{Error, Sighted, State, decimal};
 
-/// Of the laser above the map's zero, where nothing else is told, in cm.
-pub const LASER_HEIGHT: f64 = 30.0;
 /// Of more places one does not tell.
 const TOLD: usize = 4;
 
@@ -199,7 +198,7 @@ impl State {
     pub fn telling_move(&self, found: &[FoundAt]) -> Result<Option<Move>, Error> {
         let Some(first) = found.first() else { return Ok(None) };
         let world = self.world()?;
-        let chart = Chart::of_map(world, self.floor(first.map)?, LASER_HEIGHT);
+        let chart = Chart::of_map(world, self.floor(first.map)?, Sighted::LASER_HEIGHT);
         let fits: Vec<Fit> = found
             .iter()
             .map(|at| {
@@ -231,8 +230,7 @@ fn with_stop(text: &str) -> String {
 }
 
 /// «повернуться на 90° налево и проехать 2 м вперёд»
-#[must_use]
-pub fn move_in_words(by: Move, language: Language) -> String {
+pub(super) fn move_in_words(by: Move, language: Language) -> String {
     let degrees = by.turn.to_degrees().abs().round();
     let mut steps = Vec::new();
     if degrees >= 1.0 {
@@ -248,8 +246,12 @@ pub fn move_in_words(by: Move, language: Language) -> String {
     }
     if by.ahead > 0.0 {
         steps.push(match language {
-            Language::Russian => format!("проехать {} вперёд", decimal(by.ahead / 100.0, "м", language)),
-            Language::English => format!("drive {} ahead", decimal(by.ahead / 100.0, "m", language)),
+            Language::Russian => {
+                format!("проехать {} вперёд", decimal(by.ahead / 100.0, "м", language))
+            }
+            Language::English => {
+                format!("drive {} ahead", decimal(by.ahead / 100.0, "m", language))
+            }
         });
     }
     enumerate(&steps, language)

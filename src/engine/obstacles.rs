@@ -3,18 +3,16 @@
 //!
 //! **Invariant**: the surveyed map never has them; nobody can push them, since nobody knows what they are.
 
-use crate::map::{
-    BaseVector, Item, Object, Orthoframe, Permeability, Properties, Replica, World,
-};
+use crate::map::{BaseVector, Item, Object, Orthoframe, Permeability, Properties, Replica, World};
 use crate::store::SeenObstacle;
 use crate::units::{Cm, Deg, Frame, ObjectId, OrFrId, Point, ReplicaId};
 
 /// Ids from here downwards are of no map: those of a map are given upwards from 1.
-const LAST_ID: u32 = u32::MAX;
+const LAST_ID: u32 = u32::MAX - 1;
 
 /// Whether a thing is one that was only seen, and not surveyed.
 #[must_use]
-pub fn is_obstacle(id: ReplicaId) -> bool {
+pub(super) fn is_obstacle(id: ReplicaId) -> bool {
     id.0 > LAST_ID / 2
 }
 

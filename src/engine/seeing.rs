@@ -78,6 +78,9 @@ pub struct Changes {
 }
 
 impl Sighted {
+    /// Of a laser above the map's zero, where nothing else is told, in cm.
+    pub const LASER_HEIGHT: f64 = 30.0;
+
     /// Reads a log (CARMEN, rows of ranges, Breezy; also gzipped) or a picture (PNG).
     ///
     /// # Errors

@@ -8,7 +8,6 @@ use crate::map::{Entity, World};
 use crate::sensing::{Bound, Chart, Localiser, Operative, Options};
 use crate::units::{MapId, Point, Pose};
 
-use super::differences::PosesFrom;
 use super::localisation::pose_of;
 use super::{Drawing, Error, RequestError, Sighted, State};
 
@@ -35,7 +34,7 @@ impl State {
         log: &Sighted,
         scan: usize,
         height: f64,
-        from: PosesFrom,
+        posed: bool,
     ) -> Result<Option<Sighting>, Error> {
         let (world, floor) = (self.world()?, self.floor(map)?);
         let log = log.log().ok_or(RequestError::NoLog)?;
@@ -44,8 +43,8 @@ impl State {
         let chart = Chart::of_map(world, floor, height);
         let sensor = log.sensor(told);
         let localiser = Localiser::new(&chart, Options::default());
-        let poses: Vec<_> = match from {
-            PosesFrom::Map => {
+        let poses: Vec<_> = match posed {
+            false => {
                 let belief = localiser.locate(sensor, &told.ranges).into();
                 match belief {
                     crate::sensing::Belief::At(fit) => vec![fit.pose],
@@ -53,12 +52,11 @@ impl State {
                     crate::sensing::Belief::Lost => Vec::new(),
                 }
             }
-            PosesFrom::Log => vec![told.pose.ok_or(RequestError::NoPose { line: told.line })?],
+            true => vec![told.pose.ok_or(RequestError::NoPose { line: told.line })?],
         };
         let Some(&pose) = poses.first() else { return Ok(None) };
         let named = |blocker: Blocker| name_of(world, blocker, Language::Russian);
-        let operative =
-            Operative::of(sensor, &told.ranges, &pose, &world.robot, &chart, &named);
+        let operative = Operative::of(sensor, &told.ranges, &pose, &world.robot, &chart, &named);
         let at = pose_of(&pose);
         let is_one_of = poses.len();
         Ok(operative.map(|operative| Sighting { scan, pose: at, is_one_of, operative }))
@@ -117,7 +115,10 @@ impl State {
                 .passframes()
                 .iter()
                 .map(|frame| {
-                    (frame.polygon.clone(), format!("{} {}", frame.id, kind(seen.operative.kind(frame))))
+                    (
+                        frame.polygon.clone(),
+                        format!("{} {}", frame.id, kind(seen.operative.kind(frame))),
+                    )
                 })
                 .collect(),
             dead_zones: fragment.map_or_else(Vec::new, |floor| floor.dead_zones().to_vec()),
@@ -126,10 +127,22 @@ impl State {
             robot: seen.pose,
             radius: world.robot.radius.get(),
             legend: vec![
-                (SightSign::Passframe, pick("Пассфрейм видимого пола", "Passframe of the seen floor")),
-                (SightSign::DeadZone, pick("робот здесь не помещается", "the robot does not fit here")),
-                (SightSign::Line(SightLine::Known), pick("грань, которая есть на карте", "face that the map has")),
-                (SightSign::Line(SightLine::Unknown), pick("грань, которой на карте нет", "face that the map has not")),
+                (
+                    SightSign::Passframe,
+                    pick("Пассфрейм видимого пола", "Passframe of the seen floor"),
+                ),
+                (
+                    SightSign::DeadZone,
+                    pick("робот здесь не помещается", "the robot does not fit here"),
+                ),
+                (
+                    SightSign::Line(SightLine::Known),
+                    pick("грань, которая есть на карте", "face that the map has"),
+                ),
+                (
+                    SightSign::Line(SightLine::Unknown),
+                    pick("грань, которой на карте нет", "face that the map has not"),
+                ),
                 (SightSign::Line(SightLine::End), pick("граница видимости", "end of sight")),
             ],
             language,

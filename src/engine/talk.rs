@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Senses, Settled, Sighting, Thing, Unanswered,
-    Way,
+    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Senses, Settled, Sighting, Thing,
+    Unanswered, Way,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};

@@ -215,7 +215,8 @@ impl Pyramid {
             let step = 1 << level;
             let needed = least.max(best - margin);
             let parts = TOGETHER[node.level] / TOGETHER[level];
-            for turn in node.turn * parts..(node.turn + 1) * parts {
+            let turns = turned[level].iter().enumerate().skip(node.turn * parts).take(parts);
+            for (turn, marks) in turns {
                 for (column, row) in [
                     (node.column, node.row),
                     (node.column + step, node.row),
@@ -226,7 +227,7 @@ impl Pyramid {
                         continue;
                     }
                     looked += 1;
-                    let bound = self.score(level, &turned[level][turn], (column, row), needed);
+                    let bound = self.score(level, marks, (column, row), needed);
                     if bound >= needed {
                         open.push(Node { bound, level, turn, column, row });
                     }

@@ -5,7 +5,6 @@
 use super::Draft;
 use crate::map::{DoorStatus, Entity};
 use crate::question::News;
-use crate::units::AreaId;
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::Extension;
 use crate::question::lexicon::lower_first;
@@ -13,6 +12,7 @@ use crate::question::query::{Noun, Rel, Thing};
 use crate::question::{Courtesy, speech};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
+use crate::units::AreaId;
 use crate::words::{Case, Gender, Number, enumerate};
 
 impl Knowledge<'_> {
@@ -318,7 +318,10 @@ impl Knowledge<'_> {
             (true, _, true) => "всё, что есть на карте, я видел".to_owned(),
             (true, _, false) => "I have seen all that is on the map".to_owned(),
             (false, 0, true) => {
-                format!("из того, что есть на карте, я сам ещё ничего не видел, предметов {}", things.len())
+                format!(
+                    "из того, что есть на карте, я сам ещё ничего не видел, предметов {}",
+                    things.len()
+                )
             }
             (false, 0, false) => {
                 format!("of the {} things on the map I have seen none myself yet", things.len())
