@@ -12,9 +12,11 @@ use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
 
+use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
 use super::locate::LocateArgs;
+use super::map_from::MapFromArgs;
 use super::observe::ObserveCommand;
 use super::see::SeeArgs;
 use super::store::StoreCommand;
@@ -169,6 +171,10 @@ pub(super) enum Command {
     See(SeeArgs),
     /// Where the scans of a log can have been taken, by what the map has at the laser's height
     Locate(LocateArgs),
+    /// What the scans of a log see that the map has otherwise: things, doors, obstacles
+    Differences(DifferencesArgs),
+    /// A map file of the walls that a log with known poses saw
+    MapFrom(MapFromArgs),
     /// Run a Datalog program in Soufflé's dialect
     Datalog {
         program: PathBuf,

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::engine::{
-    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, directive_in_words, face_in_words,
-    no_way_in_words, opens_in_words, parse_pose, ride_in_words,
+    Drawing, Engine, Lens, Method, RequestError, Sighted, TaskAnswer, directive_in_words,
+    face_in_words, no_way_in_words, opens_in_words, parse_pose, ride_in_words,
 };
 use crate::language::Language;
 use crate::robot::Directive;
@@ -65,6 +65,26 @@ enum What {
     },
     /// What the robot sees from a pose, in perspective
     View(ViewArgs),
+    /// What one scan of a log shows of the floor, cut into Passframes, beside the map
+    Sight(SightArgs),
+}
+
+#[derive(Debug, Args)]
+struct SightArgs {
+    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
+    log: PathBuf,
+    /// Which scan of the log, from 1
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    scan: usize,
+    /// The map; may be left out when the store has only one
+    #[arg(long, value_name = "NAME")]
+    map: Option<String>,
+    /// Of the laser above the map's zero
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
+    height: f64,
+    /// The log tells the poses, in the map's frame; else the pose is found
+    #[arg(long)]
+    posed: bool,
 }
 
 #[derive(Debug, Args)]
@@ -170,6 +190,7 @@ fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
         What::Object { name } => open(common)?.draw_object(name, language)?,
         What::Corridor(args) => super::corridor::draw(common, args)?,
         What::View(view) => draw_view(common, view)?,
+        What::Sight(sight) => return draw_sight(common, sight),
         What::Route { task: Some(task), .. } => {
             let engine = open(common)?;
             let answer = engine.perform(task, &mut |_| {})?;
@@ -181,6 +202,26 @@ fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
         }
     };
     Ok(vec![sheet])
+}
+
+/// None where the scan fits nowhere.
+fn draw_sight(common: &Common, args: &SightArgs) -> Result<Vec<String>, Failure> {
+    let engine = open(common)?;
+    let map = engine.map_named(args.map.as_deref())?;
+    let log = Sighted::read(&args.log)?;
+    let Some(seen) = engine.sighting(map, &log, args.scan, args.height, args.posed)? else {
+        note(
+            common.lang.pick("Неизвестно, где этот скан снят.", "Where it was taken is not known."),
+        );
+        return Ok(Vec::new());
+    };
+    if seen.is_one_of > 1 {
+        note(&match common.lang {
+            Lang::Ru => format!("Подходит мест: {}; показано лучшее.", seen.is_one_of),
+            Lang::En => format!("{} poses fit; the best is shown.", seen.is_one_of),
+        });
+    }
+    Ok(vec![engine.draw_sighting(map, &seen, common.lang.language())?])
 }
 
 /// A sheet for each storey of the shortest way; where it leads to another storey, its legs and rides are numbered and

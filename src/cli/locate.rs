@@ -23,7 +23,7 @@ pub(super) struct LocateArgs {
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
     /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = 30.0)]
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
     height: f64,
     /// Carry what is possible along by odometry, from scan to scan
     #[arg(long)]
@@ -68,7 +68,11 @@ fn tell(lang: Lang, found: &FoundScan) -> String {
                 Lang::Ru => format!("одно из мест ({})", several.len()),
                 Lang::En => format!("one of {} places", several.len()),
             };
-            format!("{scan}{event}: {head}: {}", several.join(" "))
+            let telling = found.telling_in_words(lang.language());
+            let telling = telling.map_or_else(String::new, |told| {
+                format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
+            });
+            format!("{scan}{event}: {head}: {}{telling}", several.join(" "))
         }
     }
 }

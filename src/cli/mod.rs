@@ -8,6 +8,7 @@ mod ask;
 mod commands;
 mod corridor;
 mod demo;
+mod differences;
 mod draw;
 mod edit;
 mod export;
@@ -15,6 +16,7 @@ mod fault;
 mod import;
 mod language_server;
 mod locate;
+mod map_from;
 mod observe;
 mod plan;
 mod query;
@@ -105,6 +107,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Corridor(corridor) => corridor::run(common, corridor),
         Command::See(args) => see::run(common, args),
         Command::Locate(args) => locate::run(common, args),
+        Command::Differences(args) => differences::run(common, args),
+        Command::MapFrom(args) => map_from::run(common, args),
         Command::Datalog {
             program,
             facts,

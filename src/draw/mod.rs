@@ -30,6 +30,7 @@ mod picture;
 mod plan;
 mod rooms;
 mod seen;
+mod sight;
 mod tree;
 mod view;
 
@@ -42,5 +43,6 @@ pub use object::object_svg;
 pub use picture::{PngError, png};
 pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
 pub use seen::{SeenDrawing, SeenSegment, SeenSign, seen_svg};
+pub use sight::{SightDrawing, SightLine, SightSign, beside, sight_svg};
 pub use tree::{TreeNode, tree_svg};
 pub use view::{LeafBody, Mouth, ViewDrawing};

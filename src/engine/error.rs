@@ -119,6 +119,13 @@ pub enum RequestError {
     #[error("у скана в строке {line} нет одометрии")]
     #[diagnostic(code(locate::no_odometry), help("уберите --follow: каждый скан сам по себе"))]
     NoOdometry { line: usize },
+    /// A scan whose pose is to be taken from the log has none there.
+    #[error("у скана в строке {line} нет позы")]
+    #[diagnostic(
+        code(locate::no_pose),
+        help("уберите --posed: место будет найдено по карте; или возьмите журнал с позами")
+    )]
+    NoPose { line: usize },
     /// Scans cannot be laid beside one another.
     #[error("сканов {count}, и ни у одного нет позы: неизвестно, откуда что видно")]
     #[diagnostic(

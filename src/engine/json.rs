@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::differences::{Differing, ThingNews};
 use super::{
     Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep,
     Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things,
@@ -13,7 +14,7 @@ use crate::facts;
 use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
-use crate::map::Entity;
+use crate::map::{DoorStatus, Entity};
 use crate::semantics::Spot;
 use crate::strips::Replayed;
 use crate::units::{AreaId, Point, Pose, ReplicaId};
@@ -301,10 +302,67 @@ pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
                 (false, true) => "unknown",
             },
             "event": found.event(),
+            "telling_move": found.telling.map(|by| json!({
+                "turn_deg": round(by.turn.to_degrees()),
+                "ahead_cm": round(by.ahead),
+                "tells": by.tells,
+            })),
             "poses": poses.collect::<Vec<_>>(),
         })
     };
     json!({"outcome": "scans", "found": found.iter().map(scan).collect::<Vec<_>>()})
+}
+
+/// What scans see that a map has otherwise.
+#[must_use]
+pub fn differing(world: &World, seen: &Differing) -> Value {
+    let place = |seen: &crate::store::Seen| {
+        json!({
+            "area": world.name(Entity::Area(seen.area)),
+            "x": round(seen.frame.x.get()),
+            "y": round(seen.frame.y.get()),
+            "angle": round(seen.frame.angle.get()),
+        })
+    };
+    let things = seen.things.iter().map(|(id, (news, sure))| {
+        let (kind, to) = match news {
+            ThingNews::There => ("there", None),
+            ThingNews::Missed => ("missed", None),
+            ThingNews::Moved(to) => ("moved", Some(place(to))),
+        };
+        json!({"thing": world.name(Entity::Replica(*id)), "seen": kind, "place": to, "sure": sure})
+    });
+    let doors = seen.doors.iter().map(|(id, news)| {
+        json!({
+            "door": world.name(Entity::Door(*id)),
+            "open": news.state.status == DoorStatus::Open,
+            "opening": round(news.state.opening),
+            "least": news.between.0,
+            "most": news.between.1,
+            "as_mapped": news.is_as_mapped,
+            "sure": news.sure,
+        })
+    });
+    let obstacles = seen.obstacles.iter().map(|obstacle| {
+        let piece = |piece: &Vec<crate::units::Point>| {
+            piece.iter().map(|p| json!([round(p.x), round(p.y)])).collect::<Vec<_>>()
+        };
+        json!({
+            "area": world.name(Entity::Area(obstacle.area)),
+            "pieces": obstacle.pieces.iter().map(piece).collect::<Vec<_>>(),
+            "top": round(obstacle.top),
+            "sure": obstacle.sure,
+        })
+    });
+    json!({
+        "outcome": "differences",
+        "scans": seen.scans,
+        "held": seen.held,
+        "things": things.collect::<Vec<_>>(),
+        "doors": doors.collect::<Vec<_>>(),
+        "obstacles": obstacles.collect::<Vec<_>>(),
+        "gone": seen.gone.len(),
+    })
 }
 
 pub fn whereabout(world: &World, found: &Whereabout) -> Value {

@@ -1,9 +1,10 @@
 //! Where the scans of a log can have been taken, on the Map (SPEC L2, L3).
 
 use crate::language::Language;
-use crate::sensing::{Answer, Belief, Chart, Event, Fit, Localiser, Options, Tracker};
+use crate::sensing::{Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, telling_move};
 use crate::units::{Deg, MapId, Point, Pose};
 
+use super::news::move_in_words;
 use super::{Error, RequestError, Sighted, State, Whereabout};
 
 /// A pose that a scan fits.
@@ -30,6 +31,8 @@ pub struct FoundScan {
     pub poses: Vec<FoundPose>,
     /// Whether the first of them is the only one. One alone need not be: a corridor leaves a direction open.
     pub is_unique: bool,
+    /// Where several poses fit, the move that tells most of them apart.
+    pub telling: Option<Move>,
     event: Option<Event>,
 }
 
@@ -54,6 +57,7 @@ impl State {
         if let Some(scan) = only.filter(|&scan| scan == 0 || scan > log.scans.len()) {
             return Err(RequestError::NoScan { scan, count: log.scans.len() }.into());
         }
+        let radius = self.world()?.robot.radius.get();
         let mut found = Vec::new();
         for (scan, told) in (1..).zip(&log.scans) {
             let is_asked = only.is_none_or(|only| only == scan);
@@ -66,12 +70,7 @@ impl State {
                 let event = tracker.scan(sensor, &told.ranges, odometry);
                 (tracker.belief().clone(), Some(event))
             } else {
-                let answer = match localiser.locate(sensor, &told.ranges) {
-                    Answer::Unique(fit) => Belief::At(fit),
-                    Answer::Ambiguous(fits) => Belief::OneOf(fits),
-                    Answer::Unknown => Belief::Lost,
-                };
-                (answer, None)
+                (localiser.locate(sensor, &told.ranges).into(), None)
             };
             let (fits, is_unique) = match &answer {
                 Belief::At(fit) => (std::slice::from_ref(fit), true),
@@ -80,17 +79,15 @@ impl State {
             };
             if is_asked {
                 let poses = fits.iter().map(|fit| self.found_pose(map, fit)).collect();
-                found.push(FoundScan { scan, line: told.line, poses, is_unique, event });
+                let telling = telling_move(&chart, fits, radius);
+                found.push(FoundScan { scan, line: told.line, poses, is_unique, telling, event });
             }
         }
         Ok(found)
     }
 
     fn found_pose(&self, map: MapId, fit: &Fit) -> FoundPose {
-        let pose = Pose {
-            at: Point::from(fit.pose.translation.vector),
-            heading: Deg::from_radians(fit.pose.rotation.angle()),
-        };
+        let pose = pose_of(&fit.pose);
         let (place, heading) = fit.deviations();
         FoundPose {
             pose,
@@ -99,6 +96,13 @@ impl State {
             through: fit.through,
             place: self.locate(map, pose, false).ok(),
         }
+    }
+}
+
+pub(super) fn pose_of(pose: &nalgebra::Isometry2<f64>) -> Pose {
+    Pose {
+        at: Point::from(pose.translation.vector),
+        heading: Deg::from_radians(pose.rotation.angle()),
     }
 }
 
@@ -112,6 +116,12 @@ impl FoundScan {
             Event::GivenUp => "given_up",
             Event::Lost => "lost",
         })
+    }
+
+    /// The move that would tell the poses apart, where several fit and one does: «повернуться на 90° налево».
+    #[must_use]
+    pub fn telling_in_words(&self, language: Language) -> Option<String> {
+        self.telling.map(|by| move_in_words(by, language))
     }
 
     /// What was remarkable about the step to it, where anything was.

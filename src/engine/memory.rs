@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 use crate::geometry::FloorPlan;
 use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
-use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
+use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
+use super::obstacles::put_up;
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError, State};
 
@@ -31,6 +32,8 @@ pub struct Now {
     pub handed_over: Vec<(Replica, String)>,
     /// What lies on or in these, each with the thing with which it goes.
     pub aboard: Vec<(Replica, ReplicaId)>,
+    /// What the robot saw where the map has nothing; what of it still counts stands in the world.
+    pub obstacles: Vec<SeenObstacle>,
     /// Whether the robot stands where its last task left it; else it stands at the map's start.
     pub goes_on: bool,
 }
@@ -62,7 +65,8 @@ impl State {
         let goes_on = last.is_some();
         let start = last.or_else(|| starting_pose(&world));
         let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
-        Ok(Now { world, map, pose, held, handed_over, aboard, goes_on })
+        let obstacles = memory.obstacles.clone();
+        Ok(Now { world, map, pose, held, handed_over, aboard, obstacles, goes_on })
     }
 
     /// Of things that are carried, those that lie on or in others of them, each with the one that carries it and is itself
@@ -116,6 +120,7 @@ impl State {
                 switch(&mut replica.properties, *on);
             }
         }
+        put_up(&mut world, memory.obstacles.iter().filter(|seen| seen.stands(at)));
         Ok(world)
     }
 
@@ -266,7 +271,9 @@ impl After {
             })
             .collect();
         let pose = Some((belief.map, belief.pose));
-        let memory = RobotMemory { pose, doors, carried, devices };
+        let obstacles = before.obstacles.clone();
+        let memory =
+            RobotMemory { pose, doors, carried, devices, obstacles, ..RobotMemory::default() };
         Self { memory, moved }
     }
 }

@@ -80,6 +80,9 @@ pub struct Changes {
 }
 
 impl Sighted {
+    /// Of a laser above the map's zero, where nothing else is told, in cm.
+    pub const LASER_HEIGHT: f64 = 30.0;
+
     /// Reads a log (CARMEN, rows of ranges, Breezy; also gzipped) or a picture (PNG).
     ///
     /// # Errors
@@ -110,6 +113,11 @@ impl Sighted {
             Of::Log(log) => log.scans.len(),
             Of::Picture(_) => 1,
         }
+    }
+
+    /// The file.
+    pub(super) fn name(&self) -> &str {
+        &self.name
     }
 
     /// None where it is a picture.

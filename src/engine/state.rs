@@ -111,6 +111,7 @@ impl State {
         let unmoved = memory.doors.is_empty()
             && memory.devices.is_empty()
             && memory.carried.is_empty()
+            && memory.obstacles.is_empty()
             && reader.observed()?.is_empty();
         if unmoved {
             return Ok(None);

@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, Past, Senses, Settled, Sighting, Thing, Unanswered,
-    Way,
+    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Senses, Settled, Sighting, Thing,
+    Unanswered, Way,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -381,6 +381,18 @@ impl Senses for RobotSenses<'_> {
             place: o.seen.map(|Seen { area, .. }| area),
         };
         all.into_iter().map(sighting).collect()
+    }
+
+    fn changed(&self) -> Vec<News> {
+        self.engine.news(std::time::SystemTime::now().into()).unwrap_or_default()
+    }
+
+    fn unseen(&self) -> (Vec<ReplicaId>, usize) {
+        self.engine.unseen().unwrap_or_default()
+    }
+
+    fn sureness(&self, language: Language) -> Option<String> {
+        self.engine.sureness(language).ok().flatten()
     }
 
     fn past(&self, thing: ReplicaId) -> Vec<Past> {

@@ -47,7 +47,7 @@ pub use export::{SqliteError, read_sqlite, write_sqlite};
 pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
 pub use osmag::read as read_osmag;
-pub use read::{Format, Imported, Options, read};
+pub use read::{Format, Imported, Options, read, read_grid};
 pub use report::{Count, Deed, Note, Report, What, Why};
 pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, MapErrors, Profile, World};
-use crate::units::Source;
+use crate::units::{Deg, Frame, Point, Source};
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
@@ -297,12 +297,49 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         Some(path) => Synonyms::load(path)?,
         None => Synonyms::built_in(),
     };
-    let synonyms = synonyms.of_format(reader.key);
-    let mut survey = (reader.read)(input)?;
+    let survey = (reader.read)(input)?;
     let name = input.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into());
+    assembled(reader, &name, survey, synonyms, options)
+}
+
+/// Makes a building of an occupancy grid in memory: a binary PGM as ROS map_server has it, `cell` cm to a cell, its lower
+/// left corner at `low`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_grid(
+    name: &str,
+    picture: &[u8],
+    cell: f64,
+    low: Point,
+    options: &Options,
+) -> Result<Imported, ImportError> {
+    let sheet = ros::Sheet {
+        image: String::new(),
+        resolution: cell,
+        origin: Frame::new(low.x, low.y, 0.0, Deg::ZERO),
+        negate: false,
+        occupied_thresh: 0.65,
+        free_thresh: 0.196,
+        is_raw: false,
+    };
+    let survey = ros::read_parts(name, &sheet, picture)?;
+    let reader = READERS.iter().find(|reader| reader.format == Format::Ros);
+    let reader = reader.expect("grids are read");
+    assembled(reader, name, survey, Synonyms::built_in(), options)
+}
+
+fn assembled(
+    reader: &Reader,
+    name: &str,
+    mut survey: Survey,
+    synonyms: Synonyms,
+    options: &Options,
+) -> Result<Imported, ImportError> {
+    let synonyms = synonyms.of_format(reader.key);
     let told = if survey.frame.is_empty() { "" } else { "; " };
     survey.frame = format!("{} «{name}», см{told}{}", reader.title, survey.frame);
-    let mut report = Report::new(reader.title, &name);
+    let mut report = Report::new(reader.title, name);
     for remark in &survey.remarks {
         let why = Why::Other { text: remark.text.clone() };
         report.mended(What::Record, &remark.source, why);
@@ -322,7 +359,7 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         world.domain.profile = Profile::Detected;
         if options.profile.is_none() {
             let Feet { off, of } = feet;
-            report.noted(What::Building, &name, Why::LooseBoxes { off, of });
+            report.noted(What::Building, name, Why::LooseBoxes { off, of });
         }
     }
     Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })

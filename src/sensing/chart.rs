@@ -166,16 +166,6 @@ impl Chart {
         Self { lines, shape, low, high, buckets, columns: size.x, corner }
     }
 
-    /// For each degree of half a turn, how much of the chart runs that way: one where three metres do, or more.
-    pub(crate) fn courses(&self) -> [f64; 180] {
-        let mut lengths = [0.0; 180];
-        for line in &self.lines {
-            let along = line.end - line.start;
-            lengths[degree(along)] += along.norm();
-        }
-        lengths.map(|length| (length / 300.0_f64).min(1.0))
-    }
-
     #[must_use]
     pub fn lines(&self) -> &[Line] {
         &self.lines
@@ -221,9 +211,4 @@ impl Chart {
             .and_then(|shape| CompositeShapeRef(shape).cast_local_ray(&ray, range, true));
         hit.map_or((range, None), |(line, distance)| (distance, Some(line)))
     }
-}
-
-/// The course of a line in whole degrees of half a turn.
-pub(crate) fn degree(along: Vector2<f64>) -> usize {
-    (along.y.atan2(along.x).to_degrees().rem_euclid(180.0).round() as usize) % 180
 }

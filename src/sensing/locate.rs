@@ -2,9 +2,9 @@
 
 use nalgebra::{Isometry2, Matrix3, Vector2};
 
-use super::chart::{Chart, degree};
+use super::chart::Chart;
 use super::refine::refine;
-use super::search::{Pyramid, is_near};
+use super::search::{Mark, Pyramid, is_near};
 use crate::vectors::scan::{Extractor, Sensor};
 
 /// A pose that a scan fits.
@@ -70,7 +70,6 @@ impl Default for Options {
 pub struct Localiser<'c> {
     chart: &'c Chart,
     pyramid: Pyramid,
-    courses: [f64; 180],
     options: Options,
 }
 
@@ -81,13 +80,15 @@ const VERIFIED: usize = 120;
 const APART: f64 = 60.0;
 /// Places of which more are no answer.
 const MOST_PLACES: usize = 200;
+/// Shorter lines, in cm, have no sure course.
+const LEAST_LINE: f64 = 40.0;
 /// Of a scan with fewer returns nothing can be said.
 const LEAST_RETURNS: usize = 25;
 
 impl<'c> Localiser<'c> {
     #[must_use]
     pub fn new(chart: &'c Chart, options: Options) -> Self {
-        Self { chart, pyramid: Pyramid::of(chart), courses: chart.courses(), options }
+        Self { chart, pyramid: Pyramid::of(chart), options }
     }
 
     #[must_use]
@@ -107,16 +108,9 @@ impl<'c> Localiser<'c> {
         if returns.len() < LEAST_RETURNS {
             return Answer::Unknown;
         }
-        let turns = self.turns(sensor, ranges);
+        let marks = self.marks(sensor, ranges, &returns);
         let Options { least, margin, .. } = self.options;
-        let found = self.pyramid.search(
-            &thinned(&returns, SEARCHED),
-            &turns,
-            least * 0.8,
-            1.5 * margin,
-            APART,
-            MOST_PLACES,
-        );
+        let found = self.pyramid.search(&marks, least * 0.8, 1.5 * margin, APART, MOST_PLACES);
         let Some(found) = found else { return Answer::Unknown };
         let mut fits: Vec<Fit> = Vec::new();
         let mut is_loose = false;
@@ -149,25 +143,25 @@ impl<'c> Localiser<'c> {
         }
     }
 
-    /// The turns, by degrees, at which enough of the scan's segments run as something of the chart does: where returns lie
-    /// on lines, segments lie along them.
-    fn turns(&self, sensor: &Sensor, ranges: &[f64]) -> Vec<f64> {
+    /// Some of the returns, each with the course of the line that it is seen to lie on, if on any.
+    fn marks(&self, sensor: &Sensor, ranges: &[f64], returns: &[Vector2<f64>]) -> Vec<Mark> {
         let mut extractor = Extractor::new();
-        let segments: Vec<(usize, f64)> = extractor
-            .segments(sensor, ranges)
-            .iter()
-            .filter(|segment| segment.length() >= 20.0)
-            .map(|segment| (degree(segment.vector()), segment.length()))
-            .collect();
-        let whole: f64 = segments.iter().map(|(_, length)| length).sum();
-        let fits = |turn: &usize| {
-            let shared = segments.iter().map(|(course, length)| {
-                let near = (178..=182).map(|by| self.courses[(course + turn + by) % 180]);
-                length * near.fold(0.0, f64::max)
+        let segments: Vec<_> = extractor.segments(sensor, ranges).iter().collect();
+        let long = || segments.iter().filter(|segment| segment.length() >= LEAST_LINE);
+        let mark = |at: Vector2<f64>| {
+            let on = long().find(|segment| {
+                let v = segment.vector();
+                let share = (at - segment.start).dot(&v) / v.norm_squared();
+                (0.0..=1.0).contains(&share)
+                    && (v.perp(&(at - segment.start)) / v.norm()).abs() <= 4.0
             });
-            shared.sum::<f64>() >= 0.8 * self.options.least * whole
+            let course = on.map(|segment| {
+                let v = segment.vector();
+                v.y.atan2(v.x).to_degrees()
+            });
+            Mark { at, course }
         };
-        (0..360).filter(fits).map(|turn| (turn as f64).to_radians()).collect()
+        thinned(returns, SEARCHED).into_iter().map(mark).collect()
     }
 
     /// How a scan fits when it was taken near a pose; none where it holds none there.

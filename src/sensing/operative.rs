@@ -213,7 +213,8 @@ fn outline(
     let mut points: Vec<Corner> = Vec::new();
     for (u, &range) in sensor.directions().iter().zip(ranges) {
         let is_return = sensor.returned(range) && range <= HORIZON;
-        if !is_return && !(range >= sensor.reach().1 || range > HORIZON) {
+        let is_open = range >= sensor.reach().1 || range > HORIZON;
+        if !(is_return || is_open) {
             // Lost, or too near to be told: nothing is known this way.
             continue;
         }
@@ -314,8 +315,7 @@ fn simplified(points: &[Corner], is_closed: bool) -> Vec<Corner> {
 fn thin(points: &[Corner], from: usize, to: usize, kept: &mut Vec<usize>) {
     let (a, b) = (points[from].at, points[to].at);
     let mut worst = (0.0, from);
-    for number in from + 1..to {
-        let p = &points[number];
+    for (number, p) in points.iter().enumerate().take(to).skip(from + 1) {
         let off = (nearest_on_segment(p.at, a, b) - p.at).norm();
         let share = off / OFF.1.mul_add(p.range, OFF.0);
         if share > worst.0 {

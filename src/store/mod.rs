@@ -81,7 +81,7 @@ pub use gc::Forgotten;
 pub use keep::Store;
 pub use observe::{Belief, Observation, Proposal, Seen};
 pub use reader::Reader;
-pub use robot::RobotMemory;
+pub use robot::{FoundAt, RobotMemory, SeenObstacle};
 pub use schema::{Column, Origin, Record};
 pub use sheet::Sheet;
 pub use tables::Table;

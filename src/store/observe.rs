@@ -84,7 +84,7 @@ const SHORTEST_HALF_LIFE_HOURS: f64 = 1.0;
 const REJECTED: &str = "rejected";
 
 /// What is left of a certainty after some hours.
-fn faded(confidence: f64, move_prob: u8, hours: f64) -> f64 {
+pub(super) fn faded(confidence: f64, move_prob: u8, hours: f64) -> f64 {
     if move_prob == 0 {
         return confidence;
     }

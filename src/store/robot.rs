@@ -5,13 +5,13 @@
 use std::collections::BTreeMap;
 
 use crate::map::{DoorState, DoorStatus};
-use crate::units::{DoorId, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId};
 
 use super::cell::Key;
 use super::edits::Draft;
 use super::error::Result;
 use super::keep::Store;
-use super::observe::Observation;
+use super::observe::{Observation, faded};
 use super::reader::Reader;
 use super::schema::Record;
 use super::tables::{self as t, Table};
@@ -30,6 +30,71 @@ pub struct RobotMemory {
     pub carried: BTreeMap<ReplicaId, String>,
     /// Devices that it left switched otherwise than the map says: whether they are on.
     pub devices: BTreeMap<ReplicaId, bool>,
+    /// What it saw where the map has nothing.
+    pub obstacles: Vec<SeenObstacle>,
+    /// Where its laser told it last that it may be, the best first.
+    pub found: Vec<FoundAt>,
+}
+
+/// Something that was seen and that the map does not have, in the frame of the Area in which it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeenObstacle {
+    pub area: AreaId,
+    /// Convex and counter-clockwise, in cm.
+    pub pieces: Vec<Vec<Point>>,
+    /// Height up to which it was seen, above the Area's floor, in cm.
+    pub top: f64,
+    pub at: Timestamp,
+    /// 0..=1 when it was seen.
+    pub sure: f64,
+}
+
+impl SeenObstacle {
+    /// How sure it is at a moment that it is still there: as of what may be anywhere, half of it is left after an hour.
+    #[must_use]
+    pub fn confidence(&self, now: Timestamp) -> f64 {
+        faded(self.sure, MAY_BE_ANYWHERE, now.hours_since(self.at))
+    }
+
+    /// Whether it is to be reckoned with at a moment.
+    #[must_use]
+    pub fn stands(&self, now: Timestamp) -> bool {
+        self.confidence(now) >= RECKONED_FROM
+    }
+}
+
+/// A pose that fitted the last scan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundAt {
+    pub map: MapId,
+    pub pose: Pose,
+    /// Standard deviation of the position, cm, in its worst direction; of the heading, degrees.
+    pub deviation: (f64, f64),
+    /// Share of the beams that end where the map says.
+    pub explained: f64,
+    pub at: Timestamp,
+}
+
+const MAY_BE_ANYWHERE: u8 = 100;
+/// Below this an obstacle counts no more.
+const RECKONED_FROM: f64 = 0.25;
+
+fn pieces_in_text(pieces: &[Vec<Point>]) -> String {
+    let piece = |piece: &Vec<Point>| {
+        piece.iter().map(|p| format!("{},{}", p.x, p.y)).collect::<Vec<_>>().join(" ")
+    };
+    pieces.iter().map(piece).collect::<Vec<_>>().join(";")
+}
+
+/// What cannot be read is no piece.
+fn pieces_of_text(text: &str) -> Vec<Vec<Point>> {
+    let point = |text: &str| {
+        let (x, y) = text.split_once(',')?;
+        let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
+        (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
+    };
+    let piece = |text: &str| text.split_whitespace().map(point).collect::<Option<Vec<_>>>();
+    text.split(';').filter_map(piece).filter(|piece| piece.len() >= 3).collect()
 }
 
 impl Reader {
@@ -46,7 +111,25 @@ impl Reader {
         let doors = self.records::<t::DoorStates>(&Key::new())?;
         let carried = self.records::<t::Carried>(&Key::new())?;
         let devices = self.records::<t::DeviceStates>(&Key::new())?;
+        let obstacle = |r: t::Obstacles| SeenObstacle {
+            area: AreaId(r.area_id),
+            pieces: pieces_of_text(&r.pieces),
+            top: r.top,
+            at: Timestamp(r.at),
+            sure: r.sure,
+        };
+        let found = |r: t::FoundPoses| FoundAt {
+            map: MapId(r.map_id),
+            pose: Pose { at: Point::new(r.x, r.y), heading: Deg::of(r.ang) },
+            deviation: (r.off, r.off_ang),
+            explained: r.explained,
+            at: Timestamp(r.at),
+        };
+        let obstacles = self.records::<t::Obstacles>(&Key::new())?;
+        let poses = self.records::<t::FoundPoses>(&Key::new())?;
         Ok(RobotMemory {
+            obstacles: obstacles.into_iter().map(obstacle).collect(),
+            found: poses.into_iter().map(found).collect(),
             pose: self.robot_pose()?.map(|(map, pose, _)| (map, pose)),
             doors: doors.into_iter().map(state).collect(),
             carried: carried.into_iter().map(|r| (ReplicaId(r.repl_id), r.holder)).collect(),
@@ -108,6 +191,39 @@ impl Store {
                 .is_none_or(|r| !memory.devices.contains_key(&ReplicaId(r.repl_id)))
         };
         self.drop_all(Table::DeviceStates, stale, &mut draft, &stamp)?;
+        for (no, obstacle) in (0..).zip(&memory.obstacles) {
+            let record = t::Obstacles {
+                no,
+                area_id: obstacle.area.0,
+                pieces: pieces_in_text(&obstacle.pieces),
+                top: obstacle.top,
+                at: obstacle.at.0,
+                sure: obstacle.sure,
+            };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::Obstacles::from_row(row).is_none_or(|r| r.no as usize >= memory.obstacles.len())
+        };
+        self.drop_all(Table::Obstacles, stale, &mut draft, &stamp)?;
+        for (no, found) in (0..).zip(&memory.found) {
+            let record = t::FoundPoses {
+                no,
+                map_id: found.map.0,
+                x: found.pose.at.x,
+                y: found.pose.at.y,
+                ang: found.pose.heading.get(),
+                off: found.deviation.0,
+                off_ang: found.deviation.1,
+                explained: found.explained,
+                at: found.at.0,
+            };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::FoundPoses::from_row(row).is_none_or(|r| r.no as usize >= memory.found.len())
+        };
+        self.drop_all(Table::FoundPoses, stale, &mut draft, &stamp)?;
         self.put_observations(seen, &mut draft)?;
         self.commit_log(draft)
     }

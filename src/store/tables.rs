@@ -567,6 +567,28 @@ tables! {
         col last_seen: Option<i64> = "LastSeen",
         col missed: Option<i64> = "Missed",
     }
+    /// What was seen to stand where the map has nothing. `RecDate` says when, `RecUser` who saw it.
+    Log Obstacles = 69 {
+        key no: u32 = "No",
+        col area_id: u32 = "AreaID",
+        // Convex pieces, "x,y x,y …", one after the other with ";" between.
+        col pieces: String = "Pieces",
+        col top: f64 = "Top",
+        col at: i64 = "At",
+        col sure: f64 = "Sure",
+    }
+    /// How the robot's laser told where it stood last: one row for each pose that fitted, the best first.
+    Log FoundPoses = 70 {
+        key no: u32 = "No",
+        col map_id: u32 = "MapID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col ang: f64 = "Ang",
+        col off: f64 = "Off",
+        col off_ang: f64 = "OffAng",
+        col explained: f64 = "Explained",
+        col at: i64 = "At",
+    }
 }
 
 impl Table {

@@ -1,5 +1,6 @@
 //! The program as it is run: answers, exit codes, and what wrong input comes to.
 
+mod differences;
 mod drives;
 mod faults;
 mod language_server;

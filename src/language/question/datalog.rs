@@ -238,6 +238,9 @@ impl Rule<'_, '_> {
             | Query::Help
             | Query::WhatDoYouSee
             | Query::Deeds
+            | Query::Changed
+            | Query::Unseen
+            | Query::Sureness
             | Query::WhatDoYouHold
             | Query::Courtesy(_) => (String::new(), String::new()),
         }

@@ -125,6 +125,12 @@ pub(super) enum Mark {
     Help,
     /// «что ты сделал», "what did you do"
     Did,
+    /// «что изменилось», "what has changed"
+    Changed,
+    /// «что ты ещё не видел», "what have you not seen yet"
+    Unseen,
+    /// «насколько ты уверен, где ты», "how sure are you where you are"
+    Sureness,
     /// «куда ты смотришь», "what are you facing"
     Heading,
     /// «подробно», "in detail"

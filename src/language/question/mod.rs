@@ -59,10 +59,10 @@ pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::command::is_too_long;
-use crate::map::World;
+use crate::map::{DoorState, World};
 use crate::report::Detail;
 use crate::semantics::Relations;
-use crate::units::{AreaId, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId};
 use crate::words::{Language, everyday as everyday_words, phrase_at, word_keys};
 
 use grammar::{Item, Sentence};
@@ -101,6 +101,28 @@ pub trait Senses {
     fn sightings(&self, thing: ReplicaId) -> Vec<Sighting>;
     /// Where the map had a thing before, the oldest first; the present place is not among them.
     fn past(&self, thing: ReplicaId) -> Vec<Past>;
+    /// What is not as the map has it, as far as the robot saw or did it.
+    fn changed(&self) -> Vec<News>;
+    /// Things of the map that the robot has never seen, and how many it has.
+    fn unseen(&self) -> (Vec<ReplicaId>, usize);
+    /// How well the robot knows where it is, in words; none where it is nowhere.
+    fn sureness(&self, language: Language) -> Option<String>;
+}
+
+/// Something that is not as the map has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum News {
+    /// A thing is elsewhere: in this room.
+    Moved(ReplicaId, Option<AreaId>),
+    /// A thing is not where the map has it, and was not seen elsewhere.
+    Missed(ReplicaId),
+    /// A door stands so.
+    Door(DoorId, DoorState),
+    /// A thing that the map does not have.
+    New(ReplicaId),
+    Switched(ReplicaId, bool),
+    /// In the robot's hand, or given away.
+    Taken(ReplicaId),
 }
 
 /// A way over the floor.

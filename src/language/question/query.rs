@@ -368,6 +368,12 @@ pub enum Query {
     WhatDoYouSee,
     /// What the robot did last.
     Deeds,
+    /// What is not as the map has it.
+    Changed,
+    /// What of the map the robot has not seen.
+    Unseen,
+    /// How well the robot knows where it is.
+    Sureness,
     /// Whether one of such things is in the robot's view.
     Sees(Noun),
     WhatDoYouHold,
@@ -593,6 +599,9 @@ impl Query {
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
             | Self::Deeds
+            | Self::Changed
+            | Self::Unseen
+            | Self::Sureness
             | Self::Noted { .. }
             | Self::WhatDoYouHold => {}
         }
@@ -642,6 +651,9 @@ impl Query {
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
             Self::Deeds => "deeds",
+            Self::Changed => "changed",
+            Self::Unseen => "unseen",
+            Self::Sureness => "sureness",
             Self::Sees(_) => "sees",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",

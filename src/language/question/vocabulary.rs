@@ -478,6 +478,18 @@ const WORDS: &[(Mark, &str)] = &[
         "что ты сделал|что ты делал|что ты только что сделал|что ты только что делал|что ты уже сделал|что было сделано|что ты делал только что|какое было последнее задание|что ты сделал последним|what did you do|what have you done|what did you just do|what have you just done|what was the last thing you did|what was your last task|what were you doing|what did you do last",
     ),
     (
+        Mark::Changed,
+        "что изменилось|что поменялось|что теперь по другому|что не так как на карте|что не как на карте|чем мир отличается от карты|что отличается от карты|какие изменения|есть ли изменения|what has changed|what s changed|what changed|what is different|what s different|what is different from the map|what differs from the map|what is not as on the map|any changes|are there any changes",
+    ),
+    (
+        Mark::Unseen,
+        "что ты ещё не видел|чего ты ещё не видел|чего ты не видел|что ты не видел|что ещё не осмотрено|что ты ещё не осмотрел|чего ты ещё не осмотрел|what have you not seen yet|what have you not seen|what haven t you seen yet|what haven t you seen|what did you not see yet|what is still unseen",
+    ),
+    (
+        Mark::Sureness,
+        "насколько ты уверен где ты находишься|насколько ты уверен где находишься|насколько ты уверен где ты|насколько ты уверен в своём месте|насколько точно ты знаешь где ты находишься|насколько точно ты знаешь где ты|ты уверен где находишься|ты уверен где ты находишься|ты уверен где ты|уверен ли ты где находишься|точно ли ты знаешь где ты|how sure are you where you are|how sure are you of where you are|how sure are you about where you are|how certain are you where you are|are you sure where you are|are you certain where you are|how well do you know where you are|do you know exactly where you are",
+    ),
+    (
         Mark::Heading,
         "куда ты смотришь|куда смотришь|куда ты повёрнут|в какую сторону ты смотришь|куда ты направлен|к чему ты повёрнут|what are you facing|which way are you facing|where are you facing|where are you looking|what direction are you facing",
     ),

@@ -117,7 +117,7 @@ pub(crate) fn slack(range: f64) -> f64 {
 }
 
 /// Returns that have another beside them: one by itself is noise.
-fn in_company(extra: Vec<(usize, Point2<f64>)>, step: f64) -> Vec<(usize, Point2<f64>)> {
+fn in_company(extra: &[(usize, Point2<f64>)], step: f64) -> Vec<(usize, Point2<f64>)> {
     let near = |a: &(usize, Point2<f64>), b: &(usize, Point2<f64>)| {
         let beams = b.0 - a.0;
         // As far apart as beams are on a face seen at a sharp angle, from a few metres.
@@ -205,7 +205,7 @@ impl<'w> Inspector<'w> {
                 }
             }
         }
-        let extra = in_company(extra, sensor.step());
+        let extra = in_company(&extra, sensor.step());
         for (thing, new) in looks {
             let old = self.looks.entry(thing).or_default();
             old.struck = KEPT.mul_add(old.struck, new.struck);

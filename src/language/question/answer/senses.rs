@@ -4,6 +4,7 @@
 
 use super::Draft;
 use crate::map::{DoorStatus, Entity};
+use crate::question::News;
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::Extension;
 use crate::question::lexicon::lower_first;
@@ -11,7 +12,8 @@ use crate::question::query::{Noun, Rel, Thing};
 use crate::question::{Courtesy, speech};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
-use crate::words::{Case, Number, enumerate};
+use crate::units::AreaId;
+use crate::words::{Case, Gender, Number, enumerate};
 
 impl Knowledge<'_> {
     pub(super) fn last_seen(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -222,6 +224,124 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «Стул-1 теперь в Комнате-Z; Чашки-2 на месте нет; Дверь-ВZ закрыта»
+    pub(super) fn changed(&self) -> Draft {
+        let news = self.senses.changed();
+        if news.is_empty() {
+            let none = self.pick(
+                "насколько я видел, всё так, как на карте",
+                "as far as I have seen, all is as on the map",
+            );
+            return Draft::new(Said::Nothing, none.to_owned());
+        }
+        let mut things = Vec::new();
+        let told: Vec<String> = news.iter().map(|news| self.news(*news, &mut things)).collect();
+        Draft::new(Said::Found, told.join("; ")).with(things)
+    }
+
+    fn news(&self, news: News, things: &mut Vec<Thing>) -> String {
+        let mut thing = |entity: Entity| {
+            things.push(Thing::Entity(entity));
+            Thing::Entity(entity)
+        };
+        let room = |area: AreaId| self.place(Rel::In, &[Thing::Entity(Entity::Area(area))]);
+        match news {
+            News::Moved(id, area) => {
+                let thing = thing(Entity::Replica(id));
+                let (name, is) = (self.name(thing), self.is(&[thing]));
+                match (area.map(room), self.is_russian()) {
+                    (Some(place), true) => format!("{name} теперь {place}, на другом месте"),
+                    (None, true) => format!("{name} теперь на другом месте"),
+                    (Some(place), false) => format!("{name} {is} now elsewhere {place}"),
+                    (None, false) => format!("{name} {is} now elsewhere"),
+                }
+            }
+            News::Missed(id) => {
+                let thing = thing(Entity::Replica(id));
+                match self.is_russian() {
+                    true => format!("{} на месте нет", self.form(thing, Case::Genitive)),
+                    false => format!("{} {} not in its place", self.name(thing), self.is(&[thing])),
+                }
+            }
+            News::Door(id, state) => {
+                let thing = thing(Entity::Door(id));
+                let name = self.name(thing);
+                let (gender, number) = self.gender(thing);
+                let is_open = state.status == DoorStatus::Open;
+                let short = short_state(is_open, gender, number);
+                let how = match (is_open, state.opening < 99.5) {
+                    (true, true) if self.is_russian() => format!(" на {:.0} %", state.opening),
+                    (true, true) => format!(" by {:.0} %", state.opening),
+                    _ => String::new(),
+                };
+                match (self.is_russian(), is_open) {
+                    (true, _) => format!("{name} {short}{how}"),
+                    (false, true) => format!("{name} {} open{how}", self.is(&[thing])),
+                    (false, false) => format!("{name} {} closed", self.is(&[thing])),
+                }
+            }
+            News::New(id) => {
+                let area = self.world.replicas.get(&id).map(|replica| replica.area);
+                let thing = thing(Entity::Replica(id));
+                let place = area.map(room).unwrap_or_default();
+                match self.is_russian() {
+                    true => format!("{place} стоит {}, которого на карте нет", self.name(thing)),
+                    false => format!("{} {place} is not on the map", self.name(thing)),
+                }
+            }
+            News::Switched(id, on) => {
+                let thing = thing(Entity::Replica(id));
+                let name = self.name(thing);
+                match (self.is_russian(), on) {
+                    (true, true) => format!("{name}: включено"),
+                    (true, false) => format!("{name}: выключено"),
+                    (false, true) => format!("{name} {} on", self.is(&[thing])),
+                    (false, false) => format!("{name} {} off", self.is(&[thing])),
+                }
+            }
+            News::Taken(id) => {
+                let thing = thing(Entity::Replica(id));
+                match self.is_russian() {
+                    true => format!("{} взято с места", self.name(thing)),
+                    false => format!("{} was taken from its place", self.name(thing)),
+                }
+            }
+        }
+    }
+
+    /// «я ещё не видел Шкаф-1 и Стул-2»
+    pub(super) fn unseen(&self) -> Draft {
+        let (unseen, seen) = self.senses.unseen();
+        let things: Vec<Thing> =
+            unseen.into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect();
+        let text = match (things.is_empty(), seen, self.is_russian()) {
+            (true, _, true) => "всё, что есть на карте, я видел".to_owned(),
+            (true, _, false) => "I have seen all that is on the map".to_owned(),
+            (false, 0, true) => {
+                format!(
+                    "из того, что есть на карте, я сам ещё ничего не видел, предметов {}",
+                    things.len()
+                )
+            }
+            (false, 0, false) => {
+                format!("of the {} things on the map I have seen none myself yet", things.len())
+            }
+            (false, _, true) => format!("я ещё не видел {}", self.names(&things, Case::Accusative)),
+            (false, _, false) => format!("I have not seen {} yet", self.list(&things)),
+        };
+        let said = if things.is_empty() { Said::Nothing } else { Said::Found };
+        Draft::new(said, text).with(things)
+    }
+
+    pub(super) fn sureness(&self) -> Draft {
+        let unknown =
+            || self.pick("я не знаю, где нахожусь", "I do not know where I am").to_owned();
+        let text = self.senses.sureness(self.language);
+        let said = if text.is_some() { Said::Found } else { Said::Unknown };
+        let room = self.area_of(Thing::Robot).map(|a| Thing::Entity(Entity::Area(a)));
+        Draft::new(said, text.unwrap_or_else(unknown)).with(room.into_iter().collect())
+    }
+
     pub(super) fn what_do_you_hold(&self) -> Draft {
         let held: Vec<Thing> =
             self.senses.held().into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect();
@@ -246,4 +366,15 @@ impl Knowledge<'_> {
         let said = if seen.is_empty() { Said::Nothing } else { Said::Found };
         Draft::new(said, text).with(seen)
     }
+}
+
+/// «открыта», «закрыт»
+fn short_state(is_open: bool, gender: Gender, number: Number) -> String {
+    let ending = match (number, gender) {
+        (Number::Plural, _) => "ы",
+        (_, Gender::Feminine) => "а",
+        (_, Gender::Neuter) => "о",
+        (_, Gender::Masculine) => "",
+    };
+    format!("{}{ending}", if is_open { "открыт" } else { "закрыт" })
 }

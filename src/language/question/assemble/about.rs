@@ -25,6 +25,17 @@ impl Frame<'_, '_> {
         if self.has(Mark::Did) && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::Deeds);
         }
+        let own = [
+            (Mark::Changed, Query::Changed),
+            (Mark::Unseen, Query::Unseen),
+            (Mark::Sureness, Query::Sureness),
+        ];
+        if self.nouns.is_empty()
+            && self.spots.is_empty()
+            && let Some((_, query)) = own.into_iter().find(|(mark, _)| self.has(*mark))
+        {
+            return Some(query);
+        }
         if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::WhereAreYou(Detail::Heading));
         }

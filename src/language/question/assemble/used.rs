@@ -99,6 +99,9 @@ impl Frame<'_, '_> {
                 | Query::WhereAmI
                 | Query::WhatDoYouSee
                 | Query::Deeds
+                | Query::Changed
+                | Query::Unseen
+                | Query::Sureness
                 | Query::WhatDoYouHold
         );
         if whole {

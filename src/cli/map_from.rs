@@ -1,0 +1,61 @@
+//! `ortho map-from`: a map of the walls that a log saw.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::engine::{Engine, Sighted, json as views};
+use crate::map::Format;
+use crate::units::write_file;
+
+use super::args::{Common, Lang};
+use super::commands::note;
+use super::fault::{Failure, drawn};
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct MapFromArgs {
+    /// A log whose scans tell their poses (CARMEN, rows of ranges; also gzipped)
+    log: PathBuf,
+    /// Map file to write, as TOML, YAML or JSON by its name; standard output when left out
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// To what size walls are told apart
+    #[arg(long, value_name = "CM", default_value_t = 5.0, value_parser = cell)]
+    cell: f64,
+}
+
+fn cell(text: &str) -> Result<f64, String> {
+    let size: f64 = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
+    if (1.0..=100.0).contains(&size) { Ok(size) } else { Err("от 1 до 100 см".to_owned()) }
+}
+
+pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure> {
+    let log = Sighted::read(&args.log)?;
+    let built = log.to_map(args.cell)?.world;
+    let format = args.out.as_deref().map_or(Format::Toml, Format::of);
+    let (rooms, doors, things) = (built.areas.len(), built.doors.len(), built.replicas.len());
+    let text = Engine::in_memory(built, None)?.export_map(format)?;
+    let Some(path) = &args.out else {
+        return say(text.trim_end());
+    };
+    write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
+    if common.json {
+        let value = json!({
+            "outcome": "map", "file": path.display().to_string(),
+            "rooms": rooms, "doors": doors, "things": things,
+            "faults": views::log_faults(log.faults()),
+        });
+        say(&value.to_string())?;
+    } else {
+        let told = if common.lang == Lang::En {
+            format!("{}: {rooms} rooms, {doors} doorways, {things} things.", path.display())
+        } else {
+            format!("{}: помещений {rooms}, проходов {doors}, предметов {things}.", path.display())
+        };
+        say(&told)?;
+        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+    }
+    Ok(if log.faults().is_some() { Answer::Wrong } else { Answer::Yes })
+}

@@ -1,0 +1,258 @@
+//! What the robot can say of how its world differs from the map, of what it has not seen, and of how sure it is where it is
+//! (SPEC L5).
+
+use crate::language::Language;
+use crate::language::question::News;
+use crate::language::report::Detail;
+use crate::language::words::enumerate;
+use crate::map::is_on;
+use crate::robot::starting_pose;
+use crate::sensing::{Chart, Fit, Move, telling_move};
+use crate::store::{FoundAt, Timestamp};
+use crate::units::{MapId, ReplicaId};
+
+use super::memory::ROBOT;
+use super::obstacles::is_obstacle;
+use super::position::describe;
+use super::{Error, Sighted, State, decimal};
+
+/// Of more places one does not tell.
+const TOLD: usize = 4;
+
+impl State {
+    /// What is not as the map has it at a moment, as far as was seen or done.
+    ///
+    /// # Errors
+    /// There is no map, or a record is broken.
+    pub fn news(&self, at: Timestamp) -> Result<Vec<News>, Error> {
+        let (world, memory) = (self.world()?, self.memory()?);
+        let mut news = Vec::new();
+        if let Some(reader) = &self.reader {
+            for id in reader.observed()? {
+                let Some(replica) = world.replicas.get(&id) else { continue };
+                if memory.carried.contains_key(&id) {
+                    continue;
+                }
+                let belief = reader.belief(replica, at)?;
+                if !belief.is_surveyed {
+                    news.push(News::Moved(id, Some(belief.place.area)));
+                } else if belief.missed.is_some() {
+                    news.push(News::Missed(id));
+                }
+            }
+        }
+        let mut doors: Vec<_> = memory.doors.iter().collect();
+        doors.retain(|(id, state)| world.doors.get(*id).is_some_and(|d| d.state != **state));
+        news.extend(doors.into_iter().map(|(id, state)| News::Door(*id, *state)));
+        let now = self.around()?.world();
+        news.extend(now.replicas.keys().filter(|id| is_obstacle(**id)).map(|id| News::New(*id)));
+        for (&id, &on) in &memory.devices {
+            let was = world.replicas.get(&id).and_then(|replica| is_on(&replica.properties));
+            if was.is_some_and(|was| was != on) {
+                news.push(News::Switched(id, on));
+            }
+        }
+        let taken = memory.carried.keys().filter(|id| world.replicas.contains_key(*id));
+        news.extend(taken.map(|id| News::Taken(*id)));
+        Ok(news)
+    }
+
+    /// Things of the map that the robot itself has never seen where they are or elsewhere, and how many it has.
+    ///
+    /// # Errors
+    /// There is no map, or a record is broken.
+    pub fn unseen(&self) -> Result<(Vec<ReplicaId>, usize), Error> {
+        let world = self.world()?;
+        let mut unseen: Vec<ReplicaId> = world.replicas.keys().copied().collect();
+        let all = unseen.len();
+        if let Some(reader) = &self.reader {
+            for id in reader.observed()? {
+                let own = |o: &crate::store::Observation| o.observer == ROBOT && o.seen.is_some();
+                if reader.observations(id)?.iter().any(own) {
+                    unseen.retain(|other| *other != id);
+                }
+            }
+        }
+        let seen = all - unseen.len();
+        Ok((unseen, seen))
+    }
+
+    /// How well the robot knows where it is, in words; none where it is nowhere.
+    ///
+    /// # Errors
+    /// There is no map, or a record is broken.
+    pub fn sureness(&self, language: Language) -> Result<Option<String>, Error> {
+        let memory = self.memory()?;
+        let told_at = match &self.reader {
+            Some(reader) => reader.robot_pose()?.map(|(.., stamp)| stamp.at),
+            None => None,
+        };
+        // What the laser told counts until the robot went on or was put elsewhere.
+        let is_latest = memory.found.first().is_some_and(|f| told_at.is_none_or(|at| at <= f.at));
+        match &memory.found[..] {
+            [only] if is_latest => Ok(self.told_of(only, language)?),
+            [_, ..] if is_latest => Ok(Some(self.one_of(&memory.found, language)?)),
+            _ => {
+                let Some((map, pose)) = memory.pose.or_else(|| starting_pose(self.world().ok()?))
+                else {
+                    return Ok(None);
+                };
+                let place = self.place_in_words(map, pose, language)?;
+                let how = match (memory.pose.is_some(), language) {
+                    (true, Language::Russian) => {
+                        "это известно по последнему заданию или со слов; лазером я этого не проверял"
+                    }
+                    (false, Language::Russian) => {
+                        "это место, с которого я начинаю по карте; сам я этого не проверял"
+                    }
+                    (true, Language::English) => {
+                        "that is known from the last task or by word; I have not checked it by laser"
+                    }
+                    (false, Language::English) => {
+                        "that is where the map lets me begin; I have not checked it myself"
+                    }
+                };
+                Ok(place.map(|place| format!("{} {how}", with_stop(&place))))
+            }
+        }
+    }
+
+    fn told_of(&self, found: &FoundAt, language: Language) -> Result<Option<String>, Error> {
+        let Some(place) = self.place_in_words(found.map, found.pose, language)? else {
+            return Ok(None);
+        };
+        let (off, turn) = found.deviation;
+        let (off, share) = (off.max(1.0).round(), (found.explained * 100.0).round());
+        let turn = decimal(turn.max(0.1), "°", language);
+        let place = with_stop(&place);
+        Ok(Some(match language {
+            Language::Russian => format!(
+                "{place} я знаю это с точностью до {off} см и {turn}: с картой сходится {share} % того, что видит лазер, и больше нигде это не подходит"
+            ),
+            Language::English => format!(
+                "{place} I know it to within {off} cm and {turn}: {share} % of what the laser sees agrees with the map, and it fits nowhere else"
+            ),
+        }))
+    }
+
+    /// «либо в Комнате-В, либо в Комнате-Y; различить поможет …»
+    fn one_of(&self, found: &[FoundAt], language: Language) -> Result<String, Error> {
+        let mut places: Vec<String> = Vec::new();
+        for at in found {
+            if let Some(place) = self.place_in_words(at.map, at.pose, language)? {
+                let place = place.trim_end_matches('.');
+                let place = match language {
+                    Language::Russian => place.trim_start_matches("Я нахожусь "),
+                    Language::English => place.trim_start_matches("I am "),
+                };
+                if !places.iter().any(|known| known == place) {
+                    places.push(place.to_owned());
+                }
+            }
+        }
+        let more = places.len().saturating_sub(TOLD);
+        places.truncate(TOLD);
+        let either = match language {
+            Language::Russian => "либо ",
+            Language::English => "either ",
+        };
+        let mut text = match (places.len(), language) {
+            (0 | 1, Language::Russian) => {
+                let place = places.first().cloned().unwrap_or_default();
+                format!("не уверен: {place}, но где именно, подходит мест: {}", found.len())
+            }
+            (0 | 1, Language::English) => {
+                let place = places.first().cloned().unwrap_or_default();
+                format!("I am not sure: {place}, but {} poses there fit", found.len())
+            }
+            (_, Language::Russian) => {
+                format!("не уверен: я {either}{}", places.join(", либо "))
+            }
+            (_, Language::English) => {
+                format!("I am not sure: I am {either}{}", places.join(", or "))
+            }
+        };
+        if more > 0 {
+            text += &match language {
+                Language::Russian => format!(" (и ещё мест: {more})"),
+                Language::English => format!(" (and {more} more)"),
+            };
+        }
+        let told = self.telling_move(found)?.map_or_else(
+            || {
+                let none = ("ни один короткий ход этого не прояснит", "no short move would tell");
+                language.pick(none.0, none.1).to_owned()
+            },
+            |by| match language {
+                Language::Russian => format!("различить поможет {}", move_in_words(by, language)),
+                Language::English => format!("to tell, {}", move_in_words(by, language)),
+            },
+        );
+        Ok(format!("{text}; {told}"))
+    }
+
+    /// A move that would tell apart the poses that fit.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn telling_move(&self, found: &[FoundAt]) -> Result<Option<Move>, Error> {
+        let Some(first) = found.first() else { return Ok(None) };
+        let world = self.world()?;
+        let chart = Chart::of_map(world, self.floor(first.map)?, Sighted::LASER_HEIGHT);
+        let fits: Vec<Fit> = found
+            .iter()
+            .map(|at| {
+                let turn = at.pose.heading.radians();
+                Fit {
+                    pose: nalgebra::Isometry2::new(at.pose.at.coords, turn),
+                    covariance: nalgebra::Matrix3::zeros(),
+                    explained: at.explained,
+                    through: 0.0,
+                }
+            })
+            .collect();
+        Ok(telling_move(&chart, &fits, world.robot.radius.get()))
+    }
+
+    fn place_in_words(
+        &self,
+        map: MapId,
+        pose: crate::units::Pose,
+        language: Language,
+    ) -> Result<Option<String>, Error> {
+        let found = describe(self.world()?, self.relations()?, map, pose, None);
+        Ok(found.map(|found| found.position.say_in(language, Detail::Spot)))
+    }
+}
+
+fn with_stop(text: &str) -> String {
+    format!("{};", text.trim_end_matches('.'))
+}
+
+/// «повернуться на 90° налево и проехать 2 м вперёд»
+pub(super) fn move_in_words(by: Move, language: Language) -> String {
+    let degrees = by.turn.to_degrees().abs().round();
+    let mut steps = Vec::new();
+    if degrees >= 1.0 {
+        let left = by.turn > 0.0;
+        steps.push(match (degrees >= 175.0, left, language) {
+            (true, _, Language::Russian) => "развернуться".to_owned(),
+            (true, _, Language::English) => "turn round".to_owned(),
+            (_, true, Language::Russian) => format!("повернуться на {degrees}° налево"),
+            (_, false, Language::Russian) => format!("повернуться на {degrees}° направо"),
+            (_, true, Language::English) => format!("turn {degrees}° to the left"),
+            (_, false, Language::English) => format!("turn {degrees}° to the right"),
+        });
+    }
+    if by.ahead > 0.0 {
+        steps.push(match language {
+            Language::Russian => {
+                format!("проехать {} вперёд", decimal(by.ahead / 100.0, "м", language))
+            }
+            Language::English => {
+                format!("drive {} ahead", decimal(by.ahead / 100.0, "m", language))
+            }
+        });
+    }
+    enumerate(&steps, language)
+}
