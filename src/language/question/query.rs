@@ -372,6 +372,11 @@ pub enum Query {
     Sees(Noun),
     WhatDoYouHold,
     Describe(Noun),
+    /// What was read by the grammar files and has been answered: the form that it took, and the rule that ran.
+    Ran {
+        form: &'static str,
+        rule: String,
+    },
     /// A fact in the notation of the rules: `ON_TOP_OF(Cup 1, Table 1)`.
     Noted {
         relation: String,
@@ -594,6 +599,7 @@ impl Query {
             | Self::WhatDoYouSee
             | Self::Deeds
             | Self::Noted { .. }
+            | Self::Ran { .. }
             | Self::WhatDoYouHold => {}
         }
     }
@@ -646,6 +652,7 @@ impl Query {
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
             Self::Noted { .. } => "fact",
+            Self::Ran { form, .. } => form,
             Self::Why { .. } => "why",
         }
     }
