@@ -40,7 +40,10 @@ impl State {
         let senses = RobotSenses { engine: self };
         let answered = self.asker(&senses)?.ask(question, memory);
         let answered = match answered {
-            Err(unanswered) if unanswered.doubt.kind() == "not_understood" => {
+            Err(unanswered)
+                if ["not_understood", "incomplete", "unknown"]
+                    .contains(&unanswered.doubt.kind()) =>
+            {
                 let answer = self.ask_by_grammar(question, &senses)?;
                 answer.inspect(|answer| memory.learn(answer)).ok_or(unanswered)
             }

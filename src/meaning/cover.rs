@@ -57,7 +57,7 @@ pub(crate) fn readings(chart: &Chart<'_>, tongue: &Tongue, roles: &Signatures) -
             covers(chart, tongue, frame, roles, &mut found);
         }
     }
-    found.sort_by(|a, b| a.cost.cmp(&b.cost));
+    found.sort_by_key(|one| one.cost);
     let mut distinct: Vec<Found> = Vec::new();
     for one in found {
         if distinct.iter().all(|other| other.form != one.form) {

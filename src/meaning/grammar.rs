@@ -272,6 +272,10 @@ impl<'g> Building<'g> {
                 let of = match &rule.meaning {
                     None => Some(Type::Nothing),
                     Some(meaning) => rule.patterns.iter().find_map(|pattern| {
+                        // By a rule over what has no type yet nothing is settled.
+                        if !pattern.iter().all(|element| self.is_typed(element)) {
+                            return None;
+                        }
                         let variables = self.variables(pattern).ok()?;
                         self.check(meaning, &variables).ok().map(|(_, of)| of)
                     }),
@@ -295,6 +299,16 @@ impl<'g> Building<'g> {
                         self.reserved.insert(only.name.text.clone(), ());
                     }
                 }
+            }
+        }
+    }
+
+    fn is_typed(&self, element: &Element) -> bool {
+        match &element.kind {
+            ElementKind::Words(_) => true,
+            ElementKind::Part { category, .. } => {
+                let own = self.categories.iter().find(|(name, _)| *name == category.text);
+                own.is_some_and(|(_, of)| of.is_some())
             }
         }
     }
@@ -708,6 +722,18 @@ mod tests {
         let tongue = grammar.tongue(Language::Russian).expect("a folder of its own");
         assert!(tongue.free && tongue.frames.len() > 30);
         assert!(!grammar.tongue(Language::English).expect("a folder of its own").free);
+    }
+
+    /// The type of a category may follow from files that are read after it, in any order.
+    #[test]
+    fn the_order_of_the_files_does_not_matter() {
+        let mut files: Vec<(&str, Source)> =
+            FILES.iter().map(|(name, text)| (*name, Source::new(name, text))).collect();
+        files.reverse();
+        let (grammar, faults) = Grammar::of(&files);
+        assert!(faults.is_none(), "{faults:?}");
+        let frames = |grammar: &Grammar| grammar.tongue(Language::English).map(|t| t.frames.len());
+        assert_eq!(frames(&grammar), frames(&Grammar::built_in()));
     }
 
     #[test]

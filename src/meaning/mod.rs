@@ -37,6 +37,7 @@ pub use answer::{Answer, Found, NoAnswer, Outcome};
 pub use fault::{LangError, LangFault, LangFaults};
 pub use features::Features;
 pub use grammar::{FILES, Grammar};
+pub use query::Rows;
 pub use read::{MARGIN, Map, Reading};
 pub use term::{Desc, Dimension, Form, Head, Measure, Mod, Quant, RoleId, Sorts};
 pub use words::MapWords;

@@ -16,8 +16,11 @@ use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
 use crate::map::{DoorStatus, Entity};
 use crate::semantics::Subject;
 
-/// Runs a question of the rules' language.
-pub(crate) type Run<'r> = dyn FnMut(&str) -> Result<Vec<Vec<Value>>, String> + 'r;
+/// The rows of a question of the rules' language, or why there are none.
+pub type Rows = Result<Vec<Vec<Value>>, String>;
+
+/// Runs such a question.
+pub(crate) type Run<'r> = dyn FnMut(&str) -> Rows + 'r;
 
 /// A question on its way, with what was run for it.
 pub(crate) struct Asking<'q> {

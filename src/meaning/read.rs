@@ -4,10 +4,9 @@ use super::answer::{Answer, NoAnswer, Outcome};
 use super::chart::Chart;
 use super::cover::{DEAREST, readings};
 use super::grammar::Grammar;
-use super::query::Asking;
+use super::query::{Asking, Rows};
 use super::term::Form;
 use super::words::{MapWords, Sentence, tokens};
-use crate::facts::Value;
 use crate::language::Language;
 use crate::language::question::Lexicon;
 use crate::map::World;
@@ -60,12 +59,7 @@ impl Grammar {
 
     /// Reads a sentence and runs what it asks. Of several readings within the [`MARGIN`] all are run: where they come
     /// to the same, that is the answer.
-    pub fn ask(
-        &self,
-        map: &Map<'_>,
-        text: &str,
-        run: &mut dyn FnMut(&str) -> Result<Vec<Vec<Value>>, String>,
-    ) -> Outcome {
+    pub fn ask(&self, map: &Map<'_>, text: &str, run: &mut dyn FnMut(&str) -> Rows) -> Outcome {
         let readings = self.read(map, text);
         let Some(cheapest) = readings.first().map(|reading| reading.cost) else {
             return Outcome::NotUnderstood;

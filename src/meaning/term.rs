@@ -109,9 +109,9 @@ pub enum Mod {
         role: RoleId,
         what: Desc,
     },
-    Not(Box<Mod>),
+    Not(Box<Self>),
     /// One of these at least.
-    Either(Vec<Vec<Mod>>),
+    Either(Vec<Vec<Self>>),
     Except(Desc),
     /// Foremost by a measure.
     Best(Measure, Option<Desc>),

@@ -75,13 +75,13 @@ impl House {
         &self.mind.lexicon
     }
 
-    fn new(&self, grammar: &Grammar, text: &str) -> Outcome {
+    fn by_grammar(&self, grammar: &Grammar, text: &str) -> Outcome {
         let Self { world, relations, words, .. } = self;
         let map = Map { world, relations, lexicon: self.lexicon(), words };
         grammar.ask(&map, text, &mut |question| self.rows(question))
     }
 
-    fn old(&self, text: &str) -> Result<Old, Unanswered> {
+    fn by_the_old_way(&self, text: &str) -> Result<Old, Unanswered> {
         let Self { world, relations, mind, .. } = self;
         Asker { world, relations, mind, senses: &Blind }.ask(text, &mut Memory::default())
     }
@@ -160,7 +160,9 @@ fn agree(old: &Old, new: &Answer) -> bool {
         Found::Things(all) => set(&old.symbols) == set(all),
         Found::Truth(yes) => old.said == if *yes { Said::Yes } else { Said::No },
         Found::Number(number) => {
-            old.number.map_or(old.said == Said::Nothing && *number == 0, |n| n == *number as f64)
+            old.number.map_or(old.said == Said::Nothing && *number == 0, |n| {
+                (n - *number as f64).abs() < 0.5
+            })
         }
         Found::Length(tenths) => {
             old.number.is_some_and(|cm| (cm - *tenths as f64 / 100.0).abs() < 1.0)
@@ -197,7 +199,7 @@ fn golden_questions_come_to_the_same() {
             if line.is_empty() || line.starts_with(['#', '+']) {
                 continue;
             }
-            let (old, new) = (house.old(line), house.new(&grammar, line));
+            let (old, new) = (house.by_the_old_way(line), house.by_grammar(&grammar, line));
             let kind = match (&old, &new) {
                 (Ok(old), Outcome::Answered(answer)) if agree(old, answer) => "same",
                 (Ok(old), Outcome::Answered(_)) => {
@@ -329,6 +331,7 @@ fn mark(given: &Given, gold: &str, house: &House) -> Mark {
     if right { Mark::Right } else { Mark::Wrong }
 }
 
+#[expect(clippy::print_stdout, reason = "what went otherwise is what one looks at")]
 fn fresh(file: &str, shows: bool) -> [BTreeMap<Mark, usize>; 2] {
     let grammar = grammar();
     let (mut houses, mut counts) = (Houses::default(), [BTreeMap::new(), BTreeMap::new()]);
@@ -344,7 +347,7 @@ fn fresh(file: &str, shows: bool) -> [BTreeMap<Mark, usize>; 2] {
             other => panic!("{other}"),
         };
         let Some(house) = houses.at(map) else { continue };
-        let (old, new) = (house.old(question), house.new(&grammar, question));
+        let (old, new) = (house.by_the_old_way(question), house.by_grammar(&grammar, question));
         let wants = gold.get(..1).unwrap_or_default();
         let marks =
             [mark(&given_by_old(&old, wants), gold, house), mark(&given_by_new(&new), gold, house)];
