@@ -1,9 +1,9 @@
 //! Meaning: a sentence by grammar files to a typed logical form, and the form to a question in the rules' language.
 //!
 //! After issue 29. Words, phrases and frames stand in `rules/language`, a folder a language; nothing of a language stands
-//! here. A sentence is cut into tokens ([`words`]), phrases are built bottom up with agreement and typed attachment
-//! ([`chart`]), and a clause is the cheapest cover of *all* its words by the parts of one frame ([`cover`]). The form becomes
-//! a Datalog question ([`query`]) that the caller runs: the rule shown is the rule that ran.
+//! here. A sentence is cut into tokens (`words`), phrases are built bottom up with agreement and typed attachment
+//! (`chart`), and a clause is the cheapest cover of *all* its words by the parts of one frame (`cover`). The form becomes
+//! a Datalog question (`query`) that the caller runs: the rule shown is the rule that ran.
 //!
 //! # Invariants
 //!

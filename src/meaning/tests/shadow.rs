@@ -378,3 +378,31 @@ fn fresh_sentences_are_answered_rightly_or_not_at_all() {
         assert_eq!(new.get(&Mark::Wrong), None, "a wrong answer");
     }
 }
+
+/// A chain of prepositional phrases has exponentially many readings; the chart keeps few of them.
+#[test]
+#[expect(clippy::print_stdout, reason = "the time is worth seeing")]
+fn long_and_odd_sentences_end() {
+    let (grammar, mut houses) = (grammar(), Houses::default());
+    let house = houses.at("maps/rb2.toml").expect("part of the project");
+    let chain = format!("Где книга {}", "на столе в Комнате-В ".repeat(36));
+    let english = format!("What is {}", "on the table in the room next to the chair ".repeat(15));
+    let odd = [
+        "",
+        "?",
+        "…",
+        "«»",
+        "'s",
+        "что что что",
+        "на на на на",
+        "🤖 где 🤖",
+        "a\u{301}'t",
+        "1 2 3 4",
+    ];
+    for text in odd.into_iter().chain([chain.as_str(), &english, &"я".repeat(5_000)]) {
+        let begun = std::time::Instant::now();
+        let outcome = house.by_grammar(&grammar, text);
+        assert!(!matches!(outcome, Outcome::Answered(_)), "{text}");
+        println!("{} characters: {:?}", text.chars().count(), begun.elapsed());
+    }
+}
