@@ -55,6 +55,7 @@ use orthoframe_geometry as geometry;
 use orthoframe_graphplan as graphplan;
 use orthoframe_language as language;
 use orthoframe_map as map;
+use orthoframe_meaning as meaning;
 use orthoframe_robot as robot;
 use orthoframe_semantics as semantics;
 use orthoframe_sensing as sensing;

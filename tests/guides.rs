@@ -55,6 +55,33 @@ fn the_relation_of_the_guide_to_rules_is_derived() {
     assert!(fault.contains("more.dl"), "{fault}");
 }
 
+/// The guide's words for the guide's relation: a question that was no question before.
+#[test]
+fn a_relation_of_ones_own_is_asked_in_its_own_words() {
+    let rules = tempfile::tempdir().unwrap();
+    let guide = include_str!("../docs/rules.md");
+    let ask = |engine: &Engine, question: &str| {
+        let answer = engine.ask(question, &mut orthoframe::engine::Memory::default()).unwrap();
+        answer.map(|answer| (answer.text.clone(), engine.rule_of(&answer).unwrap()))
+    };
+    std::fs::write(rules.path().join("seats.dl"), pieces(guide, "datalog")[0]).unwrap();
+    let before = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
+    assert!(ask(&before, "Что под рукой у Кровати-1?").is_err());
+    let words = rules.path().join("language/ru");
+    std::fs::create_dir_all(&words).unwrap();
+    std::fs::write(words.join("own.lang"), pieces(guide, "lang")[0]).unwrap();
+    let engine = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
+    let (text, rule) = ask(&engine, "Что под рукой у Кровати-1?").unwrap();
+    assert!(text.contains("Лекарство"), "{text}");
+    assert!(rule.contains("AT_HAND_OF(X1, \"Кровать-1\")"), "{rule}");
+    assert_eq!(ask(&engine, "Лекарство под рукой у Кровати-1?").unwrap().0, "Да.");
+    assert_eq!(ask(&engine, "Лекарство под рукой у Стула-3?").unwrap().0, "Нет.");
+    // A fault of a grammar file is told with its place.
+    std::fs::write(words.join("own.lang"), "Prep <- под рукой у[gen] = at_hand\n").unwrap();
+    let fault = Rules::read(Some(rules.path())).unwrap_err();
+    assert!(format!("{fault:?}").contains("at_hand"), "{fault:?}");
+}
+
 #[test]
 fn the_robot_of_the_guide_to_rules_waters_its_pots() {
     let [rules] = pieces(include_str!("../docs/rules.md"), "strips")[..] else {

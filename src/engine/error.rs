@@ -10,6 +10,7 @@ use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
 use crate::map::{EnglishMapErrors, MapErrors, World};
+use crate::meaning::LangFaults;
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
@@ -34,6 +35,9 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Relations(#[from] RelationError),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Language(#[from] Box<LangFaults>),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Store(#[from] StoreError),
@@ -484,6 +488,7 @@ impl Error {
             | Self::Import(_)
             | Self::Rules(_)
             | Self::Relations(_)
+            | Self::Language(_)
             | Self::Query(_)
             | Self::Misheard(_)
             | Self::Mission(_)

@@ -1,7 +1,9 @@
 //! Where the texts that a user may edit come from: a directory of rule files, or those built in.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::meaning::{FILES, Grammar};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
 use crate::units::Source;
@@ -16,6 +18,8 @@ const ROBOT: &str = "service-robot.strips";
 pub struct Rules {
     pub relations: RelationRules,
     pub robot: Domain,
+    /// How sentences are read that the older reading refuses.
+    pub(super) grammar: Grammar,
     /// Harmless faults of the robot's rules.
     pub warnings: Vec<RuleFault>,
 }
@@ -23,7 +27,7 @@ pub struct Rules {
 impl Rules {
     /// Reads `relations.dl` and `service-robot.strips` of a directory; for a file that is not there, or
     /// without a directory, the text that was built in. Every other `.dl` file of the directory adds to the relations,
-    /// in the order of their names.
+    /// in the order of their names; so do the `.lang` files of `language` and its folders to the grammar.
     ///
     /// # Errors
     /// There is no such directory; else all faults of the relations, or of the robot's rules.
@@ -38,7 +42,7 @@ impl Rules {
             Some(path) => Domain::read(&path)?,
             None => built_in_robot()?,
         };
-        Ok(Self { relations, robot, warnings })
+        Ok(Self { relations, robot, grammar: grammar(dir)?, warnings })
     }
 
     /// `rules` in the working directory, when there is such a directory.
@@ -48,16 +52,52 @@ impl Rules {
     }
 }
 
+/// The grammar files built in, each replaced by the directory's own of that path; others of it add to them.
+fn grammar(dir: Option<&Path>) -> Result<Grammar, Error> {
+    let mut files: BTreeMap<String, Source> = BTreeMap::new();
+    for (name, text) in FILES {
+        files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), text));
+    }
+    let base = dir.map(|dir| dir.join("language")).filter(|base| base.is_dir());
+    let mut folders: Vec<(String, PathBuf)> =
+        base.map(|base| (String::new(), base)).into_iter().collect();
+    while let Some((prefix, folder)) = folders.pop() {
+        let entries = std::fs::read_dir(&folder).map_err(|e| unreadable(&folder, &e))?;
+        for entry in entries {
+            let path = entry.map_err(|e| unreadable(&folder, &e))?.path();
+            let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+            if path.is_dir() && prefix.is_empty() {
+                folders.push((format!("{name}/"), path));
+            } else if path.extension().is_some_and(|e| e == "lang") {
+                let text = Source::read(&path).map_err(|fault| RequestError::File {
+                    path: path.display().to_string(),
+                    reason: fault.to_string(),
+                    is_input: true,
+                })?;
+                files.insert(format!("{prefix}{name}"), text);
+            }
+        }
+    }
+    let files: Vec<(&str, Source)> = files.iter().map(|(n, s)| (n.as_str(), s.clone())).collect();
+    match Grammar::of(&files) {
+        (grammar, None) => Ok(grammar),
+        (_, Some(faults)) => Err(Error::Language(Box::new(faults))),
+    }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> RequestError {
+    RequestError::File {
+        path: path.display().to_string(),
+        reason: error.to_string(),
+        is_input: crate::units::is_input(error.kind()),
+    }
+}
+
 /// The rule files beside `relations.dl`.
 fn more_relations(dir: &Path) -> Result<Vec<PathBuf>, RequestError> {
-    let unreadable = |e: std::io::Error| RequestError::File {
-        path: dir.display().to_string(),
-        reason: e.to_string(),
-        is_input: crate::units::is_input(e.kind()),
-    };
     let mut files = Vec::new();
-    for entry in std::fs::read_dir(dir).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
+    for entry in std::fs::read_dir(dir).map_err(|e| unreadable(dir, &e))? {
+        let path = entry.map_err(|e| unreadable(dir, &e))?.path();
         let is_rules = path.extension().is_some_and(|e| e == "dl") && !path.is_dir();
         if is_rules && path.file_name().is_some_and(|name| name != RELATIONS) {
             files.push(path);

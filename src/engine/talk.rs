@@ -5,13 +5,14 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Senses, Settled, Sighting, Thing,
-    Unanswered, Way,
+    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Query, Said, Senses, Settled, Sighting,
+    Thing, Unanswered, Way,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
+use crate::meaning;
 use crate::robot::starting_pose;
-use crate::semantics::{Relations, derive};
+use crate::semantics::{Relations, Subject, derive};
 use crate::store::Seen;
 use crate::units::{MapId, Pose, ReplicaId};
 
@@ -38,7 +39,83 @@ impl State {
         self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         let answered = self.asker(&senses)?.ask(question, memory);
+        let answered = match answered {
+            Err(unanswered)
+                if ["not_understood", "incomplete", "unknown"]
+                    .contains(&unanswered.doubt.kind()) =>
+            {
+                let answer = self.ask_by_grammar(question, &senses)?;
+                answer.inspect(|answer| memory.learn(answer)).ok_or(unanswered)
+            }
+            other => other,
+        };
         Ok(answered.map(|answer| answer.of(memory)))
+    }
+
+    /// The answer by the grammar files, where these read a sentence in one way and whole: nothing in it was passed over
+    /// but what they call void, and all that it could mean comes to the same.
+    fn ask_by_grammar(
+        &self,
+        text: &str,
+        senses: &RobotSenses<'_>,
+    ) -> Result<Option<Answer>, Error> {
+        let now = self.around()?;
+        let (world, relations, lexicon) = (now.world(), now.relations()?, &now.mind().lexicon);
+        // Of what is carried, or elsewhere than believed, the relations do not tell all.
+        let is_sure =
+            |id: &ReplicaId| senses.doubted(*id).is_none() && senses.holder(*id).is_none();
+        if !world.replicas.keys().all(is_sure) {
+            return Ok(None);
+        }
+        let map =
+            meaning::Map { world, relations, lexicon, words: &meaning::MapWords::of(lexicon) };
+        let grammar = &now.rules.grammar;
+        let outcome = grammar.ask(&map, text, &mut |question| {
+            self.query(question, false).map(|answer| answer.rows).map_err(|e| e.to_string())
+        });
+        let meaning::Outcome::Answered(read) = outcome else { return Ok(None) };
+        let language = Language::of(text);
+        let (Some(words), 0) = (grammar.say(&map, &read, language), read.reading.cost) else {
+            return Ok(None);
+        };
+        let rule = read.rules.last().cloned().unwrap_or_default();
+        let query = Query::Ran { form: read.reading.form.word(), rule };
+        let mut symbols = Vec::new();
+        let mut number = None;
+        let said = match read.found {
+            Ok(meaning::Found::Truth(yes)) => {
+                if yes {
+                    Said::Yes
+                } else {
+                    Said::No
+                }
+            }
+            Ok(meaning::Found::Things(all)) => {
+                symbols = all;
+                if symbols.is_empty() { Said::Nothing } else { Said::Found }
+            }
+            Ok(meaning::Found::Places(all)) => {
+                symbols.extend(all.into_iter().map(|place| place.thing));
+                Said::Found
+            }
+            Ok(meaning::Found::Number(n)) => {
+                number = Some(n as f64);
+                Said::Found
+            }
+            Ok(meaning::Found::Length(tenths)) => {
+                number = Some(tenths as f64 / 100.0);
+                Said::Found
+            }
+            Ok(meaning::Found::Values(_)) => Said::Found,
+            Ok(meaning::Found::Unknown) | Err(_) => Said::Unknown,
+        };
+        let thing = |symbol: &String| match relations.symbols().subject(symbol) {
+            Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
+            _ => None,
+        };
+        let things = symbols.iter().filter_map(thing).collect();
+        let answer = Answer::ran(query, language, said, text, words);
+        Ok(Some(answer.of_things(things, symbols, number)))
     }
 
     /// The query of an answer as a Datalog rule; a remark where the map has become another since.

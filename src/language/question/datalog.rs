@@ -227,6 +227,10 @@ impl Rule<'_, '_> {
                 self.whole = Some(last.to_owned());
                 (String::new(), String::new())
             }
+            Query::Ran { rule, .. } => {
+                self.whole = Some(rule.clone());
+                (String::new(), String::new())
+            }
             Query::Noted { relation, args } => {
                 self.whole = Some(format!("{relation}({})", args.join(", ")));
                 (String::new(), String::new())

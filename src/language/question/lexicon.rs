@@ -8,7 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::names::{english_name, hints, hints_of_type};
 use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
-use crate::words::{FormIndex, Language, NounPhrase, Number, WordHints, english, everyday};
+use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 
 use super::purposes;
 use super::values::Values;
@@ -63,7 +63,7 @@ pub struct Kind {
 
 /// What a noun may mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Meaning {
+pub enum Meaning {
     Entity(Entity),
     Kind(KindId),
 }
@@ -434,7 +434,8 @@ impl Lexicon {
     }
 
     /// The kind itself and those that its word covers too.
-    pub(super) fn with_narrower(&self, id: KindId, language: Language) -> Vec<KindId> {
+    #[must_use]
+    pub fn with_narrower(&self, id: KindId, language: Language) -> Vec<KindId> {
         let kind = self.kind(id);
         if let Extension::Sort(sort) = kind.extension {
             return self.kinds_of_sort(sort);
@@ -499,7 +500,8 @@ impl Lexicon {
     }
 
     /// Whether something is a switch, by the name of its type.
-    pub(super) fn is_switch(entry: &TypeEntry) -> bool {
+    #[must_use]
+    pub fn is_switch(entry: &TypeEntry) -> bool {
         name_key(&entry.name) == "выключатель" || name_key(&entry.name_en) == "light switch"
     }
 
@@ -508,6 +510,12 @@ impl Lexicon {
     pub fn kind_of(&self, extension: &Extension) -> Option<KindId> {
         let at = self.kinds.iter().position(|k| k.extension == *extension)?;
         u16::try_from(at).ok().map(KindId)
+    }
+
+    /// What a text as a whole may mean, the most faithful spellings alone.
+    #[must_use]
+    pub fn find(&self, text: &str) -> Vec<Hit<'_, Meaning>> {
+        self.nouns.find(text)
     }
 
     /// Names that may be typed, for completion.

@@ -49,7 +49,7 @@ pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use courtesy::Courtesy;
 pub use doubts::Doubt;
 pub use knowledge::{Frame, Mind};
-pub use lexicon::{Extension, Lexicon, Window};
+pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, conditional};
 pub use outlive::{Departed, Stamp};
@@ -216,6 +216,30 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// An answer that the rules gave to what the grammar files read.
+    #[must_use]
+    pub fn ran(query: Query, language: Language, said: Said, words: &str, text: String) -> Self {
+        Self {
+            query,
+            language,
+            said,
+            text,
+            things: Vec::new(),
+            symbols: Vec::new(),
+            facts: Vec::new(),
+            number: None,
+            topic: Vec::new(),
+            words: words.to_owned(),
+            stamp: None,
+        }
+    }
+
+    /// The same with what it found, which is then spoken of, and how many or how much.
+    #[must_use]
+    pub fn of_things(self, things: Vec<Thing>, symbols: Vec<String>, number: Option<f64>) -> Self {
+        Self { topic: things.clone(), things, symbols, number, ..self }
+    }
+
     /// One answer of several: their sentences in order, all that they found and rest on.
     fn joined(answers: Vec<Self>, language: Language) -> Self {
         let said = answers.first().map_or(Said::Unknown, |first| first.said);

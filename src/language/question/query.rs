@@ -378,6 +378,11 @@ pub enum Query {
     Sees(Noun),
     WhatDoYouHold,
     Describe(Noun),
+    /// What was read by the grammar files and has been answered: the form that it took, and the rule that ran.
+    Ran {
+        form: &'static str,
+        rule: String,
+    },
     /// A fact in the notation of the rules: `ON_TOP_OF(Cup 1, Table 1)`.
     Noted {
         relation: String,
@@ -603,6 +608,7 @@ impl Query {
             | Self::Unseen
             | Self::Sureness
             | Self::Noted { .. }
+            | Self::Ran { .. }
             | Self::WhatDoYouHold => {}
         }
     }
@@ -658,6 +664,7 @@ impl Query {
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
             Self::Noted { .. } => "fact",
+            Self::Ran { form, .. } => form,
             Self::Why { .. } => "why",
         }
     }

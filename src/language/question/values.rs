@@ -361,6 +361,16 @@ impl Values {
         &self.entries[usize::from(id.0)]
     }
 
+    /// Every word for a value, in every form that is known of it.
+    pub fn words(&self) -> impl Iterator<Item = (&str, ValueId)> {
+        self.words.iter().map(|(word, id)| (word.as_str(), *id))
+    }
+
+    /// Every name of a property.
+    pub fn properties(&self) -> impl Iterator<Item = (&str, &Property)> {
+        self.properties.iter().map(|(name, property)| (name.as_str(), property))
+    }
+
     /// The value of a door's state.
     #[must_use]
     pub fn of_door(&self, status: DoorStatus) -> Option<ValueId> {

@@ -160,6 +160,8 @@ impl Knowledge<'_> {
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,
             Query::Noted { relation, args } => self.say_noted(relation, args)?,
+            // It is answered where it is read.
+            Query::Ran { rule, .. } => return Err(Doubt::NotUnderstood { words: rule.clone() }),
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,
         };
         let mut draft = draft;

@@ -92,6 +92,7 @@ impl Frame<'_, '_> {
             Query::Several(_)
                 | Query::Why { .. }
                 | Query::Noted { .. }
+                | Query::Ran { .. }
                 | Query::Help
                 | Query::People
                 | Query::Courtesy(_)

@@ -1,0 +1,257 @@
+//! What a form comes to: run on the rules, as data.
+
+use super::query::{Asking, number_of, quoted};
+use super::read::Reading;
+use super::term::{Desc, Form, Mod, Quant, Sorts};
+use crate::facts::Value;
+use crate::language::question::{Property, ValueId};
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Found {
+    /// The symbols of all that fits, sorted.
+    Things(Vec<String>),
+    /// Whether it is so.
+    Truth(bool),
+    /// Where each thing is.
+    Places(Vec<Place>),
+    Number(usize),
+    /// In tenths of a millimetre.
+    Length(i64),
+    /// As the map writes them.
+    Values(Vec<String>),
+    /// The map does not tell.
+    Unknown,
+}
+
+/// Where a thing is.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    pub thing: String,
+    /// What it lies on or in.
+    pub support: Option<String>,
+    pub room: Option<String>,
+}
+
+/// Why a form comes to nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoAnswer {
+    /// Nothing fits a description where one thing is meant.
+    NoneSuch,
+    /// Several do.
+    Ambiguous(Vec<String>),
+    /// It is understood, and no relation tells it.
+    Unfit(&'static str),
+    /// The rules refused the question.
+    Failed(String),
+}
+
+/// An answer, with what was read and what was run.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    pub reading: Reading,
+    /// The questions that ran, in the rules' language; the last is the sentence's own.
+    pub rules: Vec<String>,
+    pub found: Result<Found, NoAnswer>,
+}
+
+/// What comes of a sentence.
+#[derive(Debug, Clone)]
+pub enum Outcome {
+    Answered(Box<Answer>),
+    /// Read in one way, and there is no answer.
+    Refused(Box<Answer>),
+    /// Read in several ways that come to different things.
+    Several(Vec<Answer>),
+    NotUnderstood,
+}
+
+impl Asking<'_> {
+    pub(super) fn answer(&mut self, form: &Form) -> Result<Found, NoAnswer> {
+        match form {
+            Form::List(desc) | Form::Count(desc) | Form::Some(desc) | Form::None(desc) => {
+                let all = self.all(desc, false)?;
+                if all.is_empty() && !self.values_are_known(desc)? {
+                    return Ok(Found::Unknown);
+                }
+                Ok(match form {
+                    Form::List(_) => Found::Things(all),
+                    Form::Count(_) => Found::Number(all.len()),
+                    Form::Some(_) => Found::Truth(!all.is_empty()),
+                    _ => Found::Truth(all.is_empty()),
+                })
+            }
+            Form::Whether(desc, claims) => self.whether(desc, claims),
+            Form::Choice(desc, choices) => {
+                let symbol = self.one(desc, true)?;
+                let mut holding = Vec::new();
+                for (n, claims) in choices.iter().enumerate() {
+                    if self.holds(&symbol, desc.sorts, claims)? {
+                        holding.push(n.to_string());
+                    }
+                }
+                Ok(if holding.is_empty() { Found::Unknown } else { Found::Values(holding) })
+            }
+            Form::Place(desc) => self.places(desc),
+            Form::Room(desc) => {
+                let symbol = quoted(&self.one(desc, true)?);
+                let rule = if desc.sorts.meets(Sorts::OPENING) {
+                    format!("?- answer(R) :- (JOINS({symbol}, R, _) ; mounts({symbol}, R))")
+                } else {
+                    format!("?- answer(R) :- in_area({symbol}, R)")
+                };
+                Ok(Found::Things(self.symbols(&rule)?))
+            }
+            Form::By(desc, role) => {
+                let symbol = self.one(desc, true)?;
+                let what = self.constant(&symbol, desc)?;
+                // What is in a box in a room is in the box.
+                for sort in [Sorts::THING, Sorts::AREA] {
+                    let takes = |own: &Vec<Sorts>| own.len() == 2 && own[1].meets(sort);
+                    if self.grammar.signatures[usize::from(role.0)].iter().any(takes) {
+                        let having = Mod::Having { role: *role, what: what.clone() };
+                        let all = self.all_that(&Desc::any(sort), &[having], false)?;
+                        if !all.is_empty() {
+                            return Ok(Found::Things(all));
+                        }
+                    }
+                }
+                Ok(Found::Things(Vec::new()))
+            }
+            Form::Value(desc, property) => self.value_of(desc, property),
+            Form::Joins(desc) => {
+                let symbol = quoted(&self.one(desc, true)?);
+                let rule = format!("?- answer(R) :- (JOINS({symbol}, R, _) ; mounts({symbol}, R))");
+                Ok(Found::Things(self.symbols(&rule)?))
+            }
+            Form::Distance(a, b) => {
+                let (a, b) = (quoted(&self.one(a, true)?), quoted(&self.one(b, true)?));
+                let rows = self.rows(&format!("?- answer(D) :- distance_between({a}, {b}, D)"))?;
+                number_of(&rows).map(Found::Length).ok_or(NoAnswer::Unfit("such a distance"))
+            }
+            Form::Compare(a, b, measure) => {
+                let (a, b) = (self.one(a, true)?, self.one(b, true)?);
+                let (a, b) = (self.height(&a)?, self.height(&b)?);
+                Ok(Found::Truth(if measure.most { a > b } else { a < b }))
+            }
+        }
+    }
+
+    fn constant(&self, symbol: &str, desc: &Desc) -> Result<Desc, NoAnswer> {
+        use crate::semantics::Subject;
+        match self.map.relations.symbols().subject(symbol) {
+            Some(Subject::Entity(entity)) => Ok(Desc {
+                head: super::term::Head::Entities(vec![entity]),
+                mods: Vec::new(),
+                plural: false,
+                ..desc.clone()
+            }),
+            _ => Err(NoAnswer::Unfit("what has no name")),
+        }
+    }
+
+    fn holds(&mut self, symbol: &str, sorts: Sorts, claims: &[Mod]) -> Result<bool, NoAnswer> {
+        let desc = Desc { sorts, ..Desc::any(sorts) };
+        let desc = self.constant(symbol, &desc)?;
+        Ok(!self.all_that(&desc, claims, true)?.is_empty())
+    }
+
+    fn whether(&mut self, desc: &Desc, claims: &[Mod]) -> Result<Found, NoAnswer> {
+        let is_best = |one: &Mod| matches!(one, Mod::Best(..));
+        if claims.iter().any(is_best) {
+            return Err(NoAnswer::Unfit("whether it is foremost"));
+        }
+        if desc.is_definite() {
+            let symbol = self.one(desc, true)?;
+            if self.holds(&symbol, desc.sorts, claims)? {
+                return Ok(Found::Truth(true));
+            }
+            // No value is told of what the map gives none.
+            for one in claims {
+                let Some(value) = value_in(one) else { continue };
+                let known = self.property_known(value, &quoted(&symbol), desc.sorts);
+                let rule = known.map(|known| format!("?- answer() :- {known}"));
+                if rule.is_none_or(|rule| self.rows(&rule).is_ok_and(|rows| rows.is_empty())) {
+                    return Ok(Found::Unknown);
+                }
+            }
+            return Ok(Found::Truth(false));
+        }
+        let all = self.all(desc, true)?;
+        let so = self.all_that(desc, claims, true)?;
+        match desc.quant {
+            Quant::None => Ok(Found::Truth(so.is_empty())),
+            Quant::Some => Ok(Found::Truth(!so.is_empty())),
+            _ if all.is_empty() => Err(NoAnswer::NoneSuch),
+            _ => Ok(Found::Truth(so == all)),
+        }
+    }
+
+    /// Whether the map tells of all that fits but for its values whether it has such: else none of them is no answer.
+    fn values_are_known(&mut self, desc: &Desc) -> Result<bool, NoAnswer> {
+        let (values, others): (Vec<Mod>, Vec<Mod>) =
+            desc.mods.iter().cloned().partition(|one| value_in(one).is_some());
+        if values.is_empty() {
+            return Ok(true);
+        }
+        let bare = Desc { mods: others, ..desc.clone() };
+        let all = self.all(&bare, false)?;
+        for value in values.iter().filter_map(value_in) {
+            if !all.is_empty() && self.known(&bare, value)? != all {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn places(&mut self, desc: &Desc) -> Result<Found, NoAnswer> {
+        let things = match desc.is_definite() {
+            true => vec![self.one(desc, true)?],
+            false => self.all(desc, true)?,
+        };
+        if things.is_empty() {
+            return Err(NoAnswer::NoneSuch);
+        }
+        if !desc.sorts.meets(Sorts::THING) {
+            return Err(NoAnswer::Unfit("the place of a room or door"));
+        }
+        let mut places = Vec::new();
+        for thing in things {
+            let symbol = quoted(&thing);
+            let support = self.symbols(&format!("?- answer(Y) :- LIES_ON_OR_IN({symbol}, Y)"))?;
+            let room = self.symbols(&format!("?- answer(R) :- in_area({symbol}, R)"))?;
+            let (support, room) = (support.into_iter().next(), room.into_iter().next());
+            places.push(Place { thing, support, room });
+        }
+        Ok(Found::Places(places))
+    }
+
+    fn value_of(&mut self, desc: &Desc, property: &Property) -> Result<Found, NoAnswer> {
+        if *property == Property::Kind {
+            return Err(NoAnswer::Unfit("of what kind a thing is"));
+        }
+        let symbol = quoted(&self.one(desc, true)?);
+        let names: Vec<String> = self.names_of(property).iter().map(|name| quoted(name)).collect();
+        let mut choices: Vec<String> =
+            names.iter().map(|name| format!("HAS({symbol}, {name}, V)")).collect();
+        if *property == Property::State && !desc.sorts.meets(Sorts::THING) {
+            choices.push(format!("DOOR_IS({symbol}, V)"));
+        }
+        if choices.is_empty() {
+            return Ok(Found::Unknown);
+        }
+        let rows = self.rows(&format!("?- answer(V) :- {}", super::query::either(&choices)))?;
+        let values: Vec<String> =
+            rows.into_iter().flatten().map(|value: Value| value.to_string()).collect();
+        Ok(if values.is_empty() { Found::Unknown } else { Found::Values(values) })
+    }
+}
+
+/// The value that a thing is said to have, or not to have.
+fn value_in(one: &Mod) -> Option<ValueId> {
+    match one {
+        Mod::Value(value) => Some(*value),
+        Mod::Not(inner) => value_in(inner),
+        _ => None,
+    }
+}

@@ -1,0 +1,481 @@
+//! A `.lang` file as statements, before anything in it is known to mean something.
+//!
+//! ```text
+//! void   пожалуйста | будь добр                         skipped for nothing          loose: skipped at a cost, told
+//! order  free                                           frames are bags of slots     fixed: sequences
+//! say    yes "Да."                                      how an answer is told
+//! reserved Not All                                      categories whose words no frame may have as its own
+//! role   on(x: Thing, y: Thing) = ON_TOP_OF(x, y) | BORNE_BY(x, y)                   what runs, in the rules' language
+//! Prep   <- на[loc] | сверху на[loc] = on               words of a category, with what they mean
+//! NP     <- a:Adj n:NP {agree a n} = n & a              a phrase
+//! list(x & p) <- какие x:NP[nom] pos? p:PP* {cost 1}    a frame: what a clause asks
+//! ```
+//!
+//! A statement is a line; lines that begin with a blank go on with it. Categories begin with a Latin capital, all other
+//! bare names in a pattern are words of the language. `~слово` stands for all forms of the word.
+
+use std::ops::Range;
+
+use super::fault::{LangError, LangFault};
+use super::features::Features;
+use crate::units::{Source, name_key};
+
+/// A name with its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Name {
+    pub(crate) text: String,
+    pub(crate) at: Range<usize>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Statement {
+    Skip {
+        loose: bool,
+        words: Vec<Vec<Name>>,
+    },
+    Order {
+        free: bool,
+    },
+    /// Categories whose words carry a meaning that no frame may swallow.
+    Reserved(Vec<Name>),
+    /// How an answer is told.
+    Say {
+        name: Name,
+        text: String,
+    },
+    Role {
+        name: Name,
+        parameters: Vec<(Name, Vec<Name>)>,
+        bodies: Vec<String>,
+    },
+    Rule(Rule),
+}
+
+/// Words of a category, a phrase or a frame.
+#[derive(Debug, Clone)]
+pub(crate) struct Rule {
+    pub(crate) left: Left,
+    pub(crate) patterns: Vec<Vec<Element>>,
+    pub(crate) agree: Vec<Name>,
+    pub(crate) cost: u32,
+    pub(crate) meaning: Option<Expr>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Left {
+    Category(Name),
+    /// The meaning stands on the left.
+    Form(Name),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Repeat {
+    Once,
+    Optional,
+    Any,
+    Some,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Element {
+    pub(crate) kind: ElementKind,
+    pub(crate) repeat: Repeat,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum ElementKind {
+    /// One of these runs of words.
+    Words(Vec<Vec<Word>>),
+    Part {
+        variable: Option<Name>,
+        category: Name,
+        features: Features,
+    },
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Word {
+    pub(crate) name: Name,
+    /// Any form of it.
+    pub(crate) declines: bool,
+    pub(crate) features: Features,
+}
+
+/// What a rule means, in terms of its variables.
+#[derive(Debug, Clone)]
+pub(crate) enum Expr {
+    Name(Name),
+    Call(Name, Vec<Self>),
+    And(Vec<Self>),
+    Number(u64),
+}
+
+/// The statements of a file that read well; the faults of the others.
+pub(crate) fn read(source: &Source, faults: &mut Vec<LangFault>) -> Vec<Statement> {
+    let mut found = Vec::new();
+    for range in statements(source.text()) {
+        let mut parser = Parser { text: source.text(), at: range.start, end: range.end };
+        match parser.statement() {
+            Ok(statement) => found.push(statement),
+            Err(error) => faults.push(LangFault { error, file: source.clone() }),
+        }
+    }
+    found
+}
+
+/// Where statements stand: a line and those after it that begin with a blank.
+fn statements(text: &str) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        let range = at..at + line.len();
+        at = range.end;
+        let bare = line.trim();
+        if bare.is_empty() || bare.starts_with("//") {
+            continue;
+        }
+        match found.last_mut() {
+            Some(last) if line.starts_with([' ', '\t']) => last.end = range.end,
+            _ => found.push(range),
+        }
+    }
+    found
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    at: usize,
+    end: usize,
+}
+
+type Parsed<T> = Result<T, LangError>;
+
+impl<'t> Parser<'t> {
+    fn blank(&mut self) {
+        loop {
+            let rest = &self.text[self.at..self.end];
+            let trimmed = rest.trim_start();
+            self.at += rest.len() - trimmed.len();
+            if !trimmed.starts_with("//") {
+                return;
+            }
+            self.at += trimmed.find('\n').unwrap_or(trimmed.len());
+        }
+    }
+
+    fn rest(&mut self) -> &'t str {
+        self.blank();
+        &self.text[self.at..self.end]
+    }
+
+    fn takes(&mut self, mark: &str) -> bool {
+        let is_there = self.rest().starts_with(mark);
+        if is_there {
+            self.at += mark.len();
+        }
+        is_there
+    }
+
+    fn wants<T>(&mut self, expected: &'static str) -> Parsed<T> {
+        let rest = self.rest();
+        let length = rest.chars().next().map_or(0, char::len_utf8);
+        // What lacks at the end lacks behind the last word.
+        let at = if length == 0 { self.text[..self.end].trim_end().len() } else { self.at };
+        Err(LangError::Syntax { expected, at: (at, length).into() })
+    }
+
+    fn needs(&mut self, mark: &str, expected: &'static str) -> Parsed<()> {
+        if self.takes(mark) { Ok(()) } else { self.wants(expected) }
+    }
+
+    /// Letters, digits, «_» and apostrophes.
+    fn name(&mut self) -> Option<Name> {
+        let rest = self.rest();
+        let is_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+        let length = rest.find(|c| !is_of_name(c)).unwrap_or(rest.len());
+        if length == 0 {
+            return None;
+        }
+        let at = self.at..self.at + length;
+        self.at += length;
+        Some(Name { text: rest[..length].to_owned(), at })
+    }
+
+    fn named(&mut self, expected: &'static str) -> Parsed<Name> {
+        match self.name() {
+            Some(name) => Ok(name),
+            None => self.wants(expected),
+        }
+    }
+
+    fn ends(&mut self) -> Parsed<()> {
+        if self.rest().is_empty() { Ok(()) } else { self.wants("конец строки") }
+    }
+
+    fn statement(&mut self) -> Parsed<Statement> {
+        let first = self.named("void, loose, order, role, категория или форма")?;
+        let is_rule = self.rest().starts_with(['<', '(']);
+        let statement = match first.text.as_str() {
+            "void" | "loose" => {
+                let mut words = vec![self.run_of_names()?];
+                while self.takes("|") {
+                    words.push(self.run_of_names()?);
+                }
+                Statement::Skip { loose: first.text == "loose", words }
+            }
+            "order" => match self.named("free или fixed")?.text.as_str() {
+                "free" => Statement::Order { free: true },
+                "fixed" => Statement::Order { free: false },
+                _ => return self.wants("free или fixed"),
+            },
+            "reserved" => Statement::Reserved(self.run_of_names()?),
+            "say" if !is_rule => {
+                let name = self.named("имя ответа")?;
+                self.needs("\"", "текст в кавычках")?;
+                let Some(length) = self.text[self.at..self.end].find('"') else {
+                    return self.wants("закрывающая кавычка");
+                };
+                let text = self.text[self.at..self.at + length].to_owned();
+                self.at += length + 1;
+                Statement::Say { name, text }
+            }
+            "role" if !is_rule => self.role()?,
+            _ => Statement::Rule(self.rule(first)?),
+        };
+        self.ends()?;
+        Ok(statement)
+    }
+
+    fn run_of_names(&mut self) -> Parsed<Vec<Name>> {
+        let mut names = vec![self.named("слово")?];
+        loop {
+            if self.takes(",") {
+                names.push(Name { text: ",".to_owned(), at: self.at - 1..self.at });
+            } else if let Some(name) = self.name() {
+                names.push(name);
+            } else {
+                return Ok(names);
+            }
+        }
+    }
+
+    fn role(&mut self) -> Parsed<Statement> {
+        let name = self.named("имя отношения")?;
+        let mut parameters = Vec::new();
+        self.needs("(", "«(»")?;
+        loop {
+            let variable = self.named("имя аргумента")?;
+            self.needs(":", "«:»")?;
+            let mut types = vec![self.named("тип")?];
+            while self.takes("|") {
+                types.push(self.named("тип")?);
+            }
+            parameters.push((variable, types));
+            if !self.takes(",") {
+                break;
+            }
+        }
+        self.needs(")", "«)» или «,»")?;
+        self.needs("=", "«=»")?;
+        let body = self.rest();
+        let body = body.split("//").next().unwrap_or_default().trim();
+        self.at = self.end;
+        let bodies = body.split('|').map(|one| one.trim().to_owned()).collect();
+        Ok(Statement::Role { name, parameters, bodies })
+    }
+
+    fn rule(&mut self, first: Name) -> Parsed<Rule> {
+        let is_category = first.text.starts_with(|c: char| c.is_ascii_uppercase());
+        let (left, mut meaning) = match is_category {
+            true => (Left::Category(first), None),
+            false => {
+                let name = first.clone();
+                (Left::Form(name), Some(self.call(first)?))
+            }
+        };
+        self.needs("<-", "«<-»")?;
+        let mut patterns = vec![self.pattern()?];
+        while self.takes("|") {
+            patterns.push(self.pattern()?);
+        }
+        let (mut agree, mut cost) = (Vec::new(), 0);
+        if self.takes("{") {
+            loop {
+                match self.named("agree или cost")?.text.as_str() {
+                    "agree" => {
+                        while let Some(name) = self.name() {
+                            agree.push(name);
+                        }
+                    }
+                    "cost" => match self.named("число")?.text.parse() {
+                        Ok(number) => cost = number,
+                        Err(_) => return self.wants("число"),
+                    },
+                    _ => return self.wants("agree или cost"),
+                }
+                if !self.takes(",") {
+                    break;
+                }
+            }
+            self.needs("}", "«}»")?;
+        }
+        if is_category && self.takes("=") {
+            meaning = Some(self.expression()?);
+        }
+        Ok(Rule { left, patterns, agree, cost, meaning })
+    }
+
+    fn pattern(&mut self) -> Parsed<Vec<Element>> {
+        let mut elements: Vec<Element> = Vec::new();
+        // Words that follow each other are one element.
+        let mut is_run = false;
+        loop {
+            let rest = self.rest();
+            if rest.is_empty() || rest.starts_with(['|', '{', '=', ')']) {
+                break;
+            }
+            if self.takes("(") {
+                let mut choices = vec![self.words()?];
+                while self.takes("|") {
+                    choices.push(self.words()?);
+                }
+                self.needs(")", "«)» или «|»")?;
+                let repeat = self.repeat();
+                elements.push(Element { kind: ElementKind::Words(choices), repeat });
+                is_run = false;
+                continue;
+            }
+            let is_word = rest.starts_with(['~', ',', ':']) || {
+                let ahead = self.at;
+                let name = self.named("слово или категория")?;
+                let named = self.rest().starts_with(':') && !self.rest().starts_with(": ");
+                self.at = ahead;
+                !named && !name.text.starts_with(|c: char| c.is_ascii_uppercase())
+            };
+            if !is_word {
+                elements.push(self.part()?);
+                is_run = false;
+                continue;
+            }
+            let word = self.word()?;
+            let repeat = self.repeat();
+            match elements.last_mut() {
+                Some(Element { kind: ElementKind::Words(choices), .. })
+                    if is_run && repeat == Repeat::Once =>
+                {
+                    choices[0].push(word);
+                }
+                _ => elements.push(Element { kind: ElementKind::Words(vec![vec![word]]), repeat }),
+            }
+            is_run = repeat == Repeat::Once;
+        }
+        if elements.is_empty() {
+            self.wants("слово или категория")
+        } else {
+            Ok(elements)
+        }
+    }
+
+    fn words(&mut self) -> Parsed<Vec<Word>> {
+        let mut words = vec![self.word()?];
+        while !self.rest().starts_with([')', '|']) {
+            words.push(self.word()?);
+        }
+        Ok(words)
+    }
+
+    fn word(&mut self) -> Parsed<Word> {
+        for mark in [",", ":"] {
+            if self.takes(mark) {
+                let name = Name { text: mark.to_owned(), at: self.at - 1..self.at };
+                return Ok(Word { name, declines: false, features: Features::ALL });
+            }
+        }
+        let declines = self.takes("~");
+        let mut name = self.named("слово")?;
+        name.text = name_key(&name.text);
+        let features = self.features()?;
+        Ok(Word { name, declines, features })
+    }
+
+    fn part(&mut self) -> Parsed<Element> {
+        let first = self.named("категория")?;
+        let (variable, category) = match self.takes(":") {
+            true => (Some(first), self.named("категория")?),
+            false => (None, first),
+        };
+        let features = self.features()?;
+        let repeat = self.repeat();
+        Ok(Element { kind: ElementKind::Part { variable, category, features }, repeat })
+    }
+
+    fn repeat(&mut self) -> Repeat {
+        let marks = [("?", Repeat::Optional), ("*", Repeat::Any), ("+", Repeat::Some)];
+        let found = marks.into_iter().find(|(mark, _)| self.takes(mark));
+        found.map_or(Repeat::Once, |(_, repeat)| repeat)
+    }
+
+    fn features(&mut self) -> Parsed<Features> {
+        if !self.takes("[") {
+            return Ok(Features::ALL);
+        }
+        let start = self.at;
+        let mut names = Vec::new();
+        while let Some(name) = self.name() {
+            names.push(name.text);
+        }
+        let found = Features::named(&names.iter().map(String::as_str).collect::<Vec<_>>());
+        let at = (start, self.at - start).into();
+        self.needs("]", "«]»")?;
+        found.map_err(|name| LangError::Unknown { what: "признак", name, nearest: None, at })
+    }
+
+    fn call(&mut self, name: Name) -> Parsed<Expr> {
+        self.needs("(", "«(»")?;
+        let mut arguments = Vec::new();
+        while !self.takes(")") {
+            arguments.push(self.expression()?);
+            if !self.takes(",") && !self.rest().starts_with(')') {
+                return self.wants("«)» или «,»");
+            }
+        }
+        Ok(Expr::Call(name, arguments))
+    }
+
+    fn expression(&mut self) -> Parsed<Expr> {
+        let mut parts = vec![self.atom()?];
+        while self.takes("&") {
+            parts.push(self.atom()?);
+        }
+        Ok(if parts.len() == 1 { parts.swap_remove(0) } else { Expr::And(parts) })
+    }
+
+    fn atom(&mut self) -> Parsed<Expr> {
+        let name = self.named("имя или число")?;
+        if let Ok(number) = name.text.parse() {
+            return Ok(Expr::Number(number));
+        }
+        if self.rest().starts_with('(') { self.call(name) } else { Ok(Expr::Name(name)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statements_are_read_and_faults_have_their_places() {
+        let text = "void пожалуйста | будь добр\n// remark\n\nNP <- a:Adj n:NP {agree a n} = n & a\nrole on(x: Thing, y) = A\n\
+                    list(x & p) <- (что | кто) стоит ли? x:NP[nom pl]\n    p:PP*   // goes on\nPrep <- на[вот] = on\n";
+        let source = Source::new("a.lang", text);
+        let mut faults = Vec::new();
+        let found = read(&source, &mut faults);
+        assert_eq!(found.len(), 3);
+        let Statement::Rule(frame) = &found[2] else { panic!("{found:?}") };
+        let repeats: Vec<Repeat> = frame.patterns[0].iter().map(|e| e.repeat).collect();
+        use Repeat::{Any, Once, Optional};
+        assert_eq!(repeats, [Once, Once, Optional, Once, Any]);
+        let places: Vec<_> = faults.iter().map(LangFault::place).map(|(_, l, c)| (l, c)).collect();
+        assert_eq!(places, [(5, 20), (8, 12)]);
+    }
+}

@@ -1,0 +1,507 @@
+//! Logical forms as questions in the rules' language.
+//!
+//! A description becomes premises about a variable; a definite one is looked for first and stands as a constant, so that
+//! what runs begins with what is known. Negation and what all must have get a relation of the question's own.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use super::answer::NoAnswer;
+use super::grammar::Grammar;
+use super::read::Map;
+use super::sense::Signatures;
+use super::term::{Desc, Dimension, Head, Measure, Mod, Quant, RoleId, Sorts};
+use crate::facts::Value;
+use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
+use crate::map::{DoorStatus, Entity};
+use crate::semantics::Subject;
+
+/// The rows of a question of the rules' language, or why there are none.
+pub type Rows = Result<Vec<Vec<Value>>, String>;
+
+/// Runs such a question.
+pub(crate) type Run<'r> = dyn FnMut(&str) -> Rows + 'r;
+
+/// A question on its way, with what was run for it.
+pub(crate) struct Asking<'q> {
+    pub(crate) grammar: &'q Grammar,
+    pub(crate) map: &'q Map<'q>,
+    pub(crate) run: &'q mut Run<'q>,
+    /// Every question that ran.
+    pub(crate) rules: Vec<String>,
+}
+
+/// Premises about one thing.
+#[derive(Default)]
+struct Body {
+    premises: Vec<String>,
+    helpers: Vec<String>,
+    variables: usize,
+    /// Definite others may be any of those that fit.
+    is_loose: bool,
+}
+
+impl Body {
+    fn variable(&mut self) -> String {
+        self.variables += 1;
+        format!("X{}", self.variables)
+    }
+}
+
+const FALSE: &str = "1 = 2";
+
+impl Asking<'_> {
+    /// The symbols of all that fits a description.
+    pub(crate) fn all(&mut self, desc: &Desc, is_loose: bool) -> Result<Vec<String>, NoAnswer> {
+        self.all_that(desc, &[], is_loose)
+    }
+
+    /// The symbols of all that fits a description and of which this holds too.
+    pub(crate) fn all_that(
+        &mut self,
+        desc: &Desc,
+        claims: &[Mod],
+        is_loose: bool,
+    ) -> Result<Vec<String>, NoAnswer> {
+        let mut body = Body { is_loose, ..Body::default() };
+        let x = body.variable();
+        self.describe(desc, &x, &mut body)?;
+        self.said(claims, &x, desc.sorts, &mut body)?;
+        let best = desc.mods.iter().find_map(|one| match one {
+            Mod::Best(measure, to) => Some((*measure, to.as_ref())),
+            _ => None,
+        });
+        let mut rule = body.helpers.join("\n");
+        if let Some((measure, to)) = best {
+            let (premise, v) = self.measured(&x, measure, to, &mut body)?;
+            let (premises, extreme) =
+                (body.premises.join(", "), if measure.most { "max" } else { "min" });
+            let _ = write!(
+                rule,
+                "\n.decl measured(x: Any, v: number)\nmeasured({x}, {v}) :- {premises}, {premise}.\n\
+                 ?- answer({x}) :- measured({x}, {v}), {v} = {extreme} v : {{ measured(_, v) }}"
+            );
+        } else {
+            let _ = write!(rule, "\n?- answer({x}) :- {}", body.premises.join(", "));
+        }
+        self.symbols(rule.trim())
+    }
+
+    /// Those of what fits a description of which the map tells whether they have a value.
+    pub(crate) fn known(&mut self, desc: &Desc, value: ValueId) -> Result<Vec<String>, NoAnswer> {
+        let mut body = Body::default();
+        let x = body.variable();
+        let Some(known) = self.property_known(value, &x, desc.sorts) else { return Ok(Vec::new()) };
+        self.describe(desc, &x, &mut body)?;
+        body.premises.push(known);
+        let premises = body.premises.join(", ");
+        self.symbols(format!("{}\n?- answer({x}) :- {premises}", body.helpers.join("\n")).trim())
+    }
+
+    /// The one thing that a definite description means.
+    pub(crate) fn one(&mut self, desc: &Desc, is_loose: bool) -> Result<String, NoAnswer> {
+        if let (Head::Entities(all), true) = (&desc.head, desc.mods.is_empty())
+            && let [only] = all[..]
+        {
+            return self.symbol(only);
+        }
+        let mut found = self.all(desc, is_loose)?;
+        match found.len() {
+            0 => Err(NoAnswer::NoneSuch),
+            1 => Ok(found.swap_remove(0)),
+            _ => Err(NoAnswer::Ambiguous(found)),
+        }
+    }
+
+    /// The first columns of what a question finds.
+    pub(crate) fn symbols(&mut self, rule: &str) -> Result<Vec<String>, NoAnswer> {
+        let rows = self.rows(rule)?;
+        let first = |row: Vec<Value>| row.into_iter().next().map(|value| value.to_string());
+        let mut found: Vec<String> = rows.into_iter().filter_map(first).collect();
+        found.sort();
+        found.dedup();
+        Ok(found)
+    }
+
+    pub(crate) fn rows(&mut self, rule: &str) -> Result<Vec<Vec<Value>>, NoAnswer> {
+        self.rules.push(rule.to_owned());
+        (self.run)(rule).map_err(NoAnswer::Failed)
+    }
+
+    fn symbol(&self, entity: Entity) -> Result<String, NoAnswer> {
+        // What is carried stands in no facts.
+        let known = self.map.relations.symbols().known(Subject::Entity(entity));
+        known.map(ToString::to_string).ok_or(NoAnswer::Unfit("what is carried"))
+    }
+
+    /// Premises for a description of `x`.
+    fn describe(&mut self, desc: &Desc, x: &str, body: &mut Body) -> Result<(), NoAnswer> {
+        if matches!(desc.quant, Quant::Exactly(_)) {
+            return Err(NoAnswer::Unfit("a number of things"));
+        }
+        let mut choices: Vec<String> = Vec::new();
+        match &desc.head {
+            Head::Entities(all) => {
+                for entity in all {
+                    choices.push(format!("{x} = {}", quoted(&self.symbol(*entity)?)));
+                }
+            }
+            Head::Kinds(kinds) => {
+                for kind in kinds {
+                    self.kind(*kind, x, &mut choices);
+                }
+                if choices.is_empty() {
+                    return Err(NoAnswer::Unfit("such a kind"));
+                }
+            }
+            Head::Any => {
+                for (sort, premise) in [
+                    (Sorts::THING, format!("replica({x}, _, _, _, _)")),
+                    (Sorts::AREA, format!("area({x}, _)")),
+                    (Sorts::OPENING, format!("opening({x}, _, _, _)")),
+                ] {
+                    if desc.sorts.meets(sort) {
+                        choices.push(premise);
+                    }
+                }
+            }
+        }
+        choices.sort();
+        choices.dedup();
+        body.premises.push(either(&choices));
+        self.said(&desc.mods, x, desc.sorts, body)
+    }
+
+    fn kind(&self, kind: KindId, x: &str, choices: &mut Vec<String>) {
+        let (world, symbols) = (self.map.world, self.map.relations.symbols());
+        let mut object = |id| {
+            let symbol = symbols.symbol(Subject::Object(id));
+            choices.push(format!("INSTANCE_OF({x}, {})", quoted(symbol)));
+        };
+        let objects = world.objects.values();
+        match &self.map.lexicon.kind(kind).extension {
+            Extension::ObjectType(id) => {
+                objects.filter(|o| o.object_type == Some(*id)).for_each(|o| object(o.id));
+            }
+            Extension::Object(id) => object(*id),
+            Extension::Lighting => {
+                let is_light =
+                    |o: &&crate::map::Object| world.types.object.has_trait(o.object_type, "light");
+                let is_switch = |o: &&crate::map::Object| {
+                    world.types.object.get(o.object_type).is_some_and(Lexicon::is_switch)
+                };
+                // A switch stands for its light only where the map gives the lights themselves no place.
+                match objects.clone().any(|o| is_light(&o)) {
+                    true => objects.filter(is_light).for_each(|o| object(o.id)),
+                    false => objects.filter(is_switch).for_each(|o| object(o.id)),
+                }
+            }
+            Extension::Trait(wanted) => choices.push(format!("HAS_TRAIT({x}, \"{wanted}\")")),
+            Extension::Things => choices.push(format!("replica({x}, _, _, _, _)")),
+            Extension::Furniture => choices.push(format!("IS_FURNITURE({x})")),
+            Extension::Rooms => choices.push(format!("area({x}, _)")),
+            Extension::AreaType(id) => {
+                let own = world.areas.values().filter(|a| a.area_type == Some(*id));
+                let symbol = |id| quoted(symbols.symbol(Subject::Entity(Entity::Area(id))));
+                choices.extend(own.map(|a| format!("{x} = {}", symbol(a.id))));
+            }
+            Extension::DoorType(id) => {
+                let own = world.doors.values().filter(|d| d.door_type == Some(*id));
+                let symbol = |id| quoted(symbols.symbol(Subject::Entity(Entity::Door(id))));
+                choices.extend(own.map(|d| format!("{x} = {}", symbol(d.id))));
+            }
+            Extension::Doors => choices.push(format!("opening({x}, \"door\", _, _)")),
+            Extension::Passages => choices.push(format!("opening({x}, \"passage\", _, _)")),
+            // Of these the facts know nothing; the kinds of a sort stand beside it.
+            _ => {}
+        }
+    }
+
+    fn said(
+        &mut self,
+        mods: &[Mod],
+        x: &str,
+        sorts: Sorts,
+        body: &mut Body,
+    ) -> Result<(), NoAnswer> {
+        for one in mods {
+            self.say(one, x, sorts, body)?;
+        }
+        Ok(())
+    }
+
+    fn say(&mut self, one: &Mod, x: &str, sorts: Sorts, body: &mut Body) -> Result<(), NoAnswer> {
+        match one {
+            Mod::Value(value) => {
+                let choices = self.value(*value, x, sorts)?;
+                body.premises.push(either(&choices));
+            }
+            Mod::Role { role, to } => {
+                let mut terms = vec![(x.to_owned(), sorts)];
+                for other in to {
+                    terms.push((self.term(other, body)?, other.sorts));
+                }
+                let premise = self.role(*role, &terms, body)?;
+                body.premises.push(premise);
+            }
+            Mod::Having { role, what } => {
+                if what.quant == Quant::None {
+                    let bare = Desc { quant: Quant::Some, ..what.clone() };
+                    let having = Mod::Having { role: *role, what: bare };
+                    return self.say(&Mod::Not(Box::new(having)), x, sorts, body);
+                }
+                // "Rooms with a lamp" have any.
+                let is_loose = std::mem::replace(&mut body.is_loose, true);
+                let term = self.term(what, body)?;
+                body.is_loose = is_loose;
+                let terms = [(term, what.sorts), (x.to_owned(), sorts)];
+                let premise = self.role(*role, &terms, body)?;
+                body.premises.push(premise);
+            }
+            Mod::Not(inner) => {
+                // Only of what the map gives the property is it said that it is not so.
+                if let Mod::Value(value) = &**inner
+                    && let Some(known) = self.property_known(*value, x, sorts)
+                {
+                    body.premises.push(known);
+                }
+                let before = std::mem::take(&mut body.premises);
+                self.say(inner, x, sorts, body)?;
+                let inner = std::mem::replace(&mut body.premises, before).join(", ");
+                self.none_of(x, x, &inner, body);
+            }
+            Mod::Either(choices) => {
+                let before = std::mem::take(&mut body.premises);
+                let mut all = Vec::new();
+                for choice in choices {
+                    self.said(choice, x, sorts, body)?;
+                    all.push(std::mem::take(&mut body.premises).join(", "));
+                }
+                body.premises = before;
+                body.premises.push(either(&all));
+            }
+            Mod::Except(other) => {
+                let before = std::mem::take(&mut body.premises);
+                let y = body.variable();
+                self.describe(other, &y, body)?;
+                let inner = std::mem::replace(&mut body.premises, before).join(", ");
+                self.none_of(x, &y, &inner, body);
+            }
+            // Found after all else.
+            Mod::Best(..) => {}
+        }
+        Ok(())
+    }
+
+    /// That `x` is none of those `y` of which premises hold: they get a relation of their own.
+    fn none_of(&mut self, x: &str, y: &str, premises: &str, body: &mut Body) {
+        let name = format!("has_one_{}", body.helpers.len() + 1);
+        body.helpers.push(format!(".decl {name}(x: Any)\n{name}({y}) :- {premises}."));
+        body.premises.push(format!("!{name}({x})"));
+    }
+
+    /// Another thing as an argument: a constant for a definite one, unless any of several will do.
+    fn term(&mut self, desc: &Desc, body: &mut Body) -> Result<String, NoAnswer> {
+        let is_named = matches!(&desc.head, Head::Entities(all) if all.len() == 1);
+        if (desc.is_definite() && !body.is_loose) || (is_named && desc.mods.is_empty()) {
+            return Ok(quoted(&self.one(desc, false)?));
+        }
+        if desc.quant == Quant::All || desc.quant == Quant::None {
+            return Err(NoAnswer::Unfit("all of several"));
+        }
+        if desc.mods.iter().any(|one| matches!(one, Mod::Best(..))) {
+            return Ok(quoted(&self.one(desc, true)?));
+        }
+        let y = body.variable();
+        self.describe(desc, &y, body)?;
+        Ok(y)
+    }
+
+    /// The premises that a role stands for, whichever of its overloads these things fit.
+    fn role(
+        &self,
+        role: RoleId,
+        terms: &[(String, Sorts)],
+        body: &mut Body,
+    ) -> Result<String, NoAnswer> {
+        let at = usize::from(role.0);
+        let signatures: &Signatures = &self.grammar.signatures;
+        let mut choices = Vec::new();
+        for (n, overload) in self.grammar.roles[at].overloads.iter().enumerate() {
+            let own = &signatures[at][n];
+            let fits = own.len() == terms.len()
+                && own.iter().zip(terms).all(|(sorts, (_, of))| sorts.meets(*of));
+            if fits {
+                for text in &overload.bodies {
+                    body.variables += 1;
+                    let known = overload.variables.iter().zip(terms);
+                    let known: Vec<(&str, &str)> =
+                        known.map(|(name, (term, _))| (name.as_str(), term.as_str())).collect();
+                    choices.push(filled(text, &known, body.variables));
+                }
+            }
+        }
+        if choices.is_empty() {
+            Err(NoAnswer::Unfit("such a relation"))
+        } else {
+            Ok(either(&choices))
+        }
+    }
+
+    fn value(&self, value: ValueId, x: &str, sorts: Sorts) -> Result<Vec<String>, NoAnswer> {
+        const STATES: [(DoorStatus, &str); 3] = [
+            (DoorStatus::Open, "open"),
+            (DoorStatus::Closed, "closed"),
+            (DoorStatus::Locked, "locked"),
+        ];
+        let values = &self.map.lexicon.values;
+        if values.entry(value).is_emptiness() {
+            return Err(NoAnswer::Unfit("empty and full"));
+        }
+        let of_doors = STATES
+            .iter()
+            .filter(|(status, _)| values.of_door(*status).is_some_and(|own| values.is(own, value)));
+        let mut choices: Vec<String> =
+            of_doors.map(|(_, word)| format!("DOOR_IS({x}, \"{word}\")")).collect();
+        // The rules' types keep doors and things apart.
+        if sorts.meets(Sorts::THING) {
+            choices.clear();
+        }
+        for spelling in self.spellings(value) {
+            choices.push(format!("HAS({x}, _, {})", quoted(&spelling)));
+        }
+        if choices.is_empty() {
+            choices.push(FALSE.to_owned());
+        }
+        Ok(choices)
+    }
+
+    /// That a thing has some value where it might have this one; none where the property has no facts.
+    pub(crate) fn property_known(&self, value: ValueId, x: &str, sorts: Sorts) -> Option<String> {
+        let property = &self.map.lexicon.values.entry(value).property;
+        let mut known: Vec<String> = self
+            .names_of(property)
+            .into_iter()
+            .map(|name| format!("HAS({x}, {}, _)", quoted(&name)))
+            .collect();
+        if *property == Property::State && !sorts.meets(Sorts::THING) {
+            known.push(format!("DOOR_IS({x}, _)"));
+        }
+        (!known.is_empty()).then(|| either(&known))
+    }
+
+    /// What the facts call a property.
+    pub(crate) fn names_of(&self, property: &Property) -> Vec<String> {
+        self.of_facts(1, |name| Property::of(name) == *property)
+    }
+
+    /// How the facts write a value, or one that counts as it.
+    fn spellings(&self, value: ValueId) -> Vec<String> {
+        let values = &self.map.lexicon.values;
+        self.of_facts(2, |text| values.meaning(text).is_some_and(|own| values.is(own, value)))
+    }
+
+    /// What stands in a column of `HAS` and fits, sorted, each once.
+    fn of_facts(&self, column: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+        let tuples = self.map.relations.derived().tuples("HAS").into_iter().flatten();
+        let texts: BTreeSet<String> =
+            tuples.filter_map(|tuple| tuple.symbol(column).map(str::to_owned)).collect();
+        texts.into_iter().filter(|text| fits(text)).collect()
+    }
+
+    /// The premise that measures a thing, and the variable of the measure.
+    fn measured(
+        &mut self,
+        x: &str,
+        measure: Measure,
+        to: Option<&Desc>,
+        body: &mut Body,
+    ) -> Result<(String, String), NoAnswer> {
+        let v = body.variable();
+        match (measure.of, to) {
+            (Dimension::Height, None) => {
+                let premise = format!("body({x}, Low, High, _, _, _), {v} = High - Low");
+                Ok((premise, v))
+            }
+            (Dimension::Distance, Some(to)) => {
+                let to = self.one(to, false)?;
+                Ok((format!("distance_between({x}, {}, {v})", quoted(&to)), v))
+            }
+            _ => Err(NoAnswer::Unfit("such a measure")),
+        }
+    }
+
+    /// How high a thing is, in tenths of a millimetre.
+    pub(crate) fn height(&mut self, symbol: &str) -> Result<i64, NoAnswer> {
+        let x = quoted(symbol);
+        let rows = self.rows(&format!("?- answer(H) :- body({x}, L, T, _, _, _), H = T - L"))?;
+        number_of(&rows).ok_or(NoAnswer::Unfit("the height of such a thing"))
+    }
+}
+
+/// The number in the first row.
+pub(crate) fn number_of(rows: &[Vec<Value>]) -> Option<i64> {
+    match rows.first()?.first()? {
+        Value::Number(number) => Some(*number),
+        _ => None,
+    }
+}
+
+/// A text of the rules' language.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// Any of these premises.
+pub(crate) fn either(choices: &[String]) -> String {
+    match choices {
+        [only] => only.clone(),
+        all => format!("({})", all.join(" ; ")),
+    }
+}
+
+/// A role's body with its arguments put in; variables of its own get a number.
+fn filled(body: &str, known: &[(&str, &str)], number: usize) -> String {
+    let mut text = String::with_capacity(body.len() + 32);
+    let mut rest = body;
+    while let Some(first) = rest.chars().next() {
+        if first == '"' {
+            let end = rest[1..].find('"').map_or(rest.len(), |at| at + 2);
+            text.push_str(&rest[..end]);
+            rest = &rest[end..];
+            continue;
+        }
+        let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+        let length = rest.find(|c| !is_of_name(c)).unwrap_or(rest.len());
+        if length == 0 {
+            text.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let (name, after) = rest.split_at(length);
+        rest = after;
+        let is_relation = after.trim_start().starts_with('(');
+        match known.iter().find(|(own, _)| *own == name) {
+            Some((_, term)) if !is_relation => text.push_str(term),
+            _ if !is_relation && name.starts_with(char::is_uppercase) => {
+                let _ = write!(text, "{name}{number}");
+            }
+            _ => text.push_str(name),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_role_takes_its_arguments_and_keeps_its_own_variables_apart() {
+        let body = "CLOSE_TO(x, y), in_area(x, R), HAS(y, \"x R\", _)";
+        assert_eq!(
+            filled(body, &[("x", "X1"), ("y", "\"Стол-1\"")], 3),
+            "CLOSE_TO(X1, \"Стол-1\"), in_area(X1, R3), HAS(\"Стол-1\", \"x R\", _)"
+        );
+    }
+}

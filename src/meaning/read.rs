@@ -1,0 +1,89 @@
+//! From a sentence to its readings, and from these to the one answer that they give, if they give one.
+
+use super::answer::{Answer, NoAnswer, Outcome};
+use super::chart::Chart;
+use super::cover::{DEAREST, readings};
+use super::grammar::Grammar;
+use super::query::{Asking, Rows};
+use super::term::Form;
+use super::words::{MapWords, Sentence, tokens};
+use crate::language::Language;
+use crate::language::question::Lexicon;
+use crate::map::World;
+use crate::semantics::Relations;
+
+/// Readings that cost so much more than the cheapest are meant by nobody.
+pub const MARGIN: u32 = 1;
+/// Words of the longest sentence that is read.
+const LONGEST: usize = 200;
+/// Readings that are run at most.
+const MOST_RUN: usize = 8;
+
+/// A map as sentences speak of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Map<'a> {
+    pub world: &'a World,
+    pub relations: &'a Relations,
+    pub lexicon: &'a Lexicon,
+    pub words: &'a MapWords,
+}
+
+/// What a sentence may mean.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reading {
+    pub form: Form,
+    /// What was passed over, in an unusual order or said loosely; 0 where nothing was.
+    pub cost: u32,
+    /// File and line of the frame that read it.
+    pub frame: String,
+}
+
+impl Grammar {
+    /// What a sentence may mean, the cheapest first; none where it is not understood.
+    #[must_use]
+    pub fn read(&self, map: &Map<'_>, text: &str) -> Vec<Reading> {
+        let language = Language::of(text);
+        let (Some(tongue), Some(tokens)) = (self.tongue(language), tokens(text)) else {
+            return Vec::new();
+        };
+        if tokens.is_empty() || tokens.len() > LONGEST {
+            return Vec::new();
+        }
+        let Map { world, lexicon, words, .. } = *map;
+        let sentence = Sentence { text, tokens: &tokens, language, world, lexicon, words };
+        let edges = sentence.edges(tongue, &self.signatures);
+        let chart = Chart::of(&tokens, edges, tongue, &self.signatures);
+        let found = readings(&chart, tongue, &self.signatures).into_iter();
+        found.map(|f| Reading { form: f.form, cost: f.cost, frame: f.place }).collect()
+    }
+
+    /// Reads a sentence and runs what it asks. Of several readings within the [`MARGIN`] all are run: where they come
+    /// to the same, that is the answer.
+    pub fn ask(&self, map: &Map<'_>, text: &str, run: &mut dyn FnMut(&str) -> Rows) -> Outcome {
+        let readings = self.read(map, text);
+        let Some(cheapest) = readings.first().map(|reading| reading.cost) else {
+            return Outcome::NotUnderstood;
+        };
+        let near = readings.into_iter().filter(|r| r.cost <= (cheapest + MARGIN).min(DEAREST));
+        let mut answers: Vec<Answer> = Vec::new();
+        for reading in near.take(MOST_RUN) {
+            let mut asking = Asking { grammar: self, map, run: &mut *run, rules: Vec::new() };
+            let found = asking.answer(&reading.form);
+            let rules = asking.rules;
+            // A reading that comes to nothing the program can tell does not hide another.
+            if let Err(NoAnswer::Failed(_)) = found {
+                return Outcome::Refused(Box::new(Answer { reading, rules, found }));
+            }
+            if answers.iter().all(|other| other.found != found) {
+                answers.push(Answer { reading, rules, found });
+            }
+        }
+        match answers.len() {
+            1 => match answers.swap_remove(0) {
+                answer if answer.found.is_ok() => Outcome::Answered(Box::new(answer)),
+                answer => Outcome::Refused(Box::new(answer)),
+            },
+            _ => Outcome::Several(answers),
+        }
+    }
+}
