@@ -205,7 +205,11 @@ where
     }
 
     /// The stored segment that a moved one is a view of.
-    pub(super) fn nearest(&self, moved: &Segment<D>, counters: &mut Counters) -> Option<(usize, bool, f64)> {
+    pub(super) fn nearest(
+        &self,
+        moved: &Segment<D>,
+        counters: &mut Counters,
+    ) -> Option<(usize, bool, f64)> {
         let reach = self.equality.radius(2 * D as u32)
             * (moved.covariance.deviation() + self.model.deviation());
         let mut near = Vec::new();
