@@ -71,11 +71,17 @@ impl<const D: usize> Model<D> {
 /// Pr of any images: what is hidden from `eye` by others is taken away; ends that arise so are cut.
 #[must_use]
 pub fn project(images: &[Image<2>], eye: &Vector2<f64>) -> Vec<Image<2>> {
-    let shadows: Vec<Shadow> = images.iter().filter_map(|i| Shadow::of(&i.segment, eye)).collect();
+    let mut around: Vec<Vec<Shadow>> = vec![Vec::new(); SECTORS];
+    for shadow in images.iter().filter_map(|i| Shadow::of(&i.segment, eye)) {
+        sectors(&shadow.right, &shadow.left).for_each(|k| around[k].push(shadow));
+    }
     let mut seen = Vec::with_capacity(images.len());
     for image in images {
         let (p, q) = (image.segment.start - eye, image.segment.end - eye);
-        let mut hidden: Vec<(f64, f64)> = shadows.iter().filter_map(|s| s.on(&p, &q)).collect();
+        let (right, left) = if p.perp(&q) < 0.0 { (&q, &p) } else { (&p, &q) };
+        // What is met in several sectors is hidden once, however often it is told.
+        let shadows = sectors(right, left).flat_map(|k| &around[k]);
+        let mut hidden: Vec<(f64, f64)> = shadows.filter_map(|s| s.on(&p, &q)).collect();
         hidden.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut from = 0.0;
         let mut open = Vec::new();
@@ -98,7 +104,21 @@ pub fn project(images: &[Image<2>], eye: &Vector2<f64>) -> Vec<Image<2>> {
     seen
 }
 
+/// Sectors about the eye: only what shares one can hide.
+const SECTORS: usize = 256;
+
+/// The sectors from the bearing of `right` counter-clockwise to that of `left`.
+fn sectors(right: &Vector2<f64>, left: &Vector2<f64>) -> impl Iterator<Item = usize> + use<> {
+    let of = |v: &Vector2<f64>| {
+        let share = v.y.atan2(v.x) / std::f64::consts::TAU + 0.5;
+        (share * SECTORS as f64) as usize % SECTORS
+    };
+    let (from, to) = (of(right), of(left));
+    (0..=(to + SECTORS - from) % SECTORS).map(move |k| (from + k) % SECTORS)
+}
+
 /// The region behind a segment: three half-planes about the eye.
+#[derive(Clone, Copy)]
 struct Shadow {
     /// Clockwise end and counter-clockwise end, from the eye.
     right: Vector2<f64>,

@@ -9,6 +9,7 @@ use nalgebra::{Isometry2, Matrix2, Vector2};
 
 use crate::read::{Log, Scan};
 use crate::scan::Extractor;
+use crate::synthesis::{apart, fused};
 use crate::{Covariance, Equality, Membership, Model, Motion, Observer, Scene, Segment, project};
 
 /// Views nearer to each other than this, in cm and rad, are one.
@@ -130,8 +131,7 @@ fn join(world: &mut Vec<Segment<2>>, view: Vec<Segment<2>>, equality: &Equality)
     };
     let (beside, far): (Vec<_>, Vec<_>) = world.drain(..).partition(is_beside);
     *world = far;
-    let known = Model::of_contour(beside);
-    world.extend(known.united(&Model::of_contour(view), equality).segments());
+    world.extend(fused(beside, view, equality));
 }
 
 /// Counts which segments of the world should have been in a view, and were.
@@ -169,7 +169,7 @@ fn count(
     }
     let is_seen = |&k: &usize| {
         let stored = &model.segments()[near[k]];
-        view.iter().any(|s| equality.equal(s, stored).is_some())
+        view.iter().any(|s| !apart(s, stored) && equality.equal(s, stored).is_some())
     };
     let seen: Vec<usize> = (0..near.len()).filter(is_seen).collect();
     let half_seen = |k: &usize| visible[*k] > 0.5 * local.segments()[*k].length();

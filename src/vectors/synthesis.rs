@@ -17,7 +17,7 @@ impl<const D: usize> Model<D> {
         };
         let mut pool = known(self);
         pool.extend(known(other));
-        fuse_all(&mut pool, equality);
+        fuse_all(&mut pool, 1, equality);
         let segments: Vec<_> = pool.iter().map(|&(segment, _)| segment).collect();
         let ordered = crate::contour::order(&segments);
         let membership = ordered.iter().map(|&(k, _)| pool[k].1).collect();
@@ -39,8 +39,26 @@ impl<const D: usize> Model<D> {
     }
 }
 
-/// Fuses equal segments, the most alike first, until none is left; several pieces of one face thus become one.
-fn fuse_all<const D: usize>(pool: &mut Vec<(Segment<D>, Membership)>, equality: &Equality) {
+/// Segments that are known, none of them equal to another, fused with those seen; in no order.
+pub(crate) fn fused<const D: usize>(
+    known: Vec<Segment<D>>,
+    seen: Vec<Segment<D>>,
+    equality: &Equality,
+) -> Vec<Segment<D>> {
+    let from = known.len();
+    let all = known.into_iter().chain(seen);
+    let mut pool: Vec<_> = all.map(|segment| (segment, Membership::default())).collect();
+    fuse_all(&mut pool, from.max(1), equality);
+    pool.into_iter().map(|(segment, _)| segment).collect()
+}
+
+/// Fuses equal segments, the most alike first, until none is left; several pieces of one face thus become one. Those
+/// before `from` are known not to be equal.
+fn fuse_all<const D: usize>(
+    pool: &mut Vec<(Segment<D>, Membership)>,
+    from: usize,
+    equality: &Equality,
+) {
     let mut alive: Vec<bool> = vec![true; pool.len()];
     let mut candidates = Vec::new();
     let compare = |pool: &[(Segment<D>, Membership)],
@@ -54,7 +72,7 @@ fn fuse_all<const D: usize>(pool: &mut Vec<(Segment<D>, Membership)>, equality: 
             out.push((found.residual.squared(), i, j, found.reversed));
         }
     };
-    for j in 1..pool.len() {
+    for j in from..pool.len() {
         for i in 0..j {
             compare(pool, i, j, &mut candidates);
         }
@@ -82,7 +100,7 @@ fn fuse_all<const D: usize>(pool: &mut Vec<(Segment<D>, Membership)>, equality: 
 }
 
 /// Whether two segments are too far from one another to be worth a comparison.
-fn apart<const D: usize>(a: &Segment<D>, b: &Segment<D>) -> bool {
+pub(crate) fn apart<const D: usize>(a: &Segment<D>, b: &Segment<D>) -> bool {
     let slack = 10.0 * (a.covariance.deviation() + b.covariance.deviation()) + 1.0;
     (0..D).any(|k| {
         let (al, ah) = (a.start[k].min(a.end[k]), a.start[k].max(a.end[k]));
