@@ -467,7 +467,7 @@ fn what_is_beyond_is_refused_by_name_and_place_with_a_way_round() {
     let (what, help) = refused(need, ":precondition (>= (fuel) 3)");
     assert!(what.contains("«>=»") && help.contains("стоимость"), "{what} {help}");
     let (what, help) = refused(need, ":precondition (preference p (at-robby ?f))");
-    assert!(what.contains("«preference»") && help.contains("мягких целей нет"), "{what} {help}");
+    assert!(what.contains("«preference»") && help.contains("желания читаются"), "{what} {help}");
     let (what, _) = refused("(:action move", "(:constraints (always (at-robby ?f))) (:action move");
     assert!(what.contains("«:constraints»"), "{what}");
     let (what, _) = refused(

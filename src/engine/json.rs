@@ -16,7 +16,7 @@ use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::{DoorStatus, Entity};
 use crate::semantics::Spot;
-use crate::strips::Replayed;
+use crate::strips::{Preference, Replayed};
 use crate::units::{AreaId, Point, Pose, ReplicaId};
 use crate::vectors::read::{LogError, LogFault};
 use crate::vectors::{Cut, End, Segment, Truth};
@@ -47,6 +47,17 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
         "explanation": solved.explanation(Language::Russian),
         "explanation_en": solved.explanation_with(&english),
     });
+    if let Some(wishes) = &solved.wishes {
+        let told = |all: &[Preference]| -> Vec<Value> {
+            let weight = |thousandths: u64| thousandths as f64 / 1000.0;
+            all.iter().map(|one| json!({"name": one.name, "weight": weight(one.weight)})).collect()
+        };
+        view["preferences"] = json!({
+            "met": told(&wishes.met),
+            "unmet": told(&wishes.unmet),
+            "proven_least": wishes.is_least,
+        });
+    }
     match &solved.outcome {
         Outcome::NoPlan { leveled_off_at, reason } => {
             let fact = |id: &_| solved.task.fact(*id).to_string();

@@ -48,8 +48,10 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
         };
         return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());
     }
+    let wishes = solved.wishes.as_ref().map(|wishes| wishes.in_words(wording.language));
     if steps.is_empty() {
-        return pick("Цель уже достигнута.", "The goal holds already.").to_owned();
+        let held = pick("Цель уже достигнута.", "The goal holds already.");
+        return wishes.map_or_else(|| held.to_owned(), |wishes| format!("{held}\n{wishes}"));
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
     let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
@@ -69,6 +71,9 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
         format!("План: шагов {}, действий {actions}; {proof}{at_least}.", steps.len()),
         format!("Plan: {}; {proof}{at_least}.", counted_in_english(steps.len(), actions)),
     );
+    if let Some(wishes) = wishes {
+        text = format!("{text}\n{wishes}");
+    }
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {
             let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };

@@ -33,6 +33,7 @@ mod seek;
 mod simulator;
 mod solve;
 mod vehicle;
+mod wishes;
 
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
@@ -46,3 +47,4 @@ pub use vehicle::{
     Address, Bump, Done, Failure, Moment, Notice, Obstruction, Patience, Refusal, RemoteVehicle,
     Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
 };
+pub use wishes::Wishes;

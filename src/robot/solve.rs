@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
+use super::wishes::{self, Wishes};
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{
     Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
@@ -25,6 +26,8 @@ pub struct Solved {
     pub reason: Option<Reason>,
     /// How the rules say their facts and actions in words.
     pub phrases: Arc<Phrases>,
+    /// Which preferences the plan meets, where the problem has any.
+    pub wishes: Option<Wishes>,
 }
 
 /// Why there is no plan, or none was found.
@@ -190,6 +193,19 @@ pub fn solve(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
+    match problem.preferences().next() {
+        Some(_) => wishes::solve(domain, problem, limits, wanted),
+        None => solve_goal(domain, problem, limits, wanted),
+    }
+}
+
+/// The same, and preferences are none of its business.
+pub(super) fn solve_goal(
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<Solved, RuleFaults> {
     let (task, outcome) = match grounded(domain, problem, limits)? {
         Ok(task) => {
             let outcome = match wanted {
@@ -276,6 +292,10 @@ pub fn solve_without(
             let before = solve(domain, problem, limits, wanted)?;
             (before, solve(domain, &without, limits, wanted)?, false)
         }
+        Wanted::Shortest if problem.preferences().next().is_some() => {
+            let before = solve(domain, problem, limits, wanted)?;
+            (before, solve(domain, &without, limits, wanted)?, false)
+        }
         Wanted::Shortest => {
             let (before, learned) = solve_again(domain, problem, limits, None)?;
             let (after, _) = solve_again(domain, &without, limits, learned.as_ref())?;
@@ -350,7 +370,7 @@ fn told(
     });
     let reason = explain(domain, problem, &task, &outcome, limits)?;
     let phrases = Arc::clone(domain.phrases());
-    Ok(Solved { task, outcome, is_shortest, at_least, assumptions, reason, phrases })
+    Ok(Solved { task, outcome, is_shortest, at_least, assumptions, reason, phrases, wishes: None })
 }
 
 fn explain(

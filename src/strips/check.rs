@@ -24,8 +24,11 @@ use crate::units::{Bilingual, Language, name_key, nearest_name};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 ///
-/// Beside them, what of the goal is no plain fact.
-pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> (Domain, Vec<Formula>) {
+/// Beside them, what of the goal is no plain fact, and what is wanted where it can be had.
+pub(super) fn domain(
+    document: &Document,
+    faults: &mut Vec<RuleFault>,
+) -> (Domain, (Vec<Formula>, Vec<Option<Formula>>)) {
     let domain = kinds(document, faults);
     let (functions, actions) = (HashMap::new(), HashMap::new());
     let mut checker = Checker { domain, constants: None, functions, actions, faults };
@@ -44,10 +47,10 @@ pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> (Domai
         checker.derived(rule);
     }
     checker.derived_is_sound(document);
-    let goal = checker.goal(document);
+    let wanted = (checker.goal(document), checker.preferences(document));
     let mut domain = checker.domain;
     domain.phrases = Arc::new(phrases(document, &domain, faults));
-    (domain, goal)
+    (domain, wanted)
 }
 
 pub(super) fn hint<'a>(
@@ -134,7 +137,7 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
             });
         };
         document.each_atom_of_rules(&mut of_bound);
-        for condition in &document.goal {
+        for condition in document.wanted() {
             condition.for_each_atom(&mut Vec::new(), &mut |atom, bound| of_bound(atom, bound));
         }
     }
@@ -671,7 +674,7 @@ fn arities(document: &Document) -> HashMap<String, usize> {
         }
     };
     document.each_atom_of_rules(&mut |atom, _| count(atom));
-    for condition in document.facts.iter().chain(&document.assumptions).chain(&document.goal) {
+    for condition in document.facts.iter().chain(&document.assumptions).chain(document.wanted()) {
         condition.for_each_atom(&mut Vec::new(), &mut |atom, _| count(atom));
     }
     let most = |counts: Vec<(usize, usize)>| {

@@ -151,15 +151,24 @@ impl Checker<'_> {
         };
         let mut formulas = Vec::new();
         for condition in document.goal.iter().filter(beyond) {
-            let Some(name) = condition.first_name() else {
-                // An empty conjunction holds, an empty disjunction does not.
-                formulas.extend(self.formula_without_names(condition));
-                continue;
-            };
-            let action = ActionText::new(name.clone());
-            formulas.extend(self.formula(&action, &Scope::new(), condition));
+            formulas.extend(self.wanted(condition));
         }
         formulas
+    }
+
+    /// What is wanted where it can be had, one formula for each preference; none where the faults are told.
+    pub(super) fn preferences(&mut self, document: &Document) -> Vec<Option<Formula>> {
+        let wishes = document.preferences.iter();
+        wishes.map(|preference| self.wanted(&preference.condition)).collect()
+    }
+
+    fn wanted(&mut self, condition: &Condition) -> Option<Formula> {
+        let Some(name) = condition.first_name() else {
+            // An empty conjunction holds, an empty disjunction does not.
+            return self.formula_without_names(condition);
+        };
+        let action = ActionText::new(name.clone());
+        self.formula(&action, &Scope::new(), condition)
     }
 
     fn formula_without_names(&mut self, condition: &Condition) -> Option<Formula> {

@@ -73,6 +73,7 @@ impl RuleError {
                 format!("the problem is of the domain “{wanted}”, and “{found}” was read")
             }
             Self::Metric { metric, .. } => format!("the metric “{metric}” is not heeded"),
+            Self::UnknownPreference { name, .. } => format!("unknown preference “{name}”"),
             Self::Arity { name, expected, found, .. } => {
                 let s = if *expected == 1 { "" } else { "s" };
                 format!("“{name}” takes {expected} argument{s}, not {found}")
@@ -189,7 +190,7 @@ impl RuleError {
                 "check that --domain and --problem name the files that belong together"
             }
             Self::Metric { .. } => {
-                "(:metric minimize (total-cost)) is heeded; without it the plan is one of the fewest steps"
+                "(:metric minimize (total-cost)) is heeded, so is (+ (* 3 (is-violated name)) …); without it the plan is one of the fewest steps"
             }
             Self::VariableInFact { .. } => "in facts and goals stand names of objects",
             Self::ContradictoryEffect { .. } => "leave the fact in one of “Effect+”, “Effect-”",
@@ -235,6 +236,7 @@ impl RuleError {
             | Self::NotBelieved { help, .. }
             | Self::UnknownType { help, .. }
             | Self::UnknownPredicate { help, .. }
+            | Self::UnknownPreference { help, .. }
             | Self::LonelyPredicate { help, .. }
             | Self::UnknownFunction { help, .. }
             | Self::UndeclaredVariable { help, .. }

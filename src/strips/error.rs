@@ -261,11 +261,22 @@ pub enum RuleError {
         code(strips::metric),
         severity(Warning),
         help(
-            "учитывается (:metric minimize (total-cost)); без него план – с наименьшим числом шагов"
+            "учитывается (:metric minimize (total-cost)), также (+ (* 3 (is-violated имя)) …); без него план – с наименьшим числом шагов"
         )
     )]
     Metric {
         metric: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A PDDL metric that weighs a preference that there is none of.
+    #[error("неизвестное желание «{name}»")]
+    #[diagnostic(code(strips::unknown_preference))]
+    UnknownPreference {
+        name: String,
+        #[help]
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },

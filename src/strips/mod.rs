@@ -54,6 +54,7 @@ mod slip;
 mod syntax;
 mod task;
 mod token;
+mod wish;
 
 pub use domain::{
     ANY_KIND, ConditionalEffect, Domain, Formula, Kind, KindId, KindSet, Predicate, PredicateId,
@@ -69,7 +70,7 @@ pub use load::{MAX_FILE_BYTES, Scenario};
 pub use outline::{Mark, Meaning, outline};
 pub use phrase::{Phrases, Said, SaidArgument, Wording};
 pub use plan_text::{Directive, PlanText};
-pub use problem::{Problem, Standing, Stated};
+pub use problem::{Preference, Problem, Standing, Stated};
 pub use replay::{Broken, Replayed};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
 pub use token::in_quotes;

@@ -90,7 +90,7 @@ pub fn outline(source: &Source) -> Vec<Mark> {
         marks.variables(&rule.parameters);
         rule.condition.iter().for_each(|condition| marks.condition(condition));
     }
-    let stated = document.facts.iter().chain(&document.assumptions).chain(&document.goal);
+    let stated = document.facts.iter().chain(&document.assumptions).chain(document.wanted());
     stated.for_each(|condition| marks.condition(condition));
     let (mut found, english) = (marks.found, marks.english);
     found.sort_by_key(|mark| (mark.range.start, mark.range.end));

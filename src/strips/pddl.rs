@@ -1,7 +1,8 @@
 //! Planning problems of other people: PDDL with :adl :derived-predicates :action-costs.
 //!
 //! Domain and problem become the same [`Document`] that a rule file becomes, and are checked by the same code.
-//! What lies beyond (numbers, preferences, constraints) is refused by name and place.
+//! Preferences are read in the goal, with weights in the metric. What lies beyond (numbers, constraints, preferences
+//! elsewhere) is refused by name and place.
 
 use miette::SourceSpan;
 
@@ -101,7 +102,7 @@ impl Reader<'_> {
             Some(":init") => items[1..].iter().for_each(|fact| self.fact(fact)),
             Some(":goal") => {
                 let (mut goal, before) = (Vec::new(), self.faults.len());
-                items[1..].iter().for_each(|part| self.condition(part, false, &mut goal));
+                items[1..].iter().for_each(|part| self.wish(part, &mut goal));
                 self.document.goal_is_empty |=
                     goal.is_empty() && items.len() > 1 && self.faults.len() == before;
                 self.document.goal.extend(goal);
@@ -120,7 +121,7 @@ impl Reader<'_> {
 
     /// A promise of more than is read harms nobody who does not make use of it.
     fn requirements(&mut self, items: &[Expression<'_>]) {
-        const READ: [&str; 14] = [
+        const READ: [&str; 15] = [
             ":strips",
             ":adl",
             ":disjunctive-preconditions",
@@ -134,6 +135,7 @@ impl Reader<'_> {
             ":equality",
             ":negative-preconditions",
             ":action-costs",
+            ":preferences",
             ":constants",
         ];
         for item in items {
@@ -162,27 +164,6 @@ impl Reader<'_> {
                 let args = self.typed(rest).into_iter().map(|arg| arg.kinds).collect();
                 self.document.functions.push(Signature { name, args });
             }
-        }
-    }
-
-    /// The least total cost is what the planner looks for; total time, in a language without time, is steps.
-    fn metric(&mut self, section: &Expression<'_>) {
-        let known = match section.items() {
-            [_, Expression::Word(direction, _), what] => {
-                let what = match what {
-                    Expression::Word(word, _) => Some(word.to_lowercase()),
-                    list @ Expression::List(items, _) => list.head().filter(|_| items.len() == 1),
-                };
-                direction.eq_ignore_ascii_case("minimize")
-                    && matches!(what.as_deref(), Some("total-cost" | "total-time"))
-            }
-            _ => false,
-        };
-        if !known {
-            let at = section.span();
-            let metric = excerpt(self.source, at);
-            let fault = RuleFault::new(self.source, RuleError::Metric { metric, at });
-            self.document.warnings.push(fault);
         }
     }
 
@@ -542,9 +523,13 @@ const COSTS_ALONE: (&str, &str) = (
 /// How to say the same without what is not read.
 fn way_round(what: &str) -> (&'static str, &'static str) {
     match what {
-        "preference" | ":constraints" => (
-            "мягких целей нет: запишите в «:goal» то, что нужно",
-            "there are no soft goals: write into :goal what is needed",
+        "preference" => (
+            "желания читаются в «:goal», по одному: (preference имя условие); под «forall» и в условиях действий их нет",
+            "preferences are read in :goal, one by one: (preference name condition); not under forall or in conditions of actions",
+        ),
+        ":constraints" => (
+            "условий на ход плана нет: запишите в «:goal» то, что нужно в конце",
+            "there are no constraints on the course of a plan: write into :goal what is needed in the end",
         ),
         "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => COSTS_ALONE,
         what if what.starts_with("(increase") => COSTS_ALONE,
@@ -570,7 +555,7 @@ pub(super) fn atom_key(atom: &Atom) -> Vec<String> {
 }
 
 /// A stretch of the text, short enough for a message.
-fn excerpt(source: &Source, at: SourceSpan) -> String {
+pub(super) fn excerpt(source: &Source, at: SourceSpan) -> String {
     let text = &source.text()[at.offset()..at.offset() + at.len()];
     text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

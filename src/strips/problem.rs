@@ -11,7 +11,7 @@ use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
-use super::syntax::{Atom, Condition, Declaration, Document, Name};
+use super::syntax::{Amount, Atom, Condition, Declaration, Document, Name};
 use crate::units::{Source, name_key};
 
 /// How a fact is known (SPEC P2).
@@ -53,8 +53,17 @@ pub struct Problem {
     pub(super) compared: Vec<(Name, Name, bool)>,
     /// The goal was stated and asks for nothing.
     pub(super) goal_is_empty: bool,
+    /// What is wanted where it can be had.
+    preferences: Vec<(Preference, Formula)>,
     /// Assumptions that were made, and made no longer.
     pub(super) withdrawn: Vec<Statement>,
+}
+
+/// What is wanted where it can be had, and what it costs if it is not met, in thousandths.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Preference {
+    pub name: String,
+    pub weight: u64,
 }
 
 impl Problem {
@@ -171,6 +180,7 @@ impl Problem {
             || !self.goal_formulas.is_empty()
             || !self.compared.is_empty()
             || self.goal_is_empty
+            || !self.preferences.is_empty()
     }
 
     /// The names of all objects that a statement mentions, each once, in order.
@@ -222,6 +232,22 @@ impl Problem {
         self.facts.iter().filter(|fact| fact.text.is_some()).map(Stated)
     }
 
+    /// What is wanted where it can be had.
+    pub fn preferences(&self) -> impl Iterator<Item = &Preference> {
+        self.preferences.iter().map(|(preference, _)| preference)
+    }
+
+    /// The problem in which the preferences of these numbers are goals, and no others are left.
+    #[must_use]
+    pub fn with_preferences(&self, kept: impl Fn(usize) -> bool) -> Self {
+        let mut problem = self.clone();
+        let all = std::mem::take(&mut problem.preferences).into_iter().enumerate();
+        let wanted = all.filter(|(number, _)| kept(*number)).map(|(_, (_, formula))| formula);
+        problem.goal_formulas.extend(wanted);
+        problem.goal_is_empty |= !problem.has_goal();
+        problem
+    }
+
     /// What a text wants to hold in the end, comparisons left aside.
     pub fn stated_goals(&self) -> impl Iterator<Item = Stated<'_>> {
         self.goal.iter().filter(|fact| fact.text.is_some()).map(Stated)
@@ -230,20 +256,22 @@ impl Problem {
     /// The statements of a document.
     pub(super) fn of(
         document: &Document,
-        goal_formulas: Vec<Formula>,
+        (goal_formulas, wishes): (Vec<Formula>, Vec<Option<Formula>>),
         faults: &mut Vec<RuleFault>,
     ) -> Self {
         let mut goal_objects = Vec::new();
         let is_compound = |condition: &&Condition| {
             matches!(condition, Condition::Any(..) | Condition::Quantified { .. })
         };
-        for condition in document.goal.iter().filter(is_compound) {
+        for condition in document.wanted().filter(is_compound) {
             condition.for_each_atom(&mut Vec::new(), &mut |atom, _| {
                 let objects = atom.args.iter().filter(|term| !term.is_variable);
                 goal_objects.extend(objects.map(|term| term.name.clone()));
             });
         }
+        let preferences = weighed(document, faults).into_iter().zip(wishes);
         let mut problem = Self {
+            preferences: preferences.filter_map(|(own, wish)| Some((own, wish?))).collect(),
             goal_formulas,
             goal_objects,
             values: document
@@ -351,6 +379,29 @@ impl<'p> Stated<'p> {
     ) -> RuleFault {
         self.0.argument_fault(place, error)
     }
+}
+
+/// The preferences with what the metric makes of each; without a metric each counts as much.
+fn weighed(document: &Document, faults: &mut Vec<RuleFault>) -> Vec<Preference> {
+    let known = || document.preferences.iter().map(|preference| preference.name.text.as_str());
+    for (name, _) in document.violations.iter().flatten() {
+        if !known().any(|own| name_key(own) == name.key()) {
+            let help = hint(&name.text, known());
+            let unknown = name.text.clone();
+            faults.push(name.fault(|at| RuleError::UnknownPreference { name: unknown, help, at }));
+        }
+    }
+    let weight = |name: &Name| match &document.violations {
+        Some(all) => {
+            let own = all.iter().filter(|(of, _)| of.key() == name.key());
+            own.map(|(_, weight)| weight.thousandths()).sum()
+        }
+        None => Amount::ONE.thousandths(),
+    };
+    let preferences = document.preferences.iter();
+    let weighed = preferences
+        .map(|own| Preference { name: own.name.text.clone(), weight: weight(&own.name) });
+    weighed.collect()
 }
 
 fn no_plain_fact(at: miette::SourceSpan) -> RuleError {

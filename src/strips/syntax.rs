@@ -165,9 +165,23 @@ impl Amount {
         u32::try_from(self.0 * u64::from(unit) / 1000).expect("a cost is bounded")
     }
 
+    pub(super) const ONE: Self = Self(1000);
+
+    /// In thousandths.
+    pub(super) fn thousandths(self) -> u64 {
+        self.0
+    }
+
     fn is_whole(self) -> bool {
         self.0.is_multiple_of(1000)
     }
+}
+
+/// `(preference name condition)`: its condition is a disjunction of one case, so that it is met as a whole.
+#[derive(Debug, Clone)]
+pub(super) struct PreferenceText {
+    pub(super) name: Name,
+    pub(super) condition: Condition,
 }
 
 /// What carrying out an action costs.
@@ -280,6 +294,10 @@ pub(super) struct Document {
     pub(super) goal: Vec<Condition>,
     /// The goal was stated and asks for nothing, as `(:goal (and))` does.
     pub(super) goal_is_empty: bool,
+    /// What is wanted where it can be had.
+    pub(super) preferences: Vec<PreferenceText>,
+    /// What it costs that a preference is not met, where the metric says so.
+    pub(super) violations: Option<Vec<(Name, Amount)>>,
     pub(super) map: Option<Name>,
     pub(super) phrases: Vec<PhraseText>,
     /// What a PDDL domain calls itself, and what its problem calls it.
@@ -297,6 +315,11 @@ impl Document {
             });
         let mut all = costs.chain(self.values.iter().map(|(_, amount)| *amount));
         if all.all(Amount::is_whole) { 1 } else { 1000 }
+    }
+
+    /// What is wanted, come what may or where it can be had.
+    pub(super) fn wanted(&self) -> impl Iterator<Item = &Condition> {
+        self.goal.iter().chain(self.preferences.iter().map(|preference| &preference.condition))
     }
 
     /// Every atom of the rules, with the variables bound around it.
@@ -328,6 +351,8 @@ impl Document {
         self.functions.extend(other.functions);
         self.goal.extend(other.goal);
         self.goal_is_empty |= other.goal_is_empty;
+        self.preferences.extend(other.preferences);
+        self.violations = self.violations.take().or(other.violations);
         self.map = self.map.take().or(other.map);
         self.phrases.extend(other.phrases);
         self.warnings.extend(other.warnings);
