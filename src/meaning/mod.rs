@@ -21,6 +21,7 @@ use orthoframe_units as units;
 
 mod answer;
 mod chart;
+mod check;
 mod cover;
 mod fault;
 mod features;
