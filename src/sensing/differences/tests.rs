@@ -164,13 +164,13 @@ fn stands_free(world: &World, id: MapId, thing: ReplicaId) -> bool {
     let floor = plan(world, id);
     let scene = floor.scene();
     let own = &scene.replicas[&thing];
-    let others = scene.replicas.values().filter(|other| other.id != thing);
-    let apart = others.into_iter().all(|other| {
+    let mut others = scene.replicas.values().filter(|other| other.id != thing);
+    let apart = others.all(|other| {
         !other.bounds.grown(10.0).meets(&own.bounds) || other.prisms.iter().all(|p| p.bottom > 60.0)
     });
     let corners: Vec<Point> = own.prisms.iter().flat_map(|p| p.polygon.corners.clone()).collect();
-    let walls = floor.fragments().flat_map(|f| f.walls.clone());
-    let clear = walls.into_iter().all(|(a, b)| {
+    let mut walls = floor.fragments().flat_map(|f| f.walls.clone());
+    let clear = walls.all(|(a, b)| {
         corners.iter().all(|c| (crate::geometry::nearest_on_segment(*c, a, b) - c).norm() > 12.0)
     });
     let area = scene.area_at(own.bounds.min);
@@ -275,11 +275,8 @@ fn what_was_put_there_is_seen_where_it_is_and_a_person_who_walks_on_is_not() {
         let real = plan(&truth, id);
         let bounds = real.scene().replicas[&new].bounds.grown(12.0);
         for thing in &seen.unmapped {
-            let corners = thing.pieces.iter().flat_map(|piece| piece.corners.iter());
-            assert!(
-                corners.into_iter().all(|c| bounds.contains(*c)),
-                "{seed}: {thing:?} {bounds:?}"
-            );
+            let mut corners = thing.pieces.iter().flat_map(|piece| piece.corners.iter());
+            assert!(corners.all(|c| bounds.contains(*c)), "{seed}: {thing:?} {bounds:?}");
         }
         seen_there += usize::from(!seen.unmapped.is_empty());
         // It is taken away again before the robot's eyes.
