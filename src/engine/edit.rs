@@ -41,7 +41,7 @@ const MOST_FOLLOWED: usize = 16;
 
 impl State {
     /// The faults that a map did not have before.
-    fn news(&self, before: &World, after: &World) -> MapErrors {
+    fn check_news(&self, before: &World, after: &World) -> MapErrors {
         let known = || match &self.surveyed {
             Some(known) => known.names().clone(),
             None => NameIndex::of(before),
@@ -104,7 +104,7 @@ impl Engine {
         if carriers.is_empty() {
             return Ok((after, warnings, left_behind));
         }
-        let faults = self.news(before, &after);
+        let faults = self.check_news(before, &after);
         if faults.has_errors() {
             return Err(faults.into());
         }
@@ -126,7 +126,7 @@ impl Engine {
         let before = self.surveyed.as_ref().map(|known| known.world()).unwrap_or(&nothing);
         let mut after = before.clone();
         alter(&mut after);
-        let faults = self.news(before, &after);
+        let faults = self.check_news(before, &after);
         if faults.has_errors() {
             return Err(faults.into());
         }
