@@ -5,9 +5,9 @@ use std::sync::mpsc;
 use std::sync::{Arc, Mutex};
 
 use orthoframe::engine::{Engine, Memory, Method, Mode, State, change_now};
-use orthoframe_map::{Entity, Format};
+use orthoframe_map::{DoorState, Entity, Format, Replica};
 use orthoframe_store::Change;
-use orthoframe_units::Source;
+use orthoframe_units::{ReplicaId, Source};
 
 use crate::generated_worlds::Dice;
 use crate::worlds::rb2;
@@ -168,7 +168,11 @@ fn what_follows_edits_is_what_would_be_derived() {
         }
         said
     };
-    for step in 0..40 {
+    let movable = ["Ваза-1", "Чашка-1", "Стул-1"].map(|name| {
+        let Entity::Replica(id) = rb2().find(name)[0] else { panic!() };
+        id
+    });
+    for step in 0..60 {
         let state = engine.state().unwrap();
         let said = all(&state);
         // Some let go at once, some held for long: copies, spares and changes in place all come up.
@@ -180,27 +184,42 @@ fn what_follows_edits_is_what_would_be_derived() {
         if held.len() > dice.below(6) {
             held.remove(dice.below(held.len()));
         }
+        let way = dice.below(8);
+        let (id, chair, door) = (movable[dice.below(3)], movable[2], dice.below(2));
         engine
-            .edit_world(&change, Mode::Commit, |world| {
-                let names = ["Ваза-1", "Чашка-1", "Стул-1"];
-                let [Entity::Replica(id), ..] = world.find(names[dice.below(3)])[..] else {
-                    panic!()
-                };
-                let thing = world.replicas.get_mut(&id).unwrap();
-                match dice.below(4) {
-                    0 => {
-                        let value = format!("Цвет-{step}");
-                        thing.properties.insert("ЦВЕТ".to_owned(), value);
+            .edit_world(&change, Mode::Commit, |world| match way {
+                0 => {
+                    let value = format!("Цвет-{step}");
+                    let thing = world.replicas.get_mut(&id).unwrap();
+                    thing.properties.insert("ЦВЕТ".to_owned(), value);
+                }
+                1 => world.replicas.get_mut(&chair).unwrap().name = format!("Пуфик-{step}"),
+                2 => {
+                    let last = *world.replicas.keys().next_back().unwrap();
+                    let new = ReplicaId(last.0 + 1);
+                    let name = format!("Скамья-{step}");
+                    let (chair, name_en) = (world.replicas[&chair].clone(), String::new());
+                    let thing = Replica { id: new, name, name_en, ..chair };
+                    world.replicas.insert(new, thing);
+                }
+                3 => {
+                    let is_new = |r: &&Replica| r.name.starts_with("Скамья-");
+                    let gone = world.replicas.values().find(is_new).map(|r| r.id);
+                    if let Some(gone) = gone {
+                        world.replicas.remove(&gone);
                     }
-                    _ => {
-                        let (at, by) = (thing.frame, [2.0, -2.0][step % 2]);
-                        thing.frame = orthoframe_units::Frame::new(
-                            at.x.get() + by,
-                            at.y.get(),
-                            at.z.get(),
-                            at.angle,
-                        );
-                    }
+                }
+                4 => {
+                    let state = [DoorState::CLOSED, DoorState::LOCKED][door];
+                    let mut doors = world.doors.values_mut();
+                    let door = doors.find(|door| door.name == "Дверь-КY").unwrap();
+                    door.state = state;
+                }
+                _ => {
+                    let thing = world.replicas.get_mut(&id).unwrap();
+                    let (at, by) = (thing.frame, [2.0, -2.0][step % 2]);
+                    let (x, y) = (at.x.get() + by, at.y.get());
+                    thing.frame = orthoframe_units::Frame::new(x, y, at.z.get(), at.angle);
                 }
             })
             .unwrap();
