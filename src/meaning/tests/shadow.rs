@@ -8,8 +8,8 @@ use orthoframe_exchange::{Options, read};
 use orthoframe_facts::Value;
 use orthoframe_language::Language;
 use orthoframe_language::question::{
-    Answer as Old, Asker, Lexicon, Memory, Mind, Past, Said, Senses, Sighting, Thing, Unanswered,
-    Way,
+    Answer as Old, Asker, Lexicon, Memory, Mind, News, Past, Said, Senses, Sighting, Thing,
+    Unanswered, Way,
 };
 use orthoframe_language::report::Detail;
 use orthoframe_map::World;
@@ -50,6 +50,15 @@ impl Senses for Blind {
     }
     fn past(&self, _: ReplicaId) -> Vec<Past> {
         Vec::new()
+    }
+    fn changed(&self) -> Vec<News> {
+        Vec::new()
+    }
+    fn unseen(&self) -> (Vec<ReplicaId>, usize) {
+        (Vec::new(), 0)
+    }
+    fn sureness(&self, _: Language) -> Option<String> {
+        None
     }
 }
 
