@@ -158,7 +158,7 @@ fn measure(wards: usize) {
     println!("| edit | median, ms | nine of ten below |\n|---|---|---|");
     let all = chairs(&world, wards);
     for (what, alter, text) in KINDS {
-        let mut edit = |engine: &mut Engine, chair: ReplicaId, n: usize| {
+        let edit = |engine: &mut Engine, chair: ReplicaId, n: usize| {
             let clock = ProcessTime::now();
             let edited = engine.edit_world(&change, Mode::Commit, |world| alter(world, chair, n));
             let spent = clock.elapsed();

@@ -340,7 +340,7 @@ fn no_edit_text_makes_the_reader_panic() {
             }
         }
         let naming = Naming { exact: &names, in_other_words: &|_| Vec::new() };
-        let done = edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), naming);
+        let done = edit(&world, &toml(&text), Format::Toml, &NextIds::after(&world), naming);
         if let Some(edited) = done.world {
             assert!(check(&edited).iter().all(|f| f.is_warning()), "{text}");
         } else {

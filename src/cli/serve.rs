@@ -105,13 +105,13 @@ pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> 
         // Whoever reads no output can still be served.
         let _ = say(&format!("{text} {address}"));
     };
-    came_to(serve(engine, settings, &stopped_by_signals(), told))
+    came_to(serve(engine, &settings, &stopped_by_signals(), told))
 }
 
 /// Speaks the Model Context Protocol on the standard streams.
 pub(super) fn assist(common: &Common, args: &McpArgs) -> Result<Answer, Failure> {
     let (engine, settings, _scratch) = open(common, &args.opened)?;
-    came_to(run_for_assistant(engine, settings, &stopped_by_signals()))
+    came_to(run_for_assistant(engine, &settings, &stopped_by_signals()))
 }
 
 fn came_to(served: Result<(), ServeError>) -> Result<Answer, Failure> {

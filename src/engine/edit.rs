@@ -72,7 +72,7 @@ impl Engine {
         };
         let naming = Naming { exact, in_other_words: &in_other_words };
         let EditReading { world: edited, faults, reason, carriers } =
-            map::edit(world, source, format, ids, naming);
+            map::edit(world, source, format, &ids, naming);
         let Some(edited) = edited else { return Err(faults.into()) };
         let reason = reason.filter(|_| change.reason.is_empty());
         let change =

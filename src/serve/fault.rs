@@ -29,6 +29,17 @@ impl Fault {
         Self { status, body }
     }
 
+    /// Whoever asks may not.
+    #[must_use]
+    pub(super) fn of_role() -> Self {
+        Self::new(
+            StatusCode::FORBIDDEN,
+            "serve::role",
+            "Для этого вашей роли мало.",
+            "Your role is not enough for this.",
+        )
+    }
+
     /// What is sent: code, message, help, in both languages.
     #[must_use]
     pub(super) fn body(&self) -> &Value {

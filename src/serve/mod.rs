@@ -112,7 +112,7 @@ const SHORTEST: usize = 16;
 /// The address cannot be taken, or what follows from the map cannot be derived.
 pub fn run(
     engine: Engine,
-    settings: Settings,
+    settings: &Settings,
     stop: &Stop,
     tell: impl FnOnce(&str),
 ) -> Result<(), ServeError> {
@@ -129,7 +129,7 @@ pub fn run(
         listener.local_addr().map(|at| (listener, at))
     });
     let (listener, at) = bound.map_err(failed)?;
-    let house = House::open(engine, &settings, at)?;
+    let house = House::open(engine, settings, at)?;
     let tasks = Arc::clone(&house.tasks);
     let served = runtime.block_on(async {
         if let Some(token) = lasting {

@@ -260,16 +260,7 @@ async fn may(
     if session.role >= needs {
         return next.run(request).await;
     }
-    role_is_not_enough().into_response()
-}
-
-pub(super) fn role_is_not_enough() -> Fault {
-    Fault::new(
-        StatusCode::FORBIDDEN,
-        "serve::role",
-        "Для этого вашей роли мало.",
-        "Your role is not enough for this.",
-    )
+    Fault::of_role().into_response()
 }
 
 async fn described() -> impl IntoResponse {

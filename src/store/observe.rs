@@ -408,7 +408,7 @@ impl Store {
                 self.put_new(draft, &record_of(o, *no), &self.stamp(&o.observer, o.at))?;
                 *no += 1;
             }
-            let belief = self.belief_after(replica, &seen, known)?;
+            let belief = self.belief_after(replica, &seen, known.as_ref())?;
             let last = seen[seen.len() - 1];
             self.put_log(draft, &belief, &self.stamp(&last.observer, last.at))?;
         }
@@ -426,10 +426,10 @@ impl Store {
         &self,
         id: ReplicaId,
         seen: &[&Observation],
-        known: Option<t::Beliefs>,
+        known: Option<&t::Beliefs>,
     ) -> Result<t::Beliefs> {
         let reader = self.reader();
-        let before = known.as_ref().map(|r| Timestamp(r.newest));
+        let before = known.map(|r| Timestamp(r.newest));
         let latest = seen.iter().map(|o| o.at).max().unwrap_or_default();
         let newest = before.map_or(latest, |before| before.max(latest));
         let Some(replica) = reader.surveyed(id)? else {
@@ -444,7 +444,7 @@ impl Store {
             // Whoever asks goes through all of it.
             return Ok(Opinion::default().record(id, newest, NO_SURVEY));
         }
-        let mut opinion = match (&known, before) {
+        let mut opinion = match (known, before) {
             (Some(r), _) if is_of(r, &replica) => Opinion::of(r),
             (Some(_), Some(before)) => reader.opinion(&replica, before)?,
             _ => reader.opinion_without(&replica, newest)?,

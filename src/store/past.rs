@@ -157,7 +157,7 @@ pub(crate) fn merged(
     runs: &[(Place, Opened)],
     from: &[u8],
     young: Vec<Pair>,
-    visit: &mut dyn FnMut(&[u8], &[u8]) -> Result<bool>,
+    visit: &mut Visit<'_>,
 ) -> Result<()> {
     let mut cursors: Vec<Cursor> =
         runs.iter().rev().map(|run| Ok(run_of(run)?.entries_from(from))).collect::<Result<_>>()?;

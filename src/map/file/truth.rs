@@ -67,7 +67,7 @@ pub fn read_truth(
         found
     };
     let naming = Naming { exact: &NameIndex::of(believed), in_other_words };
-    let done = edit_judged(believed, source, format, NextIds::after(believed), naming, &judge);
+    let done = edit_judged(believed, source, format, &NextIds::after(believed), naming, &judge);
     let world = done.world.map(|world| in_their_ids(&world));
     Truth { world, faults: done.faults, carriers: done.carriers }
 }

@@ -7,6 +7,7 @@ use nalgebra::{Isometry2, Point2, Vector2};
 use super::unmapped::Cells;
 use super::{Taken, slack};
 use crate::chart::{Chart, Line};
+use crate::geometry::{Polygon, convex_hull};
 use crate::units::{Deg, Frame, Point};
 
 /// A thing is looked for no farther than this from where it is mapped, in cm.
@@ -47,6 +48,9 @@ pub(super) fn place(
         .into_iter()
         .map(|frame| settled(outline, &points, frame))
         .filter_map(|frame| {
+            if explained(outline, &points, &frame) < LEAST {
+                return None;
+            }
             let (struck, through) = beams(outline, &frame, taken, chart);
             let share = struck as f64 / (struck + through).max(1) as f64;
             let worth = struck as f64 * share;
@@ -144,6 +148,23 @@ fn settled(outline: &[Line], points: &[Point2<f64>], start: Frame) -> Frame {
     }
     let at = pose.translation.vector;
     Frame::new(at.x, at.y, start.z.get(), Deg::from_radians(pose.rotation.angle()))
+}
+
+/// Of what is seen where a thing would stand, the share that lies on its outline: between the legs of a chair nothing is seen.
+fn explained(outline: &[Line], points: &[Point2<f64>], frame: &Frame) -> f64 {
+    let hull = convex_hull(outline.iter().flat_map(|line| [line.start, line.end]).collect());
+    let hull = Polygon::new(hull);
+    let (mut on, mut off) = (0_usize, 0_usize);
+    for p in points {
+        let own = frame.invert(*p);
+        let is_on = outline.iter().any(|line| (line.nearest(own) - own).norm() <= ON);
+        if is_on {
+            on += 1;
+        } else if hull.contains(own, ON) {
+            off += 1;
+        }
+    }
+    on as f64 / (on + off).max(1) as f64
 }
 
 /// Of the beams that should meet a thing placed so, those that end at it and those that go through.

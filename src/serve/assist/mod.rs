@@ -13,10 +13,9 @@
 
 mod approval;
 mod calls;
+mod client;
 mod tools;
 
-use std::hash::{Hash as _, Hasher as _};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rmcp::handler::server::ServerHandler;
@@ -31,66 +30,11 @@ use crate::engine::Engine;
 use crate::units::Stop;
 
 use super::fault::Fault;
-use super::gate::{Role, Session};
 use super::{House, ServeError, Settings, raised};
 
-use approval::Asked;
-use calls::Calls;
+pub(super) use client::Assistant;
 
 type McpError = rmcp::ErrorData;
-
-/// Sessions of assistants are told from those of browsers, which count from 1.
-const FIRST_SESSION: u64 = 1 << 40;
-
-/// One client over the standard streams, or all clients of a server over HTTP.
-#[derive(Debug, Clone)]
-pub(super) struct Assistant {
-    house: Arc<House>,
-    calls: Arc<Calls>,
-    asked: Arc<Asked>,
-    /// The client's program asks its user before it calls what acts.
-    trusts_host: bool,
-    /// Where edits wait that nobody could be asked about.
-    proposed: Option<PathBuf>,
-}
-
-impl Assistant {
-    pub(super) fn new(house: Arc<House>, store: Option<&Path>, trusts_host: bool) -> Self {
-        let beside = |ending: &str| {
-            store.map(|store| {
-                let mut name = store.as_os_str().to_owned();
-                name.push(ending);
-                PathBuf::from(name)
-            })
-        };
-        Self {
-            house,
-            calls: Arc::new(Calls::new(beside(".calls.jsonl"))),
-            asked: Arc::default(),
-            trusts_host,
-            proposed: beside(".proposed"),
-        }
-    }
-
-    /// Who calls: over HTTP whoever the gate let in, else whoever started the program; named by the client's program.
-    fn session(&self, context: &RequestContext<RoleServer>) -> Session {
-        let client = context.client_info().map(|info| info.name);
-        let client = client.filter(|name| !name.is_empty()).unwrap_or_else(|| "assistant".into());
-        let client: String = client.chars().take(60).collect();
-        let parts = context.extensions.get::<axum::http::request::Parts>();
-        match parts.and_then(|parts| parts.extensions.get::<Session>()) {
-            Some(known) => {
-                let name = format!("{} ({client})", known.name);
-                // Requests over HTTP need not belong together: those of one token and one program do.
-                let mut hasher = std::hash::DefaultHasher::new();
-                name.hash(&mut hasher);
-                let number = FIRST_SESSION + (hasher.finish() >> 24);
-                Session::of(number, known.role, &name)
-            }
-            None => Session::of(FIRST_SESSION, Role::Edit, &client),
-        }
-    }
-}
 
 const ABOUT: &str = "A robot's map of a building: rooms, doors, furniture, how things lie to each other, and the robot itself. \
 Questions and orders are plain English or Russian. Lengths are centimetres, angles degrees counter-clockwise from +x. \
@@ -130,7 +74,7 @@ impl ServerHandler for Assistant {
         };
         let arguments = Value::Object(request.arguments.clone().unwrap_or_default());
         let told = if session.role < row.needs {
-            Err(super::routes::role_is_not_enough())
+            Err(Fault::of_role())
         } else {
             let call = tools::Call {
                 assistant: self,
@@ -181,14 +125,13 @@ fn refused(fault: &Fault) -> CallToolResult {
 ///
 /// # Errors
 /// What follows from the map cannot be derived, or the streams break.
-pub fn run(engine: Engine, settings: Settings, stop: &Stop) -> Result<(), ServeError> {
+pub fn run(engine: Engine, settings: &Settings, stop: &Stop) -> Result<(), ServeError> {
     let failed = |source| ServeError::Listen { at: settings.listen, source };
-    let (trusts_host, store) = (settings.trusts_host, settings.store.clone());
-    let house = House::open(engine, &settings, settings.listen)?;
+    let house = House::open(engine, settings, settings.listen)?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(failed)?;
     let tasks = Arc::clone(&house.tasks);
-    let assistant = Assistant::new(house, store.as_deref(), trusts_host);
+    let assistant = Assistant::new(house, settings.store.as_deref(), settings.trusts_host);
     let served = runtime.block_on(async {
         let streams = rmcp::transport::io::stdio();
         tokio::select! {

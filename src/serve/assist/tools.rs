@@ -20,8 +20,8 @@ use super::super::drive::{Answered, Declined, pose_view};
 use super::super::fault::Fault;
 use super::super::gate::{Role, Session};
 use super::super::{House, act, apart, drawing, read};
-use super::Assistant;
 use super::approval::{Word, ask};
+use super::client::Assistant;
 
 /// What a call came to.
 pub(super) enum Told {
@@ -61,7 +61,7 @@ fn number(about: &str) -> Value {
     json!({ "type": "number", "description": about })
 }
 
-fn of(properties: Value, required: &[&str]) -> Value {
+fn of(properties: &Value, required: &[&str]) -> Value {
     json!({
         "type": "object", "properties": properties, "required": required,
         "additionalProperties": false,
@@ -80,7 +80,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "text": text("The question"), "lang": { "enum": ["en", "ru"], "description": "Of the answer, where the question does not tell" } }),
+                &json!({ "text": text("The question"), "lang": { "enum": ["en", "ru"], "description": "Of the answer, where the question does not tell" } }),
                 &["text"],
             )
         },
@@ -93,7 +93,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "query": text("A query, with rules of its own before it if it likes") }),
+                &json!({ "query": text("A query, with rules of its own before it if it likes") }),
                 &["query"],
             )
         },
@@ -104,7 +104,7 @@ const ROWS: &[Row] = &[
         about: "Where a thing is believed to be and how surely, where it was seen and when, its properties and relations; without a name, where the robot is.",
         needs: Role::Look,
         deed: Deed::Reads,
-        takes: || of(json!({ "name": text(THING) }), &[]),
+        takes: || of(&json!({ "name": text(THING) }), &[]),
     },
     Row {
         name: "relations",
@@ -114,7 +114,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "name": text("Of the relation, e.g. ON_TOP_OF, NEXT_TO, INSIDE"), "of": text(THING) }),
+                &json!({ "name": text("Of the relation, e.g. ON_TOP_OF, NEXT_TO, INSIDE"), "of": text(THING) }),
                 &[],
             )
         },
@@ -143,7 +143,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "from": text("Where from: a name, or \"X,Y\" in cm"), "to": text("Where to") }),
+                &json!({ "from": text("Where from: a name, or \"X,Y\" in cm"), "to": text("Where to") }),
                 &["from", "to"],
             )
         },
@@ -156,7 +156,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "name": text("A storey or a room; the lowest storey without one"), "picture": { "type": "boolean", "description": "With the picture (default), or the data alone" } }),
+                &json!({ "name": text("A storey or a room; the lowest storey without one"), "picture": { "type": "boolean", "description": "With the picture (default), or the data alone" } }),
                 &[],
             )
         },
@@ -169,7 +169,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 } }),
+                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 } }),
                 &[],
             )
         },
@@ -182,7 +182,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Reads,
         takes: || {
             of(
-                json!({ "revision": { "type": "integer", "minimum": 1 }, "text": text("The question") }),
+                &json!({ "revision": { "type": "integer", "minimum": 1 }, "text": text("The question") }),
                 &["revision", "text"],
             )
         },
@@ -193,7 +193,7 @@ const ROWS: &[Row] = &[
         about: "What the robot does, what waits, and how the last tasks ended.",
         needs: Role::Look,
         deed: Deed::Reads,
-        takes: || of(json!({}), &[]),
+        takes: || of(&json!({}), &[]),
     },
     Row {
         name: "proposals",
@@ -201,7 +201,7 @@ const ROWS: &[Row] = &[
         about: "Things that are believed to stand elsewhere than the map says; a person confirms or rejects them.",
         needs: Role::Look,
         deed: Deed::Reads,
-        takes: || of(json!({}), &[]),
+        takes: || of(&json!({}), &[]),
     },
     Row {
         name: "plan",
@@ -210,7 +210,7 @@ const ROWS: &[Row] = &[
         needs: Role::Drive,
         deed: Deed::Adds,
         takes: || {
-            of(json!({ "text": text("The order"), "lang": { "enum": ["en", "ru"] } }), &["text"])
+            of(&json!({ "text": text("The order"), "lang": { "enum": ["en", "ru"] } }), &["text"])
         },
     },
     Row {
@@ -221,7 +221,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Acts,
         takes: || {
             of(
-                json!({ "id": { "type": "integer", "minimum": 1, "description": "As `plan` gave it" } }),
+                &json!({ "id": { "type": "integer", "minimum": 1, "description": "As `plan` gave it" } }),
                 &["id"],
             )
         },
@@ -232,7 +232,7 @@ const ROWS: &[Row] = &[
         about: "Stops the robot at once and drops what waits. Needs nobody's word.",
         needs: Role::Look,
         deed: Deed::Adds,
-        takes: || of(json!({}), &[]),
+        takes: || of(&json!({}), &[]),
     },
     Row {
         name: "observe",
@@ -242,7 +242,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Adds,
         takes: || {
             of(
-                json!({
+                &json!({
                     "thing": text("Name of the thing"), "x": number("cm"), "y": number("cm"), "z": number("cm above the floor; 0 without it"),
                     "angle": number("degrees; 0 without it"), "map": text("Storey; the thing's own without it"),
                     "absent": { "type": "boolean", "description": "It was not where it was expected" },
@@ -260,7 +260,7 @@ const ROWS: &[Row] = &[
         deed: Deed::Acts,
         takes: || {
             of(
-                json!({
+                &json!({
                     "edit": { "type": "object", "description": "{\"edit\": [{\"move\": \"Chair 1\", \"by\": [10, 0]}]}: docs/cli.md" },
                     "reason": text("Why"), "on": { "type": "integer", "description": "The revision that it was made on; the present one without it" },
                 }),
@@ -272,7 +272,7 @@ const ROWS: &[Row] = &[
 
 fn fact() -> Value {
     of(
-        json!({
+        &json!({
             "relation": text("Name of the relation, in Russian or English"),
             "of": { "type": "array", "items": { "type": "string" }, "description": "The names, in order" },
         }),

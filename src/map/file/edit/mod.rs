@@ -107,7 +107,7 @@ pub struct EditReading {
 /// let world = World::load("maps/rb2.toml").unwrap();
 /// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
 /// let naming = Naming { exact: &NameIndex::of(&world), in_other_words: &|_| Vec::new() };
-/// let done = edit(&world, &text, Format::Toml, NextIds::after(&world), naming);
+/// let done = edit(&world, &text, Format::Toml, &NextIds::after(&world), naming);
 /// assert!(done.world.is_none());
 /// let fault = &done.faults.faults[0]; // «Стул-1» стоит вне своего помещения …
 /// assert_eq!(done.faults.position(fault), Some((3, 6)));
@@ -117,7 +117,7 @@ pub fn edit(
     world: &World,
     source: &Source,
     format: Format,
-    ids: NextIds,
+    ids: &NextIds,
     naming: Naming<'_>,
 ) -> EditReading {
     edit_judged(world, source, format, ids, naming, &|_| Vec::new())
@@ -137,7 +137,7 @@ pub(super) fn edit_judged(
     world: &World,
     source: &Source,
     format: Format,
-    ids: NextIds,
+    ids: &NextIds,
     naming: Naming<'_>,
     judge: &dyn Fn(&World) -> Vec<Fault>,
 ) -> EditReading {
@@ -159,7 +159,7 @@ pub(super) fn edit_judged(
     if !matches!(&edits.value, Value::Table(entries) if !entries.is_empty()) {
         return fail(vec![Fault::new(MapError::NoEdits, Vec::new())]);
     }
-    let work = Work { world, source, edits: &edits, ids: &ids, naming, judge };
+    let work = Work { world, source, edits: &edits, ids, naming, judge };
     // What does not go smoothly is told with all that the map has.
     part_of(world, &edits, &naming)
         .and_then(|part| work.on(&part, true))
