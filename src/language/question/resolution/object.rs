@@ -140,6 +140,7 @@ impl Settler<'_, '_> {
         let able: Vec<Thing> =
             found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
         let none_can = able.is_empty();
+        let there_are = found.len();
         if !none_can {
             found = able;
         } else if matches!(sort, Sort::Switch | Sort::Door | Sort::Carry | Sort::Put) {
@@ -179,7 +180,9 @@ impl Settler<'_, '_> {
                 return Err((Doubt::not_understood(&noun.text), at));
             }
             if none_can && !found.is_empty() {
-                return Ok(Some(found));
+                // "The 77 stool": that none can be carried makes no other number of them.
+                let enough = there_are >= wanted;
+                return if enough { Ok(Some(found)) } else { Err((Doubt::TooFew { found }, at)) };
             }
             // "Both cups", «все три чашки»: there are so many and no more, or it is not known which are meant.
             let these = both.is_some() || noun.all;
