@@ -90,32 +90,21 @@ pub(super) async fn confirm(
     Extension(session): Extension<Session>,
     Path(id): Path<u64>,
 ) -> Answer {
-    let asked = Arc::clone(&house);
-    let by = session.clone();
-    match apart(move || Ok(asked.tasks.confirm(&by, id))).await? {
-        Ok(view) => Ok(Json(view)),
-        Err(Declined::Expired(again)) => {
-            let fault = Fault::new(
-                StatusCode::CONFLICT,
-                "serve::expired",
-                "Карта с тех пор изменилась; вот план, каков он теперь.",
-                "The map has changed since; this is the plan as it is now.",
-            );
-            let text = json!(again.replies);
-            let plan = again.plan.map(|plan| {
-                let said = plan["said"].as_str().unwrap_or_default().to_owned();
-                house.tasks.propose_anew(&session, &said, plan)
-            });
-            Err(fault.with("task", json!(plan)).with("replies", text))
-        }
-        Err(declined) => Err(declined.into()),
-    }
+    apart(move || Ok(house.tasks.confirm(&session, id))).await?.map(Json).map_err(Fault::from)
 }
 
 impl From<Declined> for Fault {
     fn from(declined: Declined) -> Self {
         match declined {
-            Declined::Unknown | Declined::Expired(_) => unknown(),
+            Declined::Unknown => unknown(),
+            Declined::Expired { replies, task } => Self::new(
+                StatusCode::CONFLICT,
+                "serve::expired",
+                "Карта или то, на чём держался план, с тех пор изменились; вот план, каков он теперь.",
+                "The map, or what the plan rested on, has changed since; this is the plan as it is now.",
+            )
+            .with("task", json!(task))
+            .with("replies", json!(replies)),
             Declined::Leased { holder, seconds } => Self::new(
                 StatusCode::CONFLICT,
                 "serve::leased",

@@ -21,6 +21,7 @@ use crate::units::{Language, Stop};
 use super::desk::Desk;
 use super::events::Events;
 use super::gate::Session;
+use super::rehearse::{is_same_plan, plans_of, rehearse};
 
 /// So many tasks that ended are remembered, and so many plans that wait for a word.
 const REMEMBERED: usize = 50;
@@ -30,18 +31,6 @@ const LEASE: Duration = Duration::from_secs(120);
 const GLANCE: Duration = Duration::from_millis(20);
 /// Between two poses that are told.
 const TELL: Duration = Duration::from_millis(90);
-
-/// What a line came to when it was heard apart.
-#[derive(Debug)]
-pub(super) struct Rehearsed {
-    /// What was replied before the first task.
-    pub replies: Vec<Value>,
-    /// What is to be confirmed, if anything is.
-    pub plan: Option<Value>,
-    /// Told to stop.
-    pub stops: bool,
-    dialogue: Dialogue,
-}
 
 /// A task that is known here.
 #[derive(Debug)]
@@ -55,7 +44,7 @@ struct Task {
     revision: u64,
     state: Weak<State>,
     plan: Value,
-    /// Where the world turns out to differ, the robot stops: no other plan was agreed to.
+    /// This plan was agreed to and no other: where the world turns out to differ, the robot stops.
     is_strict: bool,
 }
 
@@ -96,8 +85,13 @@ pub(super) enum Declined {
         holder: String,
         seconds: u64,
     },
-    /// The map, or what the plan rested on, changed since it was planned; this is the plan now, if there is one.
-    Expired(Box<Rehearsed>),
+    /// The map, or what the plan rested on, changed since it was planned.
+    Expired {
+        /// What the same line is answered now.
+        replies: Vec<Value>,
+        /// The plan as it is now, which waits for a word; none where there is none any more.
+        task: Option<Value>,
+    },
     /// The robot drives, or something waits before it.
     Busy,
     Failed(Box<Error>),
@@ -150,30 +144,38 @@ impl Tasks {
         text: &str,
         language: Language,
     ) -> Result<Value, Error> {
-        let state = self.desk.state();
-        let before = match self.book().talks.get(&session.number) {
-            Some(dialogue) => dialogue.apart(),
-            None => Dialogue::new(language),
-        };
+        let (state, before) = (self.desk.state(), self.talk_of(session, language));
         let mut heard = rehearse(&state, &before, text)?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
             let standing = language.pick("Останавливаюсь.", "I am stopping.");
             heard.replies = vec![json!({ "outcome": "stopped", "text": standing })];
         }
-        let planned = heard.plan.is_some();
-        let mut view = json!({ "replies": heard.replies, "revision": state.revision() });
-        if let Some(plan) = heard.plan {
-            view["task"] = self.propose(session, text, before, plan, &state);
+        let mut view = self.told(&heard.replies, &state, language);
+        match heard.plan {
+            Some(plan) => view["task"] = self.propose(session, text, before, plan, &state),
+            None => self.keep(session, heard.dialogue),
         }
+        Ok(view)
+    }
+
+    /// What was said with somebody so far, as it may be gone on with apart.
+    fn talk_of(&self, session: &Session, language: Language) -> Dialogue {
+        let book = self.book();
+        let talk = book.talks.get(&session.number);
+        talk.map_or_else(|| Dialogue::new(language), Dialogue::apart)
+    }
+
+    fn keep(&self, session: &Session, dialogue: Dialogue) {
+        self.book().talks.insert(session.number, dialogue);
+    }
+
+    fn told(&self, replies: &[Value], state: &State, language: Language) -> Value {
+        let mut view = json!({ "replies": replies, "revision": state.revision() });
         if let Some(robot) = self.under_way(language) {
             view["caution"] = robot;
         }
-        let mut book = self.book();
-        if !planned {
-            book.talks.insert(session.number, heard.dialogue);
-        }
-        Ok(view)
+        view
     }
 
     /// What an answer lacks while the robot is under way: what it has done since it set out is noted when it is done.
@@ -198,20 +200,13 @@ impl Tasks {
         text: &str,
         language: Language,
     ) -> Result<Answered, Error> {
-        let state = self.desk.state();
-        let before = match self.book().talks.get(&session.number) {
-            Some(dialogue) => dialogue.apart(),
-            None => Dialogue::new(language),
-        };
+        let (state, before) = (self.desk.state(), self.talk_of(session, language));
         let heard = rehearse(&state, &before, text)?;
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
-        let mut view = json!({ "replies": heard.replies, "revision": state.revision() });
-        if let Some(robot) = self.under_way(language) {
-            view["caution"] = robot;
-        }
-        self.book().talks.insert(session.number, heard.dialogue);
+        let view = self.told(&heard.replies, &state, language);
+        self.keep(session, heard.dialogue);
         Ok(Answered::Told(view))
     }
 
@@ -295,15 +290,7 @@ impl Tasks {
     /// # Errors
     /// See [`Declined`].
     pub(super) fn confirm_alone(&self, session: &Session, id: u64) -> Result<Value, Declined> {
-        let is_busy = {
-            let book = self.book();
-            book.running.is_some() || !book.queue.is_empty()
-        };
-        if is_busy {
-            Err(Declined::Busy)
-        } else {
-            self.begin_when_its_turn_comes(session, id, true)
-        }
+        self.begin_when_its_turn_comes(session, id, true)
     }
 
     fn begin_when_its_turn_comes(
@@ -322,24 +309,26 @@ impl Tasks {
             let again = again.map_err(|error| Declined::Failed(Box::new(error)))?;
             let is_same = again.plan.as_ref().is_some_and(|plan| is_same_plan(plan, &task.plan));
             if state.revision() != task.revision || !is_same {
-                return Err(Declined::Expired(Box::new(again)));
+                let (text, before) = (task.text, task.before);
+                let anew = |plan| self.propose(session, &text, before, plan, &state);
+                let replies = again.replies;
+                return Err(Declined::Expired { replies, task: again.plan.map(anew) });
             }
         }
-        task.is_strict = is_strict;
-        let view = task.view("queued");
-        self.book().queue.push_back(task);
+        let view = {
+            let mut book = self.book();
+            if is_strict && (book.running.is_some() || !book.queue.is_empty()) {
+                book.planned.insert(id, task);
+                return Err(Declined::Busy);
+            }
+            task.is_strict = is_strict;
+            let view = task.view("queued");
+            book.queue.push_back(task);
+            view
+        };
         self.wake.notify_all();
         self.tell_queue();
         Ok(view)
-    }
-
-    /// Makes a task of a plan that was made anew.
-    pub(super) fn propose_anew(&self, session: &Session, text: &str, plan: Value) -> Value {
-        let before = match self.book().talks.get(&session.number) {
-            Some(dialogue) => dialogue.apart(),
-            None => Dialogue::default(),
-        };
-        self.propose(session, text, before, plan, &self.desk.state())
     }
 
     /// Drops a plan or a queued task; one that is driven is stopped. False where there is none.
@@ -464,7 +453,7 @@ impl Tasks {
         let mut dialogue = task.before.apart();
         dialogue.stopped_by(stop.clone());
         let mut engine = Engine::beside(self.desk.state());
-        let mut drive = Drive { is_strict: task.is_strict, ..Drive::new(self, task.id, stop) };
+        let mut drive = Drive::new(self, task, stop);
         let heard = dialogue.hear(&mut engine, &task.text, &mut |engine, event| {
             drive.follow(engine, event);
         });
@@ -551,74 +540,6 @@ impl Task {
     }
 }
 
-/// Whether two plans do the same, and rest on the same.
-fn is_same_plan(one: &Value, other: &Value) -> bool {
-    let planned = |plan: &Value| -> Vec<(Value, Value)> {
-        let events = plan["events"].as_array().into_iter().flatten();
-        let planned = events.filter(|event| event["event"] == "planned");
-        planned.map(|event| (event["steps"].clone(), event["assumptions"].clone())).collect()
-    };
-    planned(one) == planned(other) && one["assumptions"] == other["assumptions"]
-}
-
-/// What is replied to a line that is heard apart, and by nobody else.
-///
-/// # Errors
-/// There is no map, or the disk refused.
-pub(super) fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
-    rehearse(state, &Dialogue::new(language), text).map(|heard| json!(heard.replies))
-}
-
-/// Hears a line apart: what it answers, and what it would have the robot do.
-///
-/// # Errors
-/// There is no map, or the disk refused.
-fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
-    let mut engine = Engine::beside(Arc::clone(state));
-    let mut dialogue = before.apart().keeping_nothing();
-    let (mut told, mut events) = (Vec::new(), TaskEvents::default());
-    let mut is_first = true;
-    let heard = dialogue.hear(&mut engine, text, &mut |_, event| match event {
-        Event::Progress { progress, world, .. } if is_first => {
-            if let Some(event) = events.of(world, progress) {
-                told.push(event);
-            }
-        }
-        Event::Replied(Reply { outcome: Outcome::Task(_), .. }) => is_first = false,
-        _ => {}
-    })?;
-    let drives =
-        |reply: &Reply| matches!(&reply.outcome, Outcome::Task(t) if !t.reports.is_empty());
-    let stops = heard.replies.iter().any(|reply| match &reply.outcome {
-        // A robot that drives is stopped, whatever else was meant to be dropped.
-        Outcome::Stopped { .. } => true,
-        Outcome::Task(task) => task.stops,
-        _ => false,
-    });
-    let first = heard.replies.iter().position(drives);
-    let before = first.unwrap_or(heard.replies.len());
-    let mut replies = Vec::new();
-    for reply in &heard.replies[..before] {
-        let mut view = json::reply(&engine, reply)?;
-        view["text"] = json!(reply.text);
-        view["language"] = json!(reply.language.pick("ru", "en"));
-        replies.push(view);
-    }
-    let plan = match first.map(|at| &heard.replies[at].outcome) {
-        Some(Outcome::Task(task)) => {
-            let mut plan = json::task(engine.world()?, task);
-            plan["said"] = json!(text);
-            plan["events"] = json!(told);
-            let others = heard.replies.iter().filter(|reply| drives(reply)).count();
-            // Of what is ordered behind it the plan is made when its turn comes.
-            plan["more"] = json!(others - 1);
-            Some(plan)
-        }
-        _ => None,
-    };
-    Ok(Rehearsed { replies, plan, stops, dialogue })
-}
-
 /// What is told while a task is driven, at the pace of the clock.
 struct Drive<'t> {
     tasks: &'t Tasks,
@@ -631,15 +552,16 @@ struct Drive<'t> {
     passed: f64,
     told: Instant,
     failure: Option<String>,
-    /// See [`Task::is_strict`].
-    is_strict: bool,
+    /// The plans still to come to which alone was agreed; none where any will do.
+    agreed: Option<VecDeque<Value>>,
 }
 
 impl<'t> Drive<'t> {
-    fn new(tasks: &'t Tasks, id: u64, stop: Stop) -> Self {
+    fn new(tasks: &'t Tasks, task: &Task, stop: Stop) -> Self {
         let (events, told) = (TaskEvents::default(), Instant::now());
-        let (clock, passed, failure) = (None, 0.0, None);
-        Self { tasks, id, stop, events, clock, passed, told, failure, is_strict: false }
+        let (id, clock, passed, failure) = (task.id, None, 0.0, None);
+        let agreed = task.is_strict.then(|| plans_of(&task.plan).cloned().collect());
+        Self { tasks, id, stop, events, clock, passed, told, failure, agreed }
     }
 
     fn follow(&mut self, engine: &Engine, event: &Event<'_>) {
@@ -656,10 +578,14 @@ impl<'t> Drive<'t> {
                     _ => {}
                 }
                 if let Some(event) = self.events.of(world, progress) {
-                    if self.is_strict && matches!(event, TaskEvent::Replanned(_)) {
-                        self.tasks.stop_for(self.id, "surprise");
-                    }
                     let mut view = json!(event);
+                    let is_plan = matches!(event, TaskEvent::Planned(_) | TaskEvent::Replanned(_));
+                    if is_plan
+                        && let Some(agreed) = &mut self.agreed
+                        && agreed.pop_front().as_ref() != Some(&view)
+                    {
+                        self.tasks.stop_for(self.id, "another plan");
+                    }
                     view["task"] = json!(self.id);
                     self.tasks.events.tell("directive", &view);
                 }

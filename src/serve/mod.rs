@@ -20,6 +20,7 @@ mod fault;
 mod gate;
 mod listen;
 mod read;
+mod rehearse;
 mod routes;
 
 use std::net::SocketAddr;

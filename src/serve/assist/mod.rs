@@ -12,8 +12,11 @@
 //! - Each call is noted with the client's name (`calls`).
 
 mod approval;
+mod call;
 mod calls;
 mod client;
+mod deeds;
+mod look;
 mod tools;
 
 use std::sync::Arc;
@@ -76,7 +79,7 @@ impl ServerHandler for Assistant {
         let told = if session.role < row.needs {
             Err(Fault::of_role())
         } else {
-            let call = tools::Call {
+            let call = call::Call {
                 assistant: self,
                 session: &session,
                 request: &request,
@@ -85,15 +88,15 @@ impl ServerHandler for Assistant {
             call.run(row.name, arguments.clone()).await
         };
         let outcome = match &told {
-            Ok(tools::Told::Waits(_)) => "asked",
+            Ok(call::Told::Waits(_)) => "asked",
             Ok(_) => "answered",
             Err(_) => "refused",
         };
         self.calls.note(&session.name, row.name, &arguments, outcome);
         Ok(match told {
-            Ok(tools::Told::Waits(question)) => (*question).into(),
-            Ok(tools::Told::Value(value)) => complete(vec![], value).into(),
-            Ok(tools::Told::Picture(png, value)) => {
+            Ok(call::Told::Waits(question)) => (*question).into(),
+            Ok(call::Told::Value(value)) => complete(vec![], value).into(),
+            Ok(call::Told::Picture(png, value)) => {
                 use base64::Engine as _;
                 let data = base64::engine::general_purpose::STANDARD.encode(png);
                 complete(vec![ContentBlock::image(data, "image/png")], value).into()

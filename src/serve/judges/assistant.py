@@ -106,7 +106,7 @@ async def work(connect, mode, log=None):
         check(value["outcome"] == "noted", value)
         answers.append(True)
         told, value = await call("run", id=plan["task"]["task"])
-        check(told.is_error and value["code"] == "assist::expired", value)
+        check(told.is_error and value["code"] == "serve::expired", value)
         _, value = await call("proposals")
         check(any(p["name"] == "Чашка-1" for p in value["proposals"]), value)
 

@@ -1,0 +1,301 @@
+//! What acts or adds: plans, and drives that a person agreed to; observations; edits that are proposed.
+
+use std::sync::Arc;
+use std::time::{Duration, SystemTime};
+
+use rmcp::model::ProgressNotificationParam;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::engine::{Error, Mode, change_now};
+use crate::units::{Deg, Frame, Language};
+
+use super::super::fault::Fault;
+use super::super::gate::Session;
+use super::super::rehearse::plans_of;
+use super::super::{House, act, apart};
+use super::approval::{Word, ask};
+use super::call::{Answer, Call, Said, Told, refuse, said};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Plan {
+    id: u64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Seen {
+    thing: String,
+    x: Option<f64>,
+    y: Option<f64>,
+    #[serde(default)]
+    z: f64,
+    #[serde(default)]
+    angle: f64,
+    map: Option<String>,
+    #[serde(default)]
+    absent: bool,
+    sure: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Edit {
+    edit: serde_json::Map<String, Value>,
+    #[serde(default)]
+    reason: String,
+    on: Option<u64>,
+}
+
+impl Call<'_> {
+    pub(super) async fn plan(&self, order: Said) -> Answer {
+        let (house, session) = (self.house(), self.session.clone());
+        let language = order.language();
+        let heard = apart(move || house.tasks.say(&session, order.text.trim(), language));
+        let mut view = heard.await?;
+        view["text"] = match view.get("task") {
+            Some(task) => json!(plan_in_words(task, language)),
+            None => json!(said(&view["replies"])),
+        };
+        Ok(Told::Value(view))
+    }
+
+    pub(super) async fn carry_out(&self, plan: Plan) -> Answer {
+        let house = self.house();
+        let Some(task) = house.tasks.planned(plan.id) else {
+            return Err(act::unknown());
+        };
+        let about = format!("run {}", plan.id);
+        let question = plan_in_words(&task, Language::English);
+        if let Some(waits) = self.approved(&about, &question).await? {
+            return Ok(waits);
+        }
+        self.drive(plan.id).await
+    }
+
+    /// A person's yes is none; what is to be returned, where it is not there yet.
+    async fn approved(&self, about: &str, question: &str) -> Result<Option<Told>, Fault> {
+        let by = (self.request, self.context);
+        let (asked, trusts) = (&self.assistant.asked, self.assistant.trusts_host);
+        let word = ask(asked, trusts, by, about, question).await.map_err(|error| {
+            let told = error.to_string();
+            refuse("assist::asking", &told, &told)
+        })?;
+        match word {
+            Word::Yes => Ok(None),
+            Word::Ask(question) => Ok(Some(Told::Waits(question))),
+            Word::No => Err(refuse(
+                "assist::declined",
+                "Человек не согласился; ничего не сделано.",
+                "The person did not agree; nothing was done.",
+            )),
+            Word::NobodyToAsk => Err(refuse(
+                "assist::nobody_to_ask",
+                "Спросить некого: эта программа не умеет спрашивать человека (elicitation). Если она сама спрашивает его перед каждым вызовом, запустите сервер с --trust-client.",
+                "There is nobody to ask: this client cannot ask its user (elicitation). If it asks before every call by itself, start the server with --trust-client.",
+            )),
+        }
+    }
+
+    async fn drive(&self, id: u64) -> Answer {
+        let house = self.house();
+        let mut hearing = house.events.listen();
+        let (asked, session) = (Arc::clone(&house), self.session.clone());
+        apart(move || Ok(asked.tasks.confirm_alone(&session, id))).await??;
+        let mut watch = Watch { house: &house, session: self.session, id, is_over: false };
+        let token = self.context.meta.get_progress_token();
+        let mut steps = 0.0;
+        // Whoever drives must be heard of.
+        let mut beat = tokio::time::interval(Duration::from_secs(20));
+        loop {
+            let happened = tokio::select! {
+                happened = house.events.next(&mut hearing) => happened,
+                () = self.context.ct.cancelled() => {
+                    house.tasks.cancel(self.session, id);
+                    tokio::time::sleep(Duration::from_millis(50)).await;
+                    Vec::new()
+                }
+                _ = beat.tick() => {
+                    let _ = house.tasks.lease(self.session);
+                    Vec::new()
+                }
+            };
+            for (kind, data) in happened {
+                let event: Value = serde_json::from_str(&data).unwrap_or_default();
+                if event["task"] != json!(id) {
+                    continue;
+                }
+                if kind == "task"
+                    && !["queued", "running"].contains(&event["state"].as_str().unwrap_or_default())
+                {
+                    watch.is_over = true;
+                    return Ok(Told::Value(ended(event)));
+                }
+                if kind == "directive"
+                    && let Some(token) = &token
+                {
+                    steps += 1.0;
+                    let told = event["en"]
+                        .as_str()
+                        .or(event["do_en"].as_str())
+                        .or(event["explanation_en"].as_str());
+                    let told = told.or(event["event"].as_str()).unwrap_or_default();
+                    let progress =
+                        ProgressNotificationParam::new(token.clone(), steps).with_message(told);
+                    // Who has gone hears nothing; the call is cancelled then.
+                    let _ = self.context.peer.notify_progress(progress).await;
+                }
+            }
+        }
+    }
+
+    pub(super) async fn observe(&self, seen: Seen) -> Answer {
+        let at = match (seen.absent, seen.x, seen.y) {
+            (true, None, None) => None,
+            (false, Some(x), Some(y)) => Some(Frame::new(x, y, seen.z, Deg::of(seen.angle))),
+            _ => {
+                return Err(refuse(
+                    "assist::place",
+                    "нужны x и y, либо absent",
+                    "it takes x and y, or absent",
+                ));
+            }
+        };
+        let sure = seen.sure.unwrap_or(0.9);
+        let numbers = [seen.x.unwrap_or(0.0), seen.y.unwrap_or(0.0), seen.z, seen.angle];
+        if !(0.0..=1.0).contains(&sure) || numbers.iter().any(|n| !n.is_finite() || n.abs() > 1e7) {
+            return Err(refuse(
+                "assist::number",
+                "sure – от 0 до 1, а место – в пределах здания",
+                "sure is from 0 to 1, and the place within the building",
+            ));
+        }
+        let observer = self.session.name.clone();
+        let house = self.house();
+        let noted = house.desk.ask(move |engine| {
+            let when = SystemTime::now().into();
+            match at {
+                Some(frame) => {
+                    let place = (seen.map.as_deref(), frame);
+                    engine.observe_on_map(&seen.thing, place, sure, &observer, when)
+                }
+                None => engine.observe(&seen.thing, None, sure, &observer, when),
+            }
+        });
+        noted.await?.map_err(|error| self.named(&error))?;
+        house.events.tell("known", &json!({}));
+        Ok(Told::Value(json!({ "outcome": "noted" })))
+    }
+
+    /// A fault with the names of the map as it is.
+    fn named(&self, error: &Error) -> Fault {
+        let state = self.house().desk.state();
+        Fault::of(error, state.world().ok())
+    }
+
+    pub(super) async fn propose_edit(&self, proposed: Edit) -> Answer {
+        let house = self.house();
+        let on = proposed.on.unwrap_or_else(|| house.desk.state().revision());
+        let text = Value::Object(proposed.edit).to_string();
+        let change = change_now(&self.session.name, &proposed.reason);
+        let tried = act::edited(&house, on, text.clone(), change.clone(), Mode::DryRun).await?;
+        let told = tried["differences"].as_array().into_iter().flatten();
+        let told: Vec<&str> = told.filter_map(|d| d["ru"].as_str()).collect();
+        let question = format!("{}\n{}", proposed.reason, told.join("\n"));
+        let about = format!("edit on {on}: {text}");
+        match self.approved(&about, question.trim()).await {
+            Ok(Some(waits)) => return Ok(waits),
+            Ok(None) => {}
+            Err(fault) if fault.body()["code"] == "assist::nobody_to_ask" => {
+                return self.laid_beside(on, &text, tried).await;
+            }
+            Err(fault) => return Err(fault),
+        }
+        act::edited(&house, on, text, change, Mode::Commit).await.map(Told::Value)
+    }
+
+    /// Leaves an edit that nobody could be asked about for the operator, as a file that `ortho edit --file` takes.
+    async fn laid_beside(&self, on: u64, text: &str, mut tried: Value) -> Answer {
+        let Some(dir) = self.assistant.proposed.clone() else {
+            return Ok(Told::Value(tried));
+        };
+        let text = text.to_owned();
+        let at =
+            SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |d| d.as_millis());
+        let file = dir.join(format!("{on}-{at}.json"));
+        let written = {
+            let file = file.clone();
+            tokio::task::spawn_blocking(move || {
+                std::fs::create_dir_all(&dir)
+                    .and_then(|()| crate::units::write_file(&file, text.as_bytes()))
+            })
+        };
+        if let Ok(Err(error)) = written.await {
+            let told = format!("{}: {error}", file.display());
+            return Err(refuse("assist::disk", &told, &told));
+        }
+        tried["outcome"] = json!("proposed");
+        tried["file"] = json!(file.display().to_string());
+        tried["text"] = json!(format!(
+            "The edit is sound and not written: nobody could be asked. The operator can write it by `ortho edit --file {}`.",
+            file.display()
+        ));
+        Ok(Told::Value(tried))
+    }
+}
+
+/// Has the robot stop when the call that drives it is dropped before its end.
+struct Watch<'w> {
+    house: &'w House,
+    session: &'w Session,
+    id: u64,
+    is_over: bool,
+}
+
+impl Drop for Watch<'_> {
+    fn drop(&mut self) {
+        if !self.is_over {
+            self.house.tasks.cancel(self.session, self.id);
+        }
+    }
+}
+
+fn ended(mut event: Value) -> Value {
+    event["text"] = event["text_end"].clone();
+    event
+}
+
+/// A plan as it is shown to a person.
+fn plan_in_words(task: &Value, language: Language) -> String {
+    let plan = &task["plan"];
+    let field = |name: &str| format!("{name}{}", language.pick("", "_en"));
+    let mut lines = vec![format!(
+        "{}: {}",
+        language.pick("Задание", "Task"),
+        task["text"].as_str().unwrap_or_default()
+    )];
+    let directive = language.pick("do_ru", "do_en");
+    let steps = plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
+    let steps = steps.filter_map(|step| step.as_array()).flatten();
+    for (number, step) in (1..).zip(steps) {
+        lines.push(format!("{number}. {}", step[directive].as_str().unwrap_or_default()));
+    }
+    let assumed = plan[field("assumptions")].as_array().into_iter().flatten();
+    let assumed: Vec<&str> = assumed.filter_map(Value::as_str).collect();
+    if !assumed.is_empty() {
+        let head = language.pick("Если так и есть", "Assuming");
+        lines.push(format!("{head}: {}", assumed.join("; ")));
+    }
+    if plan["more"] != json!(0) {
+        lines.push(
+            language
+                .pick(
+                    "Это первая часть; остальное закажите отдельно: его плана ещё нет.",
+                    "This is the first part; order the rest by itself: it has no plan yet.",
+                )
+                .to_owned(),
+        );
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,93 @@
+//! A line heard apart: the simulator drives in no time what it would have the robot do, and nothing of it stays.
+
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use crate::engine::{Dialogue, Engine, Error, Event, Outcome, Reply, State, TaskEvents, json};
+use crate::units::Language;
+
+/// What a line came to when it was heard apart.
+#[derive(Debug)]
+pub(super) struct Rehearsed {
+    /// What was replied before the first task.
+    pub replies: Vec<Value>,
+    /// What is to be confirmed, if anything is.
+    pub plan: Option<Value>,
+    /// Told to stop.
+    pub stops: bool,
+    pub dialogue: Dialogue,
+}
+
+/// The plans that a task goes by, as they are made one after another: steps and assumptions.
+pub(super) fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
+    let events = plan["events"].as_array().into_iter().flatten();
+    events.filter(|event| event["event"] == "planned" || event["event"] == "replanned")
+}
+
+/// Whether two lines heard apart would do the same, and rest on the same.
+pub(super) fn is_same_plan(one: &Value, other: &Value) -> bool {
+    plans_of(one).eq(plans_of(other)) && one["assumptions"] == other["assumptions"]
+}
+
+/// What is replied to a line that is heard apart, and by nobody else.
+///
+/// # Errors
+/// There is no map, or the disk refused.
+pub(super) fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
+    rehearse(state, &Dialogue::new(language), text).map(|heard| json!(heard.replies))
+}
+
+/// Hears a line apart: what it answers, and what it would have the robot do.
+///
+/// # Errors
+/// There is no map, or the disk refused.
+pub(super) fn rehearse(
+    state: &Arc<State>,
+    before: &Dialogue,
+    text: &str,
+) -> Result<Rehearsed, Error> {
+    let mut engine = Engine::beside(Arc::clone(state));
+    let mut dialogue = before.apart().keeping_nothing();
+    let (mut told, mut events) = (Vec::new(), TaskEvents::default());
+    let mut is_first = true;
+    let heard = dialogue.hear(&mut engine, text, &mut |_, event| match event {
+        Event::Progress { progress, world, .. } if is_first => {
+            if let Some(event) = events.of(world, progress) {
+                told.push(event);
+            }
+        }
+        Event::Replied(Reply { outcome: Outcome::Task(_), .. }) => is_first = false,
+        _ => {}
+    })?;
+    let drives =
+        |reply: &Reply| matches!(&reply.outcome, Outcome::Task(t) if !t.reports.is_empty());
+    let stops = heard.replies.iter().any(|reply| match &reply.outcome {
+        // A robot that drives is stopped, whatever else was meant to be dropped.
+        Outcome::Stopped { .. } => true,
+        Outcome::Task(task) => task.stops,
+        _ => false,
+    });
+    let first = heard.replies.iter().position(drives);
+    let before = first.unwrap_or(heard.replies.len());
+    let mut replies = Vec::new();
+    for reply in &heard.replies[..before] {
+        let mut view = json::reply(&engine, reply)?;
+        view["text"] = json!(reply.text);
+        view["language"] = json!(reply.language.pick("ru", "en"));
+        replies.push(view);
+    }
+    let plan = match first.map(|at| &heard.replies[at].outcome) {
+        Some(Outcome::Task(task)) => {
+            let mut plan = json::task(engine.world()?, task);
+            plan["said"] = json!(text);
+            plan["events"] = json!(told);
+            let others = heard.replies.iter().filter(|reply| drives(reply)).count();
+            // Of what is ordered behind it the plan is made when its turn comes.
+            plan["more"] = json!(others - 1);
+            Some(plan)
+        }
+        _ => None,
+    };
+    Ok(Rehearsed { replies, plan, stops, dialogue })
+}
