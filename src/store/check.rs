@@ -140,7 +140,7 @@ fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Resu
 
 /// Both files of every run. What can be read in one of them, the next opening mends.
 fn check_past(past: &Past, report: &mut FsckReport) {
-    for (_, run) in past.runs().iter() {
+    for run in past.runs().iter().map(|named| &named.run) {
         match run {
             Err(error) => report.find(Severity::Broken, error.to_string()),
             Ok(run) => {

@@ -53,9 +53,27 @@ fn described(bytes: &[u8]) -> Option<u64> {
 /// One run, or why it cannot be read.
 type Opened = std::result::Result<Arc<Run>, StoreError>;
 
+/// A run as the trees name it.
+pub(crate) struct Named {
+    pub(crate) place: Place,
+    /// The number of its files, which are in use whether they can be read or not.
+    file: u64,
+    pub(crate) run: Opened,
+}
+
+impl Named {
+    fn run(&self) -> Result<&Arc<Run>> {
+        self.run.as_ref().map_err(told)
+    }
+
+    fn again(&self) -> Self {
+        Self { place: self.place, file: self.file, run: self.run().map(Arc::clone) }
+    }
+}
+
 /// The runs of a store, the oldest first.
 pub(crate) struct Past {
-    runs: RwLock<Arc<Vec<(Place, Opened)>>>,
+    runs: RwLock<Arc<Vec<Named>>>,
 }
 
 impl Past {
@@ -67,34 +85,35 @@ impl Past {
             let place = key.first_chunk::<8>().map(|n| u64::from_be_bytes(*n));
             let bad = || StoreError::BadRecord { table: "~runs", key: format!("{key:?}") };
             let (place, file) = place.zip(described(value)).ok_or_else(bad)?;
-            runs.push((place, Run::open(disk, &dir, file).map(Arc::new)));
+            let run = Run::open(disk, &dir, file).map(Arc::new);
+            runs.push(Named { place, file, run });
             Ok(true)
         })?;
         Ok(Self { runs: RwLock::new(Arc::new(runs)) })
     }
 
-    pub(crate) fn runs(&self) -> Arc<Vec<(Place, Opened)>> {
+    pub(crate) fn runs(&self) -> Arc<Vec<Named>> {
         Arc::clone(&self.runs.read().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Puts a run in the place of all from `first` to `place`.
     pub(crate) fn put(&self, first: Place, place: Place, run: Run) {
         let mut all = self.runs.write().unwrap_or_else(PoisonError::into_inner);
-        let kept = all.iter().filter(|(at, _)| *at < first || *at > place);
-        let mut runs: Vec<_> = kept.map(|(at, run)| (*at, again(run))).collect();
-        runs.push((place, Ok(Arc::new(run))));
-        runs.sort_by_key(|(at, _)| *at);
+        let kept = all.iter().filter(|named| named.place < first || named.place > place);
+        let mut runs: Vec<_> = kept.map(Named::again).collect();
+        runs.push(Named { place, file: run.file, run: Ok(Arc::new(run)) });
+        runs.sort_by_key(|named| named.place);
         *all = Arc::new(runs);
     }
 
     /// Takes a run out that came to nothing.
-    pub(crate) fn restore(&self, runs: Arc<Vec<(Place, Opened)>>) {
+    pub(crate) fn restore(&self, runs: Arc<Vec<Named>>) {
         *self.runs.write().unwrap_or_else(PoisonError::into_inner) = runs;
     }
 
     /// The numbers of the files that are in use.
     pub(crate) fn files(&self) -> Vec<u64> {
-        self.runs().iter().filter_map(|(_, run)| Some(run.as_ref().ok()?.file)).collect()
+        self.runs().iter().map(|named| named.file).collect()
     }
 
     /// The runs that should be made one: the last ones, where there are many of like size. `all` takes every one.
@@ -102,7 +121,7 @@ impl Past {
         let runs = self.runs();
         let sizes: Vec<(Place, u64)> = runs
             .iter()
-            .map(|(at, run)| Ok((*at, run.as_ref().map_err(drop)?.bytes)))
+            .map(|named| Ok((named.place, named.run.as_ref().map_err(drop)?.bytes)))
             .collect::<std::result::Result<_, ()>>()
             .ok()?;
         let (last, size) = *sizes.last()?;
@@ -124,13 +143,6 @@ impl Past {
     }
 }
 
-fn again(run: &Opened) -> Opened {
-    match run {
-        Ok(run) => Ok(Arc::clone(run)),
-        Err(error) => Err(told(error)),
-    }
-}
-
 /// An error once more.
 fn told(error: &StoreError) -> StoreError {
     match error {
@@ -148,19 +160,18 @@ fn full(tree: u8, key: &[u8]) -> Vec<u8> {
     out
 }
 
-fn run_of((_, run): &(Place, Opened)) -> Result<&Arc<Run>> {
-    run.as_ref().map_err(told)
-}
-
 /// The entries of some runs from a key on, each key once, as the latest of them has it; what is gone with an empty value.
 pub(crate) fn merged(
-    runs: &[(Place, Opened)],
+    runs: &[Named],
     from: &[u8],
     young: Vec<Pair>,
     visit: &mut Visit<'_>,
 ) -> Result<()> {
-    let mut cursors: Vec<Cursor> =
-        runs.iter().rev().map(|run| Ok(run_of(run)?.entries_from(from))).collect::<Result<_>>()?;
+    let mut cursors: Vec<Cursor> = runs
+        .iter()
+        .rev()
+        .map(|named| Ok(named.run()?.entries_from(from)))
+        .collect::<Result<_>>()?;
     let mut young = young.into_iter().peekable();
     loop {
         // The latest one that has the least key.
@@ -216,8 +227,8 @@ impl Trees for Layered {
         let mut found = young;
         if found.is_none() {
             let key = full(tree, key);
-            for run in self.past.runs().iter().rev() {
-                found = run_of(run)?.get(&key)?;
+            for named in self.past.runs().iter().rev() {
+                found = named.run()?.get(&key)?;
                 if found.is_some() {
                     break;
                 }
@@ -251,8 +262,8 @@ impl Trees for Layered {
         loop {
             let is_in = |key: &Vec<u8>| if within { *key <= most } else { *key < most };
             let mut found = young.iter().rev().find(|(key, _)| is_in(key)).cloned();
-            for run in runs.iter().rev() {
-                if let Some(entry) = run_of(run)?.last(&most, within)?
+            for named in runs.iter().rev() {
+                if let Some(entry) = named.run()?.last(&most, within)?
                     && found.as_ref().is_none_or(|(key, _)| entry.0 > *key)
                 {
                     found = Some(entry);
@@ -300,7 +311,7 @@ pub(crate) fn write_merged(
     disk: &dyn Disk,
     dir: &Path,
     file: u64,
-    runs: &[(Place, Opened)],
+    runs: &[Named],
     is_oldest: bool,
 ) -> Result<Run> {
     let dir = past_dir(dir);

@@ -212,10 +212,10 @@ impl Run {
         }
     }
 
-    /// Which of its files were found broken, and not since.
+    /// Which of its files were found broken since it was opened.
     pub(crate) fn broken(&self) -> Vec<PathBuf> {
         let pairs = self.paths.iter().zip(&self.is_broken);
-        let broken = pairs.filter(|(_, is_broken)| is_broken.swap(false, Relaxed));
+        let broken = pairs.filter(|(_, is_broken)| is_broken.load(Relaxed));
         broken.map(|(path, _)| path.clone()).collect()
     }
 

@@ -567,7 +567,7 @@ tables! {
         col last_seen: Option<i64> = "LastSeen",
         col missed: Option<i64> = "Missed",
     }
-    /// What was seen to stand where the map has nothing. `RecDate` says when, `RecUser` who saw it.
+    /// What was seen to stand where the map has nothing. `At` says when it was seen, `RecDate` when it was last noted.
     Log Obstacles = 69 {
         key no: u32 = "No",
         col area_id: u32 = "AreaID",

@@ -174,6 +174,67 @@ fn one_broken_file_of_the_past_is_mended_and_two_are_refused() {
     assert!(!fsck(dir.path()).unwrap().is_sound());
 }
 
+/// A run that cannot be opened once may be well the next time, or be brought back from elsewhere: its files stay.
+#[test]
+fn files_of_the_past_that_cannot_be_read_stay_where_they_are() {
+    let dir = scratch();
+    let (mut store, map) = begun(dir.path());
+    let mut dice = Dice::new(12);
+    see_much(&mut store, &map, &mut dice, 0, 20_000);
+    store.checkpoint().unwrap();
+    let (before, _, _) = told(&store).unwrap();
+    drop(store);
+    let old = runs(dir.path());
+    let whole: Vec<Vec<u8>> = old.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    // As long as it has both indexes broken, it is unreadable; and then once more in the midst of its records.
+    for at in [whole[0].len() - 5, whole[0].len() / 2] {
+        for (path, bytes) in old.iter().zip(&whole) {
+            let mut bytes = bytes.clone();
+            bytes[at] ^= 4;
+            std::fs::write(path, bytes).unwrap();
+        }
+        let mut store = open(dir.path());
+        assert!(told(&store).is_err(), "it is broken");
+        for day in 1..7 {
+            see_much(&mut store, &map, &mut dice, day * DAY, 12_000);
+            store.checkpoint().unwrap();
+        }
+        drop(store);
+        for (path, bytes) in old.iter().zip(&whole) {
+            assert!(path.exists(), "{} is gone", path.display());
+            std::fs::write(path, bytes).unwrap();
+        }
+        let store = open(dir.path());
+        for (id, seen) in &before {
+            let now = store.reader().observations(*id).unwrap();
+            assert!(now.len() > seen.len() && seen.iter().all(|o| now.contains(o)), "byte {at}");
+        }
+    }
+}
+
+/// A file that was mended while the store is open is read from then on, and not written at every snapshot.
+#[test]
+fn what_was_mended_is_mended_once() {
+    let dir = scratch();
+    let (mut store, map) = begun(dir.path());
+    see_much(&mut store, &map, &mut Dice::new(9), 0, 20_000);
+    store.checkpoint().unwrap();
+    drop(store);
+    let first = runs(dir.path())[0].clone();
+    let mut bytes = std::fs::read(&first).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 4;
+    std::fs::write(&first, bytes).unwrap();
+    let mut store = open(dir.path());
+    let told_once = told(&store).unwrap();
+    store.checkpoint().unwrap();
+    let written = std::fs::metadata(&first).unwrap().modified().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    assert!(told(&store).unwrap() == told_once);
+    store.checkpoint().unwrap();
+    assert_eq!(std::fs::metadata(&first).unwrap().modified().unwrap(), written);
+}
+
 /// What a person said, and what was seen, in the order of writing.
 enum Event {
     Seen(Observation),

@@ -49,11 +49,11 @@ impl Vault {
         }
         if let Some((first, last)) = self.past.alike(all) {
             let runs = self.past.runs();
-            let is_oldest = runs.first().is_some_and(|(place, _)| *place == first);
-            let from = runs.partition_point(|(place, _)| *place < first);
+            let is_oldest = runs.first().is_some_and(|named| named.place == first);
+            let from = runs.partition_point(|named| named.place < first);
             let file = self.state.lsn + 1;
             let run = write_merged(&*self.disk, &self.dir, file, &runs[from..], is_oldest)?;
-            let places = runs[from..].iter().map(|(place, _)| *place).filter(|p| *p != last);
+            let places = runs[from..].iter().map(|named| named.place).filter(|p| *p != last);
             let mut gone = Vec::new();
             for place in places {
                 let key = place.to_be_bytes().to_vec();
@@ -110,11 +110,18 @@ impl Vault {
     /// Writes anew, from its twin, what of a run was found broken; names one of the files.
     pub(super) fn mend_runs(&self) -> Option<String> {
         let mut mended = None;
-        for (_, run) in self.past.runs().iter() {
-            let Ok(run) = run else { continue };
+        for named in self.past.runs().iter() {
+            let Ok(run) = &named.run else { continue };
             for path in run.broken() {
-                match run.copy_to(&*self.disk, &path) {
-                    Ok(()) => mended = Some(path.display().to_string()),
+                // What was read by the broken file is read by the new one from now on.
+                let written = run.copy_to(&*self.disk, &path);
+                let anew =
+                    written.and_then(|()| Run::open(&*self.disk, &past_dir(&self.dir), run.file));
+                match anew {
+                    Ok(anew) => {
+                        self.past.put(named.place, named.place, anew);
+                        mended = Some(path.display().to_string());
+                    }
                     Err(error) => tracing::warn!(%error, "a file of the past is not mended"),
                 }
             }
