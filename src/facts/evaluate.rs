@@ -1,19 +1,13 @@
-//! A program over a database, stratum by stratum, to the least fixpoint; recursive strata semi-naively.
-//!
-//! Within a recursive stratum each round joins what the last round found, with datafrog's variables
-//! keeping recent rows apart from stable ones. A rule with several atoms of the stratum runs once for each:
-//! that atom over the recent rows, those before it over the stable ones, those behind it over both.
+//! A program over a database, stratum by stratum, to the least fixpoint; recursive strata as `fixpoint` says.
 
 use std::cell::Ref;
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::time::Instant;
 
-use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::apart::handed_on;
 use super::database::Database;
 use super::derived::Derived;
 use super::explain::RuleTrace;
@@ -22,11 +16,11 @@ use super::head::{Head, head_variables};
 use super::limits::{Limits, Reached, Watch};
 use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
-use super::rows::{self, Growing, RowSet, SharedRows, Sink, heap};
+use super::rows::{RowSet, SharedRows, Sink, heap};
 use super::run::Step;
 use super::spread::{Join, Makes, can_spread};
 use super::strata::reads;
-use super::subsume::{Chosen, Dominated, Pruned, choosing};
+use super::subsume::{Chosen, choosing};
 use super::syntax::Span;
 use super::word::{Note, Word};
 
@@ -64,10 +58,6 @@ pub enum EvaluateError {
     )]
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
 }
-
-/// How often the time from which a join is divided the rounds of a recursive relation go on in one thread, before they
-/// are: most relations are done by then.
-const ROUNDS_ALONE: u32 = 4;
 
 /// A relation's rows at most, unless `.limitsize` says less.
 pub(super) const MAX_ROWS: usize = 1 << 27;
@@ -150,15 +140,12 @@ pub(super) struct Evaluation<'a> {
     pub(super) program: &'a Program,
     pub(super) finished: Finished<'a>,
     /// Facts of the text and the database, by relation.
-    given: Vec<SharedRows>,
+    pub(super) given: Vec<SharedRows>,
     /// Where numbers came out otherwise than Soufflé's would, the first for each rule.
     notes: Vec<(Span, Note)>,
     /// What each rule did, where that is asked for.
     pub(super) traced: Option<Vec<RuleTrace>>,
 }
-
-/// For relations with choice domains the combinations that have their tuple.
-type Choices = HashMap<RelationId, Chosen>;
 
 impl<'a> Evaluation<'a> {
     fn new(program: &'a Program, database: &Database, limits: Limits) -> Self {
@@ -198,7 +185,7 @@ impl<'a> Evaluation<'a> {
         derived
     }
 
-    fn limit(&self, relation: RelationId) -> usize {
+    pub(super) fn limit(&self, relation: RelationId) -> usize {
         self.program.info(relation).limit_size.unwrap_or(MAX_ROWS)
     }
 
@@ -270,183 +257,9 @@ impl<'a> Evaluation<'a> {
         Ok(())
     }
 
-    fn fixpoint(&mut self, stratum: &Stratum, clauses: &[&Clause]) -> Result<(), EvaluateError> {
-        let program = self.program;
-        let (mut iteration, mut orders) = (Iteration::new(), Iteration::new());
-        let is_pruned = !stratum.subsumptions.is_empty();
-        let mut choices = Choices::new();
-        let mut growing: HashMap<RelationId, Box<dyn Growing>> = HashMap::new();
-        for relation in &stratum.relations {
-            let info = program.info(*relation);
-            let columns = info.columns.len();
-            let rows: Box<dyn Growing> = match is_pruned {
-                true => Box::new(Pruned::new(columns)),
-                false => rows::growing(&mut iteration, &info.name, columns),
-            };
-            let given = &self.given[relation.index()];
-            let mut chosen = self.chosen(*relation);
-            for at in 0..given.len() {
-                let mut sink = rows.sink();
-                let row = &given.row(at)[..columns];
-                choosing(&mut *sink, chosen.as_mut()).as_sink().push(row);
-            }
-            choices.extend(chosen.map(|chosen| (*relation, chosen)));
-            growing.insert(*relation, rows);
-        }
-        let is_own = |relation: RelationId| stratum.relations.contains(&relation);
-        let is_any_order = clauses.iter().all(|clause| Makes::of(clause) == Makes::Nothing);
-        let mut rounds: Vec<(&Clause, Plan)> = Vec::new();
-        for clause in clauses {
-            let own: Vec<usize> = own_atoms(clause, &is_own).collect();
-            if own.is_empty() {
-                let versions = vec![Version::Finished; clause.body.len()];
-                let mut plan = self.plan(clause, &versions, None);
-                self.finished.provide(&mut plan);
-                let limit = self.limit(clause.head);
-                let mut sink = growing[&clause.head].sink();
-                let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
-                let parts = no_parts(&plan);
-                self.emit(clause, &plan, &parts, limit, is_any_order, sink.as_sink());
-                self.check_limits(clause)?;
-            }
-            self.rounds(clause, &own, &mut rounds);
-        }
-        let mut pruning: Vec<(&Clause, Plan)> = Vec::new();
-        for n in &stratum.subsumptions {
-            let clause = &program.subsumptions[*n].clause;
-            let own: Vec<usize> = own_atoms(clause, &is_own).collect();
-            self.rounds(clause, &own, &mut pruning);
-        }
-        // The number of the order that each growing source is read in.
-        let mut orders_of = |rounds: &[(&Clause, Plan)]| -> Vec<Vec<usize>> {
-            let mut of_plan = |plan: &Plan| {
-                let order = |request: &Request| match request {
-                    Request::Growing { relation, first, version } => {
-                        let rows = growing.get_mut(relation);
-                        rows.map_or(0, |rows| rows.order(&mut orders, first, *version))
-                    }
-                    _ => 0,
-                };
-                plan.requests.iter().map(order).collect()
-            };
-            rounds.iter().map(|(_, plan)| of_plan(plan)).collect()
-        };
-        let (pruning_orders, orders_of) = (orders_of(&pruning), orders_of(&rounds));
-        let finished = self.finished.bytes();
-        let limits = self.finished.watch.limits();
-        let alone = match stratum.relations.as_slice() {
-            [one]
-                if is_any_order
-                    && !is_pruned
-                    && choices.is_empty()
-                    && self.finished.outside.is_none() =>
-            {
-                handed_on(*one, program.info(*one).columns.len(), &rounds)
-                    .map(|column| (*one, column))
-            }
-            _ => None,
-        };
-        let since = Instant::now();
-        loop {
-            growing.values_mut().for_each(|rows| rows.flush());
-            if is_pruned {
-                self.prune(stratum, &pruning, &pruning_orders, &mut growing)?;
-                if !growing.values().any(|rows| rows.has_recent()) {
-                    break;
-                }
-            } else if !iteration.changed() {
-                break;
-            }
-            growing.values_mut().for_each(|rows| rows.follow());
-            orders.changed();
-            let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
-            self.finished.watch.hold(held);
-            if let Some((relation, column)) = alone
-                && since.elapsed() >= ROUNDS_ALONE * limits.spread_from
-                && let Some(rows) = growing.remove(&relation)
-            {
-                return self.apart(relation, column, &rounds, rows);
-            }
-            for ((clause, plan), orders) in rounds.iter().zip(&orders_of) {
-                let limit = self.limit(clause.head);
-                let is_limited = limit < MAX_ROWS;
-                let held = if is_limited { growing[&clause.head].len() } else { 0 };
-                let room = limit.saturating_sub(held);
-                let parts = parts(plan, orders, &growing);
-                let mut sink = growing[&clause.head].sink();
-                let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
-                self.emit(clause, plan, &parts, room, is_any_order, sink.as_sink());
-                self.check_limits(clause)?;
-            }
-            for (relation, rows) in &growing {
-                self.check_size(*relation, rows.len() + rows.sink().len())?;
-            }
-        }
-        // What is put together takes its own memory.
-        let whole = growing.iter().map(|(relation, rows)| {
-            rows.bytes() + rows.len() * program.info(*relation).columns.len() * size_of::<Word>()
-        });
-        self.finished.watch.hold(finished + whole.sum::<usize>());
-        if let Some((clause, _)) = rounds.first() {
-            self.check_limits(clause)?;
-        }
-        for (relation, rows) in growing {
-            self.finished.rows[relation.index()] = Some(rows.complete(limits.threads));
-        }
-        Ok(())
-    }
-
-    fn chosen(&self, relation: RelationId) -> Option<Chosen> {
+    pub(super) fn chosen(&self, relation: RelationId) -> Option<Chosen> {
         let info = self.program.info(relation);
         (!info.choices.is_empty()).then(|| Chosen::of(info))
-    }
-
-    /// A plan for each atom of the stratum itself: that one over the rows of the last round.
-    fn rounds<'c>(
-        &mut self,
-        clause: &'c Clause,
-        own: &[usize],
-        rounds: &mut Vec<(&'c Clause, Plan)>,
-    ) {
-        for recent in own {
-            let mut versions = vec![Version::Finished; clause.body.len()];
-            for n in own {
-                versions[*n] = match n.cmp(recent) {
-                    std::cmp::Ordering::Less => Version::Stable,
-                    std::cmp::Ordering::Equal => Version::Recent,
-                    std::cmp::Ordering::Greater => Version::All,
-                };
-            }
-            let mut plan = self.plan(clause, &versions, Some(*recent));
-            self.finished.provide(&mut plan);
-            rounds.push((clause, plan));
-        }
-    }
-
-    /// Takes out of the relations what is subsumed, of which one tuple at least is of the last round.
-    fn prune(
-        &mut self,
-        stratum: &Stratum,
-        pruning: &[(&Clause, Plan)],
-        orders: &[Vec<usize>],
-        growing: &mut HashMap<RelationId, Box<dyn Growing>>,
-    ) -> Result<(), EvaluateError> {
-        let mut gone: HashMap<RelationId, Dominated> = HashMap::new();
-        for ((clause, plan), orders) in pruning.iter().zip(orders) {
-            let of = stratum.subsumptions.iter().map(|n| &self.program.subsumptions[*n]);
-            let relation = of.clone().find(|of| std::ptr::eq(&of.clause, *clause));
-            let Some(relation) = relation.map(|of| of.relation) else { continue };
-            let parts = parts(plan, orders, growing);
-            let gone = gone.entry(relation).or_default();
-            self.emit(clause, plan, &parts, MAX_ROWS, false, gone);
-            self.check_limits(clause)?;
-        }
-        for (relation, gone) in gone {
-            if let Some(rows) = growing.get_mut(&relation) {
-                rows.prune(&gone.rows);
-            }
-        }
-        Ok(())
     }
 
     /// The relation and the columns that a clause does nothing but copy.
@@ -473,7 +286,7 @@ impl<'a> Evaluation<'a> {
         Some((*read, columns?))
     }
 
-    fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {
+    pub(super) fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {
         let wanted = head_variables(clause);
         let task = Task { clause, versions, first, bound: &[], wanted: &wanted };
         let mut plan = plan(&task, &self.finished);
@@ -486,7 +299,7 @@ impl<'a> Evaluation<'a> {
         plan
     }
 
-    fn emit(
+    pub(super) fn emit(
         &mut self,
         clause: &Clause,
         plan: &Plan,
@@ -544,7 +357,7 @@ pub(super) fn given(program: &Program, database: &Database, of: &[RelationId]) -
 }
 
 /// Positions of the atoms over relations of the stratum itself.
-fn own_atoms<'a>(
+pub(super) fn own_atoms<'a>(
     clause: &'a Clause,
     is_own: &'a impl Fn(RelationId) -> bool,
 ) -> impl Iterator<Item = usize> + 'a {
@@ -553,30 +366,8 @@ fn own_atoms<'a>(
     clause.body.iter().enumerate().filter(move |(_, literal)| is_own_atom(literal)).map(|(n, _)| n)
 }
 
-fn no_parts(plan: &Plan) -> Vec<Vec<Ref<'static, dyn RowSet>>> {
+pub(super) fn no_parts(plan: &Plan) -> Vec<Vec<Ref<'static, dyn RowSet>>> {
     plan.requests.iter().map(|_| Vec::new()).collect()
-}
-
-/// The rows behind each growing source of a plan.
-fn parts<'a>(
-    plan: &Plan,
-    orders: &[usize],
-    growing: &'a HashMap<RelationId, Box<dyn Growing>>,
-) -> Vec<Vec<Ref<'a, dyn RowSet>>> {
-    let parts = plan.requests.iter().zip(orders).map(|(request, order)| {
-        let Request::Growing { relation, version, .. } = request else { return Vec::new() };
-        let rows = &growing[relation];
-        match version {
-            Version::Recent => vec![rows.recent(*order)],
-            Version::Stable => rows.stable(*order),
-            Version::All | Version::Finished => {
-                let mut all = rows.stable(*order);
-                all.push(rows.recent(*order));
-                all
-            }
-        }
-    });
-    parts.collect()
 }
 
 #[cfg(test)]

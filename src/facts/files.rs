@@ -18,7 +18,7 @@ use super::explain::RuleTrace;
 use super::fault::{Faults, FileFaults};
 use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
-use crate::units::{Source, read_text, write_file_with};
+use crate::units::{FileFault, Source, read_text, write_file_with};
 
 /// Why a program over files has no result.
 #[derive(Debug, Error, Diagnostic)]
@@ -338,7 +338,9 @@ fn standard_input() -> std::io::Result<String> {
     let mut text = String::new();
     std::io::stdin().lock().take(MAX_FACTS_BYTES + 1).read_to_string(&mut text)?;
     match text.len() as u64 > MAX_FACTS_BYTES {
-        true => Err(std::io::Error::other(format!("больше {MAX_FACTS_BYTES} байт"))),
+        true => {
+            Err(FileFault::TooLarge { bytes: text.len() as u64, limit: MAX_FACTS_BYTES }.into_io())
+        }
         false => Ok(text),
     }
 }

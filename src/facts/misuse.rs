@@ -7,6 +7,7 @@ use super::declare::Declared;
 use super::fault::RuleError;
 use super::program::{Found, RelationId, Stratum};
 use super::syntax::{Atom, Body, Expr, Functor, Item, Name, Role, Rule, Span};
+use super::unify::{names_of_body, names_of_expr};
 
 fn misuse(what: String, help: &'static str, at: Span, faults: &mut Found) {
     faults.push(at, RuleError::Misuse { what, help, at: at.into() });
@@ -163,14 +164,14 @@ impl Inline<'_> {
             each_atom(&rule.body, &mut |atom, _, _| atoms.push(atom));
             let reads: Vec<RelationId> =
                 atoms.iter().filter_map(|atom| self.inlined(atom)).collect();
-            let mut body = BTreeSet::new();
+            let mut body = Vec::new();
             names_of_body(&rule.body, &mut body);
             for head in &rule.heads {
                 let Some(relation) = self.inlined(head) else { continue };
                 self.reads.entry(relation).or_default().extend(&reads);
-                let mut known = BTreeSet::new();
-                head.args.iter().for_each(|arg| names_of(arg, &mut known));
-                if !body.is_subset(&known) {
+                let mut known = Vec::new();
+                head.args.iter().for_each(|arg| names_of_expr(arg, &mut known));
+                if body.iter().any(|name| !known.contains(name)) {
                     self.newly.insert(relation);
                 }
             }
@@ -310,37 +311,5 @@ fn has_any(expr: &Expr) -> bool {
         Expr::Call { args, .. } | Expr::Record { args, .. } => args.iter().any(has_any),
         Expr::As { value, .. } => has_any(value),
         _ => false,
-    }
-}
-
-/// The variables of a body, those of aggregates among them.
-fn names_of_body<'a>(body: &'a Body, names: &mut BTreeSet<&'a str>) {
-    match body {
-        Body::All(parts) | Body::Any(parts) => {
-            parts.iter().for_each(|part| names_of_body(part, names));
-        }
-        Body::Not(part) => names_of_body(part, names),
-        Body::Atom(atom) => atom.args.iter().for_each(|arg| names_of(arg, names)),
-        Body::Compare { left, right, .. } => {
-            names_of(left, names);
-            names_of(right, names);
-        }
-    }
-}
-
-fn names_of<'a>(expr: &'a Expr, names: &mut BTreeSet<&'a str>) {
-    match expr {
-        Expr::Variable(name) => {
-            names.insert(&name.text);
-        }
-        Expr::Call { args, .. } | Expr::Record { args, .. } => {
-            args.iter().for_each(|arg| names_of(arg, names));
-        }
-        Expr::As { value, .. } => names_of(value, names),
-        Expr::Aggregate { value, body, .. } => {
-            value.iter().for_each(|value| names_of(value, names));
-            names_of_body(body, names);
-        }
-        _ => {}
     }
 }

@@ -76,6 +76,7 @@ mod fault;
 mod files;
 mod filter;
 mod finished;
+mod fixpoint;
 mod format;
 mod ground;
 mod head;
