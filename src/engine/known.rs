@@ -12,6 +12,7 @@ use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
 use crate::map::{Entity, NameIndex, World};
+use crate::meaning::MapWords;
 use crate::semantics::{Followed, Relations, derive};
 use crate::store::Derived;
 use crate::units::{AreaId, MapId, Point, ReplicaId};
@@ -45,6 +46,8 @@ pub(super) struct Known {
     pub(super) floors: OnceLock<Arc<Floors>>,
     /// The nouns, for questions.
     pub(super) mind: OnceLock<Arc<Mind>>,
+    /// The words of its values, for the grammar.
+    words: OnceLock<Arc<MapWords>>,
     /// The names in all their forms, for commands.
     pub(super) forms: OnceLock<Arc<FormIndex<Entity>>>,
     /// The names as the world spells them.
@@ -64,6 +67,7 @@ impl Known {
             relations: OnceLock::new(),
             floors: OnceLock::new(),
             mind: OnceLock::new(),
+            words: OnceLock::new(),
             forms: OnceLock::new(),
             names: OnceLock::new(),
         }
@@ -205,6 +209,11 @@ impl Known {
     /// The nouns, read when first asked for.
     pub(super) fn mind(&self) -> &Mind {
         self.mind.get_or_init(|| Arc::new(Mind::of(&self.world)))
+    }
+
+    /// The words of the map's values, declined when first asked for.
+    pub(super) fn words(&self) -> &MapWords {
+        self.words.get_or_init(|| Arc::new(MapWords::of(&self.mind().lexicon)))
     }
 
     /// Every name in every form, indexed when first asked for.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::meaning::{FILES, Grammar};
 use crate::semantics::RelationRules;
@@ -18,8 +19,8 @@ const ROBOT: &str = "service-robot.strips";
 pub struct Rules {
     pub relations: RelationRules,
     pub robot: Domain,
-    /// How sentences are read that the older reading refuses.
-    pub(super) grammar: Grammar,
+    /// How sentences are read that the older reading refuses: see [`Rules::grammar`].
+    grammar: OnceLock<Grammar>,
     /// Harmless faults of the robot's rules.
     pub warnings: Vec<RuleFault>,
 }
@@ -42,7 +43,16 @@ impl Rules {
             Some(path) => Domain::read(&path)?,
             None => built_in_robot()?,
         };
-        Ok(Self { relations, robot, grammar: grammar(dir)?, warnings })
+        let grammar = dir.map(|dir| dir.join("language")).filter(|base| base.is_dir());
+        let grammar = grammar.map(read_grammar).transpose()?;
+        let grammar = grammar.map_or_else(OnceLock::new, OnceLock::from);
+        Ok(Self { relations, robot, grammar, warnings })
+    }
+
+    /// The grammar of the directory, read with its other files, so that its faults are told before anything is done; that
+    /// which is built in is sound, and read when first asked for.
+    pub(super) fn grammar(&self) -> &Grammar {
+        self.grammar.get_or_init(Grammar::built_in)
     }
 
     /// `rules` in the working directory, when there is such a directory.
@@ -52,15 +62,13 @@ impl Rules {
     }
 }
 
-/// The grammar files built in, each replaced by the directory's own of that path; others of it add to them.
-fn grammar(dir: Option<&Path>) -> Result<Grammar, Error> {
+/// The grammar files built in, each replaced by the folder's own of that path; others of it add to them.
+fn read_grammar(base: PathBuf) -> Result<Grammar, Error> {
     let mut files: BTreeMap<String, Source> = BTreeMap::new();
     for (name, text) in FILES {
         files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), text));
     }
-    let base = dir.map(|dir| dir.join("language")).filter(|base| base.is_dir());
-    let mut folders: Vec<(String, PathBuf)> =
-        base.map(|base| (String::new(), base)).into_iter().collect();
+    let mut folders = vec![(String::new(), base)];
     while let Some((prefix, folder)) = folders.pop() {
         let entries = std::fs::read_dir(&folder).map_err(|e| unreadable(&folder, &e))?;
         for entry in entries {

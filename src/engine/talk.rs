@@ -44,7 +44,7 @@ impl State {
                 if ["not_understood", "incomplete", "unknown"]
                     .contains(&unanswered.doubt.kind()) =>
             {
-                let answer = self.ask_by_grammar(question, &senses)?;
+                let answer = self.ask_by_grammar(question)?;
                 answer.inspect(|answer| memory.learn(answer)).ok_or(unanswered)
             }
             other => other,
@@ -54,26 +54,24 @@ impl State {
 
     /// The answer by the grammar files, where these read a sentence in one way and whole: nothing in it was passed over
     /// but what they call void, and all that it could mean comes to the same.
-    fn ask_by_grammar(
-        &self,
-        text: &str,
-        senses: &RobotSenses<'_>,
-    ) -> Result<Option<Answer>, Error> {
+    fn ask_by_grammar(&self, text: &str) -> Result<Option<Answer>, Error> {
         let now = self.around()?;
         let (world, relations, lexicon) = (now.world(), now.relations()?, &now.mind().lexicon);
-        // Of what is carried, or elsewhere than believed, the relations do not tell all.
-        let is_sure =
-            |id: &ReplicaId| senses.doubted(*id).is_none() && senses.holder(*id).is_none();
-        if !world.replicas.keys().all(is_sure) {
+        let map = meaning::Map { world, relations, lexicon, words: now.words() };
+        let grammar = now.rules.grammar();
+        let readings = grammar.read(&map, text);
+        if readings.first().is_none_or(|cheapest| cheapest.cost > 0) {
             return Ok(None);
         }
-        let map =
-            meaning::Map { world, relations, lexicon, words: &meaning::MapWords::of(lexicon) };
-        let grammar = &now.rules.grammar;
-        let outcome = grammar.ask(&map, text, &mut |question| {
+        let outcome = grammar.answer(&map, readings, &mut |question| {
             self.query(question, false).map(|answer| answer.rows).map_err(|e| e.to_string())
         });
         let meaning::Outcome::Answered(read) = outcome else { return Ok(None) };
+        // Of what is carried, or elsewhere than believed, the relations do not tell all.
+        let is_doubted = |id: &ReplicaId| self.doubted(*id).is_some();
+        if !now.holders.is_empty() || world.replicas.keys().any(is_doubted) {
+            return Ok(None);
+        }
         let language = Language::of(text);
         let (Some(words), 0) = (grammar.say(&map, &read, language), read.reading.cost) else {
             return Ok(None);
@@ -83,13 +81,8 @@ impl State {
         let mut symbols = Vec::new();
         let mut number = None;
         let said = match read.found {
-            Ok(meaning::Found::Truth(yes)) => {
-                if yes {
-                    Said::Yes
-                } else {
-                    Said::No
-                }
-            }
+            Ok(meaning::Found::Truth(true)) => Said::Yes,
+            Ok(meaning::Found::Truth(false)) => Said::No,
             Ok(meaning::Found::Things(all)) => {
                 symbols = all;
                 if symbols.is_empty() { Said::Nothing } else { Said::Found }

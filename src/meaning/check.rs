@@ -301,7 +301,7 @@ impl<'g> Building<'g> {
 
     fn slots(&self, pattern: &[Element], meaning: Option<&Expr>) -> Checked<Vec<(Slot, Repeat)>> {
         let mut slots = Vec::new();
-        let mut variables = 0_u8;
+        let mut variables: Vec<&str> = Vec::new();
         for element in pattern {
             let slot = match &element.kind {
                 ElementKind::Words(choices) => {
@@ -332,8 +332,19 @@ impl<'g> Building<'g> {
                         let at = (lost.at.start, lost.at.len()).into();
                         return Err(LangError::OneSide { name: lost.text.clone(), at });
                     }
-                    let number = variable.as_ref().map(|_| variables);
-                    variables += u8::from(number.is_some());
+                    let number = match variable {
+                        None => None,
+                        Some(name) => {
+                            let at = (name.at.start, name.at.len()).into();
+                            let other = "имя, которого в образце ещё нет";
+                            let few = "не больше 255 имён в образце";
+                            let is_new = !variables.contains(&name.text.as_str());
+                            let number = u8::try_from(variables.len()).ok().filter(|_| is_new);
+                            let expected = if is_new { few } else { other };
+                            variables.push(&name.text);
+                            Some(number.ok_or(LangError::Syntax { expected, at })?)
+                        }
+                    };
                     Slot::Part { category: at, features: *features, variable: number }
                 }
             };

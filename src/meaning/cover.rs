@@ -17,7 +17,7 @@ use super::words::Edge;
 /// Covers that are kept at each state.
 const KEPT: usize = 4;
 /// What a form costs at most.
-pub(crate) const DEAREST: u32 = 6;
+const DEAREST: u32 = 6;
 /// Parts of a frame, as many as a mask has bits.
 const MOST_PARTS: usize = 32;
 

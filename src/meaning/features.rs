@@ -38,12 +38,6 @@ impl Features {
         self.0 & !Self::PLURAL.0 == 0
     }
 
-    /// Whether it may be singular and plural alike, as «комнаты» may.
-    #[must_use]
-    pub fn is_either(self) -> bool {
-        self != Self::ALL && self.0 & Self::PLURAL.0 != 0 && !self.is_plural()
-    }
-
     /// Those of a noun; of no gender that is known, any.
     #[must_use]
     pub fn of_noun(readings: Readings, gender: Option<Gender>) -> Self {

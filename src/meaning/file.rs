@@ -114,7 +114,7 @@ pub(crate) enum Expr {
 pub(crate) fn read(source: &Source, faults: &mut Vec<LangFault>) -> Vec<Statement> {
     let mut found = Vec::new();
     for range in statements(source.text()) {
-        let mut parser = Parser { text: source.text(), at: range.start, end: range.end };
+        let mut parser = Parser { text: source.text(), at: range.start, end: range.end, depth: 0 };
         match parser.statement() {
             Ok(statement) => found.push(statement),
             Err(error) => faults.push(LangFault { error, file: source.clone() }),
@@ -146,7 +146,12 @@ struct Parser<'t> {
     text: &'t str,
     at: usize,
     end: usize,
+    /// Of calls within calls.
+    depth: usize,
 }
+
+/// Calls within each other.
+const MAX_DEPTH: usize = 64;
 
 type Parsed<T> = Result<T, LangError>;
 
@@ -432,6 +437,10 @@ impl<'t> Parser<'t> {
 
     fn call(&mut self, name: Name) -> Parsed<Expr> {
         self.needs("(", "«(»")?;
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return self.wants("не больше 64 скобок друг в друге");
+        }
         let mut arguments = Vec::new();
         while !self.takes(")") {
             arguments.push(self.expression()?);
@@ -439,6 +448,7 @@ impl<'t> Parser<'t> {
                 return self.wants("«)» или «,»");
             }
         }
+        self.depth -= 1;
         Ok(Expr::Call(name, arguments))
     }
 

@@ -2,7 +2,7 @@
 
 use super::answer::{Answer, NoAnswer, Outcome};
 use super::chart::Chart;
-use super::cover::{DEAREST, readings};
+use super::cover::readings;
 use super::grammar::Grammar;
 use super::query::{Asking, Rows};
 use super::term::Form;
@@ -57,14 +57,18 @@ impl Grammar {
         found.map(|f| Reading { form: f.form, cost: f.cost, frame: f.place }).collect()
     }
 
-    /// Reads a sentence and runs what it asks. Of several readings within the [`MARGIN`] all are run: where they come
-    /// to the same, that is the answer.
-    pub fn ask(&self, map: &Map<'_>, text: &str, run: &mut dyn FnMut(&str) -> Rows) -> Outcome {
-        let readings = self.read(map, text);
+    /// Runs what a sentence asks, by its readings as [`Grammar::read`] gives them. Of several within the [`MARGIN`] all are
+    /// run: where they come to the same, that is the answer.
+    pub fn answer(
+        &self,
+        map: &Map<'_>,
+        readings: Vec<Reading>,
+        run: &mut dyn FnMut(&str) -> Rows,
+    ) -> Outcome {
         let Some(cheapest) = readings.first().map(|reading| reading.cost) else {
             return Outcome::NotUnderstood;
         };
-        let near = readings.into_iter().filter(|r| r.cost <= (cheapest + MARGIN).min(DEAREST));
+        let near = readings.into_iter().filter(|r| r.cost <= cheapest + MARGIN);
         let mut answers: Vec<Answer> = Vec::new();
         for reading in near.take(MOST_RUN) {
             let mut asking = Asking { grammar: self, map, run: &mut *run, rules: Vec::new() };

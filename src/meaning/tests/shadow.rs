@@ -87,7 +87,7 @@ impl House {
     fn by_grammar(&self, grammar: &Grammar, text: &str) -> Outcome {
         let Self { world, relations, words, .. } = self;
         let map = Map { world, relations, lexicon: self.lexicon(), words };
-        grammar.ask(&map, text, &mut |question| self.rows(question))
+        grammar.answer(&map, grammar.read(&map, text), &mut |question| self.rows(question))
     }
 
     fn by_the_old_way(&self, text: &str) -> Result<Old, Unanswered> {
