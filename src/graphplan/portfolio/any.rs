@@ -13,8 +13,8 @@ use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
 use super::landmarks::{Attained, Landmarks};
 use super::novelty::{self, Searched};
-use super::parallel::{drop_needless, in_parallel};
-use super::relaxed::{Estimate, Relaxed, State, holds};
+use super::parallel::{in_parallel, needful};
+use super::relaxed::{Estimate, Relaxed, State, carry_out, holds, initial};
 use crate::bits;
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
@@ -79,16 +79,14 @@ pub(crate) fn step_by_step(
     forward.relaxed = Relaxed::by_sum(task);
     forward.most_effort = effort;
     let landmarks = Landmarks::of(task);
-    let state = forward.initial();
+    let state = initial(task);
     let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
     let found = forward.best_first(Stage { state, attained }, landmarks.as_ref(), false)?;
     Ok(found.map(|(operators, _)| without_needless(task, operators)))
 }
 
 fn without_needless(task: &Task, operators: Vec<OperatorId>) -> Plan {
-    let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
-    drop_needless(task, &mut steps);
-    in_parallel(task, steps.into_iter().flatten())
+    in_parallel(task, needful(task, operators).into_iter())
 }
 
 struct Forward<'a> {
@@ -122,7 +120,7 @@ impl<'a> Forward<'a> {
     /// Hill climbing, then a little width, and with the least effort no more; then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
         if self.effort != Effort::All
-            && let Some((operators, _)) = self.climb(self.initial())?
+            && let Some((operators, _)) = self.climb(initial(self.task))?
         {
             return Ok(Searched::Path(operators));
         }
@@ -161,7 +159,7 @@ impl<'a> Forward<'a> {
             }
             let more = FEW_STATES * times as u64;
             self.until = if by_width { self.evaluated + more } else { u64::MAX };
-            let state = self.initial();
+            let state = initial(self.task);
             let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
             let start = Stage { state, attained };
             if let Some((operators, _)) = self.best_first(start, landmarks.as_ref(), false)? {
@@ -194,22 +192,10 @@ impl<'a> Forward<'a> {
         self.evaluated >= self.until || self.relaxed.effort >= self.most_effort
     }
 
-    fn initial(&self) -> State {
-        let mut state = vec![0; bits::words(self.task.facts.len())].into_boxed_slice();
-        self.task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
-        state
-    }
-
     fn after(&self, state: &State, id: OperatorId) -> State {
         let mut next = state.clone();
-        self.carry_out(&mut next, id);
+        carry_out(self.task, &mut next, id);
         next
-    }
-
-    fn carry_out(&self, state: &mut State, id: OperatorId) {
-        let operator = self.task.operator(id);
-        operator.del_effects.iter().for_each(|fact| bits::take(state, fact.index()));
-        operator.add_effects.iter().for_each(|fact| bits::put(state, fact.index()));
     }
 
     /// As far as a relaxed plan can be carried out one operator after the other. Where none can be, one of them is
@@ -229,7 +215,7 @@ impl<'a> Forward<'a> {
             open.retain(|&id| {
                 let possible = self.is_applicable(&state, id);
                 if possible {
-                    self.carry_out(&mut state, id);
+                    carry_out(self.task, &mut state, id);
                     path.push(id);
                     self.no_longer_wanted(&mut wanted, id);
                 }
@@ -249,7 +235,7 @@ impl<'a> Forward<'a> {
             let Some((at, other)) = instead else { return (state, path) };
             let replaced = open.remove(at);
             self.no_longer_wanted(&mut wanted, replaced);
-            self.carry_out(&mut state, other);
+            carry_out(self.task, &mut state, other);
             path.push(other);
         }
     }
@@ -331,7 +317,7 @@ impl<'a> Forward<'a> {
         &mut self,
         stages: impl Iterator<Item = &'g [FactId]>,
     ) -> Result<Option<Vec<OperatorId>>, Limit> {
-        let mut state = self.initial();
+        let mut state = initial(self.task);
         let mut plan = Vec::new();
         for stage in stages {
             self.relaxed.aim_at(stage);
@@ -407,7 +393,7 @@ impl<'a> Forward<'a> {
             };
             let mut stage = seen.stages[from as usize].clone();
             for &id in &path {
-                self.carry_out(&mut stage.state, id);
+                carry_out(self.task, &mut stage.state, id);
                 if let Some(landmarks) = landmarks {
                     stage.attained = landmarks.advance(&stage.attained, &stage.state);
                 }
@@ -433,7 +419,7 @@ impl<'a> Forward<'a> {
         const NEAR: u64 = 2_000;
         const OPERATORS_LOOKED_AT: u64 = 10_000_000;
         let near = NEAR.min(OPERATORS_LOOKED_AT / (self.task.operators.len() as u64).max(1));
-        let mut state = self.initial();
+        let mut state = initial(self.task);
         let mut plan = Vec::new();
         let mut least = u32::MAX;
         loop {

@@ -1,9 +1,9 @@
 //! An answer always: a plan at once, better ones as they come, and a rising bound on the fewest steps, until the two
 //! meet or the effort is used up.
 //!
-//! Rounds with twice the effort of the one before: in each the best plan is made of fewer actions and of fewer steps,
-//! piece by piece, and a proof of the fewest steps is tried anew, which costs no more than as much again in all. The order of the rounds depends on
-//! nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
+//! Rounds with twice the effort of the one before: in each the best plan is made of fewer actions and of fewer steps, piece
+//! by piece, and a proof of the fewest steps is tried anew, each of the three within the round's effort. The order of the
+//! rounds depends on nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
 
 use super::any::{self, Found};
 use super::{fewer, shorten};
@@ -158,7 +158,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         }
         current.iter().for_each(|plan| best.offer(working.own(plan.clone())));
     }
-    let mut is_settled = best.is_proven() || errands.is_some();
+    let mut is_settled = errands.is_some();
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
         if best.is_proven() {

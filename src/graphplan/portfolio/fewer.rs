@@ -10,8 +10,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
-use super::parallel::{drop_needless, in_parallel};
-use super::relaxed::{Relaxed, State};
+use super::parallel::{follows, has_less, in_parallel, needful};
+use super::relaxed::{Relaxed, State, carry_out, initial};
 use crate::bits;
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
@@ -62,6 +62,8 @@ impl Stretches<'_> {
     /// Rounds of all layouts and widths with what a stretch does not touch at rest, then of the same with all that there
     /// is; when neither wins anything, with more states.
     fn run(&mut self, mut row: Vec<OperatorId>) -> Result<(), Limit> {
+        row = needful(self.task, row);
+        self.offer(&row);
         let mut states = FEW_STATES;
         while states <= MOST_STATES {
             let before = (row.len(), self.cost(&row));
@@ -69,12 +71,13 @@ impl Stretches<'_> {
                 for width in WIDTHS {
                     for layout in [Layout::AsItIs, Layout::Together, Layout::FromTheEnd] {
                         row = laid_out(self.task, &row, layout);
+                        let known = (row.len(), self.cost(&row));
                         let ended = self.pass(&mut row, (width, states), others_rest);
-                        let mut steps: Vec<Vec<OperatorId>> =
-                            row.iter().map(|&id| vec![id]).collect();
-                        drop_needless(self.task, &mut steps);
-                        row = steps.into_iter().flatten().collect();
-                        self.offer(&row);
+                        // Another order of the same actions makes the same steps.
+                        if (row.len(), self.cost(&row)) < known {
+                            row = needful(self.task, row);
+                            self.offer(&row);
+                        }
                         ended?;
                     }
                     if width >= 2 * row.len() {
@@ -90,10 +93,9 @@ impl Stretches<'_> {
     }
 
     fn offer(&mut self, row: &[OperatorId]) {
-        let sum = |plan: &Plan| plan.action_count() + plan.steps.len();
         if row.len() <= self.best.action_count() && self.cost(row) <= self.best.cost(self.task) {
             let plan = in_parallel(self.task, row.iter().copied());
-            if sum(&plan) < sum(&self.best) {
+            if has_less(self.task, &plan, &self.best) {
                 self.best = plan;
             }
         }
@@ -110,7 +112,7 @@ impl Stretches<'_> {
             self.relaxed.restrict(|_| true);
         }
         let mut from = 0;
-        let mut state = self.initial();
+        let mut state = initial(self.task);
         while from < row.len() {
             self.limits.check(0)?;
             if self.relaxed.effort >= self.most {
@@ -147,12 +149,6 @@ impl Stretches<'_> {
 
     fn cost(&self, row: &[OperatorId]) -> u64 {
         row.iter().map(|&id| u64::from(self.task.operator(id).cost)).sum()
-    }
-
-    fn initial(&self) -> State {
-        let mut state = vec![0; bits::words(self.task.facts.len())].into_boxed_slice();
-        self.task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
-        state
     }
 
     /// Fewer actions that lead from a state to all that is wanted, and cost no more.
@@ -256,12 +252,6 @@ fn path(nodes: &[Node], to: u32) -> Vec<OperatorId> {
     path
 }
 
-fn carry_out(task: &Task, state: &mut State, id: OperatorId) {
-    let operator = task.operator(id);
-    operator.del_effects.iter().for_each(|fact| bits::take(state, fact.index()));
-    operator.add_effects.iter().for_each(|fact| bits::put(state, fact.index()));
-}
-
 /// What must hold for the last actions of a plan to reach the goal.
 fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
     let mut needed = vec![0; bits::words(task.facts.len())].into_boxed_slice();
@@ -277,9 +267,7 @@ fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
 /// For each action those before it that must stay before it: it needs what they bring, or interferes.
 fn before(task: &Task, row: &[OperatorId]) -> Vec<Vec<u32>> {
     let stays = |earlier: OperatorId, later: OperatorId| {
-        let (earlier, later) = (task.operator(earlier), task.operator(later));
-        earlier.add_effects.iter().any(|fact| later.preconditions.binary_search(fact).is_ok())
-            || earlier.interferes(later)
+        follows(task.operator(earlier), task.operator(later))
     };
     (0..row.len())
         .map(|at| (0..at).filter(|&e| stays(row[e], row[at])).map(|e| e as u32).collect())
@@ -288,21 +276,20 @@ fn before(task: &Task, row: &[OperatorId]) -> Vec<Vec<u32>> {
 
 /// The same plan, with its actions in another order, as far as that is free.
 fn laid_out(task: &Task, row: &[OperatorId], layout: Layout) -> Vec<OperatorId> {
+    if let Layout::AsItIs = layout {
+        return row.to_vec();
+    }
     let before = before(task, row);
     let mut after = vec![Vec::new(); row.len()];
     for (later, earlier) in before.iter().enumerate() {
         earlier.iter().for_each(|&earlier| after[earlier as usize].push(later as u32));
     }
-    match layout {
-        Layout::AsItIs => row.to_vec(),
-        Layout::Together => together(task, row, &before, &after, (0..row.len()).collect()),
-        Layout::FromTheEnd => {
-            let ranked = (0..row.len()).rev().collect();
-            let mut laid = together(task, row, &after, &before, ranked);
-            laid.reverse();
-            laid
-        }
+    if let Layout::Together = layout {
+        return together(task, row, &before, &after, (0..row.len()).collect());
     }
+    let mut laid = together(task, row, &after, &before, (0..row.len()).rev().collect());
+    laid.reverse();
+    laid
 }
 
 /// Actions in the order in which they cease to wait, each one that has most in common with the one before it; of those

@@ -13,7 +13,6 @@ mod shorten;
 
 pub use anytime::{solve_anytime, solve_soon};
 
-use crate::bits;
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Turn, Working, prove, search};
 use crate::strips::Task;
@@ -21,9 +20,7 @@ use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, with_stack};
 
 /// Steps that a task takes at least, as far as can be seen at once: where deletes are forgotten.
 pub(crate) fn steps_at_least(task: &Task) -> usize {
-    let mut state: relaxed::State = vec![0; bits::words(task.facts.len())].into_boxed_slice();
-    task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
-    relaxed::Relaxed::new(task).depth(&state).unwrap_or(0)
+    relaxed::Relaxed::new(task).depth(&relaxed::initial(task)).unwrap_or(0)
 }
 
 /// Of a plan found soon, how few steps are ruled out: no plan has fewer than the number told, as far as little effort
@@ -124,12 +121,9 @@ fn with_fewer_actions(task: &Task, plan: Plan, limits: &Limits) -> Plan {
         }
         better
     };
-    let size = |plan: &Plan| plan.action_count() + plan.steps.len();
     let mut best = plan;
     if let Ok(Some(other)) = any::step_by_step(task, limits.shorten_effort, limits)
-        && other.action_count() <= best.action_count()
-        && size(&other) < size(&best)
-        && other.cost(task) <= best.cost(task)
+        && parallel::has_less(task, &other, &best)
     {
         best = told(other, &best);
     }

@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use super::landmarks::{Attained, Landmarks};
-use super::relaxed::{Relaxed, State, holds};
+use super::relaxed::{Relaxed, State, carry_out, holds, initial};
 use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
 use crate::{Limit, Limits};
@@ -32,8 +32,7 @@ pub(crate) fn search(
     states: usize,
     limits: &Limits,
 ) -> Result<Searched, Limit> {
-    let mut initial: State = vec![0; bits::words(task.facts.len())].into();
-    task.init.iter().for_each(|fact| bits::put(&mut initial, fact.index()));
+    let initial = initial(task);
     let mut search = Width {
         task,
         landmarks,
@@ -123,9 +122,7 @@ impl Width<'_> {
 
     fn after(&self, number: u32, id: OperatorId) -> State {
         let mut state = self.nodes[number as usize].state.clone();
-        let operator = self.task.operator(id);
-        operator.del_effects.iter().for_each(|fact| bits::take(&mut state, fact.index()));
-        operator.add_effects.iter().for_each(|fact| bits::put(&mut state, fact.index()));
+        carry_out(self.task, &mut state, id);
         state
     }
 

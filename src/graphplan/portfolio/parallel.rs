@@ -1,7 +1,7 @@
 //! Operators in a row made a plan: rid of what is needless, and laid out in parallel steps.
 
 use crate::plan::Plan;
-use crate::strips::{OperatorId, Task};
+use crate::strips::{Operator, OperatorId, Task};
 
 /// Takes out operators that the goal does without, together with those that only served them.
 pub(crate) fn drop_needless(task: &Task, steps: &mut [Vec<OperatorId>]) {
@@ -68,13 +68,8 @@ pub(crate) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorI
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
     for id in operators {
         let operator = task.operator(id);
-        let follows = |earlier: OperatorId| {
-            let earlier = task.operator(earlier);
-            earlier.add_effects.iter().any(|fact| operator.preconditions.contains(fact))
-                || earlier.interferes(operator)
-        };
-        let after =
-            placed.iter().filter(|(earlier, _)| follows(*earlier)).map(|(_, step)| step + 1);
+        let waits = |earlier: OperatorId| follows(task.operator(earlier), operator);
+        let after = placed.iter().filter(|(earlier, _)| waits(*earlier)).map(|(_, step)| step + 1);
         let step = after.max().unwrap_or(0);
         if steps.len() <= step {
             steps.resize(step + 1, Vec::new());
@@ -84,4 +79,25 @@ pub(crate) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorI
     }
     steps.iter_mut().for_each(|step| step.sort_unstable());
     Plan { steps }
+}
+
+/// Whether an action must come after another: it needs what that one brings, or interferes with it.
+pub(crate) fn follows(earlier: &Operator, later: &Operator) -> bool {
+    earlier.add_effects.iter().any(|fact| later.preconditions.binary_search(fact).is_ok())
+        || earlier.interferes(later)
+}
+
+/// A row of actions without those that it reaches the goal without.
+pub(crate) fn needful(task: &Task, row: Vec<OperatorId>) -> Vec<OperatorId> {
+    let mut steps: Vec<Vec<OperatorId>> = row.into_iter().map(|id| vec![id]).collect();
+    drop_needless(task, &mut steps);
+    steps.into_iter().flatten().collect()
+}
+
+/// Whether a plan has less of actions and steps together than another, no more actions, and costs no more.
+pub(crate) fn has_less(task: &Task, plan: &Plan, known: &Plan) -> bool {
+    let sum = |plan: &Plan| plan.action_count() + plan.steps.len();
+    plan.action_count() <= known.action_count()
+        && plan.cost(task) <= known.cost(task)
+        && sum(plan) < sum(known)
 }

@@ -11,6 +11,20 @@ use crate::strips::{FactId, Operator, OperatorId, Task};
 /// What holds, as bits.
 pub(crate) type State = Box<[u64]>;
 
+/// What holds at the beginning.
+pub(crate) fn initial(task: &Task) -> State {
+    let mut state: State = vec![0; bits::words(task.facts.len())].into();
+    task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
+    state
+}
+
+/// Carries out an action whose conditions hold.
+pub(crate) fn carry_out(task: &Task, state: &mut State, id: OperatorId) {
+    let operator = task.operator(id);
+    operator.del_effects.iter().for_each(|fact| bits::take(state, fact.index()));
+    operator.add_effects.iter().for_each(|fact| bits::put(state, fact.index()));
+}
+
 pub(crate) fn holds(state: &State, fact: FactId) -> bool {
     bits::has(state, fact.index())
 }

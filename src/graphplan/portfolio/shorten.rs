@@ -8,8 +8,7 @@
 
 use super::parallel::in_parallel;
 use super::piece;
-use super::relaxed::{Relaxed, State};
-use crate::bits;
+use super::relaxed::{Relaxed, initial};
 use crate::plan::Plan;
 use crate::proof::{Turn, search_counted};
 use crate::strips::{FactId, OperatorId, Task};
@@ -94,9 +93,7 @@ fn replaced(
     let to = (from + width).min(plan.steps.len());
     piece.init = state_before(task, &plan.steps[..from]);
     piece.goal = needed_by(task, &plan.steps[to..]);
-    let mut state: State = vec![0; bits::words(task.facts.len())].into();
-    piece.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
-    let own = piece::within(task, relaxed, (&state, &piece.goal), to - from);
+    let own = piece::within(task, relaxed, (&initial(piece), &piece.goal), to - from);
     piece.operators = own.iter().map(|&id| task.operator(id).clone()).collect();
     let ready = EFFORT_AN_OPERATOR * own.len() as u64 + task.operators.len() as u64;
     *effort = effort.saturating_sub(ready);
@@ -120,6 +117,7 @@ pub(crate) fn one_by_one(
     limits: &Limits,
 ) -> Option<Plan> {
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
+    let mut piece = task.clone();
     for stage in stages {
         let init = state_before(task, &steps);
         let mut goal = stage.clone();
@@ -127,7 +125,7 @@ pub(crate) fn one_by_one(
         if goal.iter().all(|fact| init.contains(fact)) {
             continue;
         }
-        let piece = Task { init, goal, ..task.clone() };
+        (piece.init, piece.goal) = (init, goal);
         let within = Limits { fewer_actions: 0, shorten: 0, ..limits.clone() };
         let turn = Turn { effort: Some(effort), ..TURN };
         let (Some(Outcome::Plan(found)), _) = search_counted(&piece, &within, turn) else {

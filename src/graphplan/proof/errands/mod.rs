@@ -200,8 +200,8 @@ fn stages(
         .map(|&errand| Leg { errand, from: errands[errand].from, to: errands[errand].to })
         .collect();
     // Of all that can be come to and gone on from, it is known how far it is.
-    if let Some(distance) = places.distances(&points)
-        && errands.len() <= MOST_RELAYED
+    if errands.len() <= MOST_RELAYED
+        && let Some(distance) = places.distances(&points)
     {
         let halts: Vec<Vec<usize>> =
             lies.iter().map(|lies| lies.keys().copied().collect()).collect();
