@@ -185,6 +185,14 @@ impl Chart {
             .filter(|(_, foot)| (foot - p).norm() <= NEAR)
     }
 
+    /// Whether no line lies within a distance of a point.
+    pub(crate) fn is_clear(&self, p: Point2<f64>, radius: f64) -> bool {
+        if radius <= NEAR {
+            return self.nearest(p).is_none_or(|(_, foot)| (foot - p).norm() > radius);
+        }
+        self.lines.iter().all(|line| (line.nearest(p) - p).norm() > radius)
+    }
+
     /// The first line that a beam meets between two distances, and how far it lies, in cm.
     pub(crate) fn next_on(
         &self,
@@ -193,10 +201,13 @@ impl Chart {
         from: f64,
         to: f64,
     ) -> Option<(f64, u32)> {
+        if to <= from {
+            return None;
+        }
         let ahead = pose.rotation * Vector2::new(bearing.cos(), bearing.sin()) * from;
-        let begun = Isometry2::new(pose.translation.vector + ahead, pose.rotation.angle());
+        let begun = Isometry2::from_parts((pose.translation.vector + ahead).into(), pose.rotation);
         let (distance, line) = self.cast(&begun, bearing, to - from);
-        line.map(|line| (from + distance, line)).filter(|_| to > from)
+        line.map(|line| (from + distance, line))
     }
 
     /// How far a beam goes, in cm, and which line ends it; the range where nothing does.

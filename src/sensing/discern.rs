@@ -84,7 +84,7 @@ fn is_free(chart: &Chart, pose: &Isometry2<f64>, turn: f64, ahead: f64, radius: 
     let steps = (ahead / 10.0).ceil() as usize;
     (0..=steps).all(|step| {
         let at = from + along * (ahead * step as f64 / steps as f64);
-        chart.nearest(at).is_none_or(|(_, foot)| (foot - at).norm() > radius)
+        chart.is_clear(at, radius)
     })
 }
 

@@ -51,11 +51,10 @@ pub(crate) fn segments(
 /// Where two runs that follow each other meet, as the end of the first and the start of the second.
 fn corner(sensor: &Sensor, ranges: &[f64], hits: &[Hit], a: &Run, b: &Run) -> Option<(Tip, Tip)> {
     let (last, first) = (&hits[a.to - 1], &hits[b.from]);
-    let count = sensor.count() as u32;
-    let gap = (first.beam + count - last.beam) % count;
-    if gap > 2 {
+    if sensor.steps(last.beam, first.beam) > 2 {
         return None;
     }
+    let count = sensor.count() as u32;
     let (one, two) = (&a.line, &b.line);
     let meeting = Meeting::of(one, two, FLAT)?;
     let (point, [place, second_place]) = (meeting.point, meeting.places);

@@ -370,10 +370,8 @@ impl Extractor {
             let mut run = self.runs[next];
             while kept > 0 {
                 let before = self.runs[kept - 1];
-                // A closed scan goes on from its last beam to its first.
-                let count = sensor.count() as u32;
-                let last = self.hits[before.to - 1].beam;
-                let beams = (self.hits[run.from].beam + count - last) % count;
+                let (last, first) = (&self.hits[before.to - 1], &self.hits[run.from]);
+                let beams = sensor.steps(last.beam, first.beam);
                 if run.to - before.from < 4 || beams > 2 {
                     break;
                 }

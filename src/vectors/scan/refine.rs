@@ -31,7 +31,7 @@ impl Extractor {
         let mut found: Vec<Segment<2>> = Vec::new();
         let left = vertices.saturating_sub(self.thin(sensor, ranges).count());
         let torn = self.tears();
-        let hops = Hops::of(&self.hits, sensor, self.joined(ranges, &torn));
+        let hops = Hops::of(&self.hits, sensor, self.joined(sensor, ranges, &torn));
         for chain in self.polylines(sensor, &hops, left) {
             self.tell(sensor, ranges, &chain, &torn, &mut found);
         }
@@ -50,11 +50,11 @@ impl Extractor {
     }
 
     /// Runs of hits `from..to` over which edges may go.
-    fn joined(&self, ranges: &[f64], torn: &[usize]) -> Vec<(usize, usize)> {
+    fn joined(&self, sensor: &Sensor, ranges: &[f64], torn: &[usize]) -> Vec<(usize, usize)> {
         let hits = &self.hits;
         let is_far = |at: usize| {
             let (a, b) = (&hits[at - 1], &hits[at]);
-            let next = b.beam.abs_diff(a.beam) <= 2;
+            let next = sensor.steps(a.beam, b.beam) <= 2;
             !next || (a.p - b.p).norm() > STEP
         };
         let past = self.spikes.iter().filter(|s| 0 < s.at && s.at < hits.len());

@@ -113,6 +113,12 @@ impl Sensor {
         self.directions.len()
     }
 
+    /// How many beams one is further than another, counted on over the last beam.
+    pub(super) fn steps(&self, from: u32, to: u32) -> u32 {
+        let count = self.count() as u32;
+        (to + count - from) % count
+    }
+
     /// Unit vectors of the beams.
     #[must_use]
     pub fn directions(&self) -> &[Vector2<f64>] {
