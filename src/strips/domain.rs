@@ -9,7 +9,7 @@ use super::check::hint;
 use super::error::{Place, RuleError};
 use super::fault::{RuleFault, RuleFaults};
 use super::phrase::Phrases;
-use crate::units::{Bilingual, name_key};
+use crate::units::{Bilingual, Language, name_key};
 
 macro_rules! indices {
     ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
@@ -309,5 +309,28 @@ impl Domain {
             kinds.iter().map(name).collect::<Vec<_>>().join(" или "),
             kinds.iter().map(english).collect::<Vec<_>>().join(" or "),
         )
+    }
+}
+
+impl Domain {
+    /// `ДВЕРЬ_НАХОДИТСЯ-В_(дверь, помещение)`, for messages.
+    pub(super) fn signature(&self, predicate: PredicateId) -> Bilingual {
+        let Predicate { name, args } = &self.predicates[predicate.index()];
+        let told = |language: Language| {
+            let args: Vec<String> = args
+                .iter()
+                .map(|kinds| match kinds.is_empty() {
+                    true => language.pick("объект", "object").to_owned(),
+                    false => self.kind_names(kinds).say(language).to_owned(),
+                })
+                .collect();
+            let place = self.introduced.get(&predicate).map_or_else(String::new, |place| {
+                let (line, column) = place.position();
+                let here = language.pick("как здесь", "as here");
+                format!(", {here}: {}:{line}:{column}", place.source.name())
+            });
+            format!("{}: {name}_({}){place}", language.pick("запись", "written"), args.join(", "))
+        };
+        Bilingual::new(told(Language::Russian), told(Language::English))
     }
 }

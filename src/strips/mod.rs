@@ -29,6 +29,7 @@ mod bystander;
 mod cases;
 mod check;
 mod compound;
+mod declare;
 mod domain;
 mod draft;
 mod durative;

@@ -4,15 +4,7 @@
 //! records in memory, which readers read, and sled's trees follow (see `behind`). Truth is the newest whole snapshot
 //! and the frames after it; the trees are an index of it, read and verified as a whole at each opening, which brings
 //! the two together. How far they must reach is known from a third place (see `head`): a journal that ends earlier is
-//! broken, though every frame in it be whole.
-//!
-//! | journal | trees | what is done |
-//! |---|---|---|
-//! | whole | whole | the frames that the trees lack are applied; a torn tail is cut off |
-//! | whole | broken, or not as their digests say | set aside, built anew from snapshot and journal |
-//! | whole | cannot be set aside or built anew | left alone; the store works without them |
-//! | broken | whole and not behind it | a new snapshot and a new journal are written from the trees |
-//! | broken | broken | refused, both named |
+//! broken, though every frame in it be whole. What is done where one of them is not whole stands in `recover`.
 //!
 //! All of this is said of what is young; what is past lies in runs beside it, which transactions name (see `past`).
 //!
@@ -22,6 +14,7 @@
 //! from the journal, nothing more is written until the store is opened again. The trees decide nothing: whatever
 //! they do, a store whose snapshot and journal are whole opens and takes what it is given.
 
+mod recover;
 mod runs;
 
 use std::path::{Path, PathBuf};
@@ -30,7 +23,7 @@ use std::sync::Arc;
 use super::behind::Behind;
 use super::disk::Disk;
 use super::error::{Result, StoreError};
-use super::frame::{Digest, Digests, Op, encode_frame};
+use super::frame::{Digests, Op, encode_frame};
 use super::head::{Head, Known, Mark, read_head};
 use super::journal::{
     Journal, Log, begin_journal, journal_dir, numbered, numbered_files, snapshot_dir,
@@ -38,8 +31,11 @@ use super::journal::{
 };
 use super::memory::MemoryTrees;
 use super::past::{Layered, Past, is_past};
-use super::snapshot::{load_snapshot, write_snapshot};
-use super::trees::{State, Trees, digests};
+use super::snapshot::write_snapshot;
+
+use super::trees::{State, Trees};
+
+use recover::{Brought, Files, Found, Recovered, find, journal_fault, recover};
 
 /// What opening a store found and mended.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -144,89 +140,6 @@ impl ReadOnly {
     }
 }
 
-/// Records brought to the end of the journal.
-struct Brought {
-    memory: MemoryTrees,
-    state: State,
-    /// Keys that the frames touched.
-    touched: Vec<(u8, Vec<u8>)>,
-    frames: u64,
-}
-
-/// What was read of a store's own files.
-struct Files<'f> {
-    disk: &'f dyn Disk,
-    dir: &'f Path,
-    known: &'f Known,
-    log: &'f Log,
-    /// Whether there were trees before this opening.
-    had_trees: bool,
-}
-
-/// What an opening for writing goes on with.
-struct Recovered {
-    memory: Arc<MemoryTrees>,
-    /// The trees that are to follow, or why none do.
-    trees: std::result::Result<Arc<dyn Trees>, String>,
-    /// Keys in which they differ from memory.
-    dirty: Vec<(u8, Vec<u8>)>,
-    state: State,
-}
-
-/// Where the records come from.
-struct Found {
-    brought: Brought,
-    /// The trees, when the records are theirs; else why they are those of snapshot and journal.
-    trees: Result<Arc<dyn Trees>>,
-}
-
-/// Applies the frames after the records' own state, and checks what comes out of it against the digests. `counted`
-/// is what the records hold before, by their own bytes.
-fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
-    let log = files.log;
-    let mut state = memory.state()?;
-    let broken = |what: &str| StoreError::Tables { what: what.to_owned() };
-    // At the transaction that was acknowledged last, the store must hold what it held then.
-    let check = |state: &State| match files.known.mark() {
-        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => {
-            Err(broken("записи не те, что были подтверждены"))
-        }
-        _ => Ok(()),
-    };
-    check(&state)?;
-    if !log.reaches(state.lsn, last) {
-        let empty = state.lsn == 0;
-        return Err(broken(if empty {
-            "таблиц нет"
-        } else {
-            "таблицы отстали от журнала"
-        }));
-    }
-    let before = state.lsn;
-    let mut touched = Vec::new();
-    for lsn in before + 1..=last {
-        let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
-        state.advance(lsn, payload.digests);
-        check(&state)?;
-        for op in &payload.ops {
-            let digest = counted.entry(op.tree).or_default();
-            if let Some(old) = memory.get(op.tree, &op.key)? {
-                digest.remove(&op.key, &old);
-            }
-            if let Some(new) = &op.value {
-                digest.add(&op.key, new);
-            }
-            touched.push((op.tree, op.key.clone()));
-        }
-        memory.apply(payload.ops, &state)?;
-    }
-    counted.retain(|_, digest| *digest != Digest::default());
-    if counted != state.digests {
-        return Err(broken("записи не совпадают с контрольной суммой"));
-    }
-    Ok(Brought { memory, frames: state.lsn - before, state, touched })
-}
-
 impl Vault {
     /// Opens what is there, or makes it; see the module's table.
     pub(crate) fn open(
@@ -256,7 +169,7 @@ impl Vault {
         }
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
         let mut report = OpenReport::default();
-        let Recovered { memory, trees, dirty, state } = Self::recover(&files, shelf, &mut report)?;
+        let Recovered { memory, trees, dirty, state } = recover(&files, shelf, &mut report)?;
         // Without it the store works as well, and is only not told twice how far it must reach.
         let head = Head::open(&*disk, dir, &known, &Mark::of(&state));
         let head = head.inspect_err(|error| tracing::warn!(%error, "head is not written")).ok();
@@ -306,15 +219,13 @@ impl Vault {
         let mut report = OpenReport::default();
         // Where `head` tells how far the journal must reach, the trees need not be asked; else they are who knows.
         let by_files = match known.mark().is_some() || !had_trees {
-            true => {
-                Some(Self::find(&files, || Err(StoreError::Tables { what: "нет".to_owned() })))
-            }
+            true => Some(find(&files, || Err(StoreError::Tables { what: "нет".to_owned() }))),
             false => None,
         };
         let brought = match by_files {
             Some(Ok(found)) => found.brought,
             not_told => {
-                let Found { brought, trees } = Self::find(&files, || shelf.look())?;
+                let Found { brought, trees } = find(&files, || shelf.look())?;
                 report.read_from_tables = match not_told {
                     Some(Err(StoreError::BothCorrupt { journal, .. })) => Some(journal),
                     Some(Err(other)) => Some(other.to_string()),
@@ -341,7 +252,7 @@ impl Vault {
         let known = read_head(&*disk, dir)?;
         let log = Log::read(&*disk, dir)?;
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
-        let Found { brought, trees } = Self::find(&files, open)?;
+        let Found { brought, trees } = find(&files, open)?;
         let journal_renewed = journal_fault(&*disk, dir, &log, brought.state.lsn)?;
         let mut report = OpenReport {
             torn_bytes: if journal_renewed.is_some() { 0 } else { log.torn },
@@ -377,83 +288,6 @@ impl Vault {
             checkpoint_at: u64::MAX,
             journal_bytes: 0,
         })
-    }
-
-    /// The records, and the trees that are to follow them.
-    fn recover(files: &Files, shelf: &mut dyn Shelf, report: &mut OpenReport) -> Result<Recovered> {
-        let Found { mut brought, trees } = Self::find(files, || shelf.open())?;
-        let (trees, dirty) = match trees {
-            Ok(trees) => (Ok(trees), std::mem::take(&mut brought.touched)),
-            Err(why) => {
-                let anew = shelf.set_aside().and_then(|()| shelf.open());
-                report.tables_rebuilt = anew.is_ok().then(|| why.to_string());
-                (anew, brought.memory.keys())
-            }
-        };
-        let Brought { memory, state, frames, .. } = brought;
-        report.fill(&state, frames);
-        let trees = trees.map_err(|why| why.to_string());
-        Ok(Recovered { memory: Arc::new(memory), trees, dirty, state })
-    }
-
-    /// The records by the trees, or, when these do not hold, by snapshot and journal.
-    fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>) -> Result<Found> {
-        let Files { disk, dir, log, .. } = *files;
-        let snapshots = snapshot_files(disk, dir)?;
-        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-        let last = log.last().max(newest_snapshot).max(files.known.lsn());
-        let opened = open().and_then(|trees| {
-            let seen = trees.state()?.lsn;
-            let (memory, counted) = MemoryTrees::copy_of(&*trees)?;
-            Ok((trees, replay(files, memory, counted, last.max(seen))?))
-        });
-        // With neither snapshot nor journal, empty trees would be a silent loss of everything. The head of the first
-        // journal was on the disk before there were trees.
-        let was_emptied = files.had_trees && log.is_headless() && newest_snapshot == 0;
-        let opened = opened.and_then(|found| match found.1.state.lsn {
-            // sled makes new trees of broken ones: that they are empty then says nothing.
-            0 if was_emptied => Err(StoreError::Tables { what: "пусты".to_owned() }),
-            _ => Ok(found),
-        });
-        match opened {
-            Ok((trees, brought)) => Ok(Found { brought, trees: Ok(trees) }),
-            Err(why)
-                if newest_snapshot == 0
-                    && (log.files.is_empty() || log.lost_head() || was_emptied) =>
-            {
-                Err(both_corrupt(dir, log, &why, &why))
-            }
-            Err(why) => {
-                let brought = Self::from_files(files, &snapshots, last)
-                    .map_err(|also| both_corrupt(dir, log, &also, &why))?;
-                Ok(Found { brought, trees: Err(why) })
-            }
-        }
-    }
-
-    /// The records of the newest snapshot that is whole and from which the journal leads on.
-    fn from_files(files: &Files, snapshots: &[(u64, PathBuf)], last: u64) -> Result<Brought> {
-        let Files { disk, log, .. } = *files;
-        let mut why = StoreError::Tables {
-            what: "нет снимка, от которого ведёт журнал".to_owned(),
-        };
-        let empty = (0, PathBuf::new());
-        for (lsn, path) in snapshots.iter().rev().chain([&empty]) {
-            if !log.reaches(*lsn, last) {
-                if log.last() < files.known.lsn() {
-                    why = cut_short(log.last(), files.known.lsn());
-                }
-                continue;
-            }
-            let memory = MemoryTrees::default();
-            let loaded = if *lsn == 0 { Ok(()) } else { load_snapshot(disk, path, &memory) };
-            let counted = loaded.and_then(|()| digests(&memory));
-            match counted.and_then(|counted| replay(files, memory, counted, last)) {
-                Ok(found) => return Ok(found),
-                Err(error) => why = error,
-            }
-        }
-        Err(why)
     }
 
     /// Goes on writing where the journal ends, or begins a new one where it cannot be trusted.
@@ -677,34 +511,5 @@ impl Drop for Vault {
         if let Some(Err(error)) = self.head.as_ref().map(Head::sync) {
             tracing::debug!(%error, "head is not on the disk yet");
         }
-    }
-}
-
-/// Why a journal does not lead to a state, if so.
-fn journal_fault(disk: &dyn Disk, dir: &Path, log: &Log, lsn: u64) -> Result<Option<String>> {
-    let snapshots = snapshot_files(disk, dir)?;
-    let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-    let mut chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
-    Ok(if let Some(fault) = &log.fault {
-        Some(fault.to_string())
-    } else if lsn > log.last().max(newest) {
-        Some("в журнале нет последних кадров".into())
-    } else if !chained.any(|first| log.reaches(first, lsn)) {
-        Some("нет снимка, от которого ведёт журнал".into())
-    } else {
-        None
-    })
-}
-
-fn cut_short(found: u64, known: u64) -> StoreError {
-    StoreError::CutShort { found, known }
-}
-
-fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError) -> StoreError {
-    let journal = log.fault.as_ref().unwrap_or(rebuild);
-    StoreError::BothCorrupt {
-        dir: dir.display().to_string(),
-        journal: journal.to_string(),
-        tables: trees.to_string(),
     }
 }
