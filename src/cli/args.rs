@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::engine::ImportFormat;
-use crate::engine::When;
+use crate::engine::{ImportFormat, Sighted, When};
 use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
@@ -65,6 +64,19 @@ pub(super) struct Common {
         value_name = "NAME"
     )]
     pub user: String,
+}
+
+/// A laser's log, taken on a map.
+#[derive(Debug, Args)]
+pub(super) struct LogOnMap {
+    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
+    pub log: PathBuf,
+    /// The map; may be left out when the store has only one
+    #[arg(long, value_name = "NAME")]
+    pub map: Option<String>,
+    /// Of the laser above the map's zero
+    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
+    pub height: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

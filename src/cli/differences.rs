@@ -1,30 +1,23 @@
 //! `ortho differences`: what the scans of a log see that the map has otherwise.
 
-use std::path::PathBuf;
 use std::time::SystemTime;
 
 use clap::Args;
 
 use crate::engine::{Sighted, json};
 
-use super::args::Common;
+use super::args::{Common, LogOnMap};
 use super::commands::{note, open};
 use super::fault::{Failure, drawn};
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
 pub(super) struct DifferencesArgs {
-    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
-    log: PathBuf,
-    /// The map; may be left out when the store has only one
-    #[arg(long, value_name = "NAME")]
-    map: Option<String>,
+    #[command(flatten)]
+    of: LogOnMap,
     /// Which scan of the log, from 1; all when left out
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
-    /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
-    height: f64,
     /// The log tells the poses, in the map's frame; else they are found
     #[arg(long)]
     posed: bool,
@@ -35,10 +28,10 @@ pub(super) struct DifferencesArgs {
 
 pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Failure> {
     let mut engine = open(common)?;
-    let log = Sighted::read(&args.log)?;
-    let map = engine.map_named(args.map.as_deref())?;
+    let log = Sighted::read(&args.of.log)?;
+    let map = engine.map_named(args.of.map.as_deref())?;
     let now = SystemTime::now().into();
-    let seen = engine.differences(map, &log, args.scan, args.height, args.posed, now)?;
+    let seen = engine.differences(map, &log, args.scan, args.of.height, args.posed, now)?;
     if args.keep {
         engine.keep_differences(&seen, now)?;
     }

@@ -13,7 +13,7 @@ use crate::language::Language;
 use crate::robot::Directive;
 use crate::units::{MapId, Point, write_file};
 
-use super::args::{Common, CorridorArgs, Lang};
+use super::args::{Common, CorridorArgs, Lang, LogOnMap};
 use super::commands::{note, open};
 use super::fault::Failure;
 use super::{Answer, json, say};
@@ -71,17 +71,11 @@ enum What {
 
 #[derive(Debug, Args)]
 struct SightArgs {
-    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
-    log: PathBuf,
+    #[command(flatten)]
+    of: LogOnMap,
     /// Which scan of the log, from 1
     #[arg(long, value_name = "N", default_value_t = 1)]
     scan: usize,
-    /// The map; may be left out when the store has only one
-    #[arg(long, value_name = "NAME")]
-    map: Option<String>,
-    /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
-    height: f64,
     /// The log tells the poses, in the map's frame; else the pose is found
     #[arg(long)]
     posed: bool,
@@ -207,9 +201,9 @@ fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
 /// None where the scan fits nowhere.
 fn draw_sight(common: &Common, args: &SightArgs) -> Result<Vec<String>, Failure> {
     let engine = open(common)?;
-    let map = engine.map_named(args.map.as_deref())?;
-    let log = Sighted::read(&args.log)?;
-    let Some(seen) = engine.sighting(map, &log, args.scan, args.height, args.posed)? else {
+    let map = engine.map_named(args.of.map.as_deref())?;
+    let log = Sighted::read(&args.of.log)?;
+    let Some(seen) = engine.sighting(map, &log, args.scan, args.of.height, args.posed)? else {
         note(
             common.lang.pick("Неизвестно, где этот скан снят.", "Where it was taken is not known."),
         );

@@ -1,30 +1,22 @@
 //! `ortho locate`: where the scans of a log can have been taken.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
 use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
 
-use super::args::{Common, Lang};
+use super::args::{Common, Lang, LogOnMap};
 use super::commands::{note, open};
 use super::fault::{Failure, drawn};
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
 pub(super) struct LocateArgs {
-    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
-    log: PathBuf,
-    /// The map; may be left out when the store has only one
-    #[arg(long, value_name = "NAME")]
-    map: Option<String>,
+    #[command(flatten)]
+    of: LogOnMap,
     /// Which scan of the log, from 1; all when left out
     #[arg(long, value_name = "N")]
     scan: Option<usize>,
-    /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
-    height: f64,
     /// Carry what is possible along by odometry, from scan to scan
     #[arg(long)]
     follow: bool,
@@ -32,9 +24,9 @@ pub(super) struct LocateArgs {
 
 pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let log = Sighted::read(&args.log)?;
-    let map = engine.map_named(args.map.as_deref())?;
-    let found = engine.find_scans(map, &log, args.scan, args.height, args.follow)?;
+    let log = Sighted::read(&args.of.log)?;
+    let map = engine.map_named(args.of.map.as_deref())?;
+    let found = engine.find_scans(map, &log, args.scan, args.of.height, args.follow)?;
     if common.json {
         let mut value = json::found_scans(engine.world()?, &found);
         value["faults"] = json::log_faults(log.faults()).into();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::engine::{Engine, change_now};
-use crate::serve::{Bounds, ServeError, Settings, run as serve, run_for_assistant};
+use crate::serve::{Bounds, ServeError, Settings, beside, run as serve, run_for_assistant};
 
 use super::args::Common;
 use super::commands::{note_repairs, rules_dir, store_dir};
@@ -81,7 +81,7 @@ fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), F
         token: None,
         user: common.user.clone(),
         rules,
-        sessions: lasts.then(|| beside(&store)),
+        sessions: lasts.then(|| beside(&store, ".sessions")),
         pace: args.pace,
         is_demo: args.demo,
         bounds: Bounds::default(),
@@ -120,11 +120,4 @@ fn came_to(served: Result<(), ServeError>) -> Result<Answer, Failure> {
         Err(ServeError::Engine(error)) => Err((*error).into()),
         Err(error) => Err(Failure::output(&std::io::Error::other(error.to_string()))),
     }
-}
-
-/// `ortho-store` → `ortho-store.sessions`: beside the store, which is its own folder's master.
-fn beside(store: &std::path::Path) -> PathBuf {
-    let mut name = store.as_os_str().to_owned();
-    name.push(".sessions");
-    PathBuf::from(name)
 }

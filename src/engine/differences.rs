@@ -10,7 +10,7 @@ use crate::sensing::{
     Belief, Chart, DoorSeen, Fit, Inspector, Localiser, Options, ThingSeen, Tracker,
 };
 use crate::store::{FoundAt, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, MapId, Point, ReplicaId};
 use crate::vectors::read::Scan;
 
 use super::localisation::pose_of;
@@ -222,7 +222,7 @@ impl Engine {
         let observed = seen.things.iter().map(|(&replica, &(news, sure))| {
             let seen = match news {
                 ThingNews::There => {
-                    let replica = &self.world().ok()?.replicas.get(&replica)?.clone();
+                    let replica = self.world().ok()?.replicas.get(&replica)?;
                     Some(Seen { area: replica.area, frame: replica.frame })
                 }
                 ThingNews::Missed => None,
@@ -231,44 +231,38 @@ impl Engine {
             Some(Observation { replica, at, seen, sure, observer: ROBOT.to_owned() })
         });
         let observed: Vec<Observation> = observed.flatten().collect();
-        self.renew(&mut memory, seen, at)?;
+        renew(&mut memory, seen, at);
         self.next().forget_present();
         Ok(self.writable()?.remember(&memory, &observed, ROBOT, at)?)
     }
+}
 
-    /// What is remembered of doors, obstacles and the pose, after these scans.
-    fn renew(
-        &self,
-        memory: &mut RobotMemory,
-        seen: &Differing,
-        at: Timestamp,
-    ) -> Result<(), Error> {
-        for (door, news) in &seen.doors {
-            if news.is_as_mapped {
-                memory.doors.remove(door);
-            } else {
-                memory.doors.insert(*door, news.state);
-            }
+/// What is remembered of doors, obstacles and the pose, after these scans.
+fn renew(memory: &mut RobotMemory, seen: &Differing, at: Timestamp) {
+    for (door, news) in &seen.doors {
+        if news.is_as_mapped {
+            memory.doors.remove(door);
+        } else {
+            memory.doors.insert(*door, news.state);
         }
-        memory.obstacles.retain(|old| old.stands(at) && !seen.gone.contains(old));
-        for new in &seen.obstacles {
-            // Seen again, it is the same obstacle; the last look knows best how large it is.
-            let known = memory
-                .obstacles
-                .iter_mut()
-                .find(|old| old.area == new.area && distance(old, new) <= SAME_OBSTACLE);
-            match known {
-                Some(old) => *old = new.clone(),
-                None => memory.obstacles.push(new.clone()),
-            }
+    }
+    memory.obstacles.retain(|old| old.stands(at) && !seen.gone.contains(old));
+    for new in &seen.obstacles {
+        // Seen again, it is the same obstacle; the last look knows best how large it is.
+        let known = memory
+            .obstacles
+            .iter_mut()
+            .find(|old| old.area == new.area && distance(old, new) <= SAME_OBSTACLE);
+        match known {
+            Some(old) => *old = new.clone(),
+            None => memory.obstacles.push(new.clone()),
         }
-        if let [only] = &seen.found[..] {
-            memory.pose = Some((only.map, only.pose));
-        }
-        if !seen.found.is_empty() {
-            memory.found.clone_from(&seen.found);
-        }
-        Ok(())
+    }
+    if let [only] = &seen.found[..] {
+        memory.pose = Some((only.map, only.pose));
+    }
+    if !seen.found.is_empty() {
+        memory.found.clone_from(&seen.found);
     }
 }
 
@@ -284,13 +278,6 @@ fn distance(one: &SeenObstacle, other: &SeenObstacle) -> f64 {
 }
 
 impl Differing {
-    /// The pose of the last scan, where it is the only one.
-    #[must_use]
-    pub fn pose(&self) -> Option<Pose> {
-        let [only] = &self.found[..] else { return None };
-        Some(only.pose)
-    }
-
     /// What differs, a line for each.
     #[must_use]
     pub fn in_words(&self, world: &World, language: Language) -> Vec<String> {

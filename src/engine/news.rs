@@ -1,6 +1,8 @@
 //! What the robot can say of how its world differs from the map, of what it has not seen, and of how sure it is where it is
 //! (SPEC L5).
 
+use std::collections::BTreeSet;
+
 use crate::language::Language;
 use crate::language::question::News;
 use crate::language::report::Detail;
@@ -8,7 +10,7 @@ use crate::language::words::enumerate;
 use crate::map::is_on;
 use crate::robot::starting_pose;
 use crate::sensing::{Chart, Fit, Move, telling_move};
-use crate::store::{FoundAt, Timestamp};
+use crate::store::{FoundAt, Observation, Timestamp};
 use crate::units::{MapId, ReplicaId};
 
 use super::memory::ROBOT;
@@ -35,7 +37,7 @@ impl State {
                 }
                 let belief = reader.belief(replica, at)?;
                 if !belief.is_surveyed {
-                    news.push(News::Moved(id, Some(belief.place.area)));
+                    news.push(News::Moved(id, belief.place.area));
                 } else if belief.missed.is_some() {
                     news.push(News::Missed(id));
                 }
@@ -63,17 +65,18 @@ impl State {
     /// There is no map, or a record is broken.
     pub fn unseen(&self) -> Result<(Vec<ReplicaId>, usize), Error> {
         let world = self.world()?;
-        let mut unseen: Vec<ReplicaId> = world.replicas.keys().copied().collect();
-        let all = unseen.len();
+        let mut own = BTreeSet::new();
         if let Some(reader) = &self.reader {
+            let is_own = |o: &Observation| o.observer == ROBOT && o.seen.is_some();
             for id in reader.observed()? {
-                let own = |o: &crate::store::Observation| o.observer == ROBOT && o.seen.is_some();
-                if reader.observations(id)?.iter().any(own) {
-                    unseen.retain(|other| *other != id);
+                if reader.observations(id)?.iter().any(is_own) {
+                    own.insert(id);
                 }
             }
         }
-        let seen = all - unseen.len();
+        let all = world.replicas.keys().copied();
+        let unseen: Vec<ReplicaId> = all.filter(|id| !own.contains(id)).collect();
+        let seen = world.replicas.len() - unseen.len();
         Ok((unseen, seen))
     }
 

@@ -24,7 +24,7 @@ mod rehearse;
 mod routes;
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -106,6 +106,14 @@ pub enum ServeError {
 
 /// The shortest token that lasts.
 const SHORTEST: usize = 16;
+
+/// `ortho-store` → `ortho-store.sessions`: beside the store, which is its own folder's master.
+#[must_use]
+pub fn beside(store: &Path, ending: &str) -> PathBuf {
+    let mut name = store.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}
 
 /// Serves until it is told to stop; `tell` gets the address to be opened.
 ///

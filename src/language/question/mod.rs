@@ -113,7 +113,7 @@ pub trait Senses {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum News {
     /// A thing is elsewhere: in this room.
-    Moved(ReplicaId, Option<AreaId>),
+    Moved(ReplicaId, AreaId),
     /// A thing is not where the map has it, and was not seen elsewhere.
     Missed(ReplicaId),
     /// A door stands so.

@@ -96,16 +96,9 @@ impl Asked<'_> {
 #[cfg(test)]
 mod tests {
     use super::whole_news;
+    use crate::dice::dice;
     use crate::units::{AreaId, Deg, DoorId, Frame, ObjectId, ReplicaId};
     use crate::{DoorState, DoorStatus, MapErrors, NameIndex, Replica, World, check, news};
-
-    /// A row of numbers that looks like chance.
-    fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
-        move |below| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 33) as usize % below
-        }
-    }
 
     /// One edit, sound or not.
     fn alter(world: &mut World, throw: &mut impl FnMut(usize) -> usize) {

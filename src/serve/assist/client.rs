@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use rmcp::service::{RequestContext, RoleServer};
 
-use super::super::House;
 use super::super::gate::{Role, Session};
+use super::super::{House, beside};
 use super::approval::Asked;
 use super::calls::Calls;
 
@@ -32,13 +32,7 @@ impl Assistant {
         store: Option<&Path>,
         trusts_host: bool,
     ) -> Self {
-        let beside = |ending: &str| {
-            store.map(|store| {
-                let mut name = store.as_os_str().to_owned();
-                name.push(ending);
-                PathBuf::from(name)
-            })
-        };
+        let beside = |ending| store.map(|store| beside(store, ending));
         Self {
             house,
             calls: Arc::new(Calls::new(beside(".calls.jsonl"))),

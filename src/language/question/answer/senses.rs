@@ -13,7 +13,7 @@ use crate::question::{Courtesy, speech};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
 use crate::units::AreaId;
-use crate::words::{Case, Gender, Number, enumerate};
+use crate::words::{Case, Number, enumerate};
 
 impl Knowledge<'_> {
     pub(super) fn last_seen(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -249,11 +249,9 @@ impl Knowledge<'_> {
             News::Moved(id, area) => {
                 let thing = thing(Entity::Replica(id));
                 let (name, is) = (self.name(thing), self.is(&[thing]));
-                match (area.map(room), self.is_russian()) {
-                    (Some(place), true) => format!("{name} теперь {place}, на другом месте"),
-                    (None, true) => format!("{name} теперь на другом месте"),
-                    (Some(place), false) => format!("{name} {is} now elsewhere {place}"),
-                    (None, false) => format!("{name} {is} now elsewhere"),
+                match self.is_russian() {
+                    true => format!("{name} теперь {}, на другом месте", room(area)),
+                    false => format!("{name} {is} now elsewhere {}", room(area)),
                 }
             }
             News::Missed(id) => {
@@ -266,18 +264,17 @@ impl Knowledge<'_> {
             News::Door(id, state) => {
                 let thing = thing(Entity::Door(id));
                 let name = self.name(thing);
-                let (gender, number) = self.gender(thing);
-                let is_open = state.status == DoorStatus::Open;
-                let short = short_state(is_open, gender, number);
-                let how = match (is_open, state.opening < 99.5) {
-                    (true, true) if self.is_russian() => format!(" на {:.0} %", state.opening),
-                    (true, true) => format!(" by {:.0} %", state.opening),
-                    _ => String::new(),
+                let value = self.lexicon().values.of_door(state.status);
+                let value = value.map(|value| self.value(value, thing)).unwrap_or_default();
+                let is_ajar = state.status == DoorStatus::Open && state.opening < 99.5;
+                let how = match (is_ajar, self.is_russian()) {
+                    (true, true) => format!(" на {:.0} %", state.opening),
+                    (true, false) => format!(" by {:.0} %", state.opening),
+                    (false, _) => String::new(),
                 };
-                match (self.is_russian(), is_open) {
-                    (true, _) => format!("{name} {short}{how}"),
-                    (false, true) => format!("{name} {} open{how}", self.is(&[thing])),
-                    (false, false) => format!("{name} {} closed", self.is(&[thing])),
+                match self.is_russian() {
+                    true => format!("{name} {value}{how}"),
+                    false => format!("{name} {} {value}{how}", self.is(&[thing])),
                 }
             }
             News::New(id) => {
@@ -366,15 +363,4 @@ impl Knowledge<'_> {
         let said = if seen.is_empty() { Said::Nothing } else { Said::Found };
         Draft::new(said, text).with(seen)
     }
-}
-
-/// «открыта», «закрыт»
-fn short_state(is_open: bool, gender: Gender, number: Number) -> String {
-    let ending = match (number, gender) {
-        (Number::Plural, _) => "ы",
-        (_, Gender::Feminine) => "а",
-        (_, Gender::Neuter) => "о",
-        (_, Gender::Masculine) => "",
-    };
-    format!("{}{ending}", if is_open { "открыт" } else { "закрыт" })
 }

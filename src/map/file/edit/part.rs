@@ -201,16 +201,9 @@ mod tests {
 
     use super::super::{EditReading, NextIds, Work};
     use super::*;
+    use crate::dice::dice;
     use crate::units::Source;
     use crate::{Format, NameIndex};
-
-    /// A row of numbers that looks like chance.
-    fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
-        move |below| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 33) as usize % below
-        }
-    }
 
     /// A step of some sort, sound or not.
     fn step(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {

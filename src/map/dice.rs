@@ -1,0 +1,9 @@
+//! Chance for tests that fails the same way again.
+
+/// A row of numbers that looks like chance, each below what is asked for.
+pub(crate) fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
+    move |below| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % below
+    }
+}
