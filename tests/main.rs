@@ -48,6 +48,7 @@ mod relation_truth;
 mod relations;
 mod remedies;
 mod rmf_floors;
+mod robot_facts;
 mod routes;
 mod scenes;
 #[cfg(feature = "sqlite")]

@@ -13,27 +13,23 @@
 //! another thing of its room.
 
 use crate::geometry::{FloorPlan, Opening, PlacedReplica, nearest_on_segment};
-use crate::language::directions::{Directions, Exit, Goal, RoomPart, Side, Stretch, Turn};
+use crate::language::directions::{Directions, Exit, Goal, RoomPart, Side, Stretch, Turn, Turns};
 use crate::language::names::named;
 use crate::language::report::{Named, OpeningKind};
 use crate::map::{Entity, World};
-use crate::semantics::Relations;
+use crate::semantics::{Relations, Thresholds};
 use crate::units::{AreaId, Deg, Point, Vector};
 
 use super::known::Known;
 use super::route::{End, RouteAnswer};
 use super::{Error, State};
 
-/// A bend that stays this near to the straight way is none, cm.
-const SMALL_BEND: f64 = 35.0;
 /// So far before and behind an opening a way is looked at to see whether it turns there, cm.
 const THROUGH: f64 = 50.0;
 /// Shorter stretches pass nothing worth a word, cm.
 const WORTH_TELLING: f64 = 60.0;
 /// So many landmarks a stretch.
 const LANDMARKS: usize = 2;
-/// What is moved oftener than this is no landmark, percent.
-const MOVED_OFTEN: u8 = 50;
 
 impl State {
     /// A way over the map in the terms of people. `heading` is how one stands at its beginning, where that is known.
@@ -65,6 +61,7 @@ impl Known {
         let start = line.first().copied();
         let floor = self.floor(answer.map)?;
         let guide = Guide { world, relations, floor, end: &answer.end, start };
+        let near = relations.thresholds();
         let mut start = None;
         let mut facing = heading.map(|h| {
             let (sin, cos) = h.sin_cos();
@@ -87,8 +84,9 @@ impl Known {
         let mut passages = Vec::new();
         for (n, (stage, (piece, door))) in answer.stages.iter().zip(&pieces).enumerate() {
             let stretches = guide.stretches(stage.area, piece, facing);
-            let last = last_direction(piece).or(facing);
-            let straight = pieces.get(n + 1).and_then(|(next, _)| straight_through(piece, next));
+            let last = last_direction(piece, near.way_jog).or(facing);
+            let next = pieces.get(n + 1);
+            let straight = next.and_then(|(next, _)| straight_through(piece, next, near));
             let out = door.map(|door| straight.unwrap_or_else(|| way_through(door, stage.area)));
             let exit = door.zip(out).map(|(door, out)| guide.exit(door, last, out));
             let room = named(world, Entity::Area(stage.area));
@@ -100,7 +98,7 @@ impl Known {
             End::Entity(entity) => Goal::Thing(named(world, *entity)),
             End::Point => Goal::Point(answer.to.clone()),
         };
-        Ok((!passages.is_empty()).then_some(Directions { passages, goal }))
+        Ok((!passages.is_empty()).then_some(Directions { passages, goal, turns: near.into() }))
     }
 }
 
@@ -130,19 +128,20 @@ fn crossing(door: &Opening, from: AreaId, line: &[Point]) -> (usize, Point) {
     (0, line.first().copied().unwrap_or(origin))
 }
 
-/// A line without the bends that a person would not notice (Ramer, Douglas and Peucker).
-fn plain(line: &[Point]) -> Vec<Point> {
+/// A line without the bends that a person would not notice, nearer than `jog` to the straight way, cm (Ramer, Douglas
+/// and Peucker).
+fn plain(line: &[Point], jog: f64) -> Vec<Point> {
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else { return Vec::new() };
     let off = |p: &Point| (p - nearest_on_segment(*p, first, last)).norm();
     let inner = line.iter().enumerate().skip(1).take(line.len().saturating_sub(2));
     let farthest = inner.map(|(n, p)| (off(p), n)).max_by(|a, b| a.0.total_cmp(&b.0));
-    match farthest.filter(|(d, _)| *d > SMALL_BEND) {
+    match farthest.filter(|(d, _)| *d > jog) {
         None if line.len() < 2 => vec![first],
         None => vec![first, last],
         Some((_, n)) => {
-            let mut kept = plain(&line[..=n]);
+            let mut kept = plain(&line[..=n], jog);
             kept.pop();
-            kept.extend(plain(&line[n..]));
+            kept.extend(plain(&line[n..], jog));
             kept
         }
     }
@@ -157,17 +156,17 @@ fn direction(a: Point, b: Point) -> Option<Vector> {
     (b - a).try_normalize(1.0)
 }
 
-fn last_direction(piece: &[Point]) -> Option<Vector> {
-    plain(piece).windows(2).rev().find_map(|pair| direction(pair[0], pair[1]))
+fn last_direction(piece: &[Point], jog: f64) -> Option<Vector> {
+    plain(piece, jog).windows(2).rev().find_map(|pair| direction(pair[0], pair[1]))
 }
 
 /// The direction in which a way passes straight from one part of it to the next; none where it turns there.
-fn straight_through(before: &[Point], after: &[Point]) -> Option<Vector> {
-    let into = last_direction(before)?;
-    let on = plain(after).windows(2).find_map(|pair| direction(pair[0], pair[1]))?;
+fn straight_through(before: &[Point], after: &[Point], near: &Thresholds) -> Option<Vector> {
+    let into = last_direction(before, near.way_jog)?;
+    let on = plain(after, near.way_jog).windows(2).find_map(|pair| direction(pair[0], pair[1]))?;
     let from = along(before.iter().rev(), THROUGH)?;
     let through = direction(from, along(after.iter(), THROUGH)?)?;
-    let is_straight = |a: Vector, b: Vector| Turn::of(turn(a, b)) == Turn::Straight;
+    let is_straight = |a: Vector, b: Vector| turn(a, b).abs() < near.turn_straight;
     (is_straight(into, through) && is_straight(through, on) && is_straight(into, on))
         .then_some(into)
 }
@@ -202,7 +201,8 @@ impl Guide<'_> {
         let (landmarks, near) = (self.landmarks(area), self.relations.thresholds());
         let mut stretches: Vec<Stretch> = Vec::new();
         // Corners of the plain line with the lengths of the real one between them.
-        let corners = plain(piece);
+        let corners = plain(piece, near.way_jog);
+        let turns = Turns::from(near);
         for pair in corners.windows(2) {
             let Some(way) = direction(pair[0], pair[1]) else { continue };
             let length = (pair[1] - pair[0]).norm();
@@ -215,14 +215,14 @@ impl Guide<'_> {
             facing = Some(way);
             match (stretches.last_mut(), angle) {
                 // What goes on nearly straight is the same stretch.
-                (Some(last), Some(angle)) if Turn::of(angle) == Turn::Straight => {
+                (Some(last), Some(angle)) if turns.name(angle) == Turn::Straight => {
                     last.length += length;
                     last.passed.extend(passed);
                     last.passed.truncate(LANDMARKS);
                 }
                 (before, angle) => {
                     let bends =
-                        before.is_some() && angle.is_some_and(|a| Turn::of(a) != Turn::Straight);
+                        before.is_some() && angle.is_some_and(|a| turns.name(a) != Turn::Straight);
                     let at = bends.then(|| nearest(&landmarks, pair[0], near.way_bend)).flatten();
                     stretches.push(Stretch { angle, at, length, passed });
                 }
@@ -257,11 +257,12 @@ impl Guide<'_> {
     fn landmarks(&self, area: AreaId) -> Vec<(&PlacedReplica, Named)> {
         let here: Vec<&PlacedReplica> = self.floor.scene().replicas_in(area).collect();
         let name = |thing: &PlacedReplica| self.world.name(Entity::Replica(thing.id));
+        let most_moved = self.relations.thresholds().way_landmark * 100.0;
         let stays = |thing: &&&PlacedReplica| {
             let replica = &self.world.replicas[&thing.id];
             *self.end != End::Entity(Entity::Replica(thing.id))
                 && self.start.is_none_or(|start| distance(thing, start, start) >= WORTH_TELLING)
-                && replica.move_prob <= MOVED_OFTEN
+                && f64::from(replica.move_prob) <= most_moved
                 && !self.world.has_trait(thing.id, "portable")
                 && self.relations.support_of(thing.id).is_none()
                 && here.iter().filter(|other| name(other) == name(thing)).count() == 1

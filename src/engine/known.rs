@@ -13,7 +13,7 @@ use crate::language::FormIndex;
 use crate::language::question::Mind;
 use crate::map::{Entity, NameIndex, World};
 use crate::meaning::MapWords;
-use crate::semantics::{Followed, Relations, derive};
+use crate::semantics::{Followed, Relations, Told, derive};
 use crate::store::Derived;
 use crate::units::{AreaId, MapId, Point, ReplicaId};
 
@@ -94,6 +94,20 @@ impl Known {
             relations: relations.into(),
             ..known
         })
+    }
+
+    /// The same with what the robot knows beside the world. Floors that were made stay where the same openings join.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn told(mut self, told: &Told) -> Result<Self, Error> {
+        let mut relations = Relations::clone(self.relations()?);
+        relations.tell(&self.world, told)?;
+        if **relations.openings() != *self.openings()? {
+            self.floors.take();
+        }
+        self.relations = Arc::new(relations).into();
+        Ok(self)
     }
 
     pub(super) fn world(&self) -> &World {

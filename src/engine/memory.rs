@@ -240,13 +240,7 @@ impl After {
             .filter(|(id, door)| surveyed.doors.get(id).is_some_and(|d| d.state != door.state))
             .map(|(id, door)| (*id, door.state))
             .collect();
-        let mut carried: BTreeMap<ReplicaId, String> =
-            belief.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).collect();
-        carried.extend(belief.held.iter().map(|thing| (thing.id, String::new())));
-        for (thing, carrier) in &belief.aboard {
-            let holder = carried.get(carrier).cloned().unwrap_or_default();
-            carried.insert(thing.id, holder);
-        }
+        let carried = belief.carried();
         let mut moved = BTreeMap::new();
         for (id, is) in &belief.world.replicas {
             let was = before.world.replicas.get(id);

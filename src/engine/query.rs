@@ -7,11 +7,10 @@
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
 use crate::map::Entity;
-use crate::semantics::{Relations, Subject};
+use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
 use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
 
 use super::known::Known;
-use super::sight::things_in_view;
 use super::{Error, State};
 
 /// What a question found.
@@ -182,12 +181,8 @@ fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value
     let place = asked.entity(known[0].as_ref())?;
     let (world, located) = (asked.around.world(), asked.around.locate_entity(place).ok()?);
     let floor = asked.around.floor(located.map).ok()?;
-    let stands = floor.scene().area_at(located.at);
-    let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
-    let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
-    let range = asked.relations.thresholds().robot_sight;
     let pose = Pose { at: located.at, heading: Deg::ZERO };
-    let eye = Eye { pose, height, field: 360.0, range };
+    let eye = Eye { field: 360.0, ..robot_eye(world, floor, pose, asked.relations.thresholds()) };
     for thing in things_in_view(world, floor, &eye) {
         if let Some(symbol) = asked.symbol(thing) {
             tell(&[known[0].clone()?, symbol]);

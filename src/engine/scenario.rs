@@ -56,7 +56,7 @@ impl State {
             Err(failure) => return Ok(TaskAnswer::not_begun(&now, failure)),
         };
         let (mut belief, _) = self.belief_of(&now)?;
-        let followed = self.followed(&now.world)?;
+        let followed = self.followed_with(&now, &belief)?;
         let relations = followed.relations();
         let wanted = scenario.problem.stated_goals().filter_map(|wanted| {
             let is_search = name_key(wanted.predicate()) == name_key(predicate::FOUND);

@@ -1,14 +1,11 @@
-//! What is in view from a pose: faces by name, and the things that can be told.
+//! What is in view from a pose: faces by name.
 
-use crate::geometry::{Blocker, Eye, Face, FaceInView, FaceKind, FloorPlan};
+use crate::geometry::{Blocker, Eye, Face, FaceInView, FaceKind};
 use crate::map::{Entity, Item, World};
-use crate::units::{Language, MapId, ReplicaId};
+use crate::units::{Language, MapId};
 
 use super::lexicon::named;
 use super::{Error, Lens, State};
-
-/// What looks smaller is not made out, steradians: a matchbox at six metres.
-const SPECK: f64 = 2e-5;
 
 impl State {
     /// The faces that are seen through a lens, those that look largest first.
@@ -20,25 +17,6 @@ impl State {
             Eye { pose: lens.pose, height: lens.height, field: lens.field, range: lens.range };
         Ok(self.floor(map)?.faces(self.world()?, &eye).in_view(&eye))
     }
-}
-
-/// The things that one makes out, the nearest first.
-pub(super) fn things_in_view(world: &World, floor: &FloorPlan, eye: &Eye) -> Vec<ReplicaId> {
-    let mut seen: Vec<(ReplicaId, f64, f64)> = Vec::new();
-    for view in floor.faces(world, eye).in_view(eye) {
-        let Blocker::Replica { replica, .. } = view.face.blocker else { continue };
-        let size = view.apparent_size(eye);
-        match seen.iter_mut().find(|s| s.0 == replica) {
-            Some((_, nearest, whole)) => {
-                *nearest = nearest.min(view.distance);
-                *whole += size;
-            }
-            None => seen.push((replica, view.distance, size)),
-        }
-    }
-    seen.retain(|(_, _, size)| *size >= SPECK);
-    seen.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-    seen.into_iter().map(|(id, ..)| id).collect()
 }
 
 /// «Стол-1, Столешница: верх», "Room V: side B"; a side that has a name of its own bears it.

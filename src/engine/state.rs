@@ -10,12 +10,14 @@ use std::sync::{Arc, OnceLock};
 use crate::geometry::{FloorPlan, Openings};
 use crate::language::FormIndex;
 use crate::map::{Entity, World};
-use crate::semantics::{Followed, Relations};
+use crate::robot::Belief;
+use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
-use crate::units::{MapId, nearest_name};
+use crate::units::{AreaId, MapId, Pose, ReplicaId, nearest_name};
 
 use super::changes::Changes;
 use super::known::Known;
+use super::memory::Now;
 use super::{Error, RequestError, Rules, Value};
 
 /// The knowledge of one building at a moment, and what follows from it: see the head of this file.
@@ -113,7 +115,8 @@ impl State {
             && memory.carried.is_empty()
             && memory.obstacles.is_empty()
             && reader.observed()?.is_empty();
-        if unmoved {
+        let asked = self.rules.relations.asks_the_robot();
+        if unmoved && !asked {
             return Ok(None);
         }
         let world = self.believed(memory, std::time::SystemTime::now().into())?;
@@ -123,11 +126,42 @@ impl State {
             .filter(|(id, _)| world.replicas.contains_key(id))
             .map(|(id, holder)| (*id, holder.clone()))
             .collect();
-        if holders.is_empty() && world == *surveyed.world {
+        if holders.is_empty() && world == *surveyed.world && !asked {
             return Ok(None);
         }
         let carriers = self.carriers(&world, &memory.carried)?;
-        Known::now(surveyed, world, holders, carriers).map(Some)
+        let now = Known::now(surveyed, world, holders, carriers)?;
+        if asked { self.tell(now).map(Some) } else { Ok(Some(now)) }
+    }
+
+    /// Tells the rules what the robot knows beside the world.
+    fn tell(&self, now: Known) -> Result<Known, Error> {
+        let world = now.world();
+        let stands = |(map, _): &(MapId, Pose)| world.maps.contains_key(map);
+        let robot = self.robot_pose().filter(stands);
+        let in_view = match robot {
+            Some((map, pose)) if self.rules.relations.asks_for_view() => {
+                let floor = now.floor(map)?;
+                let eye = robot_eye(world, floor, pose, now.relations()?.thresholds());
+                things_in_view(world, floor, &eye)
+            }
+            _ => Vec::new(),
+        };
+        let carried = now.holders.iter().map(|(id, holder)| (*id, holder.clone())).collect();
+        now.told(&Told { robot, in_view, believed: self.whereabouts_believed()?, carried })
+    }
+
+    /// Where what was looked at is believed to be, and how surely.
+    fn whereabouts_believed(&self) -> Result<Vec<(ReplicaId, AreaId, f64)>, Error> {
+        let Some(reader) = &self.reader else { return Ok(Vec::new()) };
+        let at = std::time::SystemTime::now().into();
+        let mut believed = Vec::new();
+        for id in reader.observed()? {
+            let Some(surveyed) = self.world()?.replicas.get(&id) else { continue };
+            let belief = reader.belief(surveyed, at)?;
+            believed.push((id, belief.place.area, belief.confidence));
+        }
+        Ok(believed)
     }
 
     /// The world as it is believed to be now: the map, with what the robot did and what was seen.
@@ -142,6 +176,17 @@ impl State {
     /// where they can be, else derived anew.
     pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
         self.surveyed()?.followed(world)
+    }
+
+    /// The relations of the world in which a task begins, with what the robot knows beside it.
+    pub(super) fn followed_with(&self, now: &Now, belief: &Belief) -> Result<Followed, Error> {
+        let mut followed = self.followed(&now.world)?;
+        if self.rules.relations.asks_the_robot() {
+            let believed = self.whereabouts_believed()?;
+            let told = belief.told(followed.relations(), believed);
+            followed.tell(told)?;
+        }
+        Ok(followed)
     }
 
     pub(super) fn forget_present(&mut self) {

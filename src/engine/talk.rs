@@ -1,6 +1,6 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use crate::geometry::{Barrier, Eye, Method, NoRoute, Ride};
+use crate::geometry::{Barrier, Method, NoRoute, Ride};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
@@ -12,7 +12,7 @@ use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
 use crate::meaning;
 use crate::robot::starting_pose;
-use crate::semantics::{Relations, Subject, derive};
+use crate::semantics::{Relations, Subject, derive, robot_eye, things_in_view};
 use crate::store::Seen;
 use crate::units::{MapId, Pose, ReplicaId};
 
@@ -20,7 +20,6 @@ use super::barriers::no_way_in_words;
 use super::journey::Journey;
 use super::position::describe;
 use super::route::Located;
-use super::sight::things_in_view;
 use super::{Error, State};
 
 impl State {
@@ -417,12 +416,8 @@ impl Senses for RobotSenses<'_> {
         let Ok(around) = self.engine.around() else { return Vec::new() };
         let world = around.world();
         let Ok(floor) = around.floor(map) else { return Vec::new() };
-        let stands = floor.scene().area_at(pose.at);
-        let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
-        let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
         let Ok(near) = around.relations().map(Relations::thresholds) else { return Vec::new() };
-        let eye = Eye { pose, height, field: near.robot_field, range: near.robot_sight };
-        things_in_view(world, floor, &eye)
+        things_in_view(world, floor, &robot_eye(world, floor, pose, near))
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {

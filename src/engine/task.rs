@@ -260,7 +260,7 @@ impl State {
             Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
         };
         let (mut belief, here) = self.belief_of(now)?;
-        let followed = self.followed(&now.world)?;
+        let followed = self.followed_with(now, &belief)?;
         let relations = followed.relations();
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
         self.not_shut_in(commands, &goals, relations)?;

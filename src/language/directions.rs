@@ -7,13 +7,14 @@
 //!
 //! ```
 //! use orthoframe_language::Language;
-//! use orthoframe_language::directions::{Directions, Exit, Goal, RoomPart, Stretch};
+//! use orthoframe_language::directions::{Directions, Exit, Goal, RoomPart, Stretch, Turns};
 //! use orthoframe_language::report::{Detail, Named, OpeningKind};
 //! let stretch = |angle| Stretch { angle, at: None, length: 200.0, passed: vec![] };
 //! let exit = Exit { opening: OpeningKind::Door, name: Some(Named::plain("Дверь-ВZ")), angle: 0.0 };
 //! let first = RoomPart { room: Named::plain("Комната-В"), stretches: vec![stretch(None)], exit: Some(exit) };
 //! let last = RoomPart { room: Named::plain("Комната-Z"), stretches: vec![stretch(Some(90.0))], exit: None };
-//! let way = Directions { passages: vec![first, last], goal: Goal::Thing(Named::plain("Точка-К")) };
+//! let way = Directions { passages: vec![first, last], goal: Goal::Thing(Named::plain("Точка-К")),
+//!     turns: Turns::default() };
 //! assert_eq!(
 //!     way.say_in(Language::Russian, Detail::Spot).join(" "),
 //!     "Выйдите из Комнаты-В через Дверь-ВZ в Комнату-Z. Поверните налево и дойдите до Точки-К."
@@ -23,6 +24,7 @@
 use super::report::{Detail, Named, OpeningKind};
 use super::words::russian::{self, Preposition};
 use super::words::{Case, Gender, Language, Number, enumerate, length};
+use crate::semantics::Thresholds;
 use crate::units::capitalized;
 
 /// A change of direction, as people name it.
@@ -36,27 +38,46 @@ pub enum Turn {
     Round,
 }
 
-impl Turn {
-    /// Up to here one goes straight on, degrees.
-    pub const STRAIGHT: f64 = 25.0;
-    /// Up to here one bears left or right, degrees.
-    pub const SLIGHT: f64 = 55.0;
-    /// From here on one turns round, degrees.
-    pub const ROUND: f64 = 150.0;
+/// From which angles on people speak of a turn, degrees; the rule text says it («turn straight» and its kind).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turns {
+    /// Up to here one goes straight on.
+    pub straight: f64,
+    /// Up to here one bears left or right.
+    pub slight: f64,
+    /// From here on one turns round.
+    pub round: f64,
+}
 
+impl Default for Turns {
+    /// As the standard rule text has them.
+    fn default() -> Self {
+        Self::from(&Thresholds::default())
+    }
+}
+
+impl From<&Thresholds> for Turns {
+    fn from(said: &Thresholds) -> Self {
+        Self { straight: said.turn_straight, slight: said.turn_slight, round: said.turn_round }
+    }
+}
+
+impl Turns {
     /// The name of an angle in degrees, counter-clockwise, from -180 to 180.
     #[must_use]
-    pub fn of(angle: f64) -> Self {
+    pub fn name(&self, angle: f64) -> Turn {
         match (angle.abs(), angle > 0.0) {
-            (a, _) if a < Self::STRAIGHT => Self::Straight,
-            (a, true) if a < Self::SLIGHT => Self::SlightlyLeft,
-            (a, false) if a < Self::SLIGHT => Self::SlightlyRight,
-            (a, _) if a > Self::ROUND => Self::Round,
-            (_, true) => Self::Left,
-            (_, false) => Self::Right,
+            (a, _) if a < self.straight => Turn::Straight,
+            (a, true) if a < self.slight => Turn::SlightlyLeft,
+            (a, false) if a < self.slight => Turn::SlightlyRight,
+            (a, _) if a > self.round => Turn::Round,
+            (_, true) => Turn::Left,
+            (_, false) => Turn::Right,
         }
     }
+}
 
+impl Turn {
     /// «поверните налево», "turn left"; nothing for straight on.
     fn imperative(self, language: Language) -> Option<&'static str> {
         let (russian, english) = match self {
@@ -126,6 +147,7 @@ pub struct Directions {
     /// One at least.
     pub passages: Vec<RoomPart>,
     pub goal: Goal,
+    pub turns: Turns,
 }
 
 impl Directions {
@@ -158,7 +180,8 @@ impl Directions {
     pub fn say_passage(&self, n: usize, language: Language, detail: Detail) -> Option<String> {
         let passage = &self.passages[n];
         let next = self.passages.get(n + 1).map(|p| &p.room);
-        let told = Told { language, passage, first: n == 0, next, goal: &self.goal };
+        let told =
+            Told { language, passage, first: n == 0, next, goal: &self.goal, turns: self.turns };
         let text = if detail == Detail::Heading { told.stretches()? } else { told.turns()? };
         Some(sentence(&text))
     }
@@ -253,6 +276,7 @@ struct Told<'a> {
     first: bool,
     next: Option<&'a Named>,
     goal: &'a Goal,
+    turns: Turns,
 }
 
 impl Told<'_> {
@@ -307,8 +331,8 @@ impl Told<'_> {
         let inner = self.passage.stretches.iter().filter_map(|s| s.angle);
         let angles = inner.chain(self.passage.exit.iter().map(|e| e.angle));
         let mut merged: Vec<f64> = Vec::new();
-        for angle in angles.filter(|a| a.abs() >= Turn::STRAIGHT) {
-            let slight = |a: f64| a.abs() < Turn::SLIGHT;
+        for angle in angles.filter(|a| a.abs() >= self.turns.straight) {
+            let slight = |a: f64| a.abs() < self.turns.slight;
             match merged.last_mut() {
                 Some(last) if slight(angle) && slight(*last) && (*last > 0.0) == (angle > 0.0) => {
                     *last += angle
@@ -316,7 +340,7 @@ impl Told<'_> {
                 _ => merged.push(angle),
             }
         }
-        let mut turns: Vec<Turn> = merged.into_iter().map(Turn::of).collect();
+        let mut turns: Vec<Turn> = merged.into_iter().map(|angle| self.turns.name(angle)).collect();
         if turns.iter().any(|t| !is_slight(*t)) {
             turns.retain(|t| !is_slight(*t));
         }
@@ -339,7 +363,9 @@ impl Told<'_> {
         }
         let mut clauses: Vec<String> = Vec::new();
         for stretch in &self.passage.stretches {
-            if let Some(turn) = stretch.angle.and_then(|a| Turn::of(a).imperative(self.language)) {
+            if let Some(turn) =
+                stretch.angle.and_then(|a| self.turns.name(a).imperative(self.language))
+            {
                 clauses.push(match (&stretch.at, self.is_russian()) {
                     (Some(at), true) => format!(
                         "{} {turn}",
@@ -368,8 +394,9 @@ impl Told<'_> {
             _ => end,
         };
         let end = end.into_iter().map(|end| match &self.passage.exit {
-            Some(exit) if Turn::of(exit.angle) != Turn::Straight => {
-                let turn = Turn::of(exit.angle).imperative(self.language).unwrap_or_default();
+            Some(exit) if self.turns.name(exit.angle) != Turn::Straight => {
+                let turn =
+                    self.turns.name(exit.angle).imperative(self.language).unwrap_or_default();
                 format!("{turn}{}{end}", self.pick(" и ", " and "))
             }
             _ => end,
@@ -532,6 +559,7 @@ mod tests {
                 RoomPart { room: office, stretches: vec![last], exit: None },
             ],
             goal: Goal::Thing(name("Точка-К")),
+            turns: Turns::default(),
         };
         check(
             &way,
@@ -549,7 +577,11 @@ mod tests {
     #[test]
     fn who_is_there_already_is_told_so() {
         let here = || RoomPart { room: name("Кухня"), stretches: vec![], exit: None };
-        let at = Directions { passages: vec![here()], goal: Goal::Thing(name("Стол")) };
+        let at = Directions {
+            passages: vec![here()],
+            goal: Goal::Thing(name("Стол")),
+            turns: Turns::default(),
+        };
         check(
             &at,
             &expect![[r#"
@@ -562,7 +594,7 @@ mod tests {
         "#]],
         );
         check(
-            &Directions { passages: vec![here()], goal: Goal::Room },
+            &Directions { passages: vec![here()], goal: Goal::Room, turns: Turns::default() },
             &expect![[r#"
             Вы уже на Кухне.
             Вы уже на Кухне.

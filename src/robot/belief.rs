@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::geometry::{DoorStates, FloorPlan, Scene};
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
-use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
+use crate::semantics::{
+    Relations, Told, carried_to, lifts, predicate, robot_eye, storey_name, things_in_view,
+};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
 use super::vehicle::Sighting;
@@ -160,6 +162,33 @@ impl Belief {
     }
 
     /// The initial position of a planning problem, and the places that it speaks of.
+    /// What is known beside the world, for rules that ask for it; of where things are believed to be a mission learns
+    /// nothing that is not in its world.
+    #[must_use]
+    pub fn told(&self, relations: &Relations, believed: Vec<(ReplicaId, AreaId, f64)>) -> Told {
+        let in_view = match self.floors.get(&self.map) {
+            Some(floor) if relations.rules().asks_for_view() => {
+                let eye = robot_eye(&self.world, floor, self.pose, relations.thresholds());
+                things_in_view(&self.world, floor, &eye)
+            }
+            _ => Vec::new(),
+        };
+        let carried = self.carried().into_iter().collect();
+        Told { robot: Some((self.map, self.pose)), in_view, believed, carried }
+    }
+
+    /// What was taken off the map, and who has it; an empty name for the robot itself.
+    #[must_use]
+    pub fn carried(&self) -> BTreeMap<ReplicaId, String> {
+        let mut carried: BTreeMap<ReplicaId, String> =
+            self.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).collect();
+        carried.extend(self.held.iter().map(|thing| (thing.id, String::new())));
+        for (thing, carrier) in &self.aboard {
+            carried.insert(thing.id, carried.get(carrier).cloned().unwrap_or_default());
+        }
+        carried
+    }
+
     pub(super) fn initial(&self, relations: &Relations) -> (Vec<InitialFact>, Vec<PlanPlace>) {
         // The state of the robot is told below: its spots and its load are not in the Map.
         let state = RobotState { area: self.area, at: RobotAt::Elsewhere, holds: None };

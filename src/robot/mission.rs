@@ -196,7 +196,13 @@ impl<'r> Mission<'r> {
         learned: Option<&Learned>,
     ) -> Result<(Planned, Option<Learned>), MissionError> {
         let mut problem = Problem::new();
-        let relations = self.relations.of(&self.belief.world)?;
+        self.relations.of(&self.belief.world)?;
+        if self.rules.asks_the_robot() {
+            let believed = self.relations.told().believed.clone();
+            let told = self.belief.told(self.relations.relations(), believed);
+            self.relations.tell(told)?;
+        }
+        let relations = self.relations.relations();
         let (facts, places) = self.belief.initial(relations);
         for fact in &without_idle(facts, goal) {
             state(&mut problem, fact);

@@ -7,7 +7,7 @@
 
 use std::fmt::Write as _;
 
-/// A relation that is measured, or told of the Map.
+/// A relation that is measured, or told of the Map or by the robot.
 #[derive(Debug, Clone, Copy)]
 pub struct Measured {
     pub name: &'static str,
@@ -104,6 +104,13 @@ measured! {
         "where the Map puts a thing, in the frame of its own Area";
     #[on_demand] apart(a: Thing = "", b: Thing = "", d: number = LENGTH) Told
         "from the middle of a to the box round b; needs a reach";
+    #[on_demand] robot_at(map: symbol = "", r: Area = "", x_at: number = LENGTH, y_at: number = LENGTH, angle: number = ANGLE) Told
+        "where the robot stands now, in the frame of the Map";
+    #[on_demand] sees(x: Thing = "") Told "what the robot has in view from there";
+    #[on_demand] believed(x: Thing = "", r: Area = "", sure: number = SHARE) Told
+        "of what was looked at: where it is believed to be now";
+    #[on_demand] carried_by(x: Thing = "", who: symbol = "робот, or a person") Told
+        "what was taken up, and who has it now";
 }
 
 impl Measured {

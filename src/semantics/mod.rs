@@ -72,6 +72,7 @@ mod position;
 pub mod predicate;
 mod relations;
 mod thresholds;
+mod told;
 mod view;
 
 pub use crate::geometry::{OpenSide, Opening, Openings};
@@ -92,4 +93,5 @@ pub use relations::{
     derive_from,
 };
 pub use thresholds::{KNOWN as THRESHOLDS, Known as Threshold, ThresholdFault, Thresholds, Unit};
+pub use told::{Told, robot_eye, things_in_view};
 pub use view::Seen;

@@ -195,6 +195,17 @@ thresholds! {
     way_beside = "way beside", Length, 13000;
     /// and turns at what stands this near to its bend.
     way_bend = "way bend", Length, 11000;
+    /// Nearer to the straight way than this a bend is none.
+    way_jog = "way jog", Length, 3500;
+    /// What is moved oftener than this is no landmark.
+    way_landmark = "way landmark", Share, 500;
+
+    /// Up to here one goes straight on,
+    turn_straight = "turn straight", Angle, 2500;
+    /// up to here one bears left or right,
+    turn_slight = "turn slight", Angle, 5500;
+    /// and from here on one turns round.
+    turn_round = "turn round", Angle, 15000;
 }
 
 /// What is wrong with one `limit` or `reach` of a rule text.

@@ -14,6 +14,7 @@ use crate::units::{DoorId, MapId, ObjectId, ReplicaId};
 
 use super::rows::{note, tuple};
 use super::{RelationError, Relations, derive};
+use crate::told::Told;
 
 /// Beyond so many changed things, deriving all relations anew costs less than following each.
 const MOST_FOLLOWED: usize = 200;
@@ -30,6 +31,7 @@ struct Difference {
 pub struct Followed {
     world: Arc<World>,
     relations: Arc<Relations>,
+    told: Told,
     /// Following broke off halfway: next time they are derived anew.
     is_spoilt: bool,
 }
@@ -38,7 +40,7 @@ impl Followed {
     /// `relations` are those of `world`. Both may be shared: what follows is a copy, made when it is first needed.
     #[must_use]
     pub fn new(world: Arc<World>, relations: Arc<Relations>) -> Self {
-        Self { world, relations, is_spoilt: false }
+        Self { world, relations, told: Told::default(), is_spoilt: false }
     }
 
     /// Those of the world that was followed last.
@@ -51,6 +53,24 @@ impl Followed {
     #[must_use]
     pub fn shared(&self) -> Arc<Relations> {
         Arc::clone(&self.relations)
+    }
+
+    /// Tells the rules what a robot knows beside the world that was followed last, where they ask for it.
+    ///
+    /// # Errors
+    /// As [`derive()`].
+    pub fn tell(&mut self, told: Told) -> Result<(), RelationError> {
+        if self.relations.rules().asks_the_robot() {
+            Arc::make_mut(&mut self.relations).tell(&self.world, &told)?;
+            self.told = told;
+        }
+        Ok(())
+    }
+
+    /// What was told last.
+    #[must_use]
+    pub fn told(&self) -> &Told {
+        &self.told
     }
 
     /// The relations of the world as it now is: followed from those before where they can be, else derived anew.
@@ -244,6 +264,24 @@ impl Relations {
             changed.extend(bearing.map(|r| r.id));
         }
         changed.into_iter().for_each(|id| feed.replica_properties(id, &mut sink));
+    }
+
+    /// Puts rows that are told in the place of those told before.
+    ///
+    /// # Errors
+    /// As [`derive()`](super::derive).
+    pub(crate) fn replace_told(
+        &mut self,
+        rows: BTreeSet<(&'static str, Vec<Value>)>,
+    ) -> Result<(), RelationError> {
+        if rows == self.told {
+            return Ok(());
+        }
+        let out = std::mem::replace(&mut self.told, rows.clone());
+        self.settle(&mut Difference { out, into: rows })?;
+        self.live.update()?;
+        self.follow();
+        Ok(())
     }
 
     /// Takes rows out and puts others in; those in both stay as they are.

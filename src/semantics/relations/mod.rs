@@ -9,7 +9,7 @@ mod rules;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::facts::Live;
+use crate::facts::{Live, Value};
 use crate::map::{Entity, Profile, World};
 use crate::units::{AreaId, DoorId, OpeningId, ReplicaId};
 
@@ -58,6 +58,8 @@ pub struct Relations {
     openings: Arc<Openings>,
     live: Live,
     thresholds: Thresholds,
+    /// What a robot told, as it stands among the rows.
+    told: BTreeSet<(&'static str, Vec<Value>)>,
     /// Each thing with the Areas in which it is.
     areas: BTreeSet<(ReplicaId, AreaId)>,
     supports: BTreeMap<ReplicaId, ReplicaId>,
@@ -159,6 +161,7 @@ impl Relations {
             measured,
             openings: Arc::new(openings),
             live,
+            told: BTreeSet::new(),
             areas: BTreeSet::new(),
             supports: BTreeMap::new(),
             loads: BTreeSet::new(),
