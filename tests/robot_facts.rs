@@ -110,7 +110,7 @@ fn rules_use_where_the_robot_is_what_it_sees_believes_and_holds() {
     assert!(answer.ending.is_done());
     engine.remember(&answer, at).unwrap();
     let carried = rows(&engine, "?- CARRIED(X, W)");
-    assert_eq!(names(&carried), [thing.name.clone()]);
+    assert_eq!(names(&carried), [&*thing.name]);
     check(&engine, dir.path(), rules.path());
 }
 

@@ -10,14 +10,12 @@ use std::sync::{Arc, OnceLock};
 use crate::geometry::{FloorPlan, Openings};
 use crate::language::FormIndex;
 use crate::map::{Entity, World};
-use crate::robot::Belief;
 use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{AreaId, MapId, Pose, ReplicaId, nearest_name};
 
 use super::changes::Changes;
 use super::known::Known;
-use super::memory::Now;
 use super::{Error, RequestError, Rules, Value};
 
 /// The knowledge of one building at a moment, and what follows from it: see the head of this file.
@@ -152,7 +150,7 @@ impl State {
     }
 
     /// Where what was looked at is believed to be, and how surely.
-    fn whereabouts_believed(&self) -> Result<Vec<(ReplicaId, AreaId, f64)>, Error> {
+    pub(super) fn whereabouts_believed(&self) -> Result<Vec<(ReplicaId, AreaId, f64)>, Error> {
         let Some(reader) = &self.reader else { return Ok(Vec::new()) };
         let at = std::time::SystemTime::now().into();
         let mut believed = Vec::new();
@@ -176,17 +174,6 @@ impl State {
     /// where they can be, else derived anew.
     pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
         self.surveyed()?.followed(world)
-    }
-
-    /// The relations of the world in which a task begins, with what the robot knows beside it.
-    pub(super) fn followed_with(&self, now: &Now, belief: &Belief) -> Result<Followed, Error> {
-        let mut followed = self.followed(&now.world)?;
-        if self.rules.relations.asks_the_robot() {
-            let believed = self.whereabouts_believed()?;
-            let told = belief.told(followed.relations(), believed);
-            followed.tell(told)?;
-        }
-        Ok(followed)
     }
 
     pub(super) fn forget_present(&mut self) {

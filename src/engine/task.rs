@@ -129,6 +129,17 @@ pub(super) struct Errand<'r> {
 }
 
 impl State {
+    /// The relations of the world in which a task begins, with what the robot knows beside it.
+    pub(super) fn followed_with(&self, now: &Now, belief: &Belief) -> Result<Followed, Error> {
+        let mut followed = self.followed(&now.world)?;
+        if self.rules.relations.asks_the_robot() {
+            let believed = self.whereabouts_believed()?;
+            let told = belief.told(followed.relations(), believed);
+            followed.tell(told)?;
+        }
+        Ok(followed)
+    }
+
     /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
     /// Map says, and as the robot's last task left it. [`Engine::remember`](super::Engine::remember) notes how this one leaves it.
     ///

@@ -21,17 +21,17 @@ const MOST_FOLLOWED: usize = 200;
 
 /// Input rows on their way out and in. A row that stays is in both.
 #[derive(Default)]
-struct Difference {
-    out: BTreeSet<(&'static str, Vec<Value>)>,
-    into: BTreeSet<(&'static str, Vec<Value>)>,
+pub(super) struct Difference {
+    pub(super) out: BTreeSet<(&'static str, Vec<Value>)>,
+    pub(super) into: BTreeSet<(&'static str, Vec<Value>)>,
 }
 
 /// A world and its relations, which follow it from one state to the next.
 #[derive(Debug, Clone)]
 pub struct Followed {
-    world: Arc<World>,
-    relations: Arc<Relations>,
-    told: Told,
+    pub(super) world: Arc<World>,
+    pub(super) relations: Arc<Relations>,
+    pub(super) told: Told,
     /// Following broke off halfway: next time they are derived anew.
     is_spoilt: bool,
 }
@@ -53,18 +53,6 @@ impl Followed {
     #[must_use]
     pub fn shared(&self) -> Arc<Relations> {
         Arc::clone(&self.relations)
-    }
-
-    /// Tells the rules what a robot knows beside the world that was followed last, where they ask for it.
-    ///
-    /// # Errors
-    /// As [`derive()`].
-    pub fn tell(&mut self, told: Told) -> Result<(), RelationError> {
-        if self.relations.rules().asks_the_robot() {
-            Arc::make_mut(&mut self.relations).tell(&self.world, &told)?;
-            self.told = told;
-        }
-        Ok(())
     }
 
     /// What was told last.
@@ -266,26 +254,8 @@ impl Relations {
         changed.into_iter().for_each(|id| feed.replica_properties(id, &mut sink));
     }
 
-    /// Puts rows that are told in the place of those told before.
-    ///
-    /// # Errors
-    /// As [`derive()`](super::derive).
-    pub(crate) fn replace_told(
-        &mut self,
-        rows: BTreeSet<(&'static str, Vec<Value>)>,
-    ) -> Result<(), RelationError> {
-        if rows == self.told {
-            return Ok(());
-        }
-        let out = std::mem::replace(&mut self.told, rows.clone());
-        self.settle(&mut Difference { out, into: rows })?;
-        self.live.update()?;
-        self.follow();
-        Ok(())
-    }
-
     /// Takes rows out and puts others in; those in both stay as they are.
-    fn settle(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
+    pub(super) fn settle(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
         let mut fault: Option<FactError> = None;
         let Difference { out, into } = std::mem::take(rows);
         for (relation, row) in out.difference(&into) {

@@ -5,6 +5,7 @@ mod lookup;
 mod questions;
 mod rows;
 mod rules;
+mod tell;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
