@@ -2,6 +2,7 @@
 
 mod architecture;
 mod assembly;
+mod broken_scenarios;
 mod cli;
 mod commands;
 mod corridor;

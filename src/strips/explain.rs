@@ -13,6 +13,7 @@ use super::fault::RuleFaults;
 use super::ground::Reachability;
 use super::lack::{By, Lacks, Wanted, fits};
 use super::phrase::{Phrases, Said, SaidArgument, Wording};
+use super::plain::plain;
 use super::problem::Problem;
 use super::resolve::ThingId;
 use super::task::Fact;
@@ -54,6 +55,8 @@ pub struct Missing {
     pub now: Vec<Said>,
     /// Whether some action of the rules could give such a fact.
     pub has_action: bool,
+    /// An action that would give it, if what is named before in the chain held.
+    pub circle: Option<Said>,
 }
 
 impl Obstacle {
@@ -66,15 +69,15 @@ impl Obstacle {
             format!("цель {goal} недостижима"),
             format!("the goal that {goal} is out of reach"),
         );
+        if self.goal.name == GOAL_STEP {
+            text = language
+                .pick(
+                    "цель недостижима ни одним из своих способов",
+                    "the goal is out of reach by any of its ways",
+                )
+                .to_owned();
+        }
         if self.is_unexplained {
-            if self.goal.name == GOAL_STEP {
-                text = language
-                    .pick(
-                        "цель недостижима ни одним из своих способов",
-                        "the goal is out of reach by any of its ways",
-                    )
-                    .to_owned();
-            }
             return text
                 + language.pick(
                     ": ни при каком порядке действий; условия с «или», «для всех» и «если» по частям не разобраны",
@@ -105,7 +108,7 @@ impl Obstacle {
         for (number, missing) in self.missing.iter().enumerate() {
             text += &missing.in_words(wording);
             if number + 1 == self.missing.len() {
-                text += missing.end_in_words(language, self.help.is_empty());
+                text += &missing.end_in_words(wording, self.help.is_empty());
             }
         }
         for Missing { fact, action, .. } in &self.circles {
@@ -132,10 +135,16 @@ impl Obstacle {
 impl Missing {
     fn in_words(&self, wording: &Wording<'_>) -> String {
         let (fact, action) = (wording.fact(&self.fact), wording.kind_of_action(&self.action));
-        let mut text = wording.language.pick(
-            format!("\n  для этого ({action}) нужно {fact}"),
-            format!("\n  for this ({action}) it must be that {fact}"),
-        );
+        let mut text = match self.action.name == GOAL_STEP {
+            true => wording.language.pick(
+                format!("\n  для этого нужно {fact}"),
+                format!("\n  for this it must be that {fact}"),
+            ),
+            false => wording.language.pick(
+                format!("\n  для этого ({action}) нужно {fact}"),
+                format!("\n  for this ({action}) it must be that {fact}"),
+            ),
+        };
         if !self.now.is_empty() {
             let now: Vec<String> = self.now.iter().map(|fact| wording.fact(fact)).collect();
             text += wording.language.pick("; сейчас ", "; now ");
@@ -144,8 +153,18 @@ impl Missing {
         text
     }
 
-    fn end_in_words(&self, language: Language, is_circle: bool) -> &'static str {
-        match (is_circle, self.has_action) {
+    fn end_in_words(&self, wording: &Wording<'_>, is_circle: bool) -> String {
+        let language = wording.language;
+        if let (Some(action), false) = (&self.circle, is_circle) {
+            let action = wording.kind_of_action(action);
+            return language.pick(
+                format!("; это даёт {action}, но для этого нужно то, что уже названо: круг замкнут"),
+                format!(
+                    "; this ({action}) would bring it about, and takes what was named before: it turns in a circle"
+                ),
+            );
+        }
+        let text = match (is_circle, self.has_action) {
             (true, _) => language.pick(
                 "; а для этого – то, что уже названо: круг замкнут",
                 "; and that takes what was named before: it turns in a circle",
@@ -158,7 +177,8 @@ impl Missing {
                 "; это не так, и ни одно действие этого не даёт",
                 "; it is not so, and no action brings it about",
             ),
-        }
+        };
+        text.to_owned()
     }
 }
 
@@ -182,6 +202,10 @@ pub fn explain_unreachable<'a>(
     goals: impl IntoIterator<Item = &'a Fact>,
 ) -> Result<Vec<Obstacle>, RuleFaults> {
     let resolved = problem.resolve(domain)?;
+    let is_plain = !domain.is_beyond_literals() && resolved.goal_formulas.is_empty();
+    let plain = if is_plain { None } else { plain(domain, &resolved) };
+    let is_unexplained = !is_plain && plain.is_none();
+    let domain = plain.as_ref().unwrap_or(domain);
     let reached = Reachability::run(domain, &resolved)?;
     let attainable = Attainable::of(domain, &resolved, &reached);
     let obstacle = |goal: &Fact| {
@@ -197,7 +221,7 @@ pub fn explain_unreachable<'a>(
             help: Vec::new(),
             is_met_singly: false,
             clash: None,
-            is_unexplained: domain.is_beyond_literals(),
+            is_unexplained,
         };
         let Some(wanted) = wanted.filter(|_| !none.is_unexplained) else { return none };
         if attainable.can_be(&wanted) {
@@ -206,7 +230,7 @@ pub fn explain_unreachable<'a>(
         let lacks = Lacks::new(domain, &resolved, &reached, &attainable, wanted);
         let chain = Chain::of(&lacks);
         Obstacle {
-            missing: chain.links.iter().map(|&(way, fact)| told(&lacks, way, fact)).collect(),
+            missing: chain.missing(&lacks),
             circles: chain.circles(&lacks),
             help: chain.help(&lacks),
             ..none
@@ -243,6 +267,24 @@ impl Chain {
             links.push((way, fact));
         }
         Self { links }
+    }
+
+    /// What is missing, link by link; of the last also the action that would give it, did it not take what stands before.
+    fn missing(&self, lacks: &Lacks<'_>) -> Vec<Missing> {
+        let mut missing: Vec<Missing> =
+            self.links.iter().map(|&(way, fact)| told(lacks, way, fact)).collect();
+        if let (Some(last), Some(&(_, fact))) = (missing.last_mut(), self.links.last()) {
+            let before = |needed: &usize| {
+                *needed == 0 || self.links.iter().any(|(_, link)| link == needed && *link != fact)
+            };
+            let turns = |way: &usize| lacks.ways[*way].missing.iter().any(before);
+            // Of any object there is no saying which way leads to it.
+            let is_closed = lacks.facts[fact].args.iter().all(Option::is_some);
+            let is_stated = is_closed && lacks.best(fact) == Some(By::Statement);
+            let circle = lacks.ways_to(fact).filter(|_| is_stated).find(turns);
+            last.circle = circle.map(|way| lacks.action_of(way));
+        }
+        missing
     }
 
     /// Each set of statements that would do, the cheapest first.
@@ -309,11 +351,21 @@ fn told(lacks: &Lacks<'_>, way: usize, fact: usize) -> Missing {
         fact: lacks.shown(wanted),
         action: lacks.action_of(way),
         now: lacks.said_of_the_same(wanted),
-        has_action: lacks.reached.changing[wanted.predicate.index()] && !wanted.negated,
+        has_action: lacks.is_given_by_an_action(wanted),
+        circle: None,
     }
 }
 
 impl Lacks<'_> {
+    /// Whether any action of the rules has such an effect.
+    fn is_given_by_an_action(&self, wanted: &Wanted) -> bool {
+        self.domain.schemas.iter().enumerate().any(|(number, schema)| {
+            let effects = if wanted.negated { &schema.del_effects } else { &schema.add_effects };
+            let same = effects.iter().filter(|effect| effect.predicate == wanted.predicate);
+            same.into_iter().any(|effect| self.bound(number, &effect.args, &wanted.args).is_some())
+        })
+    }
+
     /// Initial facts of other predicates about the same two or more objects.
     fn said_of_the_same(&self, wanted: &Wanted) -> Vec<Said> {
         let objects: BTreeSet<ThingId> = wanted.args.iter().flatten().copied().collect();
@@ -353,8 +405,13 @@ impl Lacks<'_> {
             .filter(|effect| effect.predicate == gives.predicate)
             .find_map(|effect| self.bound(number, &effect.args, &gives.args));
         let binding = binding.unwrap_or_else(|| vec![None; schema.parameters.len()]);
-        let args = binding.iter().zip(&schema.parameters);
-        let args = args.map(|(thing, kinds)| self.argument(*thing, kinds)).collect();
+        // What only a quantifier speaks of is no object of the action.
+        let is_named = |(number, _): &(usize, _)| {
+            schema.parameter_names.get(*number).is_none_or(|name| !name.is_empty())
+        };
+        let args = binding.iter().zip(&schema.parameters).enumerate().filter(is_named);
+        let args =
+            args.map(|(_, pair)| pair).map(|(thing, kinds)| self.argument(*thing, kinds)).collect();
         Said { name: schema.name.clone(), args, negated: false }
     }
 

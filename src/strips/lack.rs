@@ -59,6 +59,8 @@ struct Label {
     ways: BTreeSet<usize>,
 }
 
+type Labels = Vec<Option<(Label, By)>>;
+
 /// How a missing fact would come about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum By {
@@ -73,6 +75,10 @@ const MOST_WAYS: usize = 300;
 const FAR_FETCHED: u32 = 100;
 /// An action that lacks more than this is not what is meant.
 const MOST_MISSING: usize = 5;
+/// Objects that nothing ties are chosen where so few would do.
+const MOST_FREE: usize = 3;
+/// So many ways are gone through once more to find a statement that serves several of them.
+const MOST_TRIED: usize = 200_000;
 
 pub(super) struct Lacks<'a> {
     pub(super) domain: &'a Domain,
@@ -91,7 +97,7 @@ pub(super) struct Lacks<'a> {
     pub(super) facts: Vec<Wanted>,
     index: HashMap<Wanted, usize>,
     pub(super) ways: Vec<Way>,
-    labels: Vec<Option<(Label, By)>>,
+    labels: Labels,
 }
 
 impl<'a> Lacks<'a> {
@@ -273,13 +279,16 @@ impl<'a> Lacks<'a> {
             if bound == wanted.args.len() {
                 return Some((0, at, wanted));
             }
-            if bound == 0 {
+            // What changes may be otherwise by then; the world's make is as it is.
+            let changes = self.reached.changing[wanted.predicate.index()];
+            let count = self.holding(&wanted).take(MOST_WAYS).count();
+            // Of few the right one is among them, though nothing ties it: the only tap.
+            let is_free = bound == 0;
+            if is_free && (changes || count == 0 || count > MOST_FREE) {
                 return None;
             }
-            // What changes may be otherwise by then; the world's make is as it is.
-            let changes = usize::from(self.reached.changing[wanted.predicate.index()]);
-            let count = self.holding(&wanted).take(MOST_WAYS).count();
-            Some((1 + count + changes * MOST_WAYS, at, wanted))
+            let last = usize::from(changes) + 2 * usize::from(is_free);
+            Some((1 + count + last * MOST_WAYS, at, wanted))
         });
         let Some((_, at, wanted)) = tied.min_by_key(|&(count, at, _)| (count, at)) else {
             found.extend(self.finished(of, binding, open, missing));
@@ -457,8 +466,30 @@ impl<'a> Lacks<'a> {
 
     // The prices.
 
+    /// The cheapest way to each fact. A way that one statement serves twice over may cost less than the cheapest of its
+    /// parts: so each statement is tried as if it had been made already.
     fn weigh(&mut self) {
         let prices: Vec<Option<u32>> = (0..self.facts.len()).map(|fact| self.price(fact)).collect();
+        let mut best = self.weighed(&prices);
+        let several = |(_, labels): &(u32, Labels)| {
+            labels[0].as_ref().is_some_and(|(label, _)| label.stated.len() > 1)
+        };
+        if several(&best) {
+            let tried: Vec<usize> = (0..prices.len()).filter(|&f| prices[f].is_some()).collect();
+            for &stated in tried.iter().take(MOST_TRIED / self.ways.len().max(1)) {
+                let mut prices = prices.clone();
+                let own = prices[stated].replace(0).unwrap_or_default();
+                let (cost, labels) = self.weighed(&prices);
+                if cost.saturating_add(own) < best.0 {
+                    best = (cost + own, labels);
+                }
+            }
+        }
+        self.labels = best.1;
+    }
+
+    /// What the goal costs at these prices, and the cheapest way to each fact.
+    fn weighed(&self, prices: &[Option<u32>]) -> (u32, Labels) {
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); self.facts.len()];
         let mut open: Vec<usize> = Vec::new();
         for (number, way) in self.ways.iter().enumerate() {
@@ -466,7 +497,7 @@ impl<'a> Lacks<'a> {
             open.push(distinct.len());
             distinct.into_iter().for_each(|fact| users[fact].push(number));
         }
-        self.labels = vec![None; self.facts.len()];
+        let mut labels: Labels = vec![None; self.facts.len()];
         let cost = |label: &Label| {
             let stated: u32 = label.stated.iter().filter_map(|&fact| prices[fact]).sum();
             let far = label.ways.iter().filter(|&&way| self.ways[way].is_far_fetched).count();
@@ -478,31 +509,33 @@ impl<'a> Lacks<'a> {
             queue.extend(price.map(|price| Reverse((price, fact, None))));
         }
         while let Some(Reverse((_, fact, way))) = queue.pop() {
-            if self.labels[fact].is_some() {
+            if labels[fact].is_some() {
                 continue;
             }
             let label = match way {
                 None => Label { stated: BTreeSet::from([fact]), ways: BTreeSet::new() },
-                Some(way) => self.label(way),
+                Some(way) => self.label(&labels, way),
             };
-            self.labels[fact] = Some((label, way.map_or(By::Statement, By::Way)));
+            labels[fact] = Some((label, way.map_or(By::Statement, By::Way)));
             for &user in &users[fact] {
                 open[user] -= 1;
                 if open[user] == 0 {
                     queue.push(Reverse((
-                        cost(&self.label(user)),
+                        cost(&self.label(&labels, user)),
                         self.ways[user].gives,
                         Some(user),
                     )));
                 }
             }
         }
+        let whole = labels[0].as_ref().map_or(u32::MAX, |(label, _)| cost(label));
+        (whole, labels)
     }
 
-    fn label(&self, way: usize) -> Label {
+    fn label(&self, labels: &Labels, way: usize) -> Label {
         let mut label = Label { stated: BTreeSet::new(), ways: BTreeSet::from([way]) };
         for &fact in &self.ways[way].missing {
-            let (below, _) = self.labels[fact].as_ref().expect("a way is weighed after its facts");
+            let (below, _) = labels[fact].as_ref().expect("a way is weighed after its facts");
             label.stated.extend(&below.stated);
             label.ways.extend(&below.ways);
         }
@@ -537,7 +570,7 @@ impl<'a> Lacks<'a> {
                 let place = wanted.predicate;
                 let is_unknown = wanted.args.is_empty()
                     || self.moving[place.index()] && !self.is_attained_of_any(place);
-                if is_unknown { 30 } else { 130 }
+                if is_unknown { 30 } else { 170 }
             }
             (true, false) => 30,
         };

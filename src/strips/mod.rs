@@ -45,6 +45,7 @@ mod load;
 mod outline;
 mod pddl;
 mod phrase;
+mod plain;
 mod plan_text;
 mod problem;
 mod replay;
