@@ -415,6 +415,9 @@ pub(super) struct PlanArgs {
     /// The shortest plan by GraphPlan as published, and nothing else
     #[arg(long, conflicts_with_all = ["any", "anytime", "check", "facts"])]
     pub plain: bool,
+    /// Tell why no plan has fewer steps: what every plan goes through, and what each goal takes alone
+    #[arg(long, conflicts_with_all = ["check", "facts"])]
+    pub why: bool,
     /// With --anytime: end after so much effort, in millions of variables set by the solver and what takes as long
     #[arg(long, value_name = "MILLIONS", requires = "anytime")]
     pub effort: Option<u64>,

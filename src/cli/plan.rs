@@ -11,7 +11,7 @@ use crate::engine::{
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
 use crate::semantics::planning::InitialFact;
-use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
+use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario, Wording};
 use crate::units::{English, write_file};
 
 use super::args::{Common, Lang, PlanArgs};
@@ -51,10 +51,15 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     let (solved, warnings, told) = if args.without.is_empty() {
         let PlanAnswer { solved, warnings } = plan_alone(scenario, &limits, args.wanted())?;
         let told = match common.json {
-            true => with_help(views::plan(&solved, &english), &solved, args).to_string(),
+            true => {
+                let view = views::plan(&solved, &english);
+                let view = with_reasons(view, &solved, &limits, args, &english);
+                with_help(view, &solved, args).to_string()
+            }
             false => {
-                let told = text::plan(&solved, &solved.wording(language, &name));
-                told + &help(&solved, args, language)
+                let wording = solved.wording(language, &name);
+                let told = text::plan(&solved, &wording) + &help(&solved, args, language);
+                told + &reasons(&solved, &limits, args, &wording)
             }
         };
         (solved, warnings, told)
@@ -63,10 +68,15 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
             plan_alone_without(scenario, &args.without, &limits, args.wanted())?;
         let after = &replanned.after;
         let told = match common.json {
-            true => with_help(views::replanned(&replanned, &english), after, args).to_string(),
+            true => {
+                let view = views::replanned(&replanned, &english);
+                let view = with_reasons(view, after, &limits, args, &english);
+                with_help(view, after, args).to_string()
+            }
             false => {
-                let told = text::replanned(&replanned, &after.wording(language, &name));
-                told + &help(after, args, language)
+                let wording = after.wording(language, &name);
+                let told = text::replanned(&replanned, &wording) + &help(after, args, language);
+                told + &reasons(after, &limits, args, &wording)
             }
         };
         (replanned.after, warnings, told)
@@ -95,6 +105,26 @@ fn remedies(solved: &Solved, args: &PlanArgs) -> Vec<&'static str> {
 fn with_help(mut view: Value, solved: &Solved, args: &PlanArgs) -> Value {
     if matches!(solved.outcome, Outcome::LimitReached(_)) {
         view["help"] = json!(remedies(solved, args));
+    }
+    view
+}
+
+/// With `--why`, why no plan has fewer steps.
+fn reasons(solved: &Solved, limits: &Limits, args: &PlanArgs, wording: &Wording<'_>) -> String {
+    let why = args.why.then(|| solved.why_not_shorter(limits)).flatten();
+    why.map_or_else(String::new, |why| format!("\n{}", why.in_words(wording)))
+}
+
+fn with_reasons(
+    mut view: Value,
+    solved: &Solved,
+    limits: &Limits,
+    args: &PlanArgs,
+    english: &dyn Fn(&str) -> String,
+) -> Value {
+    if let Some(why) = args.why.then(|| solved.why_not_shorter(limits)).flatten() {
+        view["why_not_shorter"] =
+            views::shortness(&why, &solved.wording(Language::English, english));
     }
     view
 }

@@ -15,8 +15,9 @@ use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::{DoorStatus, Entity};
+use crate::robot::Shortness;
 use crate::semantics::Spot;
-use crate::strips::{Preference, Replayed};
+use crate::strips::{Preference, Replayed, Said, Wording};
 use crate::units::{AreaId, Point, Pose, ReplicaId};
 use crate::vectors::read::{LogError, LogFault};
 use crate::vectors::{Cut, End, Segment, Truth};
@@ -91,6 +92,18 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
         Outcome::Plan(_) => {}
     }
     view
+}
+
+/// Why no plan has fewer steps.
+pub fn shortness(why: &Shortness, english: &Wording<'_>) -> Value {
+    let fact = |fact: &Said| json!({"fact": fact.to_string(), "fact_en": english.fact(fact)});
+    let alone = why.alone.iter().map(|(goal, steps)| {
+        json!({"goal": goal.to_string(), "goal_en": english.fact(goal), "parallel_steps": steps})
+    });
+    json!({
+        "one_after_the_other": why.row.iter().map(fact).collect::<Vec<_>>(),
+        "goals_alone": alone.collect::<Vec<_>>(),
+    })
 }
 
 /// The plan after assumptions were withdrawn, and what became of the one before.

@@ -71,7 +71,7 @@ use std::time::Instant;
 
 pub use extract::solve_plainly;
 pub use plan::{Flaw, Plan, validate};
-pub use portfolio::{bounded, solve_any, solve_anytime, solve_soon};
+pub use portfolio::{bounded, milestones, solve_any, solve_anytime, solve_soon};
 pub use proof::{Learned, solve, solve_learning};
 
 use crate::strips::FactId;

@@ -216,6 +216,33 @@ fn goals_that_fit_by_pairs_but_not_together_are_refused() {
 }
 
 #[test]
+fn every_plan_passes_the_milestones_one_after_the_other() {
+    let (mut rows, mut longest) = (0, 0);
+    for seed in 1..=3000 {
+        let task = random_task(seed);
+        let row = milestones(&task);
+        for outcome in [solve(&task, &Limits::default()), solve_any(&task, &Limits::default())] {
+            let Outcome::Plan(plan) = outcome else { continue };
+            // When each fact holds for the first time.
+            let mut first: HashMap<FactId, usize> = task.init.iter().map(|&f| (f, 0)).collect();
+            for (n, step) in plan.steps.iter().enumerate() {
+                for &operator in step {
+                    for &fact in &task.operator(operator).add_effects {
+                        first.entry(fact).or_insert(n + 1);
+                    }
+                }
+            }
+            let times: Vec<usize> = row.iter().map(|fact| first[fact]).collect();
+            let rises = times.windows(2).all(|pair| pair[0] < pair[1]);
+            assert!(rises && times.first() != Some(&0), "seed {seed}: {times:?}");
+            assert!(row.len() <= plan.steps.len(), "seed {seed}");
+            (rows, longest) = (rows + usize::from(row.len() > 1), longest.max(row.len()));
+        }
+    }
+    assert!(rows > 100 && longest > 2, "{rows} {longest}");
+}
+
+#[test]
 fn a_plan_with_a_flaw_is_refused() {
     let task = (1..)
         .map(random_task)

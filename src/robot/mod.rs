@@ -30,6 +30,7 @@ mod placing;
 mod rehearsal;
 mod reins;
 mod seek;
+mod shortness;
 mod simulator;
 mod solve;
 mod vehicle;
@@ -41,6 +42,7 @@ pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
 pub use placing::{Hollow, hollow, spot_in, spot_on};
+pub use shortness::Shortness;
 pub use simulator::Simulator;
 pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
 pub use vehicle::{

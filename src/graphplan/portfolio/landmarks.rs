@@ -202,6 +202,45 @@ impl Landmarks {
     }
 }
 
+/// The longest row of landmarks that hold for the first time one after the other in every plan: whatever brings the next
+/// about rests on the one before, so every plan has at least as many steps. Empty where there are too many facts, or the
+/// goal is out of reach.
+pub(crate) fn longest_row(task: &Task, state: &State) -> Vec<FactId> {
+    if task.facts.len() > MOST_FACTS {
+        return Vec::new();
+    }
+    let sets = Sets::new(task, state);
+    let mut all = vec![0; sets.words];
+    for goal in &task.goal {
+        let Some(of_goal) = sets.of_fact[goal.index()].as_ref() else { return Vec::new() };
+        unite(&mut all, of_goal);
+    }
+    // What a landmark rests on has fewer landmarks itself.
+    let own = |fact: FactId| {
+        let landmarks = sets.of_fact[fact.index()].iter().flat_map(|set| members(set));
+        landmarks.map(|fact| FactId(fact as u32)).filter(|&other| !holds(state, other))
+    };
+    let mut new: Vec<FactId> =
+        members(&all).map(|fact| FactId(fact as u32)).filter(|&fact| !holds(state, fact)).collect();
+    new.sort_by_key(|&fact| (own(fact).count(), fact));
+    // Of each the length of the longest row that ends with it, and what stands before it there.
+    let mut rows: BTreeMap<FactId, (usize, Option<FactId>)> = BTreeMap::new();
+    for &fact in &new {
+        let before = own(fact).filter(|&other| other != fact);
+        let longest = before.filter_map(|other| Some((rows.get(&other)?.0, other))).max();
+        rows.insert(fact, (longest.map_or(1, |(length, _)| length + 1), longest.map(|(_, f)| f)));
+    }
+    let mut last =
+        rows.iter().map(|(&fact, &(length, _))| (length, fact)).max().map(|(_, fact)| fact);
+    let mut row = Vec::new();
+    while let Some(fact) = last {
+        row.push(fact);
+        last = rows[&fact].1;
+    }
+    row.reverse();
+    row
+}
+
 /// Goals by the longest chain of pairs that ends with them; the pairs have no cycles.
 fn in_order(goals: &[u32], pairs: &[(u32, u32)]) -> impl Iterator<Item = u32> + use<> {
     let mut rank: BTreeMap<u32, usize> = goals.iter().map(|&goal| (goal, 0)).collect();

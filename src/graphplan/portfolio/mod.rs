@@ -15,12 +15,19 @@ pub use anytime::{solve_anytime, solve_soon};
 
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Turn, Working, prove, search};
-use crate::strips::Task;
+use crate::strips::{FactId, Task};
 use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, with_stack};
 
 /// Steps that a task takes at least, as far as can be seen at once: where deletes are forgotten.
 pub(crate) fn steps_at_least(task: &Task) -> usize {
     relaxed::Relaxed::new(task).depth(&relaxed::initial(task)).unwrap_or(0)
+}
+
+/// Facts that hold for the first time one after the other in every plan, the longest such row that is seen at once; no
+/// plan has fewer steps.
+#[must_use]
+pub fn milestones(task: &Task) -> Vec<FactId> {
+    landmarks::longest_row(task, &relaxed::initial(task))
 }
 
 /// Of a plan found soon, how few steps are ruled out: no plan has fewer than the number told, as far as little effort
