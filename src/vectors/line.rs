@@ -29,9 +29,9 @@ impl Sums {
         Self {
             x: self.x + p.x,
             y: self.y + p.y,
-            xx: p.x.mul_add(p.x, self.xx),
-            xy: p.x.mul_add(p.y, self.xy),
-            yy: p.y.mul_add(p.y, self.yy),
+            xx: p.x * p.x + self.xx,
+            xy: p.x * p.y + self.xy,
+            yy: p.y * p.y + self.yy,
             inverse: self.inverse + 1.0 / square,
         }
     }
@@ -62,7 +62,7 @@ impl Line {
         let xy = (b.xy - a.xy) - centre.x * centre.y * count;
         let yy = (b.yy - a.yy) - centre.y * centre.y * count;
         let (sum, difference) = (xx + yy, xx - yy);
-        let root = (4.0 * xy).mul_add(xy, difference * difference).sqrt();
+        let root = (4.0 * xy * xy + difference * difference).sqrt();
         let direction = half_turn(difference, 2.0 * xy, root);
         let sse = (0.5 * (sum - root)).max(0.0);
         let spread = (0.5 * (sum + root)).max(1e-12);
@@ -79,8 +79,8 @@ impl Line {
         let squares = ((b.xx - a.xx) + (b.yy - a.yy)) * share;
         let facing = (d * d * (b.inverse - a.inverse) * share).min(1.0);
         let bearing = noise.bearing * noise.bearing;
-        let across = bearing.mul_add((squares - d * d).max(0.0), ROUGHNESS * ROUGHNESS);
-        line.expected = noise.along(squares.sqrt()).mul_add(facing, across);
+        let across = bearing * (squares - d * d).max(0.0) + ROUGHNESS * ROUGHNESS;
+        line.expected = noise.along(squares.sqrt()) * facing + across;
         line
     }
 

@@ -113,11 +113,10 @@ pub(super) fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, afte
     let u = sensor.directions[beam];
     let (forth, side) = (u.dot(&line.direction), u.perp(&line.direction));
     let bearing = sensor.noise.bearing * hit.r;
-    let mut along =
-        sensor.noise.along(hit.r).mul_add(forth * forth, bearing * bearing * side * side);
+    let mut along = sensor.noise.along(hit.r) * forth * forth + bearing * bearing * side * side;
     // Nothing was seen farther than half a beam beside the last one.
     let half = if after { 0.5 * sensor.step } else { -0.5 * sensor.step };
-    let border = Vector2::new((-u.y).mul_add(half, u.x), u.x.mul_add(half, u.y));
+    let border = Vector2::new(u.x - u.y * half, u.x * half + u.y);
     let farthest = line.range(border);
     // Along a line that is seen nearly end on, the breadth of a beam is as long as one likes: no end is moved by more than
     // what lies between the last two hits.
@@ -185,7 +184,7 @@ fn likeliest(sensor: &Sensor, line: &Line, hit: &Hit) -> f64 {
     let (along, across) = (sensor.noise.along(hit.r), bearing * bearing);
     // C n of the hit's covariance C = along·u uᵀ + across·(1 − u uᵀ) + roughness, over nᵀ C n.
     let (un, ut) = (u.dot(&n), u.dot(&t));
-    let own = (along - across).mul_add(un * un, across + ROUGHNESS * ROUGHNESS);
+    let own = (along - across) * un * un + across + ROUGHNESS * ROUGHNESS;
     let slide = (along - across) * un * ut / own;
     line.place(hit.p) - slide * n.dot(&(hit.p - line.centre))
 }

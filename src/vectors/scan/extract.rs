@@ -108,7 +108,7 @@ impl Extractor {
         let gap = (self.hits[first.from].p - self.hits[last.to - 1].p).norm();
         let facing = first.line.direction.dot(&last.line.direction) > 0.9;
         let off = last.line.direction.perp(&(first.line.centre - last.line.centre)).abs();
-        gap < 0.2f64.mul_add(self.hits[first.from].r, 10.0) || (facing && off < 20.0)
+        gap < 0.2 * self.hits[first.from].r + 10.0 || (facing && off < 20.0)
     }
 
     /// The beam at which the line begins whose direction differs most from the line before it, both long: a border that
@@ -213,7 +213,7 @@ impl Extractor {
                 if gap > 2 {
                     return true;
                 }
-                let far = last.r.min(r).mul_add(reach[gap], 3.0 * sensor.noise.along(r).sqrt());
+                let far = last.r.min(r) * reach[gap] + 3.0 * sensor.noise.along(r).sqrt();
                 (p - last.p).norm_squared() > far * far
             });
             if torn {
@@ -421,7 +421,7 @@ fn is_spike(sensor: &Sensor, before: f64, r: f64, after: f64) -> bool {
     let apart = (before - after).abs();
     let noise = 3.0 * sensor.noise.along(r).sqrt();
     let least = down.abs().min(up.abs());
-    least > 4.0 * (apart + noise) && apart < before.mul_add(2.0 * sensor.step, noise)
+    least > 4.0 * (apart + noise) && apart < 2.0 * sensor.step * before + noise
 }
 
 /// The point farthest from the chord between the ends, if it is farther off than noise explains.
@@ -451,7 +451,7 @@ fn farthest(hits: &[Hit], sensor: &Sensor) -> Option<usize> {
         1.0
     };
     let bearing = noise.bearing * hit.r;
-    let variance = noise.along(hit.r).mul_add(facing, bearing * bearing * (1.0 - facing))
-        + ROUGHNESS * ROUGHNESS;
+    let variance =
+        noise.along(hit.r) * facing + bearing * bearing * (1.0 - facing) + ROUGHNESS * ROUGHNESS;
     (off * off > SPLIT * SPLIT * 1.5 * variance * square).then_some(best)
 }

@@ -52,7 +52,7 @@ impl Noise {
     /// Variance along the beam at range `r`, in cm².
     #[must_use]
     pub fn along(&self, r: f64) -> f64 {
-        (self.share * r).mul_add(self.share * r, self.range * self.range)
+        (self.share * r) * (self.share * r) + self.range * self.range
     }
 }
 
@@ -99,7 +99,7 @@ impl Sensor {
             return Err(SensorError::Noise(value));
         }
         let direction = |beam: usize| {
-            let (sin, cos) = (step.mul_add(beam as f64, first)).sin_cos();
+            let (sin, cos) = (step * beam as f64 + first).sin_cos();
             Vector2::new(cos, sin)
         };
         let directions = (0..count).map(direction).collect();
@@ -128,7 +128,7 @@ impl Sensor {
     /// Bearing of a beam, in rad.
     #[must_use]
     pub fn bearing(&self, beam: usize) -> f64 {
-        self.step.mul_add(beam as f64, self.first)
+        self.step * beam as f64 + self.first
     }
 
     /// Angle between neighbouring beams, in rad.
