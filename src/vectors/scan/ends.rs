@@ -28,22 +28,33 @@ pub(crate) fn segments(
     runs: &[Run],
     into: &mut Vec<Segment<2>>,
 ) {
-    let mut joined: Option<Tip> = None;
     let closing = match (runs.first(), runs.last()) {
         (Some(first), Some(last)) if sensor.is_closed() && runs.len() > 2 => {
             corner(sensor, ranges, hits, last, first)
         }
         _ => None,
     };
+    let count = runs.len();
+    // After each run; after the last one that before the first.
+    let mut corners: Vec<Option<(Tip, Tip)>> =
+        runs.windows(2).map(|pair| corner(sensor, ranges, hits, &pair[0], &pair[1])).collect();
+    corners.resize(count, closing);
     for (index, run) in runs.iter().enumerate() {
-        let start = if index == 0 { closing.map(|(_, second)| second) } else { joined };
+        let before = (index + count - 1) % count;
+        if let (Some((_, start)), Some((end, _))) = (&corners[before], &corners[index]) {
+            // A face no longer than its corners err is none, and they are no corners.
+            let extent = end.place - start.place;
+            let error = CLEAR * (start.along(&run.line) + end.along(&run.line)).sqrt();
+            if extent <= error {
+                (corners[before], corners[index]) = (None, None);
+            }
+        }
+    }
+    for (index, run) in runs.iter().enumerate() {
+        let start = corners[(index + count - 1) % count].map(|(_, second)| second);
+        let end = corners[index].map(|(first, _)| first);
         let start = start.unwrap_or_else(|| tip(sensor, ranges, hits, run, false));
-        let next = match runs.get(index + 1) {
-            Some(next) => corner(sensor, ranges, hits, run, next),
-            None => closing,
-        };
-        joined = next.map(|(_, second)| second);
-        let end = next.map_or_else(|| tip(sensor, ranges, hits, run, true), |(first, _)| first);
+        let end = end.unwrap_or_else(|| tip(sensor, ranges, hits, run, true));
         into.push(tip_segment(&run.line, &start, &end));
     }
 }
@@ -153,7 +164,19 @@ pub(super) fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, afte
                     let gap = if after { reach - place } else { place - reach };
                     let between = (u + sensor.directions[next]).normalize();
                     let midway = line.place(between * line.range(between));
-                    if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise {
+                    let (next_beam, gone) = (next as u32, sensor.directions[next] * found);
+                    let beams = if after {
+                        sensor.steps(hit.beam, next_beam)
+                    } else {
+                        sensor.steps(next_beam, hit.beam)
+                    };
+                    let face = sensor.oblique[beams.min(2) as usize] * hit.r.min(found)
+                        + 3.0 * sensor.noise.along(found).sqrt();
+                    // What goes on without a jump is no end of it and hides none.
+                    if (gone - hit.p).norm_squared() <= face * face {
+                        End::Cut(Cut::Unclear)
+                    } else if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise
+                    {
                         End::Cut(Cut::Occluded)
                     } else if on_line > 0.0
                         && gap > 0.0

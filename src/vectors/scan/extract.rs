@@ -15,8 +15,6 @@ use super::sensor::Sensor;
 use crate::line::{Line, ROUGHNESS, Sums};
 use crate::segment::{Covariance, End, Segment, Truth};
 
-/// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
-const OBLIQUE: f64 = 0.175;
 /// A point this many deviations off its chord splits it.
 const SPLIT: f64 = 4.0;
 /// What joining two lines may cost, in squared deviations.
@@ -29,6 +27,8 @@ const TRIM: f64 = 2.0;
 const LINE: usize = 3;
 /// Points that may be the rest of two lines' corner.
 pub(super) const FEW: usize = 3;
+/// Fewest points whose halves say anything.
+const HALVED: usize = 8;
 /// Fewest points of a segment.
 const FEWEST: usize = 2;
 
@@ -88,6 +88,10 @@ impl Extractor {
         self.bridge(sensor);
         self.trim(sensor);
         self.runs.retain(|run| run.to - run.from >= FEWEST);
+        for Run { from, to, line } in self.runs.iter_mut().filter(|run| run.to - run.from >= HALVED)
+        {
+            line.halve(&self.sums, *from, *to);
+        }
         self.segments.clear();
         ends::segments(sensor, ranges, &self.hits, &self.runs, &mut self.segments);
         &self.segments
@@ -183,11 +187,6 @@ impl Extractor {
         self.sums.push(Sums::default());
         let count = sensor.count().min(ranges.len());
         let range = |beam: usize| ranges[if beam >= count { beam - count } else { beam }];
-        let wider = |beams: f64| {
-            let turn = beams * sensor.step;
-            turn.sin() / (OBLIQUE.max(1.5 * turn) - turn).sin()
-        };
-        let reach = [0.0, wider(1.0), wider(2.0)];
         for place in start..start + count {
             let beam = if place >= count { place - count } else { place };
             let r = range(beam);
@@ -213,7 +212,7 @@ impl Extractor {
                 if gap > 2 {
                     return true;
                 }
-                let far = last.r.min(r) * reach[gap] + 3.0 * sensor.noise.along(r).sqrt();
+                let far = last.r.min(r) * sensor.oblique[gap] + 3.0 * sensor.noise.along(r).sqrt();
                 (p - last.p).norm_squared() > far * far
             });
             if torn {
