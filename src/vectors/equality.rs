@@ -61,6 +61,15 @@ impl<const D: usize> Residual<D> {
     /// `None` when two views of one line do not meet: that they are parts of one face was not seen.
     #[must_use]
     pub fn between(a: &Segment<D>, b: &Segment<D>) -> Option<Self> {
+        Self::of(a, b, false)
+    }
+
+    /// The same of what the start does not tell: of the end alone, for a start that another segment's end told.
+    pub(crate) fn of_end(a: &Segment<D>, b: &Segment<D>) -> Option<Self> {
+        Self::of(a, b, true)
+    }
+
+    fn of(a: &Segment<D>, b: &Segment<D>, end_alone: bool) -> Option<Self> {
         let along = (a.vector() + b.vector()).try_normalize(f64::MIN_POSITIVE);
         let mut x = [a.start - b.start, a.end - b.end];
         let sum = |p: &SMatrix<f64, D, D>, q: &SMatrix<f64, D, D>| p + q;
@@ -93,7 +102,13 @@ impl<const D: usize> Residual<D> {
                 }
             }
         }
-        let freedom = 2 * D as u32 - compared.iter().filter(|&&c| !c).count() as u32;
+        let mut freedom = 2 * D as u32 - compared.iter().filter(|&&c| !c).count() as u32;
+        if end_alone {
+            freedom -= D as u32 - u32::from(!compared[0]);
+            compared[0] = false;
+            x[0] = SVector::zeros();
+            r[0] += SMatrix::<f64, D, D>::identity() * UNMEASURED;
+        }
         let inverse = r[0].try_inverse()?;
         let gain = cross.transpose() * inverse;
         let rest = r[1] - gain * cross;

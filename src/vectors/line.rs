@@ -3,7 +3,8 @@
 //! Sums over the points before each point are kept, so that the moments of a run are differences of two of them.
 //! The line minimises the squared distances across it (total least squares): its direction t is the greater axis of
 //! the scatter S, tan 2θ = 2 S_xy / (S_xx − S_yy), and what remains is the smaller eigenvalue,
-//! SSE = ½ (S_xx + S_yy − √((S_xx − S_yy)² + 4 S_xy²)).
+//! SSE = ½ (S_xx + S_yy − √((S_xx − S_yy)² + 4 S_xy²)). Products are not fused: without an instruction for it `mul_add` is a
+//! call, and slower than all the rest.
 
 use nalgebra::Vector2;
 
@@ -29,11 +30,36 @@ impl Sums {
         Self {
             x: self.x + p.x,
             y: self.y + p.y,
-            xx: p.x.mul_add(p.x, self.xx),
-            xy: p.x.mul_add(p.y, self.xy),
-            yy: p.y.mul_add(p.y, self.yy),
+            xx: p.x * p.x + self.xx,
+            xy: p.x * p.y + self.xy,
+            yy: p.y * p.y + self.yy,
             inverse: self.inverse + 1.0 / square,
         }
+    }
+}
+
+/// How points lie about their centre.
+struct Scatter {
+    count: f64,
+    centre: Vector2<f64>,
+    /// S_xx + S_yy.
+    sum: f64,
+    /// S_xx − S_yy.
+    difference: f64,
+    /// 2 S_xy.
+    twice: f64,
+}
+
+impl Scatter {
+    fn of(sums: &[Sums], from: usize, to: usize) -> Self {
+        let (a, b) = (&sums[from], &sums[to]);
+        let count = (to - from) as f64;
+        let share = 1.0 / count;
+        let centre = Vector2::new((b.x - a.x) * share, (b.y - a.y) * share);
+        let xx = (b.xx - a.xx) - centre.x * centre.x * count;
+        let xy = (b.xy - a.xy) - centre.x * centre.y * count;
+        let yy = (b.yy - a.yy) - centre.y * centre.y * count;
+        Self { count, centre, sum: xx + yy, difference: xx - yy, twice: 2.0 * xy }
     }
 }
 
@@ -49,24 +75,31 @@ pub(crate) struct Line {
     pub(crate) sse: f64,
     /// Mean variance of one point across the line, as the sensor's noise has it, in cm².
     pub(crate) expected: f64,
+    /// What the two halves of the points disagree by, as a variance of one point, in cm²: of a line that is none, as two walls
+    /// that hardly turn, it grows with the points, where the deviation of a single one hides it. Zero until asked for.
+    pub(crate) bend: f64,
 }
 
 impl Line {
     /// Through the points `from..to`, at least one, each with variance `expected` across the line.
     pub(crate) fn through(sums: &[Sums], from: usize, to: usize, expected: f64) -> Self {
-        let (a, b) = (&sums[from], &sums[to]);
-        let count = (to - from) as f64;
-        let share = 1.0 / count;
-        let centre = Vector2::new((b.x - a.x) * share, (b.y - a.y) * share);
-        let xx = (b.xx - a.xx) - centre.x * centre.x * count;
-        let xy = (b.xy - a.xy) - centre.x * centre.y * count;
-        let yy = (b.yy - a.yy) - centre.y * centre.y * count;
-        let (sum, difference) = (xx + yy, xx - yy);
-        let root = (4.0 * xy).mul_add(xy, difference * difference).sqrt();
-        let direction = half_turn(difference, 2.0 * xy, root);
+        let Scatter { count, centre, sum, difference, twice } = Scatter::of(sums, from, to);
+        let root = length(difference, twice);
+        let direction = half_turn(difference, twice, root);
         let sse = (0.5 * (sum - root)).max(0.0);
         let spread = (0.5 * (sum + root)).max(1e-12);
-        Self { count, centre, direction, spread, sse, expected }
+        Self { count, centre, direction, spread, sse, expected, bend: 0.0 }
+    }
+
+    /// Holds the two halves of the points `from..to`, through which this is the line, against one another.
+    pub(crate) fn halve(&mut self, sums: &[Sums], from: usize, to: usize) {
+        let middle = usize::midpoint(from, to);
+        let sse = |from, to| {
+            let half = Scatter::of(sums, from, to);
+            (0.5 * (half.sum - length(half.difference, half.twice))).max(0.0)
+        };
+        // Two lines have two parameters more than one.
+        self.bend = 0.5 * (self.sse - sse(from, middle) - sse(middle, to)).max(0.0);
     }
 
     /// The same for points that a range sensor measured from the origin.
@@ -79,8 +112,8 @@ impl Line {
         let squares = ((b.xx - a.xx) + (b.yy - a.yy)) * share;
         let facing = (d * d * (b.inverse - a.inverse) * share).min(1.0);
         let bearing = noise.bearing * noise.bearing;
-        let across = bearing.mul_add((squares - d * d).max(0.0), ROUGHNESS * ROUGHNESS);
-        line.expected = noise.along(squares.sqrt()).mul_add(facing, across);
+        let across = bearing * (squares - d * d).max(0.0) + ROUGHNESS * ROUGHNESS;
+        line.expected = noise.along(squares.sqrt()) * facing + across;
         line
     }
 
@@ -118,18 +151,24 @@ impl Line {
 
     /// Variance of the line's direction, in rad².
     pub(crate) fn turning(&self) -> f64 {
-        self.variance() / self.spread
+        self.variance().max(self.bend) / self.spread
     }
 
     /// Covariance of the line's errors across itself at the places `a` and `b`.
     pub(crate) fn across(&self, a: f64, b: f64) -> f64 {
-        self.variance() * (1.0 / self.count + a * b / self.spread)
+        self.variance().max(self.bend) * (1.0 / self.count + a * b / self.spread)
     }
+}
+
+/// √(x² + y²) of what is neither as great nor as small as the exponents reach.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// The unit vector at half the angle of (cos2·root, sin2·root), the greater axis.
 fn half_turn(difference: f64, twice: f64, root: f64) -> Vector2<f64> {
-    if root <= 0.0 {
+    // Of squares that vanish nothing follows.
+    if root < 1e-100 {
         return Vector2::new(1.0, 0.0);
     }
     // Of the two forms the one without cancellation.
@@ -138,6 +177,6 @@ fn half_turn(difference: f64, twice: f64, root: f64) -> Vector2<f64> {
     } else {
         (twice.abs(), (root - difference).copysign(twice))
     };
-    let length = x.hypot(y);
+    let length = length(x, y);
     Vector2::new(x / length, y / length)
 }

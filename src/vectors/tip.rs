@@ -16,12 +16,22 @@ pub(crate) struct Tip {
     pub(crate) own: Matrix2<f64>,
 }
 
+impl Tip {
+    /// Its covariance, as an end of the line.
+    fn covariance(&self, line: &Line) -> Matrix2<f64> {
+        self.own + self.lever * self.lever.transpose() * line.across(self.place, self.place)
+    }
+
+    /// Variance of its place along the line, in cm².
+    pub(crate) fn along(&self, line: &Line) -> f64 {
+        line.direction.dot(&(self.covariance(line) * line.direction))
+    }
+}
+
 /// The segment of a line between two of its ends.
 pub(crate) fn tip_segment(line: &Line, start: &Tip, end: &Tip) -> Segment<2> {
-    let of =
-        |tip: &Tip| tip.own + tip.lever * tip.lever.transpose() * line.across(tip.place, tip.place);
     let cross = start.lever * end.lever.transpose() * line.across(start.place, end.place);
-    let covariance = Covariance { start: of(start), end: of(end), cross };
+    let covariance = Covariance { start: start.covariance(line), end: end.covariance(line), cross };
     Segment { start: start.point, end: end.point, ends: [start.end, end.end], covariance }
 }
 

@@ -413,9 +413,12 @@ pub(crate) fn same_place(a: &[Correspondence], b: &[Correspondence]) -> bool {
 
 /// How many different lines the explained segments of a view lie on.
 fn lines<const D: usize>(view: &Model<D>, placement: &Placement<D>) -> usize {
+    // The longest first: whatever is somewhere near lies on the line of a short one, for all that is known of it.
+    let mut told: Vec<&Segment<D>> =
+        placement.pairs.iter().map(|&(k, ..)| &view.segments()[k]).collect();
+    told.sort_by(|a, b| b.length().total_cmp(&a.length()));
     let mut found: Vec<&Segment<D>> = Vec::new();
-    for &(k, _, _) in &placement.pairs {
-        let segment = &view.segments()[k];
+    for segment in told {
         let on = |line: &&Segment<D>| {
             let Some(u) = line.vector().try_normalize(1e-9) else { return false };
             let slack = 4.0 * segment.covariance.deviation().hypot(line.covariance.deviation());

@@ -8,7 +8,7 @@ use nalgebra::SMatrix;
 
 use super::{answer::Counters, link::Scale};
 use crate::{
-    Covariance, Equality, Euclid, Model, Motion, Residual, Segment, Space, motion::Fit,
+    Covariance, Equality, Euclid, Model, Motion, Residual, Segment, Space, Turn, motion::Fit,
     motion::motion_of,
 };
 
@@ -238,42 +238,56 @@ where
     /// ln of how much more likely the view is as a part of this model, placed anywhere, than as anything (Bayes, the
     /// integral over motions by Laplace).
     ///
-    /// Counted against itself: of where a foreign wall stands nothing is known, but walls stand at right angles
-    /// everywhere, so a turn is worth no more than one in four. A corner is where two lines meet: once both are
-    /// counted, its place says nothing more.
+    /// Each segment is told from the one before it: where it begins, unless that one ends there; how it turns; how long it
+    /// is. So a corner of two is told once, and what it errs too. Counted against itself: of foreign things nothing is
+    /// known but that they are as large as these, as long, and as near to one another, and that walls stand at right
+    /// angles everywhere: such a turn is worth no more than one in four.
     fn evidence(&self, fit: &Fit<D>, pairs: &[Correspondence]) -> f64 {
         let extent = self.model.extent().max(self.view.extent()).max(1.0);
-        let of_view: Vec<Option<usize>> = {
-            let mut known = vec![None; self.view.len()];
-            for &(k, stored, _) in pairs {
-                known[k] = Some(stored);
-            }
-            known
-        };
-        let root = std::f64::consts::TAU.sqrt();
+        let surprise =
+            |size: f64, sigma: f64| (size / (std::f64::consts::TAU.sqrt() * sigma)).ln().max(0.0);
+        let across = (D - 1) as f64;
         let mut sum = 0.0;
+        let mut before: Option<Segment<D>> = None;
         for &pair in pairs {
             let (k, stored) = (pair.0, self.stored(pair));
             let moved = self.view.segments()[k].moved(&fit.motion);
-            let Some(residual) = Residual::between(&moved, &stored) else { continue };
+            let ends_here = |p: usize| {
+                let met = pairs.binary_search_by_key(&p, |pair| pair.0).ok();
+                met.is_some_and(|at| self.stored(pairs[at]).ends[1].is_true())
+            };
+            let is_met =
+                self.view.previous(k).is_some_and(|p| self.view.is_joined(p) && ends_here(p));
+            let residual = if is_met {
+                Residual::of_end(&moved, &stored)
+            } else {
+                Residual::between(&moved, &stored)
+            };
+            let Some(residual) = residual else { continue };
             let sigma = moved.covariance.deviation().hypot(stored.covariance.deviation()).max(1e-3);
-            let across = (D - 1) as f64;
-            sum += across * (extent / (root * sigma)).ln().max(0.0);
-            let turn =
-                std::f64::consts::PI * moved.length() / (root * std::f64::consts::SQRT_2 * sigma);
-            sum += across * turn.ln().clamp(0.0, 4.0_f64.ln());
-            let before = self.view.previous(k).filter(|&p| self.view.is_joined(p));
-            let after = self.view.next(k).filter(|_| self.view.is_joined(k));
-            let met =
-                [before, after].map(|other| other.is_some_and(|other| of_view[other].is_some()));
-            for (compared, met) in residual.compared.iter().zip(met) {
-                if *compared && !met {
-                    sum += (2.0 * stored.length() / (root * sigma)).ln().max(0.0);
-                }
+            let length = moved.length();
+            // Where the view is cut, that it is cut just there says nothing for the thing.
+            let told = [0, 1].map(|end| moved.ends[end].is_true() && stored.ends[end].is_true());
+            if !is_met {
+                let near =
+                    before.map_or(extent, |b| extent.min(2.0 * (moved.start - b.end).norm()));
+                sum += (across + f64::from(u8::from(told[0]))) * surprise(near, sigma);
+            }
+            let lean = std::f64::consts::SQRT_2 * sigma / length.max(1e-9);
+            let turn = surprise(std::f64::consts::PI, lean);
+            let square = before.and_then(|b| Turn::between(&b, &stored)).map_or(turn, |turn| {
+                let quarters = turn.angle() / std::f64::consts::FRAC_PI_2;
+                let off = (quarters - quarters.round()) * std::f64::consts::FRAC_PI_2 / lean;
+                4.0_f64.ln() + 0.5 * off * off
+            });
+            sum += across * turn.min(square);
+            if told[1] {
+                sum += surprise(2.0 * stored.length(), sigma);
             }
             sum -= 0.5 * residual.squared();
             // Seen as often as it should be (V9), against a foreign segment that was as likely.
             sum += self.model.membership(pair.1).probability().ln();
+            before = Some(stored);
         }
         // What is not explained was foreign: one in twenty is.
         sum += (self.view.len() - pairs.len()) as f64 * 0.05_f64.ln();

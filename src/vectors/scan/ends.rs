@@ -28,22 +28,33 @@ pub(crate) fn segments(
     runs: &[Run],
     into: &mut Vec<Segment<2>>,
 ) {
-    let mut joined: Option<Tip> = None;
     let closing = match (runs.first(), runs.last()) {
         (Some(first), Some(last)) if sensor.is_closed() && runs.len() > 2 => {
             corner(sensor, ranges, hits, last, first)
         }
         _ => None,
     };
+    let count = runs.len();
+    // After each run; after the last one that before the first.
+    let mut corners: Vec<Option<(Tip, Tip)>> =
+        runs.windows(2).map(|pair| corner(sensor, ranges, hits, &pair[0], &pair[1])).collect();
+    corners.resize(count, closing);
     for (index, run) in runs.iter().enumerate() {
-        let start = if index == 0 { closing.map(|(_, second)| second) } else { joined };
+        let before = (index + count - 1) % count;
+        if let (Some((_, start)), Some((end, _))) = (&corners[before], &corners[index]) {
+            // A face no longer than its corners err is none, and they are no corners.
+            let extent = end.place - start.place;
+            let error = CLEAR * (start.along(&run.line) + end.along(&run.line)).sqrt();
+            if extent <= error {
+                (corners[before], corners[index]) = (None, None);
+            }
+        }
+    }
+    for (index, run) in runs.iter().enumerate() {
+        let start = corners[(index + count - 1) % count].map(|(_, second)| second);
+        let end = corners[index].map(|(first, _)| first);
         let start = start.unwrap_or_else(|| tip(sensor, ranges, hits, run, false));
-        let next = match runs.get(index + 1) {
-            Some(next) => corner(sensor, ranges, hits, run, next),
-            None => closing,
-        };
-        joined = next.map(|(_, second)| second);
-        let end = next.map_or_else(|| tip(sensor, ranges, hits, run, true), |(first, _)| first);
+        let end = end.unwrap_or_else(|| tip(sensor, ranges, hits, run, true));
         into.push(tip_segment(&run.line, &start, &end));
     }
 }
@@ -113,11 +124,10 @@ pub(super) fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, afte
     let u = sensor.directions[beam];
     let (forth, side) = (u.dot(&line.direction), u.perp(&line.direction));
     let bearing = sensor.noise.bearing * hit.r;
-    let mut along =
-        sensor.noise.along(hit.r).mul_add(forth * forth, bearing * bearing * side * side);
+    let mut along = sensor.noise.along(hit.r) * forth * forth + bearing * bearing * side * side;
     // Nothing was seen farther than half a beam beside the last one.
     let half = if after { 0.5 * sensor.step } else { -0.5 * sensor.step };
-    let border = Vector2::new((-u.y).mul_add(half, u.x), u.x.mul_add(half, u.y));
+    let border = Vector2::new(u.x - u.y * half, u.x * half + u.y);
     let farthest = line.range(border);
     // Along a line that is seen nearly end on, the breadth of a beam is as long as one likes: no end is moved by more than
     // what lies between the last two hits.
@@ -154,7 +164,19 @@ pub(super) fn tip(sensor: &Sensor, ranges: &[f64], hits: &[Hit], run: &Run, afte
                     let gap = if after { reach - place } else { place - reach };
                     let between = (u + sensor.directions[next]).normalize();
                     let midway = line.place(between * line.range(between));
-                    if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise {
+                    let (next_beam, gone) = (next as u32, sensor.directions[next] * found);
+                    let beams = if after {
+                        sensor.steps(hit.beam, next_beam)
+                    } else {
+                        sensor.steps(next_beam, hit.beam)
+                    };
+                    let face = sensor.oblique[beams.min(2) as usize] * hit.r.min(found)
+                        + 3.0 * sensor.noise.along(found).sqrt();
+                    // What goes on without a jump is no end of it and hides none.
+                    if (gone - hit.p).norm_squared() <= face * face {
+                        End::Cut(Cut::Unclear)
+                    } else if found < hit.r.min(if on_line > 0.0 { on_line } else { hit.r }) - noise
+                    {
                         End::Cut(Cut::Occluded)
                     } else if on_line > 0.0
                         && gap > 0.0
@@ -185,7 +207,7 @@ fn likeliest(sensor: &Sensor, line: &Line, hit: &Hit) -> f64 {
     let (along, across) = (sensor.noise.along(hit.r), bearing * bearing);
     // C n of the hit's covariance C = along·u uᵀ + across·(1 − u uᵀ) + roughness, over nᵀ C n.
     let (un, ut) = (u.dot(&n), u.dot(&t));
-    let own = (along - across).mul_add(un * un, across + ROUGHNESS * ROUGHNESS);
+    let own = (along - across) * un * un + across + ROUGHNESS * ROUGHNESS;
     let slide = (along - across) * un * ut / own;
     line.place(hit.p) - slide * n.dot(&(hit.p - line.centre))
 }

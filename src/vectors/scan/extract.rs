@@ -15,8 +15,6 @@ use super::sensor::Sensor;
 use crate::line::{Line, ROUGHNESS, Sums};
 use crate::segment::{Covariance, End, Segment, Truth};
 
-/// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
-const OBLIQUE: f64 = 0.175;
 /// A point this many deviations off its chord splits it.
 const SPLIT: f64 = 4.0;
 /// What joining two lines may cost, in squared deviations.
@@ -29,6 +27,8 @@ const TRIM: f64 = 2.0;
 const LINE: usize = 3;
 /// Points that may be the rest of two lines' corner.
 pub(super) const FEW: usize = 3;
+/// Fewest points whose halves say anything.
+const HALVED: usize = 8;
 /// Fewest points of a segment.
 const FEWEST: usize = 2;
 
@@ -88,6 +88,10 @@ impl Extractor {
         self.bridge(sensor);
         self.trim(sensor);
         self.runs.retain(|run| run.to - run.from >= FEWEST);
+        for Run { from, to, line } in self.runs.iter_mut().filter(|run| run.to - run.from >= HALVED)
+        {
+            line.halve(&self.sums, *from, *to);
+        }
         self.segments.clear();
         ends::segments(sensor, ranges, &self.hits, &self.runs, &mut self.segments);
         &self.segments
@@ -108,7 +112,7 @@ impl Extractor {
         let gap = (self.hits[first.from].p - self.hits[last.to - 1].p).norm();
         let facing = first.line.direction.dot(&last.line.direction) > 0.9;
         let off = last.line.direction.perp(&(first.line.centre - last.line.centre)).abs();
-        gap < 0.2f64.mul_add(self.hits[first.from].r, 10.0) || (facing && off < 20.0)
+        gap < 0.2 * self.hits[first.from].r + 10.0 || (facing && off < 20.0)
     }
 
     /// The beam at which the line begins whose direction differs most from the line before it, both long: a border that
@@ -183,11 +187,6 @@ impl Extractor {
         self.sums.push(Sums::default());
         let count = sensor.count().min(ranges.len());
         let range = |beam: usize| ranges[if beam >= count { beam - count } else { beam }];
-        let wider = |beams: f64| {
-            let turn = beams * sensor.step;
-            turn.sin() / (OBLIQUE.max(1.5 * turn) - turn).sin()
-        };
-        let reach = [0.0, wider(1.0), wider(2.0)];
         for place in start..start + count {
             let beam = if place >= count { place - count } else { place };
             let r = range(beam);
@@ -213,7 +212,7 @@ impl Extractor {
                 if gap > 2 {
                     return true;
                 }
-                let far = last.r.min(r).mul_add(reach[gap], 3.0 * sensor.noise.along(r).sqrt());
+                let far = last.r.min(r) * sensor.oblique[gap] + 3.0 * sensor.noise.along(r).sqrt();
                 (p - last.p).norm_squared() > far * far
             });
             if torn {
@@ -421,7 +420,7 @@ fn is_spike(sensor: &Sensor, before: f64, r: f64, after: f64) -> bool {
     let apart = (before - after).abs();
     let noise = 3.0 * sensor.noise.along(r).sqrt();
     let least = down.abs().min(up.abs());
-    least > 4.0 * (apart + noise) && apart < before.mul_add(2.0 * sensor.step, noise)
+    least > 4.0 * (apart + noise) && apart < 2.0 * sensor.step * before + noise
 }
 
 /// The point farthest from the chord between the ends, if it is farther off than noise explains.
@@ -451,7 +450,7 @@ fn farthest(hits: &[Hit], sensor: &Sensor) -> Option<usize> {
         1.0
     };
     let bearing = noise.bearing * hit.r;
-    let variance = noise.along(hit.r).mul_add(facing, bearing * bearing * (1.0 - facing))
-        + ROUGHNESS * ROUGHNESS;
+    let variance =
+        noise.along(hit.r) * facing + bearing * bearing * (1.0 - facing) + ROUGHNESS * ROUGHNESS;
     (off * off > SPLIT * SPLIT * 1.5 * variance * square).then_some(best)
 }

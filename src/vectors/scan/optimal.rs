@@ -48,7 +48,7 @@ impl<'a> Hops<'a> {
             let (u, r) = (sensor.directions[hit.beam as usize], hit.r);
             let (x, y, w) = (u.x * r * r, u.y * r * r, weight(hit));
             let own = [x * x, x * y, y * y, x * r, y * r, r * r];
-            sums.push(std::array::from_fn(|k| w.mul_add(own[k], sums[at][k])));
+            sums.push(std::array::from_fn(|k| w * own[k] + sums[at][k]));
         }
         let low = (0..hits.len()).collect();
         let mut all = Self { hits, low, rows: vec![0; hits.len()], costs: Vec::new(), sums, lost };

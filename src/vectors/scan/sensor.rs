@@ -8,6 +8,8 @@ use thiserror::Error;
 const FARTHEST: f64 = 100_000.0;
 /// Beams of one turn that are still told apart.
 const MOST_BEAMS: usize = 1 << 16;
+/// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
+const OBLIQUE: f64 = 0.175;
 
 /// What a sensor cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error, Diagnostic)]
@@ -52,7 +54,7 @@ impl Noise {
     /// Variance along the beam at range `r`, in cm².
     #[must_use]
     pub fn along(&self, r: f64) -> f64 {
-        (self.share * r).mul_add(self.share * r, self.range * self.range)
+        (self.share * r) * (self.share * r) + self.range * self.range
     }
 }
 
@@ -66,6 +68,8 @@ pub struct Sensor {
     pub(crate) farthest: f64,
     pub(crate) noise: Noise,
     closed: bool,
+    /// How far the next hit may lie, no, one and two beams on, as a share of the range, on a face seen as obliquely as can be.
+    pub(super) oblique: [f64; 3],
 }
 
 impl Sensor {
@@ -99,12 +103,16 @@ impl Sensor {
             return Err(SensorError::Noise(value));
         }
         let direction = |beam: usize| {
-            let (sin, cos) = (step.mul_add(beam as f64, first)).sin_cos();
+            let (sin, cos) = (step * beam as f64 + first).sin_cos();
             Vector2::new(cos, sin)
         };
         let directions = (0..count).map(direction).collect();
         let closed = count > 2 && std::f64::consts::TAU - turn <= 1.5 * step;
-        Ok(Self { directions, first, step, nearest, farthest, noise, closed })
+        let oblique = [0.0, 1.0, 2.0].map(|beams| {
+            let turn = beams * step;
+            turn.sin() / (OBLIQUE.max(1.5 * turn) - turn).sin()
+        });
+        Ok(Self { directions, first, step, nearest, farthest, noise, closed, oblique })
     }
 
     /// Number of beams.
@@ -128,7 +136,7 @@ impl Sensor {
     /// Bearing of a beam, in rad.
     #[must_use]
     pub fn bearing(&self, beam: usize) -> f64 {
-        self.step.mul_add(beam as f64, self.first)
+        self.step * beam as f64 + self.first
     }
 
     /// Angle between neighbouring beams, in rad.

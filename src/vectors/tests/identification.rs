@@ -8,7 +8,8 @@ mod shapes;
 use fastrand::Rng;
 use nalgebra::Vector2;
 use orthoframe_vectors::{
-    Identification, Index, Model, Motion, Options, Placement, Scale, Segment, ThingId, exhaustive,
+    Covariance, Cut, End, Identification, Index, Model, Motion, Options, Placement, Scale, Segment,
+    ThingId, exhaustive,
 };
 use shapes::{Hiding, Kind, chain, stored, thing, view, view_of_chain};
 
@@ -114,28 +115,52 @@ fn things_are_known_again_and_nothing_is_taken_for_another() {
     let read =
         |name: &str, or: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(or);
     let (things, rounds) = (read("VECTORS_THINGS", 200), read("VECTORS_VIEWS", 60));
-    let (mut errors, mut views) = (0.0, 0.0);
+    // Share of a thing that is hidden, and of the views the least share known, of generic and of rectangular things.
+    let goals = [
+        (0.0, 0.98, 0.95),
+        (0.3, 0.98, 0.95),
+        (0.5, 0.98, 0.95),
+        (0.7, 0.98, 0.6),
+        (0.8, 0.95, 0.0),
+        (0.9, 0.0, 0.0),
+    ];
     for kind in [Kind::Generic, Kind::Rectangular] {
         let known = Known::new(kind, things);
         for hiding in [Hiding::Side, Hiding::Scattered] {
-            for (hidden, least) in
-                [(0.0, 0.95), (0.3, 0.95), (0.5, 0.95), (0.7, 0.75), (0.8, 0.15), (0.9, 0.0)]
-            {
+            for (hidden, generic, rectangular) in goals {
+                let least = if kind == Kind::Generic { generic } else { rectangular };
                 let [right, wrong, first, cost] = known.measure(hidden, hiding, rounds, false);
                 println!(
                     "{kind:?} {hiding:?} {hidden}: right {right} wrong {wrong} first {first} comparisons {cost}"
                 );
                 assert!(right >= least, "{kind:?} {hiding:?} {hidden}: {right}");
-                (errors, views) = (errors + wrong, views + 1.0);
+                assert!(wrong <= 0.01, "{kind:?} {hiding:?} {hidden}: {wrong}");
             }
         }
-        for hidden in [0.0, 0.5, 0.8] {
+        for hidden in [0.0, 0.5, 0.7, 0.8] {
             let [_, wrong, _, cost] = known.measure(hidden, Hiding::Side, rounds, true);
             println!("{kind:?} strangers {hidden}: wrong {wrong} comparisons {cost}");
-            (errors, views) = (errors + wrong, views + 1.0);
+            assert!(wrong <= 0.01, "{kind:?} strangers {hidden}: {wrong}");
         }
     }
-    assert!(errors / views <= 0.01, "{}", errors / views);
+}
+
+/// A stub of a wall, its direction hardly known, is one line more and takes no other away: what is seen besides counts.
+#[test]
+fn a_stub_is_no_line_on_which_all_others_lie() {
+    let models: Vec<Model<2>> = (0..50).map(|k| stored(Kind::Generic, k, 30, 0.3)).collect();
+    let index = Index::of(&models, Options::default());
+    for number in 0..50_u32 {
+        let mut seen = thing(Kind::Generic, u64::from(number), 30)[3..12].to_vec();
+        for s in &mut seen {
+            s.covariance = Covariance::isotropic(1.0);
+        }
+        let stub = seen[0].vector().normalize() * 4.0;
+        seen[0].start = seen[0].end - stub;
+        seen[0].ends[0] = End::Cut(Cut::Occluded);
+        let found = index.identify(&models[..], &Model::of_contour(seen)).answer;
+        assert_eq!(found.unique().map(|place| place.thing), Some(ThingId(number)), "{found:?}");
+    }
 }
 
 /// SPEC V20: two walls fit wherever two walls meet as they do, also where only one such place is stored.
