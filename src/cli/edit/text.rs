@@ -252,6 +252,37 @@ impl Step {
                 let stops: Vec<String> = stops.iter().map(|s| quoted(s.trim())).collect();
                 Text::step("lift", name).line("stops", &format!("[{}]", stops.join(", ")))
             }
+            Self::Zone {
+                name,
+                kind,
+                rooms,
+                points,
+                map,
+                speed,
+                heading,
+                reason,
+                reason_en,
+                from,
+                until,
+                name_en,
+            } => {
+                let mut text = Text::step("zone", name).opt("kind", kind.as_ref());
+                if !rooms.is_empty() {
+                    let rooms: Vec<String> = rooms.iter().map(|r| quoted(r.trim())).collect();
+                    text = text.line("rooms", &format!("[{}]", rooms.join(", ")));
+                }
+                if let Some(points) = points {
+                    text = text.line("points", &corners(points));
+                }
+                text.opt("map", map.as_ref())
+                    .number("speed", *speed)
+                    .number("heading", *heading)
+                    .opt("reason", reason.as_ref())
+                    .opt("reason_en", reason_en.as_ref())
+                    .opt("from", from.as_ref())
+                    .opt("until", until.as_ref())
+                    .opt("name_en", name_en.as_ref())
+            }
         };
         text.0
     }
