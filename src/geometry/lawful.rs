@@ -80,7 +80,7 @@ impl<'a> Rules<'a> {
         cuts.sort_by(f64::total_cmp);
         let piece = |ends: &[f64]| {
             let middle = a + way * ((ends[0] + ends[1]) / 2.0);
-            let here = near.iter().filter(|(p, ..)| p.contains(middle, 0.0));
+            let here = near.iter().filter(|(polygon, ..)| is_within(polygon, middle));
             let times = here.map(|(_, _, times)| *times).fold(1.0, f64::max);
             (ends[1] - ends[0]) * length * times
         };
@@ -111,6 +111,11 @@ fn cuts(polygon: &Polygon, a: Point, b: Point) -> Vec<f64> {
     polygon.edges().filter_map(cut).collect()
 }
 
+/// Whether a point lies within a polygon, and not on its border.
+fn is_within(polygon: &Polygon, p: Point) -> bool {
+    polygon.winds_around(p) && polygon.border_distance(p) > ROUNDING
+}
+
 /// Whether some of a leg lies within a polygon, and not only on its border.
 fn crosses(polygon: &Polygon, a: Point, b: Point) -> bool {
     let mut all = cuts(polygon, a, b);
@@ -119,9 +124,7 @@ fn crosses(polygon: &Polygon, a: Point, b: Point) -> bool {
     let length = (b - a).norm();
     all.windows(2).any(|ends| {
         let middle = a + (b - a) * ((ends[0] + ends[1]) / 2.0);
-        (ends[1] - ends[0]) * length > ROUNDING
-            && polygon.winds_around(middle)
-            && polygon.border_distance(middle) > ROUNDING
+        (ends[1] - ends[0]) * length > ROUNDING && is_within(polygon, middle)
     })
 }
 

@@ -9,8 +9,8 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::map::{DoorState, World, ZoneKind};
-use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId};
+use crate::map::{DoorState, World, Zone, ZoneKind};
+use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
 
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::blocker::Blocker;
@@ -39,6 +39,9 @@ pub enum Target {
     /// Just inside an Area.
     Area(AreaId),
 }
+
+/// Of so many zones on a way it is asked whether one alone bars it.
+const MOST_ASKED: usize = 8;
 
 /// How a way is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -171,30 +174,23 @@ impl FloorPlan {
         method: Method,
         within: Option<&[u32]>,
     ) -> Result<Route, NoRoute> {
-        let mut first = None;
-        for (points, moved, exit) in self.ways_out(world, from, within) {
-            match self.route_from(world, exit, target, method, within) {
-                Ok(on) => {
-                    let mut points = points;
-                    points.extend(on.points.into_iter().skip(1));
-                    let length = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-                    return Ok(Route { points, length, moved_start: moved, ..on });
-                }
-                Err(no) => first = first.or(Some(no)),
-            }
-        }
-        Err(first.unwrap_or(NoRoute::NoFloor))
+        let (mut points, moved, exit) =
+            self.way_out(world, from, within).ok_or(NoRoute::NoFloor)?;
+        let on = self.route_from(world, exit, target, method, within)?;
+        points.extend(on.points.into_iter().skip(1));
+        let length = super::search::length(&points);
+        Ok(Route { points, length, moved_start: moved, ..on })
     }
 
-    /// The shortest way out of the zones that a place lies in to each region of the floor beside them, the nearest first.
-    fn ways_out(
+    /// The shortest way out of the zones that a place lies in.
+    fn way_out(
         &self,
         world: &World,
         from: Point,
         within: Option<&[u32]>,
-    ) -> Vec<(Vec<Point>, Option<Moved>, Anchor)> {
+    ) -> Option<(Vec<Point>, Option<Moved>, Anchor)> {
         let open = self.opened(world);
-        let Some(start) = open.anchor(from, None, within) else { return Vec::new() };
+        let start = open.anchor(from, None, within)?;
         let reach = self.reach();
         let shut: Vec<&PlacedZone> = self.zones.iter().filter(|z| z.kind.is_shut()).collect();
         let near = shut.iter().fold(super::Bounds::EMPTY, |b, z| b.union(&z.bounds()));
@@ -218,11 +214,10 @@ impl FloorPlan {
             }
         }
         exits.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut best: BTreeMap<u32, (f64, Vec<Point>, Anchor)> = BTreeMap::new();
+        let mut best: Option<(f64, Vec<Point>, Anchor)> = None;
         for (least, exit) in exits {
-            let region = self.region(exit.cell);
-            if best.get(&region).is_some_and(|known| known.0 <= least) {
-                continue;
+            if best.as_ref().is_some_and(|known| known.0 <= least) {
+                break;
             }
             let Some(end) = open.anchor(exit.at, Some(open.region(start.cell)), within) else {
                 continue;
@@ -234,20 +229,17 @@ impl FloorPlan {
                 *last = exit.at;
             }
             let length = super::search::length(&points);
-            if best.get(&region).is_none_or(|known| length < known.0) {
-                best.insert(region, (length, points, exit));
+            if best.as_ref().is_none_or(|known| length < known.0) {
+                best = Some((length, points, exit));
             }
         }
-        let mut ways: Vec<_> = best.into_values().collect();
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
-        ways.into_iter().map(|(_, points, exit)| (points, start.moved.clone(), exit)).collect()
+        best.map(|(_, points, exit)| (points, start.moved, exit))
     }
 
     /// The same floor as if nothing were shut by a zone.
     fn opened(&self, world: &World) -> Self {
-        let is_kept = |zone: &crate::map::Zone| {
-            !zone.kind.is_shut() && self.zones.iter().any(|own| own.id == zone.id)
-        };
+        let is_kept =
+            |zone: &Zone| !zone.kind.is_shut() && self.zones.iter().any(|own| own.id == zone.id);
         self.with_zones(world, is_kept)
     }
 
@@ -272,7 +264,19 @@ impl FloorPlan {
         };
         let mut ends = way.points.clone();
         ends.extend(self.point_of(world, target));
-        let zones = self.touched(&ends, ZoneKind::is_shut);
+        let mut zones = self.touched(&ends, ZoneKind::is_shut);
+        // A way may come near to others than the one that bars it.
+        if zones.len() > 1 && barriers.is_empty() {
+            let alone = |gone: &ZoneId| {
+                let is_kept = |zone: &Zone| {
+                    zone.id != *gone && self.zones.iter().any(|own| own.id == zone.id)
+                };
+                self.with_zones(world, is_kept).leads(world, from, target)
+            };
+            if let Some(only) = zones.iter().copied().take(MOST_ASKED).find(alone) {
+                zones = vec![only];
+            }
+        }
         if zones.is_empty() {
             return if barriers.is_empty() { no } else { NoRoute::of(world, barriers) };
         }
@@ -334,10 +338,10 @@ impl FloorPlan {
                 None => way(&leg),
                 Some(rules) => {
                     let lawful = |from: &Anchor, to: &Anchor| {
-                        let mut useful = self.network.between(from.cell.0, to.cell.0);
-                        useful.retain(admitted);
-                        let plain = leg(from, to)?;
-                        self.lawful(rules, &useful, (from, to), &plain)
+                        // A way round what a zone forbids or slows down may lead into a room and out again.
+                        let all = 0..self.fragments().len() as u32;
+                        let all: Vec<u32> = all.filter(admitted).collect();
+                        self.lawful(rules, &all, (from, to), &leg(from, to)?)
                     };
                     let kept = way(&lawful).filter(|points| rules.cost_of(points).is_some());
                     if kept.is_none() && against.is_none() {

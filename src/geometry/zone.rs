@@ -91,13 +91,13 @@ impl FloorPlan {
         &self.zones
     }
 
-    /// The zones of these kinds that the robot's body touches somewhere on a way, in the order of their ids.
+    /// The zones of these kinds to which a way comes nearer than the robot keeps from things, in the order of their ids.
     pub(super) fn touched(
         &self,
         points: &[Point],
         is_wanted: impl Fn(ZoneKind) -> bool,
     ) -> Vec<ZoneId> {
-        let reach = self.robot().radius.get();
+        let reach = self.reach();
         let touches = |zone: &&PlacedZone| {
             zone.polygons.iter().any(|polygon| {
                 points.windows(2).any(|leg| {

@@ -98,6 +98,12 @@ fn quoted(text: &str) -> String {
     json!(text).to_string()
 }
 
+/// `X,Y X,Y …` as a list of points; what is no number is left for the reader to refuse.
+fn corners(points: &str) -> String {
+    let corners: Vec<String> = points.split_whitespace().map(|p| format!("[{p}]")).collect();
+    format!("[{}]", corners.join(", "))
+}
+
 fn list_of(numbers: &[f64]) -> String {
     let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
     format!("[{}]", words.join(", "))
@@ -175,9 +181,7 @@ impl Step {
                     .opt("roof", roof.as_ref())
                     .names(names);
                 if let Some(points) = points {
-                    let corners: Vec<String> =
-                        points.split_whitespace().map(|p| format!("[{p}]")).collect();
-                    text = text.line("points", &format!("[{}]", corners.join(", ")));
+                    text = text.line("points", &corners(points));
                 }
                 if let Some(Numbers(regular)) = regular {
                     let word = |i: usize| regular.get(i).map_or_else(String::new, f64::to_string);
