@@ -120,6 +120,7 @@ fn a_task_under_rules_that_ask_the_robot_is_the_same_task() {
     std::fs::write(rules.path().join("свои.dl"), OWN).unwrap();
     let plain = Engine::in_memory(rb2(), None).unwrap();
     let own = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
+    assert_eq!(rows(&own, "?- HERE(M, R, X, Y, A)").len(), 1, "also without a store");
     let task = "Принеси лекарство";
     let [one, other] = [&plain, &own].map(|engine| engine.perform(task, &mut |_| {}).unwrap());
     assert_eq!(one.end, other.end);

@@ -37,7 +37,7 @@ impl State {
             Entity::Area(id) => Some(id),
             Entity::Replica(id) => relations.area_of(id),
             Entity::Place(id) => world.places.get(&id).map(|place| place.area),
-            Entity::Door(_) | Entity::Map(_) => None,
+            Entity::Door(_) | Entity::Map(_) | Entity::Zone(_) => None,
         };
         let storey_of = |name: &str| {
             let map = world.maps.keys().find(|map| storey_name(world, **map) == name)?;

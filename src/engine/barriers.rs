@@ -4,7 +4,7 @@
 
 use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
-use crate::language::{Case, Gender, Language, Number, enumerate};
+use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
 use crate::map::{DoorStatus, Entity, LiftStop, World};
 use crate::units::{AreaId, DoorId, ReplicaId};
 
@@ -111,6 +111,7 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
             (Blocker::Wall { .. }, false) => "a wall".to_owned(),
             (Blocker::Floor { .. }, true) => "ступень или низкий потолок".to_owned(),
             (Blocker::Floor { .. }, false) => "a step or a low ceiling".to_owned(),
+            (Blocker::Zone { zone }, _) => form(&of(Entity::Zone(*zone)), Case::Nominative),
         };
         let mut names: Vec<String> = blockers.iter().map(name).collect();
         names.dedup();
@@ -184,6 +185,7 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
                 format!("in {} the way is shut off by {}", room(*area, Case::Nominative), list(by))
             }
         },
+        Barrier::Zone { zone } => zone_in_words(world, *zone, language),
         Barrier::Doorless { area } => match russian {
             true => format!(
                 "из {} нет ни двери, ни прохода в другие помещения",

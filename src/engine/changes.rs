@@ -98,7 +98,8 @@ fn entities(world: &World) -> impl Iterator<Item = Entity> + '_ {
     let doors = world.doors.keys().map(|id| Entity::Door(*id));
     let replicas = world.replicas.keys().map(|id| Entity::Replica(*id));
     let places = world.places.keys().map(|id| Entity::Place(*id));
-    maps.chain(areas).chain(doors).chain(replicas).chain(places)
+    let zones = world.zones.keys().map(|id| Entity::Zone(*id));
+    maps.chain(areas).chain(doors).chain(replicas).chain(places).chain(zones)
 }
 
 fn is_on(world: &World, entity: Entity) -> bool {
@@ -108,6 +109,7 @@ fn is_on(world: &World, entity: Entity) -> bool {
         Entity::Door(id) => world.doors.contains_key(&id),
         Entity::Replica(id) => world.replicas.contains_key(&id),
         Entity::Place(id) => world.places.contains_key(&id),
+        Entity::Zone(id) => world.zones.contains_key(&id),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::map::{
     self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, TypeKind, World,
 };
 use crate::store::{self, Change, Difference, ImportReport, Store, Table};
-use crate::units::{DoorId, ReplicaId, Source};
+use crate::units::{DoorId, ReplicaId, Source, Timestamp};
 
 use super::known::{Floors, Known};
 use super::{Engine, Error, Relations, State, load};
@@ -148,6 +148,7 @@ impl Engine {
             (&mut ids.door, Table::Door),
             (&mut ids.replica, Table::AreaObjects),
             (&mut ids.place, Table::Places),
+            (&mut ids.zone, Table::Zones),
         ] {
             *id = (*id).max(store.next_id(table)?);
         }
@@ -189,6 +190,15 @@ impl Engine {
         state.follow(after, &mut self.spares);
         state.stand_on(self.store.as_ref());
         Ok(())
+    }
+
+    /// Lets zones begin and end: what is asked from now on is asked of the world as it is at this moment.
+    pub fn pass_time(&mut self, at: Timestamp) {
+        if self.state.is_outlived(at) {
+            self.next();
+            let state = Arc::get_mut(&mut self.state).expect("made so by the line before");
+            state.forget_present();
+        }
     }
 
     /// The state that is to follow, and the store.

@@ -246,6 +246,7 @@ impl State {
                 predicate::ROBOT_AT_PLACE
             }
             Entity::Replica(_) => return self.being_near(entity, &now.world, relations),
+            Entity::Zone(_) => return Err(RequestError::NotAPlace { name }.into()),
             // On a storey is in any room of it.
             Entity::Map(map) => {
                 return Ok(fact(predicate::ROBOT_ON_STOREY, vec![storey_name(world, map)]));

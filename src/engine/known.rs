@@ -11,11 +11,11 @@ use std::sync::{Arc, OnceLock};
 use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
-use crate::map::{Entity, NameIndex, World};
+use crate::map::{Entity, NameIndex, World, Zone};
 use crate::meaning::MapWords;
 use crate::semantics::{Followed, Relations, Told, derive};
 use crate::store::Derived;
-use crate::units::{AreaId, MapId, Point, ReplicaId};
+use crate::units::{AreaId, MapId, Point, ReplicaId, Timestamp};
 
 use super::lexicon::form_index;
 use super::position::nowhere_on;
@@ -40,6 +40,8 @@ pub(super) struct Known {
     pub(super) carriers: BTreeMap<ReplicaId, ReplicaId>,
     /// The map as surveyed, of what differs from it.
     basis: Option<Arc<Self>>,
+    /// The moment whose zones are in force; of a map as surveyed none, where those are that have no time.
+    moment: Option<Timestamp>,
     /// Where what follows from the map is kept for the next start.
     pub(super) derived: Option<Derived>,
     pub(super) relations: OnceLock<Arc<Relations>>,
@@ -63,6 +65,7 @@ impl Known {
             holders: BTreeMap::new(),
             carriers: BTreeMap::new(),
             basis: None,
+            moment: None,
             derived,
             relations: OnceLock::new(),
             floors: OnceLock::new(),
@@ -82,6 +85,7 @@ impl Known {
         mut world: World,
         holders: BTreeMap<ReplicaId, String>,
         carriers: BTreeMap<ReplicaId, ReplicaId>,
+        moment: Timestamp,
     ) -> Result<Self, Error> {
         let gone: Vec<_> = holders.keys().filter_map(|id| world.replicas.remove(id)).collect();
         let relations = basis.followed(&world)?.shared();
@@ -91,6 +95,7 @@ impl Known {
             holders,
             carriers,
             basis: Some(Arc::clone(basis)),
+            moment: Some(moment),
             relations: relations.into(),
             ..known
         })
@@ -112,6 +117,11 @@ impl Known {
 
     pub(super) fn world(&self) -> &World {
         &self.world
+    }
+
+    /// Whether a zone is in force: at its moment, or on the map as surveyed.
+    pub(super) fn is_in_force(&self, zone: &Zone) -> bool {
+        self.moment.map_or(zone.is_standing(), |moment| zone.is_in_force(moment))
     }
 
     /// The relations that hold, derived when first asked for.
@@ -188,7 +198,7 @@ impl Known {
             .basis
             .as_ref()
             .filter(|basis| basis.openings().is_ok_and(|surveyed| surveyed == openings));
-        let floors = match basis {
+        let mut floors = match basis {
             Some(basis) => {
                 let mut empty_handed = World::clone(world);
                 for gone in self.holders.keys() {
@@ -202,6 +212,13 @@ impl Known {
                 world.maps.keys().map(|&map| (map, self.floor_of(world, openings, map))).collect()
             }
         };
+        if let Some(moment) = self.moment
+            && world.zones.values().any(|zone| !zone.is_standing())
+        {
+            for floor in floors.values_mut() {
+                *floor = floor.with_zones(world, |zone| zone.is_in_force(moment));
+            }
+        }
         Ok(self.floors.get_or_init(|| Arc::new(floors)))
     }
 
@@ -266,7 +283,7 @@ impl Known {
             || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
         let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
         match entity {
-            Entity::Map(_) => Err(nowhere()),
+            Entity::Map(_) | Entity::Zone(_) => Err(nowhere()),
             Entity::Place(id) => {
                 let place = &world.places[&id];
                 let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;

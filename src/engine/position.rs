@@ -232,7 +232,7 @@ fn namesakes(world: &World, entity: Entity, within: &[Entity]) -> Vec<Entity> {
             let here = world.replicas.values().filter(|r| within.contains(&Entity::Area(r.area)));
             found.extend(here.map(|r| Entity::Replica(r.id)));
         }
-        Entity::Place(_) => {}
+        Entity::Place(_) | Entity::Zone(_) => {}
     }
     let mut first = true;
     found.retain(|other| std::mem::take(&mut first) || (*other != entity && alike(*other)));

@@ -245,7 +245,9 @@ fn index_of(world: &World) -> FormIndex<Entity> {
     let mut index = FormIndex::default();
     let mut entities: Vec<Entity> = world.names().map(|(entity, _)| entity).collect();
     entities.dedup();
-    for entity in entities.into_iter().filter(|entity| !matches!(entity, Entity::Place(_))) {
+    for entity in
+        entities.into_iter().filter(|entity| !matches!(entity, Entity::Place(_) | Entity::Zone(_)))
+    {
         index.insert_name(world.name(entity), &hints(world, entity), entity);
         index.insert_english(named(world, entity).english_name(), entity);
     }

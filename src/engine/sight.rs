@@ -59,6 +59,7 @@ pub fn face_in_words(world: &World, face: &Face, language: Language) -> String {
         Blocker::Floor { area, .. } => {
             format!("{}: {}", name(Entity::Area(area)), language.pick("пол", "floor"))
         }
+        Blocker::Zone { zone } => name(Entity::Zone(zone)),
         Blocker::DoorLeaf { door, leaf: number } => leaf(Entity::Door(door), number),
         Blocker::ReplicaLeaf { replica, leaf: number, .. } => {
             leaf(Entity::Replica(replica), number)

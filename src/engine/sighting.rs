@@ -168,6 +168,7 @@ fn name_of(world: &World, blocker: Blocker, language: Language) -> String {
         }
         Blocker::DoorLeaf { door, .. } => Entity::Door(door),
         Blocker::Wall { area, .. } | Blocker::Floor { area, .. } => Entity::Area(area),
+        Blocker::Zone { zone } => Entity::Zone(zone),
     };
     let name = named(world, entity, language);
     match (blocker, language) {

@@ -9,10 +9,10 @@ use std::sync::{Arc, OnceLock};
 
 use crate::geometry::{FloorPlan, Openings};
 use crate::language::FormIndex;
-use crate::map::{Entity, World};
+use crate::map::{Entity, World, Zone};
 use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
-use crate::units::{AreaId, MapId, Pose, ReplicaId, nearest_name};
+use crate::units::{AreaId, MapId, Pose, ReplicaId, Timestamp, nearest_name};
 
 use super::changes::Changes;
 use super::known::Known;
@@ -33,6 +33,8 @@ pub struct State {
     pub(super) memory: OnceLock<RobotMemory>,
     /// The world as it is believed to be now, where that differs from the map.
     now: OnceLock<Option<Arc<Known>>>,
+    /// The moment at which the next zone begins or ends after `now` was found; none where none will.
+    stands_until: OnceLock<Option<Timestamp>>,
     /// What the map and the robot's knowledge went through, for dialogues that began before.
     pub(super) changes: Arc<Changes>,
 }
@@ -52,6 +54,7 @@ impl State {
             place: store.map(|s| s.dir().display().to_string()).unwrap_or_default(),
             memory: OnceLock::new(),
             now: OnceLock::new(),
+            stands_until: OnceLock::new(),
             changes: Arc::default(),
         }
     }
@@ -66,6 +69,7 @@ impl State {
             place: self.place.clone(),
             memory: OnceLock::new(),
             now: OnceLock::new(),
+            stands_until: OnceLock::new(),
             changes: Arc::clone(&self.changes),
         }
     }
@@ -106,29 +110,39 @@ impl State {
     }
 
     fn find_now(&self, surveyed: &Arc<Known>) -> Result<Option<Known>, Error> {
-        let Some(reader) = &self.reader else { return Ok(None) };
+        let moment = std::time::SystemTime::now().into();
+        let edges = |zone: &Zone| [zone.from, zone.until];
+        let coming = surveyed.world.zones.values().flat_map(edges).flatten();
+        // Whoever asked at the same time may have noted it; either does.
+        let _ = self.stands_until.set(coming.filter(|edge| *edge > moment).min());
+        let timed = |zone: &Zone| !zone.is_standing() && zone.is_in_force(moment);
+        let in_time = surveyed.world.zones.values().any(timed);
         let memory = self.memory()?;
-        let unmoved = memory.doors.is_empty()
+        let unmoved = !in_time
+            && memory.doors.is_empty()
             && memory.devices.is_empty()
             && memory.carried.is_empty()
             && memory.obstacles.is_empty()
-            && reader.observed()?.is_empty();
+            && self
+                .reader
+                .as_ref()
+                .map_or(Ok(true), |reader| Ok::<_, Error>(reader.observed()?.is_empty()))?;
         let asked = self.rules.relations.asks_the_robot();
         if unmoved && !asked {
             return Ok(None);
         }
-        let world = self.believed(memory, std::time::SystemTime::now().into())?;
+        let world = self.believed(memory, moment)?;
         let holders: BTreeMap<_, _> = memory
             .carried
             .iter()
             .filter(|(id, _)| world.replicas.contains_key(id))
             .map(|(id, holder)| (*id, holder.clone()))
             .collect();
-        if holders.is_empty() && world == *surveyed.world && !asked {
+        if holders.is_empty() && !in_time && world == *surveyed.world && !asked {
             return Ok(None);
         }
         let carriers = self.carriers(&world, &memory.carried)?;
-        let now = Known::now(surveyed, world, holders, carriers)?;
+        let now = Known::now(surveyed, world, holders, carriers, moment)?;
         if asked { self.tell(now).map(Some) } else { Ok(Some(now)) }
     }
 
@@ -176,9 +190,15 @@ impl State {
         self.surveyed()?.followed(world)
     }
 
+    /// Whether a zone has begun or ended since it was found how the world is now.
+    pub(super) fn is_outlived(&self, at: Timestamp) -> bool {
+        self.stands_until.get().copied().flatten().is_some_and(|until| until <= at)
+    }
+
     pub(super) fn forget_present(&mut self) {
         self.memory.take();
         self.now.take();
+        self.stands_until.take();
         Arc::make_mut(&mut self.changes).note_deed();
     }
 

@@ -10,7 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::{AreaId, DoorId};
+use crate::units::{AreaId, DoorId, ZoneId};
 
 use super::blocker::Blocker;
 use super::cells::CellKey;
@@ -40,6 +40,8 @@ pub enum Barrier {
     Apart { areas: [AreaId; 2] },
     /// No door or passage leads from an Area to any other.
     Doorless { area: AreaId },
+    /// A zone that the robot has to keep out of, or that it would have to cross against its direction.
+    Zone { zone: ZoneId },
 }
 
 /// There is no way.
@@ -64,6 +66,12 @@ pub enum NoRoute {
 }
 
 impl NoRoute {
+    /// Barriers, with what they are called in Russian.
+    pub(super) fn of(world: &World, barriers: Vec<Barrier>) -> Self {
+        let text = barriers.iter().map(|b| b.describe(world)).collect::<Vec<_>>().join("; ");
+        Self::Blocked { barriers, text }
+    }
+
     #[must_use]
     pub fn barriers(&self) -> &[Barrier] {
         match self {
@@ -102,8 +110,7 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
             true
         }
     });
-    let text = barriers.iter().map(|b| b.describe(world)).collect::<Vec<_>>().join("; ");
-    NoRoute::Blocked { barriers, text }
+    NoRoute::of(world, barriers)
 }
 
 /// All that stands between the region of a cell and those of some others with nothing else before or behind it, what
@@ -422,7 +429,7 @@ fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
             world.replicas.get(replica).is_some_and(|r| r.move_prob > 0)
         }
         Blocker::DoorLeaf { .. } | Blocker::ReplicaLeaf { .. } => true,
-        Blocker::Wall { .. } | Blocker::Floor { .. } => false,
+        Blocker::Wall { .. } | Blocker::Floor { .. } | Blocker::Zone { .. } => false,
     };
     match barrier {
         Barrier::Door { .. } => false,
@@ -432,7 +439,8 @@ fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
         }),
         Barrier::Gap { between, .. } => !between.iter().any(moves),
         Barrier::Enclosed { by, .. } => !by.iter().any(moves),
-        Barrier::Low { .. }
+        Barrier::Zone { .. }
+        | Barrier::Low { .. }
         | Barrier::Step { .. }
         | Barrier::Apart { .. }
         | Barrier::Doorless { .. } => true,
@@ -493,7 +501,8 @@ impl Barrier {
             Self::Enclosed { .. }
             | Self::Step { .. }
             | Self::Apart { .. }
-            | Self::Doorless { .. } => NO_GAP,
+            | Self::Doorless { .. }
+            | Self::Zone { .. } => NO_GAP,
         }
     }
 
@@ -547,6 +556,9 @@ impl Barrier {
             Self::Doorless { area: id } => {
                 format!("«{}»: нет ни двери, ни прохода в другие помещения", area(id))
             }
+            Self::Zone { zone } => {
+                world.zones.get(zone).map_or_else(String::new, |z| format!("зона «{}»", z.name))
+            }
             Self::Apart { areas } => {
                 format!(
                     "«{}» и «{}» не соединены ни дверью, ни проходом",
@@ -570,6 +582,9 @@ impl Blocker {
             Self::ReplicaLeaf { replica: id, .. } => format!("створка «{}»", replica(id)),
             Self::Wall { .. } => "стена".to_owned(),
             Self::Floor { .. } => "ступень или низкий потолок".to_owned(),
+            Self::Zone { zone } => {
+                world.zones.get(zone).map_or_else(String::new, |z| format!("зона «{}»", z.name))
+            }
         }
     }
 }

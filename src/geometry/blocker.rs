@@ -1,6 +1,6 @@
 //! What takes floor away, and whose it is.
 
-use crate::units::{AreaId, DoorId, ReplicaId};
+use crate::units::{AreaId, DoorId, ReplicaId, ZoneId};
 
 use super::Polygon;
 
@@ -17,6 +17,8 @@ pub enum Blocker {
     Wall { area: AreaId, item: usize, side: usize },
     /// A piece of the Area's floor that lies too high or too low, or under a low ceiling.
     Floor { area: AreaId, item: usize },
+    /// A zone that the robot has to keep out of.
+    Zone { zone: ZoneId },
 }
 
 /// A piece of floor that is taken, and the heights between which.

@@ -15,6 +15,7 @@ use crate::units::{AreaId, ObjectId, ReplicaId};
 use super::Bounds;
 use super::opening::Opening;
 use super::site::Site;
+use super::zone::obstacles_of;
 
 /// Feeds what is written into a hash.
 struct Feed(DefaultHasher);
@@ -84,6 +85,9 @@ pub(super) fn digests(site: &Site<'_>, areas: &[AreaId]) -> Vec<u64> {
             if zones.iter().any(|zone| zone.meets(&reach)) {
                 (id, replica(id)).hash(&mut hash);
             }
+        }
+        for zone in obstacles_of(site.zones, &zones, 0.0) {
+            number_of(&zone).hash(&mut hash);
         }
         hash.finish()
     };

@@ -37,6 +37,7 @@ use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::scene::Prism;
 use super::site::{SLACK, Site};
 use super::storey::{Storey, THIN};
+use super::zone::obstacles_of;
 use super::{Bounds, Region, nearest_on_segment};
 
 /// Rounds in which fewer Passframes are looked for in vain.
@@ -96,6 +97,7 @@ impl FragmentFloor {
         let mut obstacles = storey.closed_floor.clone();
         obstacles.extend(obstacles_near(site, &storey, &zones));
         obstacles.extend(leaves_near(site, area));
+        obstacles.extend(obstacles_of(site.zones, &zones, site.robot.height.get()));
         let mut floor: Vec<Contour> = storey.floor.iter().map(|p| grid.contour(p)).collect();
         let mut beyond: Vec<Contour> = Vec::new();
         floor.extend(Mouths::of(site, area, &open, reach).floor(&grid));

@@ -33,6 +33,12 @@ impl FloorPlan {
         target: Target,
     ) -> Result<Vec<Goal>, NoRoute> {
         let region = Some(self.region(start.cell));
+        let is_shut = |p: Point| self.zones.iter().any(|z| z.kind.is_shut() && z.contains(p, 0.0));
+        let point = self.point_of(world, target).filter(|_| !matches!(target, Target::Replica(_)));
+        if point.is_some_and(is_shut) {
+            // What is shut is no goal, and no place near it instead.
+            return Err(NoRoute::NoFloor);
+        }
         let found = match target {
             Target::Point(p) => self.point_goals(region, p, None),
             Target::Place(id) => {
@@ -196,6 +202,9 @@ impl FloorPlan {
             return Ok(sides);
         }
         let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
+        if self.zones.iter().any(|zone| zone.kind.is_shut() && zone.contains(middle, 0.0)) {
+            return Err(NoRoute::NoFloor);
+        }
         let anchor = self.anchor(middle, Some(region), None).filter(|a| {
             self.floor(a.cell.0).area == placed.area
                 && (a.at - middle).norm() < 150.0 + self.reach()

@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use crate::map::Permeability;
-use crate::units::{AreaId, DoorId, Point, ReplicaId};
+use crate::units::{AreaId, DoorId, Point, ReplicaId, ZoneId};
 
 use super::blocker::{Blocker, Obstacle};
 use super::edging::{Edging, Face, Mark};
@@ -172,6 +172,7 @@ impl Kept for Blocker {
             Self::ReplicaLeaf { replica, door, leaf } => (2_u8, (replica, (door, leaf))).put(out),
             Self::Wall { area, item, side } => (3_u8, (area, (item, side))).put(out),
             Self::Floor { area, item } => (4_u8, (area, item)).put(out),
+            Self::Zone { zone } => (5_u8, zone.0).put(out),
         }
     }
 
@@ -188,6 +189,7 @@ impl Kept for Blocker {
                 Self::Wall { area, item, side }
             }
             4 => Self::Floor { area: Kept::take(bytes)?, item: Kept::take(bytes)? },
+            5 => Self::Zone { zone: ZoneId(Kept::take(bytes)?) },
             _ => return None,
         })
     }

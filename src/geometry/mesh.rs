@@ -184,6 +184,12 @@ impl Mesh {
         self.across.part(self.span(cell))
     }
 
+    /// The vertices at which a shortest way may bend.
+    pub(super) fn bends(&self) -> impl Iterator<Item = Point> + '_ {
+        let corners = self.nodes.iter().zip(&self.is_corner).filter(|(_, is)| **is);
+        corners.map(|(node, _)| self.grid.point(*node))
+    }
+
     pub(super) fn component(&self, cell: u32) -> u32 {
         self.component.get(cell as usize)
     }

@@ -86,6 +86,9 @@ mod grid;
 mod half_edge;
 mod kept;
 mod kept_value;
+mod lawful;
+#[cfg(test)]
+mod lawful_tests;
 mod leaf;
 mod lift;
 mod mesh;
@@ -112,6 +115,7 @@ mod storey;
 mod strait;
 mod taut;
 mod view;
+mod zone;
 
 pub use blocked::{Barrier, NoRoute};
 pub use blocker::{Blocker, Obstacle};
@@ -134,3 +138,4 @@ pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};
 pub use seen::FaceInView;
 pub use site::{DoorStates, SLACK};
 pub use view::{Beam, SeenFace, Sight, Visible};
+pub use zone::PlacedZone;

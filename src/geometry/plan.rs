@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::map::{DoorState, Object, Replica, RobotProfile, World};
+use crate::map::{DoorState, Object, Replica, RobotProfile, World, Zone};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
@@ -31,6 +31,7 @@ use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::site::{DoorStates, SLACK, Site};
 use super::strait::{self, Strait};
+use super::zone::{PlacedZone, placed};
 use super::{Bounds, Passframe, PassframeId, Region};
 
 /// The floor of one Map for one robot.
@@ -39,6 +40,7 @@ pub struct FloorPlan {
     map: MapId,
     robot: RobotProfile,
     states: DoorStates,
+    pub(super) zones: Arc<Vec<PlacedZone>>,
     scene: Arc<Scene>,
     index: Arc<ReplicaIndex>,
     /// Those that it leads through.
@@ -101,6 +103,7 @@ impl FloorPlan {
             map,
             robot: robot.clone(),
             states: states.clone(),
+            zones: Arc::new(placed(world, &scene, map, Zone::is_standing)),
             index: Arc::new(ReplicaIndex::of(&scene)),
             doorways: Arc::new(doorways),
             blind: Arc::new(blind),
@@ -193,6 +196,7 @@ impl FloorPlan {
             by_area: &self.by_area,
             robot: &self.robot,
             states: &self.states,
+            zones: &self.zones,
         })
     }
 
@@ -217,9 +221,34 @@ impl FloorPlan {
                 scene.replicas.insert(id, placed);
             }
         }
+        let stale = self.near(&touched);
+        self.renew(world, &stale);
+    }
+
+    /// The same floor with those zones of the world in force that are wanted, and no others.
+    #[must_use]
+    pub fn with_zones(&self, world: &World, is_wanted: impl Fn(&Zone) -> bool) -> Self {
+        let mut plan = self.clone();
+        let before = std::mem::take(&mut plan.zones);
+        let after = placed(world, &plan.scene, plan.map, is_wanted);
+        let shut = |zones: &[PlacedZone], others: &[PlacedZone]| -> Vec<Bounds> {
+            let news = zones.iter().filter(|z| z.kind.is_shut() && !others.contains(z));
+            news.map(|z| z.bounds().grown(0.2)).collect()
+        };
+        let touched = [shut(&before, &after), shut(&after, &before)].concat();
+        plan.zones = Arc::new(after);
+        let stale = plan.near(&touched);
+        if !stale.is_empty() {
+            plan.renew(world, &stale);
+        }
+        plan
+    }
+
+    /// The Areas on whose floors it tells what lies in some boxes.
+    fn near(&self, touched: &[Bounds]) -> Vec<AreaId> {
         let reach = self.reach();
         let mut stale: Vec<AreaId> = Vec::new();
-        for zone in &touched {
+        for zone in touched {
             // A Fragment sees through its doorways as far as their mouths are deep.
             for fragment in self.fragments_near(&zone.grown(reach + 5.0)) {
                 let mut mouths = self.by_area.get(&fragment.area).into_iter().flatten();
@@ -233,7 +262,7 @@ impl FloorPlan {
         }
         stale.sort_unstable();
         stale.dedup();
-        self.renew(world, &stale);
+        stale
     }
 
     /// The same floor with doors in other states: those in `states` as given, the others as before.

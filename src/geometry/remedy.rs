@@ -58,6 +58,10 @@ impl FloorPlan {
         target: Target,
         no: &NoRoute,
     ) -> Option<Remedy> {
+        // Of a zone nobody makes the robot a way by moving something.
+        if no.barriers().iter().any(|barrier| matches!(barrier, Barrier::Zone { .. })) {
+            return None;
+        }
         let doors = self.openable(world, no);
         let (opened, struck) = self.with_open(world, &doors);
         if !doors.is_empty() && opened.leads(world, from, target) {

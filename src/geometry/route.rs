@@ -9,18 +9,20 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use crate::map::World;
-use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId};
+use crate::map::{DoorState, World, Zone, ZoneKind};
+use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
 
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::blocker::Blocker;
 use super::cells::CellKey;
+use super::lawful::Rules;
 use super::network::{Marks, Walkable};
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
 use super::scene::Scene;
 use super::search::shortest;
 use super::strait;
+use super::zone::PlacedZone;
 
 /// Where to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +39,9 @@ pub enum Target {
     /// Just inside an Area.
     Area(AreaId),
 }
+
+/// Of so many zones on a way it is asked whether one alone bars it.
+const MOST_ASKED: usize = 8;
 
 /// How a way is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -129,6 +134,9 @@ impl FloorPlan {
 
     /// A route that stays in the Fragments named.
     ///
+    /// From within a zone that is to be kept out of, or so near that the robot stands in it, it first leads out of that, by
+    /// the shortest way.
+    ///
     /// # Errors
     /// [`NoRoute`] with what stands in the way.
     pub fn route_within(
@@ -144,42 +152,224 @@ impl FloorPlan {
                 list.iter().filter_map(|&a| self.number(a)).map(|n| n as u32).collect();
             numbers.into_iter().collect()
         });
-        let start = self.anchor(from, None, within.as_deref()).ok_or(NoRoute::NoFloor)?;
+        let (reach, has_shut) = (self.reach(), self.zones.iter().any(|z| z.kind.is_shut()));
+        let is_in = |zone: &&PlacedZone| zone.kind.is_shut() && zone.contains(from, reach);
+        let found = match self.zones.iter().any(|zone| is_in(&zone)) && self.fitting(from).is_none()
+        {
+            true => self.route_out(world, from, target, method, within.as_deref()),
+            false => self
+                .anchor(from, None, within.as_deref())
+                .ok_or(NoRoute::NoFloor)
+                .and_then(|start| self.route_from(world, start, target, method, within.as_deref())),
+        };
+        found.map_err(|no| if has_shut { self.zones_between(world, from, target, no) } else { no })
+    }
+
+    /// A route out of the zones that the robot stands in, and on.
+    fn route_out(
+        &self,
+        world: &World,
+        from: Point,
+        target: Target,
+        method: Method,
+        within: Option<&[u32]>,
+    ) -> Result<Route, NoRoute> {
+        let (mut points, moved, exit) =
+            self.way_out(world, from, within).ok_or(NoRoute::NoFloor)?;
+        let on = self.route_from(world, exit, target, method, within)?;
+        points.extend(on.points.into_iter().skip(1));
+        let length = super::search::length(&points);
+        Ok(Route { points, length, moved_start: moved, ..on })
+    }
+
+    /// The shortest way out of the zones that a place lies in.
+    fn way_out(
+        &self,
+        world: &World,
+        from: Point,
+        within: Option<&[u32]>,
+    ) -> Option<(Vec<Point>, Option<Moved>, Anchor)> {
+        let open = self.opened(world);
+        let start = open.anchor(from, None, within)?;
+        let reach = self.reach();
+        let shut: Vec<&PlacedZone> = self.zones.iter().filter(|z| z.kind.is_shut()).collect();
+        let near = shut.iter().fold(super::Bounds::EMPTY, |b, z| b.union(&z.bounds()));
+        let mut exits: Vec<(f64, Anchor)> = Vec::new();
+        let admits = |n: &u32| within.is_none_or(|w| w.contains(n));
+        for number in (0..self.fragments().len() as u32).filter(admits) {
+            let floor = self.floor(number);
+            if !floor.bounds.meets(&near.grown(reach + 1.0)) {
+                continue;
+            }
+            for cell in floor.cells.cells() {
+                for (edge, across) in floor.cells.across(cell).iter().enumerate() {
+                    let (a, b) = floor.cells.edge(cell, edge);
+                    let at = super::nearest_on_segment(start.at, a, b);
+                    let is_rim = across == super::mesh::NONE
+                        && shut.iter().any(|zone| zone.contains(at, reach + 1.0));
+                    if is_rim {
+                        exits.push(((at - start.at).norm(), Anchor::at(at, (number, cell))));
+                    }
+                }
+            }
+        }
+        exits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<(f64, Vec<Point>, Anchor)> = None;
+        for (least, exit) in exits {
+            if best.as_ref().is_some_and(|known| known.0 <= least) {
+                break;
+            }
+            let Some(end) = open.anchor(exit.at, Some(open.region(start.cell)), within) else {
+                continue;
+            };
+            let useful = open.network.between(start.cell.0, end.cell.0);
+            let Some(mut points) = open.shortest_points(&useful, &start, &end) else { continue };
+            // The two floors are cut on grids of their own.
+            if let Some(last) = points.last_mut() {
+                *last = exit.at;
+            }
+            let length = super::search::length(&points);
+            if best.as_ref().is_none_or(|known| length < known.0) {
+                best = Some((length, points, exit));
+            }
+        }
+        best.map(|(_, points, exit)| (points, start.moved, exit))
+    }
+
+    /// The same floor as if nothing were shut by a zone.
+    fn opened(&self, world: &World) -> Self {
+        let is_kept =
+            |zone: &Zone| !zone.kind.is_shut() && self.zones.iter().any(|own| own.id == zone.id);
+        self.with_zones(world, is_kept)
+    }
+
+    /// Why there is no way, where that may be because of zones: those that a way without them would enter.
+    fn zones_between(&self, world: &World, from: Point, target: Target, no: NoRoute) -> NoRoute {
+        let open = self.opened(world);
+        let (mut barriers, way) = match open.route(world, from, target, Method::Shortest) {
+            Ok(way) => (Vec::new(), way),
+            Err(NoRoute::Blocked { barriers, text }) => {
+                // Beyond the doors that are shut there may be zones.
+                let doors = barriers.iter().filter_map(|b| match b {
+                    Barrier::Door { door, .. } => Some((*door, DoorState::OPEN)),
+                    _ => None,
+                });
+                let opened = open.with_doors(world, &doors.collect());
+                match opened.route(world, from, target, Method::Shortest) {
+                    Ok(way) => (barriers, way),
+                    Err(_) => return NoRoute::Blocked { barriers, text },
+                }
+            }
+            Err(_) => return no,
+        };
+        let mut ends = way.points.clone();
+        ends.extend(self.point_of(world, target));
+        let mut zones = self.touched(&ends, ZoneKind::is_shut);
+        // A way may come near to others than the one that bars it.
+        if zones.len() > 1 && barriers.is_empty() {
+            let alone = |gone: &ZoneId| {
+                let is_kept = |zone: &Zone| {
+                    zone.id != *gone && self.zones.iter().any(|own| own.id == zone.id)
+                };
+                self.with_zones(world, is_kept).leads(world, from, target)
+            };
+            if let Some(only) = zones.iter().copied().take(MOST_ASKED).find(alone) {
+                zones = vec![only];
+            }
+        }
+        if zones.is_empty() {
+            return if barriers.is_empty() { no } else { NoRoute::of(world, barriers) };
+        }
+        barriers.extend(zones.into_iter().map(|zone| Barrier::Zone { zone }));
+        NoRoute::of(world, barriers)
+    }
+
+    /// The point that a target is, where it is one.
+    pub(super) fn point_of(&self, world: &World, target: Target) -> Option<Point> {
+        match target {
+            Target::Point(p) => Some(p),
+            Target::Place(id) => {
+                let place = world.places.get(&id)?;
+                Some(self.scene().areas.get(&place.area)?.frame.apply(place.at))
+            }
+            Target::Replica(id) => {
+                let bounds = self.scene().replicas.get(&id)?.bounds;
+                Some(nalgebra::center(&bounds.min, &bounds.max))
+            }
+            Target::Door { .. } | Target::Area(_) => None,
+        }
+    }
+
+    /// A route from where the robot fits.
+    fn route_from(
+        &self,
+        world: &World,
+        start: Anchor,
+        target: Target,
+        method: Method,
+        within: Option<&[u32]>,
+    ) -> Result<Route, NoRoute> {
         let goals = self.goals(world, &start, target)?;
-        let mut best: Option<Route> = None;
+        let rules = Rules::of(&self.zones, self.robot().speed);
+        let mut best: Option<(f64, Route)> = None;
+        let mut against: Option<Vec<Point>> = None;
         for goal in &goals {
             if self.region(goal.anchor.cell) != self.region(start.cell) {
                 continue;
             }
-            let useful = self.network.between(start.cell.0, goal.anchor.cell.0);
-            let admitted = |n: &u32| within.as_ref().is_none_or(|w| w.contains(n));
-            let useful: Vec<u32> = useful.into_iter().filter(&admitted).collect();
-            let leg = |from: &Anchor, to: &Anchor, useful: &[u32]| match method {
-                Method::Shortest => self.shortest_points(useful, from, to),
-                Method::Paper => self.paper_points(useful, from, to),
+            let admitted = |n: &u32| within.is_none_or(|w| w.contains(n));
+            let leg = |from: &Anchor, to: &Anchor| {
+                let mut useful = self.network.between(from.cell.0, to.cell.0);
+                useful.retain(admitted);
+                match method {
+                    Method::Shortest => self.shortest_points(&useful, from, to),
+                    Method::Paper => self.paper_points(&useful, from, to),
+                }
             };
-            let points = if self.network.straits.is_empty() {
-                leg(&start, &goal.anchor, &useful)
-            } else {
-                strait::way(self, &start, &goal.anchor, |from, to| {
-                    let mut useful = self.network.between(from.cell.0, to.cell.0);
-                    useful.retain(admitted);
-                    leg(from, to, &useful)
-                })
+            // Straits are single legs, which keep to the rules or are none.
+            let way = |leg: &dyn Fn(&Anchor, &Anchor) -> Option<Vec<Point>>| {
+                if self.network.straits.is_empty() {
+                    leg(&start, &goal.anchor)
+                } else {
+                    strait::way(self, &start, &goal.anchor, leg)
+                }
+            };
+            let points = match &rules {
+                None => way(&leg),
+                Some(rules) => {
+                    let lawful = |from: &Anchor, to: &Anchor| {
+                        // A way round what a zone forbids or slows down may lead into a room and out again.
+                        let all = 0..self.fragments().len() as u32;
+                        let all: Vec<u32> = all.filter(admitted).collect();
+                        self.lawful(rules, &all, (from, to), &leg(from, to)?)
+                    };
+                    let kept = way(&lawful).filter(|points| rules.cost_of(points).is_some());
+                    if kept.is_none() && against.is_none() {
+                        against = way(&leg);
+                    }
+                    kept
+                }
             };
             let Some(points) = points else { continue };
             let length = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-            if best.as_ref().is_none_or(|b| length < b.length) {
-                best = Some(Route {
+            let cost = rules.as_ref().and_then(|rules| rules.cost_of(&points)).unwrap_or(length);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                let route = Route {
                     heading: goal.heading,
                     length,
                     moved_start: start.moved.clone(),
                     moved_goal: goal.anchor.moved.clone(),
                     points,
-                });
+                };
+                best = Some((cost, route));
             }
         }
-        best.ok_or_else(|| {
+        best.map(|(_, route)| route).ok_or_else(|| {
+            if let Some(points) = against {
+                let is_one_way = |kind| matches!(kind, ZoneKind::OneWay { .. });
+                let zones = self.touched(&points, is_one_way).into_iter();
+                return NoRoute::of(world, zones.map(|zone| Barrier::Zone { zone }).collect());
+            }
             let ends: Vec<CellKey> = goals.iter().map(|g| g.anchor.cell).collect();
             explain(self, world, start.cell, &ends)
         })

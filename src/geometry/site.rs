@@ -8,6 +8,7 @@ use crate::units::{AreaId, DoorId, ReplicaId};
 use super::Bounds;
 use super::opening::Opening;
 use super::scene::Scene;
+use super::zone::PlacedZone;
 
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
 pub const SLACK: f64 = 0.004;
@@ -25,6 +26,7 @@ pub(super) struct Site<'a> {
     pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
     pub(super) robot: &'a RobotProfile,
     pub(super) states: &'a DoorStates,
+    pub(super) zones: &'a [PlacedZone],
 }
 
 impl Site<'_> {

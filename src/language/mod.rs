@@ -64,8 +64,10 @@ pub mod names;
 pub mod question;
 pub mod report;
 pub mod words;
+pub mod zones;
 
 pub use words::{
     Animacy, Case, Evidence, FormIndex, Gender, Hit, Language, NounPhrase, Number, PlaceSense,
     Readings, Spelling, WordHints, alternatives, english, enumerate, russian, word_ranges,
 };
+pub use zones::zone_in_words;

@@ -19,6 +19,7 @@ pub fn hints(world: &World, entity: Entity) -> WordHints {
         Entity::Door(id) => &world.doors[&id].forms,
         Entity::Replica(id) => &world.replicas[&id].forms,
         Entity::Place(id) => &world.places[&id].forms,
+        Entity::Zone(id) => &world.zones[&id].forms,
         Entity::Map(_) => &none,
     };
     WordHints {
@@ -40,6 +41,8 @@ fn gender_of_foreign(world: &World, entity: Entity) -> Option<Gender> {
             let object = world.objects.get(&world.replicas[&id].object)?;
             world.types.object.get(object.object_type)
         }
+        // «зона» is feminine.
+        Entity::Zone(_) => return Some(Gender::Feminine),
         Entity::Place(_) | Entity::Map(_) => None,
     }?;
     let hints = hints_of_type(kind);
@@ -85,6 +88,7 @@ pub fn english_name(world: &World, entity: Entity) -> &str {
         Entity::Door(id) => &world.doors[&id].name_en,
         Entity::Replica(id) => &world.replicas[&id].name_en,
         Entity::Place(id) => &world.places[&id].name_en,
+        Entity::Zone(id) => &world.zones[&id].name_en,
     }
 }
 

@@ -59,6 +59,7 @@ mod orthoframe;
 mod records;
 mod types;
 mod world;
+mod zone;
 
 pub use check::plane;
 pub use check::{check, doubts, news};
@@ -79,3 +80,4 @@ pub use world::{
     Domain, DomainMap, Entity, LiftStop, Map, MapItem, MapLink, Place, Profile, Replica,
     RobotProfile, World,
 };
+pub use zone::{Extent, Zone, ZoneKind};

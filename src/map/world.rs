@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    TypeId, name_key,
+    TypeId, ZoneId, name_key,
 };
 
 use super::{
-    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, Records, SideRef, TypeLists,
+    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, Records, SideRef,
+    TypeLists, Zone,
 };
 
 /// One placed copy of an Object (table AreaObjects). An Area with its replicas is a Fragment.
@@ -197,6 +198,7 @@ pub enum Entity {
     Door(DoorId),
     Replica(ReplicaId),
     Place(PlaceId),
+    Zone(ZoneId),
 }
 
 /// The whole model of an operating environment: a Domain with everything in it.
@@ -212,6 +214,7 @@ pub struct World {
     pub doors: Records<DoorId, Door>,
     pub replicas: Records<ReplicaId, Replica>,
     pub places: Records<PlaceId, Place>,
+    pub zones: Records<ZoneId, Zone>,
     pub types: TypeLists,
     pub robot: RobotProfile,
 }
@@ -239,6 +242,7 @@ impl World {
             doors: Records::new(),
             replicas: Records::new(),
             places: Records::new(),
+            zones: Records::new(),
             types: TypeLists::default(),
             robot: RobotProfile::default(),
         }
@@ -257,6 +261,7 @@ impl World {
             && self.orthoframes == other.orthoframes
             && self.types == other.types
             && self.places == other.places
+            && self.zones == other.zones
             && self.robot == other.robot
             && self.doors.changes(&other.doors).into_iter().all(door)
     }
@@ -325,7 +330,9 @@ impl World {
         let replicas =
             self.replicas.values().map(|r| (Entity::Replica(r.id), [&r.name, &r.name_en]));
         let places = self.places.values().map(|p| (Entity::Place(p.id), [&p.name, &p.name_en]));
-        maps.chain(areas).chain(doors).chain(replicas).chain(places).flat_map(|(e, names)| {
+        let zones = self.zones.values().map(|z| (Entity::Zone(z.id), [&z.name, &z.name_en]));
+        let all = maps.chain(areas).chain(doors).chain(replicas).chain(places).chain(zones);
+        all.flat_map(|(e, names)| {
             names.into_iter().filter(|n| !n.is_empty()).map(move |n| (e, n.as_str()))
         })
     }
@@ -344,6 +351,7 @@ impl World {
             Entity::Door(id) => names!(doors, id),
             Entity::Replica(id) => names!(replicas, id),
             Entity::Place(id) => names!(places, id),
+            Entity::Zone(id) => names!(zones, id),
         }
     }
 
@@ -359,6 +367,7 @@ impl World {
             Entity::Door(id) => &self.doors[&id].name,
             Entity::Replica(id) => &self.replicas[&id].name,
             Entity::Place(id) => &self.places[&id].name,
+            Entity::Zone(id) => &self.zones[&id].name,
         }
     }
 }

@@ -138,6 +138,7 @@ fn sorts_of_entity(entity: Entity) -> Sorts {
         Entity::Replica(_) => Sorts::THING,
         Entity::Place(_) => Sorts::POINT,
         Entity::Map(_) => Sorts::STOREY,
+        Entity::Zone(_) => Sorts::NONE,
     }
 }
 

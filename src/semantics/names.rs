@@ -78,6 +78,9 @@ impl Symbols {
         for p in world.places.values() {
             give(Subject::Entity(Entity::Place(p.id)), &p.name, &p.name_en, p.id.0);
         }
+        for z in world.zones.values() {
+            give(Subject::Entity(Entity::Zone(z.id)), &z.name, &z.key, z.id.0);
+        }
         for m in world.maps.values() {
             give(Subject::Entity(Entity::Map(m.id)), &m.name, &m.key, m.id.0);
         }

@@ -255,6 +255,10 @@ pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Val
             view["kind"] = json!("place");
             view["name_en"] = json!(world.places[&id].name_en);
         }
+        Entity::Zone(id) => {
+            view["kind"] = json!("zone");
+            view["name_en"] = json!(world.zones[&id].name_en);
+        }
         Entity::Map(id) => {
             view["kind"] = json!("map");
             view["name_en"] = json!(world.maps[&id].name_en);

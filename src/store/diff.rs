@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::map::World;
-use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
+use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId};
 
 use super::cell::{Cell, Key, Row};
 use super::edits::Edits;
@@ -77,6 +77,13 @@ fn word(column: &'static str) -> &'static str {
         "PosZ" => "сдвиг z",
         "PosA" => "поворот",
         "Ang" => "курс",
+        "Kind" => "вид",
+        "Measure" => "скорость или направление",
+        "Points" => "углы",
+        "Reason" => "причина",
+        "ReasonEn" => "английская причина",
+        "StartsAt" => "начало",
+        "EndsAt" => "конец",
         "Width" => "ширина",
         "Height" | "Hieght" | "Roof" => "высота",
         "SizeX" => "размер x",
@@ -99,6 +106,8 @@ fn noun(table: Table) -> (&'static str, Option<Table>) {
         T::Domain => ("домейн", None),
         T::Door => ("дверь", None),
         T::Places => ("место", None),
+        T::Zones => ("зона", None),
+        T::ZoneAreas => ("помещение зоны", Some(T::Zones)),
         T::OrtFrmSides | T::SideNames => ("грань ортофрейма", Some(T::OrFr)),
         T::OrtFrmProperties => ("свойство ортофрейма", Some(T::OrFr)),
         T::OrtFrmSideProperties => ("свойство грани ортофрейма", Some(T::OrFr)),
@@ -189,6 +198,7 @@ fn name_in(world: &World, table: Table, id: u32) -> Option<&str> {
         Table::Door => keyed!(world.doors, DoorId),
         Table::AreaObjects => named!(world.replicas, ReplicaId),
         Table::Places => named!(world.places, PlaceId),
+        Table::Zones => named!(world.zones, ZoneId),
         Table::Domain => {
             let domain = &world.domain;
             (domain.id.0 == id).then_some([domain.name.as_str(), domain.key.as_str()])

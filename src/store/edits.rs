@@ -10,10 +10,10 @@ use super::reader::{encode_touched, key_of_record, key_of_row};
 use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
-use super::time::Timestamp;
 use super::trees::CHANGES;
 use super::vault::Change as Write;
 use super::version::{Stamp, Version};
+use crate::units::Timestamp;
 
 /// Who changes the map, when and why. The clock is the caller's.
 #[derive(Debug, Clone, PartialEq, Eq)]

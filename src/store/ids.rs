@@ -5,9 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{Area, DoorMount, Item, Object, World};
+use crate::map::{Area, DoorMount, Extent, Item, Object, World};
 use crate::units::{
-    AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key,
+    AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId, name_key,
 };
 
 use super::cell::{Cell, Row};
@@ -25,6 +25,7 @@ const NAMED: &[(Table, &str, &[&str])] = &[
     (Table::Door, "ID", &["Key", "Name"]),
     (Table::AreaObjects, "ReplID", &["Name"]),
     (Table::Places, "PlaceID", &["Name"]),
+    (Table::Zones, "ZoneID", &["Key", "Name"]),
     (Table::OrtFrmTypeList, "ID", &["Name"]),
     (Table::OrtFrmShapeList, "ID", &["Name"]),
     (Table::OrtFrmSideTypeList, "ID", &["Name"]),
@@ -129,6 +130,7 @@ pub(crate) fn renumbered(world: &World, known: &mut Known) -> Result<World> {
         doors: assign!(Door, world.doors, key, name),
         replicas: assign!(AreaObjects, world.replicas, name, name),
         places: assign!(Places, world.places, name, name),
+        zones: assign!(Zones, world.zones, key, name),
         domain: known.assign(
             Table::Domain,
             [(world.domain.id.0, [world.domain.key.as_str(), world.domain.name.as_str()])]
@@ -155,6 +157,7 @@ struct Renumbering {
     doors: Ids,
     replicas: Ids,
     places: Ids,
+    zones: Ids,
     domain: Ids,
     frame_types: Ids,
     shapes: Ids,
@@ -218,6 +221,12 @@ impl Renumbering {
         rekey!(world.places, self.places, PlaceId, |p| {
             p.area = self.area(p.area);
             p.serves = p.serves.map(|r| ReplicaId(new(&self.replicas, r.0)));
+        });
+        rekey!(world.zones, self.zones, ZoneId, |z| {
+            match &mut z.extent {
+                Extent::Polygon { map, .. } => *map = MapId(new(&self.maps, map.0)),
+                Extent::Areas(areas) => areas.iter_mut().for_each(|area| *area = self.area(*area)),
+            }
         });
         rekey!(world.maps, self.maps, MapId, |m| {
             m.map_type = new_type(&self.map_types, m.map_type);

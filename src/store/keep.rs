@@ -21,10 +21,10 @@ use super::reader::{Reader, history_key, key_of_record, replica_index};
 use super::schema::Record;
 use super::sheet::Sheet;
 use super::tables::{self as t, Table};
-use super::time::Timestamp;
 use super::trees::{HISTORY, REPLICAS};
 use super::vault::{OpenReport, Vault};
 use super::version::{Stamp, Version};
+use crate::units::Timestamp;
 
 /// A store open for writing (or, with [`Store::open_read_only`], for reading).
 pub struct Store {

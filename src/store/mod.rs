@@ -63,7 +63,6 @@ mod sides;
 mod sim;
 mod snapshot;
 mod tables;
-mod time;
 mod trees;
 mod undo;
 mod vault;
@@ -71,6 +70,7 @@ mod version;
 mod wall;
 mod write;
 
+pub use crate::units::{Timestamp, TimestampError};
 pub use cell::{Cell, Key, Kind, Row};
 pub use check::{Finding, FsckReport, Severity, fsck};
 pub use derived::Derived;
@@ -85,7 +85,6 @@ pub use robot::{FoundAt, RobotMemory, SeenObstacle};
 pub use schema::{Column, Origin, Record};
 pub use sheet::Sheet;
 pub use tables::Table;
-pub use time::{Timestamp, TimestampError};
 pub use vault::OpenReport;
 pub use version::{Stamp, Version};
 

@@ -27,9 +27,9 @@ use super::keep::Store;
 use super::reader::Reader;
 use super::schema::Record;
 use super::tables::{self as t, Table};
-use super::time::Timestamp;
 use super::version::{Stamp, Version};
 use super::write::replica_record;
+use crate::units::Timestamp;
 
 /// Where something was seen.
 #[derive(Debug, Clone, Copy, PartialEq)]

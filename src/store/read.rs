@@ -5,21 +5,23 @@
 use std::collections::BTreeMap;
 
 use crate::map::{
-    Area, BaseVector, Domain, DomainMap, Door, DoorLeaf, DoorMount, DoorState, Forms, HingeSide,
-    Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, OpensTo, Orthoframe, Permeability,
-    Place, Profile, Properties, Replica, RobotProfile, SideRef, TypeEntry, TypeList, TypeLists,
-    World,
+    Area, BaseVector, Domain, DomainMap, Door, DoorLeaf, DoorMount, DoorState, Extent, Forms,
+    HingeSide, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, OpensTo, Orthoframe,
+    Permeability, Place, Profile, Properties, Replica, RobotProfile, SideRef, TypeEntry, TypeList,
+    TypeLists, World, Zone, ZoneKind,
 };
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    TypeId,
+    Timestamp, TypeId, ZoneId,
 };
 
 use super::error::{Result, StoreError};
 use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
-use super::write::{CASES, DOOR_KINDS, GENDERS, STATUSES, SYNONYM, TRAIT, face};
+use super::write::{
+    CASES, CLOSED, DOOR_KINDS, GENDERS, KEEP_OUT, ONE_WAY, SLOW, STATUSES, SYNONYM, TRAIT, face,
+};
 
 pub(super) fn world(sheet: &Sheet) -> Result<Option<World>> {
     let Some(domain) = sheet.all::<t::Domain>()?.into_iter().next() else { return Ok(None) };
@@ -32,6 +34,7 @@ pub(super) fn world(sheet: &Sheet) -> Result<Option<World>> {
         areas: reader.areas()?.into(),
         replicas: reader.replicas()?.into(),
         places: reader.places()?.into(),
+        zones: reader.zones()?.into(),
         maps: reader.maps()?.into(),
         robot: reader.robot()?,
         domain: reader.domain(domain)?,
@@ -413,6 +416,42 @@ impl Reader<'_> {
         keyed(records, place, |p| p.id)
     }
 
+    fn zones(&mut self) -> Result<BTreeMap<ZoneId, Zone>> {
+        let mut areas = grouped(self.sheet, |r: &t::ZoneAreas| r.zone_id, |r| r.no)?;
+        let records = self.sheet.all()?;
+        let zone = |r: t::Zones| {
+            let kind = match r.kind.as_str() {
+                KEEP_OUT => ZoneKind::KeepOut,
+                CLOSED => ZoneKind::Closed,
+                SLOW => ZoneKind::Slow { speed: cm(r.measure).or_bad(&r)?.get() },
+                ONE_WAY => ZoneKind::OneWay { heading: deg(r.measure).or_bad(&r)? },
+                _ => return Err(bad(&r)),
+            };
+            let areas = areas.remove(&r.zone_id).unwrap_or_default();
+            let extent = match r.map_id {
+                Some(map) => {
+                    let corners = corners(&r.points).or_bad(&r)?;
+                    Extent::Polygon { map: MapId(map), corners }
+                }
+                None => Extent::Areas(areas.iter().map(|a| AreaId(a.area_id)).collect()),
+            };
+            Ok(Zone {
+                id: ZoneId(r.zone_id),
+                kind,
+                extent,
+                from: moment(&r.starts).or_bad(&r)?,
+                until: moment(&r.ends).or_bad(&r)?,
+                forms: self.take_forms(Table::Zones, r.zone_id),
+                key: r.key,
+                name: r.name,
+                name_en: r.name_en,
+                reason: r.reason,
+                reason_en: r.reason_en,
+            })
+        };
+        keyed(records, zone, |z| z.id)
+    }
+
     fn maps(&self) -> Result<BTreeMap<MapId, Map>> {
         let mut items = grouped(self.sheet, |r: &t::MapItems| r.map_id, |r| r.no)?;
         let mut links = grouped(self.sheet, |r: &t::MapItemLinks| r.map_id, |r| r.no)?;
@@ -496,13 +535,18 @@ impl Reader<'_> {
             speed: r.speed,
             turn_rate: r.turn_rate,
             start: r.start.map(PlaceId),
-            footprint: footprint(&r.footprint).or_bad(&r)?,
+            footprint: corners(&r.footprint).or_bad(&r)?,
         })
     }
 }
 
+/// A moment; an empty text is none.
+fn moment(text: &str) -> Option<Option<Timestamp>> {
+    if text.is_empty() { Some(None) } else { text.parse().ok().map(Some) }
+}
+
 /// Corners as `x,y x,y …`.
-fn footprint(text: &str) -> Option<Vec<Point>> {
+fn corners(text: &str) -> Option<Vec<Point>> {
     let corner = |pair: &str| {
         let (x, y) = pair.split_once(',')?;
         let number = |n: &str| Cm::new(n.parse().ok()?).ok().map(Cm::get);

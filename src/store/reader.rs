@@ -14,9 +14,9 @@ use super::error::{Result, StoreError};
 use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
-use super::time::Timestamp;
 use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
 use super::version::{Version, VersionHead};
+use crate::units::Timestamp;
 
 /// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
 #[derive(Clone)]

@@ -15,9 +15,9 @@ use super::observe::{Observation, faded};
 use super::reader::Reader;
 use super::schema::Record;
 use super::tables::{self as t, Table};
-use super::time::Timestamp;
 use super::version::{Stamp, Version};
 use super::write::STATUSES;
+use crate::units::Timestamp;
 
 /// Where the robot is, and what it left otherwise than the map has it.
 #[derive(Debug, Clone, PartialEq, Default)]

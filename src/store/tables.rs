@@ -487,6 +487,30 @@ tables! {
         // Corners, "x,y x,y …"; empty for a disc.
         col footprint: String = "Footprint",
     }
+    /// Regions of the floor with rules of their own. Their places: points here, or Areas in `ZoneAreas`.
+    Beyond Zones = 52 {
+        key zone_id: u32 = "ZoneID",
+        col key: String = "Key",
+        col name: String = "Name",
+        col name_en: String = "NameEn",
+        // keep-out, closed, slow, one-way
+        col kind: String = "Kind",
+        // cm/s of a slow zone, degrees of a one-way one.
+        col measure: f64 = "Measure",
+        col map_id: Option<u32> = "MapID",
+        // Corners, "x,y x,y …"; empty where it is made of Areas.
+        col points: String = "Points",
+        col reason: String = "Reason",
+        col reason_en: String = "ReasonEn",
+        // Moments; empty where it has none.
+        col starts: String = "StartsAt",
+        col ends: String = "EndsAt",
+    }
+    Beyond ZoneAreas = 53 {
+        key zone_id: u32 = "ZoneID",
+        key no: u32 = "No",
+        col area_id: u32 = "AreaID",
+    }
     /// Where the robot stood last. `RecDate` says when, `RecUser` who said so.
     Log RobotPose = 60 {
         key robot_id: u32 = "RobotID",

@@ -3,7 +3,7 @@
 use super::cell::{Bytes, Row, decode_row, encode_row, put_bytes, put_signed, put_varint};
 use super::error::{Result, StoreError};
 use super::tables::Table;
-use super::time::Timestamp;
+use crate::units::Timestamp;
 
 /// RecDate, RecUser, Deleted, and the revision that wrote them.
 #[derive(Debug, Clone, PartialEq, Eq)]

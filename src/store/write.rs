@@ -1,11 +1,11 @@
 //! World → records (paper 2 §§2-7).
 
 use crate::map::{
-    Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Face, Forms, Gender, HingeSide,
-    Item, ItemLink, Map, Object, OpensTo, Orthoframe, Place, Profile, Properties, Replica,
-    TypeList, World,
+    Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Extent, Face, Forms, Gender,
+    HingeSide, Item, ItemLink, Map, Object, OpensTo, Orthoframe, Place, Profile, Properties,
+    Replica, TypeList, World, Zone, ZoneKind,
 };
-use crate::units::{Frame, TypeId};
+use crate::units::{Frame, Timestamp, TypeId};
 
 use super::error::Result;
 use super::sheet::Sheet;
@@ -110,6 +110,9 @@ pub(super) fn records(world: &World) -> Result<Sheet> {
     for place in world.places.values() {
         put_place(&mut sheet, place)?;
     }
+    for zone in world.zones.values() {
+        put_zone(&mut sheet, zone)?;
+    }
     for map in world.maps.values() {
         put_map(&mut sheet, world, map)?;
     }
@@ -143,6 +146,7 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
     put!(areas, |sheet, world, area| put_area(sheet, world, area));
     put!(replicas, |sheet, world, replica| put_replica(sheet, replica));
     put!(places, |sheet, world, place| put_place(sheet, place));
+    put!(zones, |sheet, world, zone| put_zone(sheet, zone));
     if before.areas == after.areas {
         put!(maps, |sheet, world, map| put_map(sheet, world, map));
     } else {
@@ -461,6 +465,48 @@ fn put_place(sheet: &mut Sheet, place: &Place) -> Result<()> {
         serves: place.serves.map(|r| r.0),
     })?;
     put_forms(sheet, Table::Places, place.id.0, &place.forms)
+}
+
+/// The words that stand for the kinds of zones.
+pub(super) const KEEP_OUT: &str = "keep-out";
+pub(super) const CLOSED: &str = "closed";
+pub(super) const SLOW: &str = "slow";
+pub(super) const ONE_WAY: &str = "one-way";
+
+fn moment(at: Option<Timestamp>) -> String {
+    at.map_or_else(String::new, |at| at.to_string())
+}
+
+fn put_zone(sheet: &mut Sheet, zone: &Zone) -> Result<()> {
+    let (kind, measure) = match zone.kind {
+        ZoneKind::KeepOut => (KEEP_OUT, 0.0),
+        ZoneKind::Closed => (CLOSED, 0.0),
+        ZoneKind::Slow { speed } => (SLOW, speed),
+        ZoneKind::OneWay { heading } => (ONE_WAY, heading.get()),
+    };
+    let (map, corners, areas) = match &zone.extent {
+        Extent::Polygon { map, corners } => (Some(map.0), &corners[..], &[][..]),
+        Extent::Areas(areas) => (None, &[][..], &areas[..]),
+    };
+    let points: Vec<String> = corners.iter().map(|p| format!("{},{}", p.x, p.y)).collect();
+    sheet.put(&t::Zones {
+        zone_id: zone.id.0,
+        key: zone.key.clone(),
+        name: zone.name.clone(),
+        name_en: zone.name_en.clone(),
+        kind: kind.to_owned(),
+        measure,
+        map_id: map,
+        points: points.join(" "),
+        reason: zone.reason.clone(),
+        reason_en: zone.reason_en.clone(),
+        starts: moment(zone.from),
+        ends: moment(zone.until),
+    })?;
+    for (no, area) in (0..).zip(areas) {
+        sheet.put(&t::ZoneAreas { zone_id: zone.id.0, no, area_id: area.0 })?;
+    }
+    put_forms(sheet, Table::Zones, zone.id.0, &zone.forms)
 }
 
 /// The Orthoframe of an Area's base item, or of its only one.

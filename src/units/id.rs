@@ -32,4 +32,6 @@ ids! {
     OpeningId,
     /// `ID` of one of the …TypeList tables.
     TypeId,
+    /// A region of the floor with a rule of its own; beyond the paper's tables.
+    ZoneId,
 }

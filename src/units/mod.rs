@@ -25,6 +25,7 @@ mod name;
 mod quantity;
 mod source;
 mod stop;
+mod time;
 
 pub use bilingual::Bilingual;
 pub use english::{English, InEnglish};
@@ -32,9 +33,11 @@ pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{
     AreaId, DomainId, DoorId, MapId, ObjectId, OpeningId, OrFrId, PlaceId, ReplicaId, TypeId,
+    ZoneId,
 };
 pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::Source;
 pub use stop::Stop;
+pub use time::{Timestamp, TimestampError};

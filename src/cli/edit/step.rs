@@ -262,6 +262,39 @@ pub(super) enum Step {
         #[arg(long, value_name = "AREA,…", value_delimiter = ',', required = true)]
         stops: Vec<String>,
     },
+    /// Lay out a zone, or say something else of one: a field given empty is taken back
+    Zone {
+        name: String,
+        /// keep-out, closed, slow or one-way
+        #[arg(long, value_name = "WORD")]
+        kind: Option<String>,
+        /// The Areas that it is
+        #[arg(long, value_name = "AREA,…", value_delimiter = ',')]
+        rooms: Vec<String>,
+        /// Its corners in the Map, cm: "0,0 40,0 20,30"
+        #[arg(long, value_name = "X,Y …", allow_hyphen_values = true, conflicts_with = "rooms")]
+        points: Option<String>,
+        /// The Map on which they lie
+        #[arg(long, value_name = "NAME")]
+        map: Option<String>,
+        /// Of a slow zone, cm/s
+        #[arg(long, value_name = "CM/S")]
+        speed: Option<f64>,
+        /// Of a one-way zone, degrees counter-clockwise
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+        heading: Option<f64>,
+        #[arg(long, value_name = "TEXT")]
+        reason: Option<String>,
+        #[arg(long, value_name = "TEXT")]
+        reason_en: Option<String>,
+        /// 2026-11-21T09:30Z
+        #[arg(long, value_name = "MOMENT")]
+        from: Option<String>,
+        #[arg(long, value_name = "MOMENT")]
+        until: Option<String>,
+        #[arg(long, value_name = "NAME")]
+        name_en: Option<String>,
+    },
 }
 
 /// Where something stands.

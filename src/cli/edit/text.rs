@@ -98,6 +98,12 @@ fn quoted(text: &str) -> String {
     json!(text).to_string()
 }
 
+/// `X,Y X,Y …` as a list of points; what is no number is left for the reader to refuse.
+fn corners(points: &str) -> String {
+    let corners: Vec<String> = points.split_whitespace().map(|p| format!("[{p}]")).collect();
+    format!("[{}]", corners.join(", "))
+}
+
 fn list_of(numbers: &[f64]) -> String {
     let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
     format!("[{}]", words.join(", "))
@@ -175,9 +181,7 @@ impl Step {
                     .opt("roof", roof.as_ref())
                     .names(names);
                 if let Some(points) = points {
-                    let corners: Vec<String> =
-                        points.split_whitespace().map(|p| format!("[{p}]")).collect();
-                    text = text.line("points", &format!("[{}]", corners.join(", ")));
+                    text = text.line("points", &corners(points));
                 }
                 if let Some(Numbers(regular)) = regular {
                     let word = |i: usize| regular.get(i).map_or_else(String::new, f64::to_string);
@@ -251,6 +255,37 @@ impl Step {
             Self::Lift { name, stops } => {
                 let stops: Vec<String> = stops.iter().map(|s| quoted(s.trim())).collect();
                 Text::step("lift", name).line("stops", &format!("[{}]", stops.join(", ")))
+            }
+            Self::Zone {
+                name,
+                kind,
+                rooms,
+                points,
+                map,
+                speed,
+                heading,
+                reason,
+                reason_en,
+                from,
+                until,
+                name_en,
+            } => {
+                let mut text = Text::step("zone", name).opt("kind", kind.as_ref());
+                if !rooms.is_empty() {
+                    let rooms: Vec<String> = rooms.iter().map(|r| quoted(r.trim())).collect();
+                    text = text.line("rooms", &format!("[{}]", rooms.join(", ")));
+                }
+                if let Some(points) = points {
+                    text = text.line("points", &corners(points));
+                }
+                text.opt("map", map.as_ref())
+                    .number("speed", *speed)
+                    .number("heading", *heading)
+                    .opt("reason", reason.as_ref())
+                    .opt("reason_en", reason_en.as_ref())
+                    .opt("from", from.as_ref())
+                    .opt("until", until.as_ref())
+                    .opt("name_en", name_en.as_ref())
             }
         };
         text.0

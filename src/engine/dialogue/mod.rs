@@ -153,6 +153,7 @@ impl Dialogue {
         text: &str,
         tell: &mut Tell<'_>,
     ) -> Result<Heard, Error> {
+        engine.pass_time(std::time::SystemTime::now().into());
         let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
         hearing.hear(text.trim())?;
         Ok(hearing.heard)

@@ -223,7 +223,7 @@ impl State {
                     .into_iter()
                     .any(|side| Entity::Area(side) == place || on_map(side) == Some(place)));
             }
-            Entity::Map(_) => None,
+            Entity::Map(_) | Entity::Zone(_) => None,
         };
         Ok(area.is_some_and(|area| Entity::Area(area) == place || on_map(area) == Some(place)))
     }

@@ -86,7 +86,10 @@ pub fn to_grid(world: &World, plan: &FloorPlan, cell: f64) -> Option<GridFiles> 
     }
     for fragment in plan.fragments() {
         for obstacle in fragment.obstacles() {
-            if !matches!(obstacle.blocker, Blocker::DoorLeaf { .. } | Blocker::Wall { .. }) {
+            if !matches!(
+                obstacle.blocker,
+                Blocker::DoorLeaf { .. } | Blocker::Wall { .. } | Blocker::Zone { .. }
+            ) {
                 raster.fill(&obstacle.polygon, OCCUPIED);
             }
         }

@@ -11,6 +11,7 @@ mod names;
 mod news;
 mod placed;
 pub mod plane;
+mod zones;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -65,6 +66,7 @@ pub(super) fn check_except(world: &World, broken: &BTreeSet<Record>) -> Vec<Faul
     checker.domain();
     checker.replicas();
     checker.places(|_| true);
+    checker.zones();
     checker.robot();
     checker.names();
     checker.faults

@@ -76,7 +76,8 @@ impl Checker<'_> {
             .chain(w.areas.values().map(|a| (Entity::Area(a.id), &a.name)))
             .chain(w.doors.values().map(|d| (Entity::Door(d.id), &d.name)))
             .chain(w.replicas.values().map(|r| (Entity::Replica(r.id), &r.name)))
-            .chain(w.places.values().map(|p| (Entity::Place(p.id), &p.name)));
+            .chain(w.places.values().map(|p| (Entity::Place(p.id), &p.name)))
+            .chain(w.zones.values().map(|z| (Entity::Zone(z.id), &z.name)));
         let nameless: Vec<_> = named.filter(|(_, name)| name.trim().is_empty()).collect();
         for (entity, _) in nameless {
             self.has_no_name(entity);
@@ -118,6 +119,7 @@ fn record(entity: Entity) -> Record {
         Entity::Door(id) => Record::Door(id),
         Entity::Replica(id) => Record::Replica(id),
         Entity::Place(id) => Record::Place(id),
+        Entity::Zone(id) => Record::Zone(id),
     }
 }
 
@@ -128,6 +130,7 @@ fn kind(entity: Entity) -> (&'static str, &'static str) {
         Entity::Door(_) => ("дверь", "door"),
         Entity::Replica(_) => ("экземпляр", "replica"),
         Entity::Place(_) => ("место", "place"),
+        Entity::Zone(_) => ("зона", "zone"),
     }
 }
 

@@ -57,6 +57,7 @@ impl MapError {
             Self::DuplicateId { what, id } => {
                 format!("{}: the number {id} is given twice", en(what))
             }
+            Self::BadZone { owner, message } => format!("{}: {}", en(owner), en(message)),
             Self::DanglingId { owner, what, id } => {
                 format!("{}: there is no {} of the number {id}", en(owner), en(what))
             }
@@ -440,6 +441,7 @@ impl MapError {
             Self::Carried { .. } => {
                 "leave out the edit of this thing, or begin anew: ortho do … --reset"
             }
+            Self::BadZone { .. } => "mend the zone; how one is written: docs/map.md",
             Self::More { .. } => "mend what is shown, and check the map again",
         };
         told.to_owned()

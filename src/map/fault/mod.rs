@@ -115,6 +115,11 @@ pub enum MapError {
     #[diagnostic(code(map::duplicate_part), help("обозначения частей и сторон не повторяются"))]
     DuplicatePart { owner: Bilingual, id: String },
 
+    /// A zone that is none: nowhere, never, or with an outline that crosses itself.
+    #[error("{owner}: {message}")]
+    #[diagnostic(code(map::bad_zone), help("исправьте зону; как её записать: docs/map.md"))]
+    BadZone { owner: Bilingual, message: Bilingual },
+
     /// None or several of the ways to give a base.
     #[error("Ортофрейм «{name}»: База задана {count} способами вместо одного")]
     #[diagnostic(code(map::base_form), help("оставьте одно из полей rect, regular, points, sides"))]

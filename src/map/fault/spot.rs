@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::TypeKind;
-use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
+use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId};
 
 /// A record of a [`World`](crate::World).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,6 +18,7 @@ pub enum Record {
     Replica(ReplicaId),
     Place(PlaceId),
     Map(MapId),
+    Zone(ZoneId),
 }
 
 /// One step from a record to what lies within it, in the words of the map file.
@@ -74,6 +75,7 @@ impl fmt::Display for Spot {
             Record::Replica(id) => write!(f, "replica[{}]", id.0)?,
             Record::Place(id) => write!(f, "place[{}]", id.0)?,
             Record::Map(id) => write!(f, "map[{}]", id.0)?,
+            Record::Zone(id) => write!(f, "zone[{}]", id.0)?,
         }
         self.steps.iter().try_for_each(|step| match step {
             Step::Field(name) => write!(f, ".{name}"),

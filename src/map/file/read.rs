@@ -9,17 +9,17 @@ use super::node::{Entry, Misprint, Node, Span};
 use super::records::type_entry;
 use super::schema::{
     AreaFile, DoorFile, FORMAT, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile,
-    TypeFile,
+    TypeFile, ZoneFile,
 };
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{
-    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key,
-    nearest_name,
+    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId,
+    name_key, nearest_name,
 };
 use crate::{TypeKind, TypeLists, World};
 
-const SECTIONS: [&str; 9] =
-    ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map"];
+const SECTIONS: [&str; 10] =
+    ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map", "zone"];
 
 /// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
 const MOST_GUESSES: usize = 30;
@@ -67,7 +67,7 @@ pub(super) struct Reader<'n> {
     left_out: HashSet<Span>,
     /// Names for which a likely one is still looked for among all there are.
     guesses_left: usize,
-    names: Names,
+    pub(super) names: Names,
 }
 
 /// What references may name.
@@ -112,6 +112,12 @@ impl<Id: Copy> Index<Id> {
         }
     }
 
+    /// The record where there is but one.
+    pub(super) fn only(&self) -> Option<Id> {
+        let mut ids = self.keys.values().copied();
+        ids.next().filter(|_| ids.next().is_none())
+    }
+
     fn get(&self, name: &str) -> Option<Id> {
         self.keys.get(name).or_else(|| self.folded.get(&name_key(name))).copied()
     }
@@ -143,7 +149,17 @@ macro_rules! keyed {
         }
     )+};
 }
-keyed!(OrthoframeFile, DoorFile, ObjectFile, AreaFile, PlanFile, PlaceFile, ReplicaFile, TypeFile);
+keyed!(
+    OrthoframeFile,
+    DoorFile,
+    ObjectFile,
+    AreaFile,
+    PlanFile,
+    PlaceFile,
+    ReplicaFile,
+    TypeFile,
+    ZoneFile
+);
 
 /// Ids for records in file order: the given one, else the one after its predecessor's, else a new highest one.
 fn number(given: &[Option<u32>]) -> Vec<u32> {
@@ -178,6 +194,7 @@ impl<'n> Reader<'n> {
         self.names.areas = self.index("area", &areas);
         let maps = self.section("map", ("Карта", "Map"), MapId, Record::Map);
         self.names.maps = self.index("map", &maps);
+        let zones = self.section("zone", ("Зона", "Zone"), ZoneId, Record::Zone);
         let replicas = self.replicas(&mut areas);
         let places = self.places(&mut areas);
 
@@ -189,6 +206,8 @@ impl<'n> Reader<'n> {
         world.areas = self.records(areas, Self::area).into();
         world.replicas = replicas.into_iter().filter_map(|r| self.replica(r)).collect();
         world.places = places.into_iter().map(|p| self.place(p)).collect();
+        let zones = zones.into_iter().filter_map(|raw| self.zone(raw));
+        world.zones = zones.map(|zone| (zone.id, zone)).collect();
         world.maps = self.records(maps, |reader, raw| reader.plan(raw, &world.areas)).into();
         world
     }

@@ -7,17 +7,18 @@ use super::read::{Origin, Raw, Reader};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, ItemFile, ItemLinkFile, MountFile, Number,
     ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile, SideTraitsFile,
-    StatusFile, TypeFile,
+    StatusFile, TypeFile, ZoneFile, ZoneWord,
 };
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    TypeId, nearest_name,
+    Timestamp, TypeId, ZoneId, nearest_name,
 };
 use crate::{
     Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
-    DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
-    Permeability, Place, Records, Replica, RobotProfile, SideRef, TypeEntry, TypeKind,
+    DoorStatus, Extent, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
+    Permeability, Place, Records, Replica, RobotProfile, SideRef, TypeEntry, TypeKind, Zone,
+    ZoneKind,
 };
 
 impl Reader<'_> {
@@ -464,6 +465,119 @@ impl Reader<'_> {
             forms: file.forms,
         };
         (id, place)
+    }
+
+    /// None where it does not say where it is or what is to be done there.
+    pub(super) fn zone(&mut self, raw: Raw<'_, ZoneId, ZoneFile>) -> Option<Zone> {
+        let Raw { id, key, file, .. } = raw;
+        let spot = Spot::of(Record::Zone(id));
+        let extent = self.extent(&file, &spot);
+        let kind = match (file.kind, file.speed, file.heading) {
+            (ZoneWord::KeepOut, None, None) => Some(ZoneKind::KeepOut),
+            (ZoneWord::Closed, None, None) => Some(ZoneKind::Closed),
+            (ZoneWord::Slow, Some(speed), None) => Some(ZoneKind::Slow { speed: speed.0 }),
+            (ZoneWord::OneWay, None, Some(heading)) => {
+                Some(ZoneKind::OneWay { heading: Deg::of(heading.0) })
+            }
+            (ZoneWord::Slow, None, _) => {
+                self.fault(MapError::MissingField { field: "speed" }, spot.clone());
+                None
+            }
+            (ZoneWord::OneWay, _, None) => {
+                self.fault(MapError::MissingField { field: "heading" }, spot.clone());
+                None
+            }
+            (_, speed, _) => {
+                let (field, message) = match (file.kind, speed) {
+                    (ZoneWord::OneWay, _) | (ZoneWord::KeepOut | ZoneWord::Closed, Some(_)) => {
+                        let words = (
+                            "скорость задают только медленной зоне",
+                            "only a slow zone has a speed",
+                        );
+                        ("speed", words)
+                    }
+                    _ => {
+                        let words = (
+                            "направление задают только односторонней зоне",
+                            "only a one-way zone has a heading",
+                        );
+                        ("heading", words)
+                    }
+                };
+                let error = MapError::BadValue { message: message.into() };
+                self.fault(error, spot.clone().field(field));
+                None
+            }
+        };
+        let from = self.moment(file.from.as_deref(), spot.clone().field("from"));
+        let until = self.moment(file.until.as_deref(), spot.field("until"));
+        Some(Zone {
+            id,
+            name: or_key(file.name, &key),
+            key,
+            name_en: file.name_en,
+            kind: kind?,
+            extent: extent?,
+            reason: file.reason,
+            reason_en: file.reason_en,
+            from,
+            until,
+            forms: file.forms,
+        })
+    }
+
+    fn extent(&mut self, file: &ZoneFile, spot: &Spot) -> Option<Extent> {
+        let both = ("дайте либо rooms, либо points", "give either rooms or points");
+        match (file.rooms.is_empty(), file.points.is_empty()) {
+            (true, true) => {
+                self.fault(MapError::BadValue { message: both.into() }, spot.clone());
+                None
+            }
+            (false, true) if file.map.is_none() => {
+                let mut areas = Vec::new();
+                for (i, room) in file.rooms.iter().enumerate() {
+                    let at = spot.clone().field("rooms").index(i);
+                    areas.extend(self.follow(|n| &n.areas, ("Помещение", "Area"), room, at));
+                }
+                (areas.len() == file.rooms.len()).then_some(Extent::Areas(areas))
+            }
+            (true, false) => {
+                let map = match &file.map {
+                    Some(map) => {
+                        let at = spot.clone().field("map");
+                        self.follow(|n| &n.maps, ("Карта", "Map"), map, at)
+                    }
+                    None => {
+                        let only = self.names.maps.only();
+                        if only.is_none() {
+                            let error = MapError::MissingField { field: "map" };
+                            self.fault(error, spot.clone());
+                        }
+                        only
+                    }
+                };
+                let corners = file.points.iter().map(|[x, y]| Point::new(x.0, y.0)).collect();
+                Some(Extent::Polygon { map: map?, corners })
+            }
+            _ => {
+                let field = if file.points.is_empty() { "map" } else { "points" };
+                let error = MapError::BadValue { message: both.into() };
+                self.fault(error, spot.clone().field(field));
+                None
+            }
+        }
+    }
+
+    fn moment(&mut self, text: Option<&str>, spot: Spot) -> Option<Timestamp> {
+        let moment = text?.parse::<Timestamp>();
+        if moment.is_err() {
+            let message = (
+                "время пишется так: 2026-11-21T09:30Z",
+                "a moment is written like this: 2026-11-21T09:30Z",
+            );
+            self.fault(MapError::BadValue { message: message.into() }, spot);
+        }
+        moment.ok()
     }
 
     pub(super) fn plan(

@@ -193,6 +193,8 @@ tables! {
         area: Table<AreaFile>;
         /// Floors or flats: Areas placed and bound together.
         map: Table<PlanFile>;
+        /// Regions of the floor with rules of their own.
+        zone: Table<ZoneFile>;
     }
 
     /// The building.
@@ -482,6 +484,35 @@ tables! {
         forms: FormsFile;
     }
 
+    /// A region of the floor with a rule of its own. Where it is, is told by exactly one of `rooms` and `points`.
+    ZoneFile {
+        /// What the robot is to do there.
+        kind: ZoneWord;
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        /// Keys of the Areas that it is, on one Map or several.
+        rooms: Vec<String>;
+        /// Key of the Map on which its points lie; may be left out when there is only one.
+        map: Option<String>;
+        /// Corners [x, y] in the Map, cm, counter-clockwise; it need not be convex.
+        points: Vec<[Number; 2]>;
+        /// Of a slow zone: the speed that is not exceeded, cm/s.
+        speed: Option<Number>;
+        /// Of a one-way zone: which way it is driven through, degrees counter-clockwise from +x of the Map.
+        heading: Option<Number>;
+        /// Why, in the words of people: "the floor is wet".
+        reason: String;
+        reason_en: String;
+        /// The moment when it begins, as 2026-11-21T09:30Z; in force from ever if left out.
+        from: Option<String>;
+        /// The moment when it ends; never if left out.
+        until: Option<String>;
+        forms: FormsFile;
+    }
+
     /// One placed copy of an Object.
     ReplicaFile {
         /// Unique in the world.
@@ -576,6 +607,19 @@ macro_rules! words {
             }
         }
     )+};
+}
+
+/// What the robot is to do in a zone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub(super) enum ZoneWord {
+    #[serde(rename = "keep-out", alias = "запретная")]
+    KeepOut,
+    #[serde(rename = "closed", alias = "закрыта")]
+    Closed,
+    #[serde(rename = "slow", alias = "медленная")]
+    Slow,
+    #[serde(rename = "one-way", alias = "односторонняя")]
+    OneWay,
 }
 
 words! {

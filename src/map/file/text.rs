@@ -9,7 +9,7 @@ use toml::ser::ValueSerializer;
 
 use super::schema::{
     At, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile, StatusFile,
-    Table,
+    Table, ZoneWord,
 };
 use crate::Gender;
 
@@ -110,6 +110,7 @@ printed!(
     At,
     Gender,
     PermeabilityFile,
+    ZoneWord,
     DoorKindFile,
     StatusFile,
     HingeFile,

@@ -5,13 +5,14 @@ use super::schema::{
     AreaFile, At, DomainFile, DomainMapFile, DoorFile, DoorStateFile, FORMAT, FormsFile, ItemFile,
     ItemLinkFile, LeafFile, LiftFile, MapFile, MountFile, Number, ObjectFile, OrthoframeFile,
     PermeabilityFile, PlaceFile, PlanFile, PlanItemFile, PlanLinkFile, ReplicaFile, RobotFile,
-    SideFile, SideTraitsFile, Table, TypeFile, TypesFile,
+    SideFile, SideTraitsFile, Table, TypeFile, TypesFile, ZoneFile, ZoneWord,
 };
 use super::text::{Lines, key};
 use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
 use crate::{
-    Area, BaseVector, DomainMap, Door, DoorMount, DoorState, DoorStatus, Face, Item, ItemLink, Map,
-    MapLink, Object, Orthoframe, Place, Replica, SideRef, TypeEntry, TypeKind, World,
+    Area, BaseVector, DomainMap, Door, DoorMount, DoorState, DoorStatus, Extent, Face, Item,
+    ItemLink, Map, MapLink, Object, Orthoframe, Place, Replica, SideRef, TypeEntry, TypeKind,
+    World, Zone, ZoneKind,
 };
 
 /// The types of the file, from which any notation can be written.
@@ -38,6 +39,7 @@ fn as_toml(file: &MapFile) -> String {
     tables(&mut text, "object", &file.object);
     tables(&mut text, "area", &file.area);
     tables(&mut text, "map", &file.map);
+    tables(&mut text, "zone", &file.zone);
     text
 }
 
@@ -135,6 +137,7 @@ impl Writer<'_> {
             object: section!(w.objects, object),
             area: self.areas(),
             map: section!(w.maps, plan),
+            zone: section!(w.zones, zone),
         }
     }
 
@@ -432,6 +435,43 @@ impl Writer<'_> {
             r#type: self.type_name(TypeKind::Map, map.map_type),
             frame: map.frame.clone(),
             links: map.links.iter().map(link).collect(),
+        }
+    }
+}
+
+impl Writer<'_> {
+    fn zone(&self, zone: &Zone, id: Option<u32>) -> ZoneFile {
+        let (kind, speed, heading) = match zone.kind {
+            ZoneKind::KeepOut => (ZoneWord::KeepOut, None, None),
+            ZoneKind::Closed => (ZoneWord::Closed, None, None),
+            ZoneKind::Slow { speed } => (ZoneWord::Slow, Some(number(speed)), None),
+            ZoneKind::OneWay { heading } => (ZoneWord::OneWay, None, Some(number(heading.get()))),
+        };
+        let (rooms, map, points) = match &zone.extent {
+            Extent::Areas(areas) => {
+                (areas.iter().map(|a| self.area_key(*a)).collect(), None, Vec::new())
+            }
+            Extent::Polygon { map, corners } => {
+                let is_told = self.world.maps.len() != 1;
+                let map = is_told.then(|| self.world.maps[map].key.clone());
+                (Vec::new(), map, corners.iter().map(|p| point(*p)).collect())
+            }
+        };
+        ZoneFile {
+            kind,
+            id,
+            name: default_name(&zone.name, &zone.key),
+            name_en: zone.name_en.clone(),
+            rooms,
+            map,
+            points,
+            speed,
+            heading,
+            reason: zone.reason.clone(),
+            reason_en: zone.reason_en.clone(),
+            from: zone.from.map(|t| t.to_string()),
+            until: zone.until.map(|t| t.to_string()),
+            forms: zone.forms.clone(),
         }
     }
 }

@@ -263,12 +263,16 @@ impl Mission<'_> {
         if stand.is_some_and(|at| floor.opens_from(&belief.world, door, at)) {
             return Ok(());
         }
-        Err(floor.struck_by(&belief.world, door).map(|blocker| match blocker {
+        Err(floor.struck_by(&belief.world, door).and_then(|blocker| match blocker {
             Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => {
-                Obstruction::Replica(replica)
+                Some(Obstruction::Replica(replica))
             }
-            Blocker::DoorLeaf { door, .. } => Obstruction::Door(door),
-            Blocker::Wall { area, .. } | Blocker::Floor { area, .. } => Obstruction::Wall(area),
+            Blocker::DoorLeaf { door, .. } => Some(Obstruction::Door(door)),
+            Blocker::Wall { area, .. } | Blocker::Floor { area, .. } => {
+                Some(Obstruction::Wall(area))
+            }
+            // No leaf strikes what is but a rule.
+            Blocker::Zone { .. } => None,
         }))
     }
 

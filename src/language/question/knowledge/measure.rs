@@ -3,10 +3,10 @@
 //! Invariant: things on different Maps have no distance.
 
 use super::Knowledge;
-use crate::map::Entity;
+use crate::map::{Entity, Extent};
 use crate::question::query::{Extreme, Thing};
 use crate::question::values::Property;
-use crate::units::{AreaId, MapId, Point};
+use crate::units::{AreaId, MapId, Point, Vector};
 
 impl Knowledge<'_> {
     /// The room in which a thing is.
@@ -23,6 +23,13 @@ impl Knowledge<'_> {
                 let (map, pose) = self.senses.robot()?;
                 self.relations.measurements().area_at(map, pose.at)
             }
+            Thing::Entity(Entity::Zone(id)) => match &self.world.zones.get(&id)?.extent {
+                Extent::Areas(areas) => areas.first().copied(),
+                Extent::Polygon { .. } => {
+                    let (map, at) = self.point(thing)?;
+                    self.relations.measurements().area_at(map, at)
+                }
+            },
             Thing::Entity(Entity::Map(_)) => None,
         }
     }
@@ -49,6 +56,13 @@ impl Knowledge<'_> {
                 Some((map, nalgebra::center(&window.ends.0, &window.ends.1)))
             }
             Thing::Robot => self.senses.robot().map(|(map, pose)| (map, pose.at)),
+            Thing::Entity(Entity::Zone(id)) => match &self.world.zones.get(&id)?.extent {
+                Extent::Areas(areas) => self.relations.area_centre(*areas.first()?),
+                Extent::Polygon { map, corners } => {
+                    let sum = corners.iter().fold(Vector::zeros(), |sum, p| sum + p.coords);
+                    Some((*map, Point::from(sum / corners.len() as f64)))
+                }
+            },
             Thing::Entity(Entity::Map(_)) => None,
         }
     }

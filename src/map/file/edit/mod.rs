@@ -47,6 +47,7 @@ pub struct NextIds {
     pub door: u32,
     pub replica: u32,
     pub place: u32,
+    pub zone: u32,
     pub types: BTreeMap<TypeKind, u32>,
 }
 
@@ -67,6 +68,7 @@ impl NextIds {
             door: next(world.doors.keys().next_back().map(|id| id.0)),
             replica: next(world.replicas.keys().next_back().map(|id| id.0)),
             place: next(world.places.keys().next_back().map(|id| id.0)),
+            zone: next(world.zones.keys().next_back().map(|id| id.0)),
             types: types.into(),
         }
     }
@@ -77,6 +79,7 @@ impl NextIds {
             Kind::Area => &mut self.area,
             Kind::Door => &mut self.door,
             Kind::Place => &mut self.place,
+            Kind::Zone => &mut self.zone,
             Kind::Map => &mut self.map,
             Kind::Object => &mut self.object,
             Kind::Orthoframe => &mut self.orthoframe,

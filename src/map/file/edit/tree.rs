@@ -16,23 +16,25 @@ pub(super) enum Kind {
     Door,
     Place,
     Map,
+    Zone,
     Object,
     Orthoframe,
 }
 
 /// The words by which an edit tells kinds of things apart that bear one name.
 #[must_use]
-pub fn kinds() -> [&'static str; 7] {
+pub fn kinds() -> [&'static str; 8] {
     Kind::ALL.map(Kind::word)
 }
 
 impl Kind {
-    pub(super) const ALL: [Self; 7] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::Replica,
         Self::Area,
         Self::Door,
         Self::Place,
         Self::Map,
+        Self::Zone,
         Self::Object,
         Self::Orthoframe,
     ];
@@ -45,6 +47,7 @@ impl Kind {
             Self::Door => "door",
             Self::Place => "place",
             Self::Map => "map",
+            Self::Zone => "zone",
             Self::Object => "object",
             Self::Orthoframe => "orthoframe",
         }
@@ -57,6 +60,7 @@ impl Kind {
             Self::Door => ("Дверь", "Door"),
             Self::Place => ("Место", "Place"),
             Self::Map => ("Карта", "Map"),
+            Self::Zone => ("Зона", "Zone"),
             Self::Object => ("Объект", "Object"),
             Self::Orthoframe => ("Ортофрейм", "Orthoframe"),
         }

@@ -8,6 +8,7 @@ mod standing;
 mod things;
 mod traits;
 mod word;
+mod zones;
 
 use std::collections::BTreeSet;
 
@@ -44,11 +45,12 @@ const VERBS: &[(&str, &[&str])] = &[
     ("stand", &["map", "at", "angle", "base"]),
     ("include", &["at", "angle", "base"]),
     ("lift", &["stops"]),
+    ("zone", zones::FIELDS),
 ];
 
 /// What may stand in an edit file beside `edit`.
-const SECTIONS: [&str; 9] =
-    ["format", "reason", "edit", "type", "orthoframe", "door", "object", "area", "map"];
+const SECTIONS: [&str; 10] =
+    ["format", "reason", "edit", "type", "orthoframe", "door", "object", "area", "map", "zone"];
 const GROUPS: &[Kind] = &[Kind::Area, Kind::Object];
 
 pub(super) struct Steps<'a> {
@@ -175,6 +177,7 @@ impl<'a> Steps<'a> {
             "unlink" => self.unlink(&step),
             "stand" => self.stand(&step),
             "include" => self.include(&step),
+            "zone" => self.zone(&step),
             _ => self.lift(&step),
         }
     }

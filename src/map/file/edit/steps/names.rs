@@ -43,6 +43,7 @@ impl Steps<'_> {
             Entity::Door(id) => (Kind::Door, &w.doors.get(&id)?.key),
             Entity::Replica(id) => (Kind::Replica, &w.replicas.get(&id)?.name),
             Entity::Place(id) => (Kind::Place, &w.places.get(&id)?.name),
+            Entity::Zone(id) => (Kind::Zone, &w.zones.get(&id)?.key),
         };
         if !kinds.contains(&kind) {
             return None;

@@ -65,7 +65,7 @@ impl Steps<'_> {
                     domain.strike("maps", is("map", name));
                 }
             }
-            Kind::Place | Kind::Object | Kind::Orthoframe => {}
+            Kind::Place | Kind::Zone | Kind::Object | Kind::Orthoframe => {}
         }
         Ok(())
     }
@@ -90,6 +90,20 @@ impl Steps<'_> {
                 let groups = GROUPS.iter().flat_map(|kind| self.tree.all(*kind));
                 let using = groups.filter(|g| !lines(*g, "items", "orthoframe").is_empty());
                 using.map(|g| quoted(self.tree.key(g))).collect()
+            }
+            Kind::Area => {
+                let names = |zone: &Handle| {
+                    let rooms = self.tree.get(*zone).and_then(|n| n.entry("rooms"));
+                    let rooms = rooms.map_or(&[][..], |e| e.node.elements());
+                    rooms.iter().any(|room| room.text() == Some(name))
+                };
+                let zones = self.tree.all(Kind::Zone).into_iter().filter(names);
+                zones.map(|zone| quoted(&self.tree.reference(zone))).collect()
+            }
+            Kind::Map => {
+                let zones = self.tree.all(Kind::Zone).into_iter();
+                let on = zones.filter(|zone| self.tree.get(*zone).is_some_and(|n| is(n, "map")));
+                on.map(|zone| quoted(&self.tree.reference(zone))).collect()
             }
             Kind::Place => {
                 let robot = self.tree.section("robot").iter().find(|e| e.key == "start");

@@ -44,7 +44,10 @@ impl Steps<'_> {
 
     /// `move`: to a place, by an offset, into another Area. Coordinates are those of the Area.
     pub(super) fn shift(&mut self, step: &Step<'_>) -> Done {
-        let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place])?;
+        let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place, Kind::Zone])?;
+        if at.kind == Kind::Zone {
+            return self.shift_zone(at, step);
+        }
         self.note_carrier(at, step)?;
         let before = self.tree.get(at).and_then(|n| n.entry("at")).map(|e| numbers(&e.node));
         let before = before.transpose()?.unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Moments as the store writes them. The clock itself is always the caller's.
+//! Moments as maps and the store write them. The clock itself is always the caller's.
 
 use std::fmt;
 use std::str::FromStr;
@@ -55,7 +55,7 @@ pub struct TimestampError;
 impl FromStr for Timestamp {
     type Err = TimestampError;
 
-    /// Also without the milliseconds, and a bare date as its midnight.
+    /// Also without the milliseconds or the seconds, and a bare date as its midnight.
     fn from_str(text: &str) -> Result<Self, TimestampError> {
         let (date, time) = text.split_once(['T', ' ']).unwrap_or((text, "00:00:00"));
         let time = time.strip_suffix('Z').unwrap_or(time);
@@ -66,7 +66,8 @@ impl FromStr for Timestamp {
             parts.try_into().map_err(|_too_many_or_few: Vec<i64>| TimestampError)
         };
         let [year, month, day] = parts(date, '-')?;
-        let [hour, minute, second] = parts(time, ':')?;
+        let whole = if time.matches(':').count() == 1 { &format!("{time}:00") } else { time };
+        let [hour, minute, second] = parts(whole, ':')?;
         let ms = match ms.len() {
             1..=3 => number(ms).ok_or(TimestampError)? * 10i64.pow(3 - ms.len() as u32),
             _ => return Err(TimestampError),
@@ -125,6 +126,7 @@ mod tests {
             assert_eq!(Timestamp(ms).to_string().parse(), Ok(Timestamp(ms)));
         }
         assert_eq!("2000-02-29".parse(), Ok(Timestamp(951_782_400_000)));
+        assert_eq!("2000-02-29T00:01Z".parse(), Ok(Timestamp(951_782_460_000)));
         for wrong in ["", "вчера", "2001-02-29", "2000-13-01", "2000-01-01T25:00:00Z", "1-2-3-4"]
         {
             assert!(wrong.parse::<Timestamp>().is_err(), "{wrong}");
