@@ -3,7 +3,7 @@
 //! Most are where they were: found by place, they take no further part, as the paper removes equal pairs. The rest is
 //! looked for near its place, then anywhere, by invariants.
 
-use std::collections::VecDeque;
+use std::{borrow::Cow, collections::VecDeque};
 
 use super::parts::{RigidPart, rigid_parts};
 use crate::{
@@ -84,6 +84,15 @@ pub(crate) fn aligned<const D: usize>(
         .iter()
         .map(|&(k, ..)| before.next(k).filter(|_| before.is_joined(k)).and_then(|n| position[n]));
     (told.collect(), next.collect())
+}
+
+/// Some segments of a model as one; all of them are the model itself.
+fn members_of<'a, const D: usize>(model: &'a Model<D>, members: &[usize]) -> Cow<'a, Model<D>> {
+    if members.len() == model.len() {
+        Cow::Borrowed(model)
+    } else {
+        Cow::Owned(model.part(members))
+    }
 }
 
 struct Matching<'a, const D: usize> {
@@ -170,9 +179,9 @@ where
             if left.len() < 2 || free.len() < 2 {
                 return;
             }
-            let (stored, view) = (self.after.part(&free), self.before.part(&left));
+            let (stored, view) = (members_of(self.after, &free), members_of(self.before, &left));
             let index = Index::of(
-                std::slice::from_ref(&stored),
+                std::slice::from_ref(stored.as_ref()),
                 Options {
                     confidence: self.equality.confidence(),
                     // Links of unknown length are asked for by views that have some.

@@ -151,25 +151,12 @@ where
         // Where what is known explains well, little can be gained.
         let poor: Vec<usize> =
             (0..count).filter(|&k| best.squared[k] > POOR * (2 * D) as f64).collect();
-        let gain = |motion: &Motion<D>| -> f64 {
-            poor.iter().map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
+        let gain_of = |k: usize, motion: &Motion<D>| {
+            (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)
         };
-        let candidates = candidates(pairs, next, &best.squared);
-        // Of many, a few tell which motions are worth asking all of them.
-        let stride = poor.len().div_ceil(SAMPLE).max(1);
-        let of_few = |motion: &Motion<D>| -> f64 {
-            let few = poor.iter().step_by(stride);
-            few.map(|&k| (best.squared[k] - distance(&pairs[k], motion).0).max(0.0)).sum()
-        };
-        let mut ranked: Vec<(f64, Motion<D>)> =
-            candidates.into_iter().map(|m| (of_few(&m), m)).collect();
-        ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if stride > 1 {
-            ranked.truncate(FINALISTS);
-            ranked.iter_mut().for_each(|(sum, motion)| *sum = gain(motion));
-        }
-        let found = ranked.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, mut motion)) = found else { break };
+        let gain = |motion: &Motion<D>| -> f64 { poor.iter().map(|&k| gain_of(k, motion)).sum() };
+        let found = foremost(candidates(pairs, next, &best.squared), &poor, gain_of);
+        let Some(mut motion) = found else { break };
         // What it explains better than those before, it is fitted to.
         for _ in 0..3 {
             let own: Vec<usize> = poor
@@ -208,17 +195,36 @@ fn first<const D: usize>(
 where
     Euclid<D>: Space<D>,
 {
-    let explains =
-        |motion: &Motion<D>| -> f64 { squared(pairs, motion).iter().map(|r| CAP - r.0).sum() };
     let fitting = squared(pairs, guess).iter().filter(|r| r.0 < OWN).count();
     let mut motion = *guess;
     if 2 * fitting <= pairs.len() {
         let mut all = candidates(pairs, next, &vec![CAP; pairs.len()]);
         all.push(*guess);
-        let found = all.into_iter().map(|m| (explains(&m), m)).max_by(|a, b| a.0.total_cmp(&b.0));
-        motion = found.map_or(*guess, |f| f.1);
+        let every: Vec<usize> = (0..pairs.len()).collect();
+        let explained = |k: usize, motion: &Motion<D>| CAP - distance(&pairs[k], motion).0;
+        motion = foremost(all, &every, explained).unwrap_or(*guess);
     }
     settle(pairs, next, vec![motion], Vec::new())
+}
+
+/// The motion that gains most of some pairs: of many, a few tell which are worth asking all of them.
+fn foremost<const D: usize>(
+    candidates: Vec<Motion<D>>,
+    among: &[usize],
+    gain: impl Fn(usize, &Motion<D>) -> f64,
+) -> Option<Motion<D>> {
+    let stride = among.len().div_ceil(SAMPLE).max(1);
+    let of = |motion: &Motion<D>, stride: usize| -> f64 {
+        among.iter().step_by(stride).map(|&k| gain(k, motion)).sum()
+    };
+    let mut ranked: Vec<(f64, Motion<D>)> =
+        candidates.into_iter().map(|motion| (of(&motion, stride), motion)).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if stride > 1 {
+        ranked.truncate(FINALISTS);
+        ranked.iter_mut().for_each(|(sum, motion)| *sum = of(motion, 1));
+    }
+    ranked.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).map(|found| found.1)
 }
 
 /// Assigns pairs to motions and fits the motions to their pairs, in turn; `fitted_to` tells which already are.

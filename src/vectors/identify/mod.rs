@@ -114,7 +114,7 @@ where
     pub fn of(models: &[Model<D>], options: Options) -> Self {
         let mut index = Self::new(options);
         for (k, model) in models.iter().enumerate() {
-            index.insert(ThingId(k as u32), model);
+            index.add(ThingId(k as u32), model, Table::append);
         }
         index.settle();
         index
@@ -154,6 +154,15 @@ where
 
     /// Adds a thing, or replaces it.
     pub fn insert(&mut self, thing: ThingId, model: &Model<D>) {
+        self.add(thing, model, Table::insert);
+    }
+
+    fn add(
+        &mut self,
+        thing: ThingId,
+        model: &Model<D>,
+        mut put: impl FnMut(&mut Table, &Key, u32, (u16, u16)),
+    ) {
         self.remove(thing);
         let slot = self.slots.len() as u32;
         self.slots.push(Some(thing));
@@ -167,8 +176,7 @@ where
                 let (swap, _) = canonical(&link.shape, kind, 0.0, 0.0);
                 let shape = if swap { link.shape.swapped() } else { link.shape };
                 let key = Key::of::<D>(&shape, kind, self.options.scale, 0.0, 0.0);
-                let (first, second) = if swap { (b, a) } else { (a, b) };
-                self.table.insert(&key, slot, first, second);
+                put(&mut self.table, &key, slot, if swap { (b, a) } else { (a, b) });
             }
         }
     }

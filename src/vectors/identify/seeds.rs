@@ -29,7 +29,7 @@ where
 {
     /// The first motion that explains more than half of the view; only those are looked at whole under which the
     /// neighbours of their two segments lie in place.
-    fn most(&self, trial: &Trial<'_, D>, counters: &mut Counters) -> Option<Found> {
+    fn most(&self, trial: &Trial<'_, D>, counters: &mut Counters) -> Option<Vec<Correspondence>> {
         let (view, options) = (self.view, &self.index.options);
         for link in link::links_of_view(view, options.reach) {
             for seeds in self.seeds(&link, counters) {
@@ -45,9 +45,9 @@ where
                 if fitting.count() < AROUND {
                     continue;
                 }
-                let found = trial.verify(motion, seeds, counters);
-                if let Some(h) = found.filter(|h| 2 * h.pairs.len() > view.len()) {
-                    return Some((h.pairs.len(), h.evidence, h.pairs));
+                let found = trial.place(motion, seeds, counters);
+                if let Some((_, pairs)) = found.filter(|(_, pairs)| 2 * pairs.len() > view.len()) {
+                    return Some(pairs);
                 }
             }
         }
@@ -81,10 +81,13 @@ where
             scale: options.scale,
             misses: self.view.len(),
         };
-        let mut best = self.most(&trial, counters);
+        // No other motion can explain more than what explains most.
+        if let Some(most) = self.most(&trial, counters) {
+            return Some(most);
+        }
+        let mut best: Option<Found> = None;
         let mut tried: HashSet<[Correspondence; 2]> = HashSet::new();
         for link in link::links_of_view(self.view, options.reach) {
-            // No other motion can explain more than what explains most.
             if best.as_ref().is_some_and(|b| 2 * b.0 > self.view.len()) {
                 break;
             }

@@ -49,16 +49,26 @@ impl Table {
         self.sorted.reserve_exact(links);
     }
 
-    pub(crate) fn insert(&mut self, key: &Key, slot: u32, first: u16, second: u16) {
-        let (last, hashed) = key.axes().split_last().expect("a key has axes");
-        let cell = hash(key.kind, hashed.iter().map(|axis| axis.cell()));
-        let posting = Posting { cell, value: last.value as f32, slot, first, second };
-        self.recent.entry(cell).or_default().push(posting);
+    pub(crate) fn insert(&mut self, key: &Key, slot: u32, segments: (u16, u16)) {
+        let posting = self.posting(key, slot, segments);
+        self.recent.entry(posting.cell).or_default().push(posting);
         self.pending += 1;
-        self.kinds[key.kind as usize] += 1;
         if self.pending > 4096.max(self.sorted.len() / 2) {
             self.settle();
         }
+    }
+
+    /// Adds one of many; nothing is found before they are settled.
+    pub(crate) fn append(&mut self, key: &Key, slot: u32, segments: (u16, u16)) {
+        let posting = self.posting(key, slot, segments);
+        self.sorted.push(posting);
+    }
+
+    fn posting(&mut self, key: &Key, slot: u32, (first, second): (u16, u16)) -> Posting {
+        let (last, hashed) = key.axes().split_last().expect("a key has axes");
+        let cell = hash(key.kind, hashed.iter().map(|axis| axis.cell()));
+        self.kinds[key.kind as usize] += 1;
+        Posting { cell, value: last.value as f32, slot, first, second }
     }
 
     /// Merges what was added since.

@@ -58,6 +58,18 @@ where
         seeds: [Correspondence; 2],
         counters: &mut Counters,
     ) -> Option<Hypothesis<D>> {
+        let (best, pairs) = self.place(motion, seeds, counters)?;
+        let evidence = self.evidence(&best, &pairs);
+        Some(Hypothesis { motion: best.motion, pairs, information: best.information, evidence })
+    }
+
+    /// The same, without weighing it: the motion, and what of the view is which part of the model.
+    pub(super) fn place(
+        &self,
+        motion: Motion<D>,
+        seeds: [Correspondence; 2],
+        counters: &mut Counters,
+    ) -> Option<(Fit<D>, Vec<Correspondence>)> {
         let (motion, mut pairs) = self.grow(motion, seeds, counters)?;
         let mut best = self.refine(motion, &pairs)?;
         // Until the same segments are found twice; the motion hardly moves any more.
@@ -70,8 +82,7 @@ where
             }
             best = self.refine(best.motion, &pairs)?;
         }
-        let evidence = self.evidence(&best, &pairs);
-        Some(Hypothesis { motion: best.motion, pairs, information: best.information, evidence })
+        Some((best, pairs))
     }
 
     /// Takes in segments from near to far; `None` as soon as too many do not fit.
@@ -177,16 +188,15 @@ where
         }
         // A face is seen once: of two segments on the same part of it the better one stays.
         found.sort_by(|p, q| p.0.total_cmp(&q.0));
-        let mut kept: Vec<(Correspondence, (f64, f64))> = Vec::with_capacity(found.len());
+        let mut taken: Vec<Vec<(f64, f64)>> = vec![Vec::new(); self.model.len()];
+        let mut pairs: Vec<Correspondence> = Vec::with_capacity(found.len());
         for (_, pair, (from, to)) in found {
-            let twice = |&(other, (low, high)): &(Correspondence, (f64, f64))| {
-                other.1 == pair.1 && to.min(high) > from.max(low)
-            };
-            if !kept.iter().any(twice) {
-                kept.push((pair, (from, to)));
+            let on_it = &mut taken[pair.1];
+            if !on_it.iter().any(|&(low, high)| to.min(high) > from.max(low)) {
+                on_it.push((from, to));
+                pairs.push(pair);
             }
         }
-        let mut pairs: Vec<Correspondence> = kept.into_iter().map(|(pair, _)| pair).collect();
         pairs.sort_unstable();
         (pairs.len() + self.misses >= self.view.len() && pairs.len() >= 2).then_some(pairs)
     }

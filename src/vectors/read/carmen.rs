@@ -1,7 +1,9 @@
 //! CARMEN logs: `FLASER n r1 … rn x y theta odom_x odom_y odom_theta time host time`, metres and radians.
 //!
 //! The older lines tell no angles: where no parameter gives the resolution, the field is half a turn, to which an odd
-//! number of beams includes both borders (361 beams are 0.5° apart, as 360 are). `ROBOTLASER1` and `RAWLASER1` tell all
+//! number of beams includes both borders (361 beams are 0.5° apart, as 360 are); a number of beams that would be no
+//! quarters of a degree apart then has another field (541 and 1081 mostly three quarters of a turn), which is not guessed.
+//! `ROBOTLASER1` and `RAWLASER1` tell all
 //! of their sensor. Other lines are passed over.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -12,6 +14,8 @@ use crate::scan::{Noise, Sensor};
 
 /// Farthest range where no parameter tells it, in m.
 const FARTHEST: f64 = 50.0;
+/// Quarters of a degree in half a turn.
+const QUARTERS: usize = 720;
 
 /// Whether a line is of this format.
 pub(crate) fn is_head(line: &str) -> bool {
@@ -123,8 +127,13 @@ fn front(
     let count = ranges.len();
     let (first, step) = match resolution {
         Some(step) => (-0.5 * step * count.saturating_sub(1) as f64, step),
-        None if count % 2 == 1 => (-FRAC_PI_2, PI / (count - 1).max(1) as f64),
-        None => (-FRAC_PI_2, PI / count.max(1) as f64),
+        None => {
+            let steps = if count % 2 == 1 { count - 1 } else { count }.max(1);
+            if !QUARTERS.is_multiple_of(steps) {
+                return Err(LogFault::Field { count, at: place.into() });
+            }
+            (-FRAC_PI_2, PI / steps as f64)
+        }
     };
     let rest = &all[count + 1..];
     let seen = pose([&rest[0], &rest[1], &rest[2]])?;

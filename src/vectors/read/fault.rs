@@ -64,6 +64,17 @@ pub enum LogFault {
         at: SourceSpan,
     },
 
+    #[error("{count} лучей: какое поле зрения, журнал не говорит")]
+    #[diagnostic(
+        code(vectors::log_field),
+        help("укажите шаг в градусах строкой «PARAM laser_front_laser_resolution 0.25»")
+    )]
+    Field {
+        count: usize,
+        #[label("эта строка")]
+        at: SourceSpan,
+    },
+
     #[error("строка обрывается: есть слов {found}, нужно {needed}")]
     #[diagnostic(code(vectors::log_cut), help("допишите строку или удалите её"))]
     CutOff {

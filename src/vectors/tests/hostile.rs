@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use orthoframe_units::Source;
 use orthoframe_vectors::picture::Picture;
-use orthoframe_vectors::read::{Reading, read_log, unpacked};
+use orthoframe_vectors::read::{LogFault, Reading, read_log, unpacked};
 use orthoframe_vectors::scan::{Extractor, Noise, Sensor};
 use orthoframe_vectors::{
     Course, Equality, Model, Odometry, PoseNoise, Scene, Segment, difference, polyline, survey,
@@ -30,6 +30,22 @@ fn what_is_no_range_is_no_return() {
         let reading = read(&line(&[odd; 180], "0 0 0"));
         assert!(reading.error.is_none(), "{odd}: {:?}", reading.error);
         assert!(segments(&reading).is_empty(), "{odd}");
+    }
+}
+
+/// A line that tells no angles has half a turn where its beams then are whole quarters of a degree apart; else nothing is guessed.
+#[test]
+fn a_field_that_is_not_told_is_not_guessed() {
+    for count in [1, 3, 5, 60, 90, 91, 180, 181, 360, 361, 720, 721] {
+        let reading = read(&line(&vec!["2.0"; count], "0 0 0"));
+        assert!(reading.error.is_none(), "{count}: {:?}", reading.error);
+    }
+    for count in [100, 401, 512, 541, 682, 769, 1081] {
+        let one = line(&vec!["2.0"; count], "0 0 0");
+        let faults = read(&one).error.expect("its field is not told").faults;
+        assert!(matches!(faults[..], [LogFault::Field { count: told, .. }] if told == count));
+        let told = read(&format!("PARAM laser_front_laser_resolution 0.25 h 0\n{one}"));
+        assert!(told.error.is_none() && told.log.scans.len() == 1, "{:?}", told.error);
     }
 }
 
