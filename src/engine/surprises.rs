@@ -34,6 +34,12 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         Surprise::Blocked { bump, .. } => {
             told("путь преграждает {}", "{} is in the way", bump.against)
         }
+        Surprise::Displaced => language
+            .pick(
+                "робот оказался не там, где считал себя",
+                "the robot found itself elsewhere than it believed",
+            )
+            .to_owned(),
         Surprise::Noticed { seen } => {
             let what = match seen {
                 Sighting::Door { door, .. } => Obstruction::Door(*door),

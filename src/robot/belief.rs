@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::{DoorStates, FloorPlan, Scene};
+use crate::geometry::{DoorStates, FloorPlan, Polygon, Scene};
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
-use super::vehicle::Sighting;
+use super::obstacle::{is_obstacle, stand_obstacle};
+use super::vehicle::{Outlines, Sighting};
 
 /// Where the robot is, as the rules speak of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,6 +42,9 @@ pub struct Person {
 pub const STARTING_POINT: &str = "Исходная-точка";
 /// A robot this near to a named place stands at it, cm.
 pub(super) const AT_PLACE: f64 = 15.0;
+
+/// What is seen so near to an unknown thing is that thing, cm.
+const SAME: f64 = 10.0;
 
 /// What the mission holds to be so.
 #[derive(Debug, Clone)]
@@ -339,6 +343,28 @@ impl Belief {
                 true
             }
         }
+    }
+
+    /// Stands things there that were seen and that nobody knows; whether any of them was not there before.
+    pub(super) fn stand(&mut self, seen: &Outlines) -> bool {
+        let mut new = Vec::new();
+        for pieces in &seen.things {
+            let Some(middle) = pieces.first().map(Polygon::centroid) else { continue };
+            let known = self.scene().replicas.values().filter(|thing| is_obstacle(thing.id));
+            let is_known = known.flat_map(|thing| &thing.prisms).any(|prism| {
+                prism.polygon.contains(middle, 0.0) || prism.polygon.border_distance(middle) <= SAME
+            });
+            let Some(area) = self.scene().area_at(middle).filter(|_| !is_known) else { continue };
+            let Some((_, frame)) = self.world.placement(area) else { continue };
+            let own = |piece: &Polygon| piece.corners.iter().map(|p| frame.invert(*p)).collect();
+            let pieces: Vec<Vec<Point>> = pieces.iter().map(own).collect();
+            let top = seen.top - frame.z.get();
+            new.extend(stand_obstacle(&mut self.world, area, &pieces, top));
+        }
+        if !new.is_empty() {
+            self.rebuild(&new);
+        }
+        !new.is_empty()
     }
 
     pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {

@@ -22,7 +22,9 @@ use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
 use super::solve::{Solved, solve_again};
 use super::vehicle::protocol::Scan;
-use super::vehicle::{Bump, Failure, Moment, Obstruction, Refusal, Sighting, Unfinished, Vehicle};
+use super::vehicle::{
+    Bump, Failure, Moment, Obstruction, Outlines, Refusal, Sighting, Unfinished, Vehicle,
+};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,8 +87,10 @@ pub struct Leg {
 /// Why a directive could not be carried out.
 #[derive(Debug, Clone)]
 pub enum Surprise {
-    /// Something stood in the way, and this is what was seen of it.
-    Blocked { bump: Bump, seen: Option<Sighting> },
+    /// Something stood in the way, and this is what was seen of it; where nobody knows it, of all that nobody knows there.
+    Blocked { bump: Bump, seen: Option<Sighting>, outlines: Outlines },
+    /// The robot found itself elsewhere than it was held to be.
+    Displaced,
     /// On its way the vehicle saw what was not believed.
     Noticed { seen: Sighting },
     /// The vehicle would not.
@@ -239,7 +243,11 @@ impl<'r> Mission<'r> {
         self.limits.stop = Some(stop.clone());
         self.changes.clear();
         match Reins::new(vehicle, (self.belief.map, self.belief.pose), stop, tell) {
-            Ok(mut reins) => self.pursue(goal, &mut reins),
+            Ok(mut reins) => {
+                // What was seen counts before the first metre.
+                self.take_notice(&mut reins);
+                self.pursue(goal, &mut reins)
+            }
             Err(failure) => Ok(Ending::Failed(failure)),
         }
     }
@@ -386,15 +394,15 @@ impl<'r> Mission<'r> {
 
     /// Counts how often a thing was seen otherwise than before; the number, once it is too often.
     fn is_restless(&mut self, surprise: &Surprise) -> Option<usize> {
-        let (Surprise::Noticed { seen }
-        | Surprise::Blocked { seen: Some(seen), .. }
-        | Surprise::Refused { seen: Some(seen), .. }) = surprise
-        else {
-            return None;
-        };
-        let what = match seen {
-            Sighting::Door { door, .. } => Obstruction::Door(*door),
-            Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+        let what = match surprise {
+            Surprise::Noticed { seen }
+            | Surprise::Blocked { seen: Some(seen), .. }
+            | Surprise::Refused { seen: Some(seen), .. } => match seen {
+                Sighting::Door { door, .. } => Obstruction::Door(*door),
+                Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+            },
+            Surprise::Displaced => Obstruction::Something,
+            _ => return None,
         };
         let times = self.changes.entry(what).or_default();
         *times += 1;
@@ -414,6 +422,13 @@ impl<'r> Mission<'r> {
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
         match surprise {
+            // What was seen of it stands there from now on, and a way may lead past it.
+            Surprise::Blocked { outlines, .. }
+                if self.is_new(surprise) && self.belief.stand(outlines) =>
+            {
+                self.name_this_point();
+                true
+            }
             // How large it is nobody knows: the way of this directive is given up, others may be free.
             Surprise::Blocked { .. } if self.is_new(surprise) => {
                 self.name_this_point();
@@ -437,6 +452,10 @@ impl<'r> Mission<'r> {
                 // The robot stopped somewhere on its way; from here on that is its place.
                 self.name_this_point();
                 self.belief.learn(*seen)
+            }
+            Surprise::Displaced => {
+                self.name_this_point();
+                self.belief.floor().locate(self.belief.pose.at).is_some()
             }
             // It was taken over when it was noticed.
             Surprise::Noticed { .. } => true,
@@ -576,14 +595,19 @@ fn refused(unfinished: Unfinished<Refusal>, reins: &mut Reins<'_>) -> Unfinished
 /// What stood in the way, with what there is to see of it.
 fn blocked(unfinished: Unfinished<Bump>, reins: &mut Reins<'_>) -> Unfinished<Surprise> {
     let about = |bump: &Bump| Some(bump.against);
-    surprised(unfinished, reins, about, |bump, seen| Surprise::Blocked { bump, seen })
+    let outlines = match &unfinished {
+        Unfinished::Met(Bump { against: Obstruction::Something, .. }) => reins.outlines(),
+        _ => Outlines::default(),
+    };
+    let blocked = |bump, seen| Surprise::Blocked { bump, seen, outlines };
+    surprised(unfinished, reins, about, blocked)
 }
 
 fn surprised<Why>(
     unfinished: Unfinished<Why>,
     reins: &mut Reins<'_>,
     about: impl Fn(&Why) -> Option<Obstruction>,
-    surprise: impl Fn(Why, Option<Sighting>) -> Surprise,
+    surprise: impl FnOnce(Why, Option<Sighting>) -> Surprise,
 ) -> Unfinished<Surprise> {
     match unfinished {
         Unfinished::Met(why) => match about(&why).map(|what| reins.look_at(what)).transpose() {

@@ -18,14 +18,18 @@ use orthoframe_geometry as geometry;
 use orthoframe_graphplan as graphplan;
 use orthoframe_map as map;
 use orthoframe_semantics as semantics;
+use orthoframe_sensing as sensing;
 use orthoframe_strips as strips;
 use orthoframe_units as units;
+use orthoframe_vectors as vectors;
 
 mod belief;
 mod directive;
 mod eye;
 mod idle;
 mod mission;
+mod obstacle;
+mod pilot;
 mod placing;
 mod rehearsal;
 mod reins;
@@ -40,11 +44,13 @@ pub use directive::{Deed, Directive, Effect};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
+pub use obstacle::{is_obstacle, stand_obstacle};
+pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};
-pub use simulator::Simulator;
+pub use simulator::{Senses, SensingRobot, Simulator};
 pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
 pub use vehicle::{
-    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Patience, Refusal, RemoteVehicle,
-    Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
+    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
+    RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
 };
 pub use wishes::Wishes;

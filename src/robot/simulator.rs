@@ -29,6 +29,12 @@ use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
 
+mod laser;
+mod people;
+mod senses;
+
+pub use senses::{Senses, SensingRobot};
+
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
 /// How far the arm reaches beyond the footprint, cm.

@@ -149,6 +149,9 @@ impl Mission<'_> {
         let driven = reins.follow(&route.points, route.heading);
         leg.route = Some(route);
         self.belief.pose = reins.pose().1;
+        if reins.was_displaced() {
+            return Err(Surprise::Displaced.into());
+        }
         driven.map_err(|bump| blocked(bump, reins))
     }
 
@@ -156,6 +159,9 @@ impl Mission<'_> {
     fn turn(&mut self, heading: Deg, reins: &mut Reins<'_>) -> Result<(), Unfinished<Surprise>> {
         let turned = reins.follow(&[self.belief.pose.at], Some(heading));
         self.belief.pose = reins.pose().1;
+        if reins.was_displaced() {
+            return Err(Surprise::Displaced.into());
+        }
         turned.map_err(|bump| blocked(bump, reins))
     }
 

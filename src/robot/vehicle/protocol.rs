@@ -111,6 +111,10 @@ pub enum Saying {
         protocol: u32,
         /// What the vehicle is called, for people.
         name: String,
+        /// What it tells of where it stands is what its wheels count, in a frame of their own, and so are the paths that it
+        /// follows: the mission finds it by its scans.
+        #[serde(default, skip_serializing_if = "is_false")]
+        odometry: bool,
     },
     /// It is at work.
     Going,
@@ -130,6 +134,11 @@ pub enum Saying {
     Seen { sighting: Option<Sight> },
     /// It can do no more, now or ever.
     Failed { text: String },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_false(told: &bool) -> bool {
+    !told
 }
 
 /// Where a vehicle stands.
