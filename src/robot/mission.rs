@@ -324,7 +324,8 @@ impl<'r> Mission<'r> {
             if let Some(times) = self.is_restless(&surprise) {
                 return Ok(Ending::Failed(Failure::Restless { times }));
             }
-            if !self.learn(&surprise, directives[done]) {
+            // What was noticed at the end of the last directive hindered none.
+            if !self.learn(&surprise, directives[done.min(directives.len() - 1)]) {
                 return Ok(Ending::Stuck(surprise));
             }
             let bars = surprise.bars_a_way() || self.is_new(&surprise);
