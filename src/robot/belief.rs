@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::{DoorStates, FloorPlan, Polygon, Scene};
+use crate::geometry::{Bounds, DoorStates, FloorPlan, Polygon, Scene};
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
@@ -43,8 +43,10 @@ pub const STARTING_POINT: &str = "Исходная-точка";
 /// A robot this near to a named place stands at it, cm.
 pub(super) const AT_PLACE: f64 = 15.0;
 
-/// What is seen so near to an unknown thing is that thing, cm.
-const SAME: f64 = 10.0;
+/// Of more unknown things no way past them is looked for.
+const MOST_UNKNOWN: usize = 40;
+/// An unknown thing whose corners moved by no more is as it was, cm.
+const SAME: f64 = 5.0;
 
 /// What the mission holds to be so.
 #[derive(Debug, Clone)]
@@ -63,6 +65,9 @@ pub struct Belief {
     pub spots: Vec<Spot>,
     /// Places and doors that proved to have no way to them from within an Area.
     pub unreachable: Vec<(AreaId, String)>,
+    /// Unknown things that were met, and whether one whose outline was not seen bars one of these ways.
+    unknown: Vec<ReplicaId>,
+    is_barred: bool,
     /// Doors that could not be opened again from within an Area once they are shut.
     pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
@@ -113,6 +118,8 @@ impl Belief {
             people: Vec::new(),
             spots,
             unreachable: Vec::new(),
+            unknown: Vec::new(),
+            is_barred: false,
             no_return: Vec::new(),
             sought: BTreeMap::new(),
             found: BTreeSet::new(),
@@ -345,26 +352,67 @@ impl Belief {
         }
     }
 
-    /// Stands things there that were seen and that nobody knows; whether any of them was not there before.
+    /// Stands things there that were seen and that nobody knows, in place of what was seen there before; whether that was
+    /// otherwise.
     pub(super) fn stand(&mut self, seen: &Outlines) -> bool {
-        let mut new = Vec::new();
-        for pieces in &seen.things {
+        let (mut changed, mut is_news) = (Vec::new(), false);
+        for pieces in seen.things.iter().take(MOST_UNKNOWN.saturating_sub(self.unknown.len())) {
             let Some(middle) = pieces.first().map(Polygon::centroid) else { continue };
-            let known = self.scene().replicas.values().filter(|thing| is_obstacle(thing.id));
-            let is_known = known.flat_map(|thing| &thing.prisms).any(|prism| {
-                prism.polygon.contains(middle, 0.0) || prism.polygon.border_distance(middle) <= SAME
-            });
-            let Some(area) = self.scene().area_at(middle).filter(|_| !is_known) else { continue };
+            let bounds = pieces.iter().map(Polygon::bounds).reduce(|a, b| a.union(&b));
+            let Some(bounds) = bounds else { continue };
+            let Some(area) = self.scene().area_at(middle) else { continue };
+            // Where the robot stands nothing else does.
+            let (at, reach) = (self.pose.at, self.floor().reach());
+            if pieces.iter().any(|p| p.contains(at, 0.0) || p.border_distance(at) < reach) {
+                continue;
+            }
             let Some((_, frame)) = self.world.placement(area) else { continue };
+            let known = self.scene().replicas.values();
+            let known = known.filter(|thing| is_obstacle(thing.id) && thing.bounds.meets(&bounds));
+            let known: Vec<(ReplicaId, Bounds)> = known.map(|one| (one.id, one.bounds)).collect();
+            let is_same = |(_, old): &(ReplicaId, Bounds)| {
+                (old.min - bounds.min).norm() <= SAME && (old.max - bounds.max).norm() <= SAME
+            };
+            if known.iter().any(is_same) {
+                continue;
+            }
+            is_news = true;
+            for (old, _) in known {
+                self.world.replicas.remove(&old);
+                changed.push(old);
+            }
             let own = |piece: &Polygon| piece.corners.iter().map(|p| frame.invert(*p)).collect();
             let pieces: Vec<Vec<Point>> = pieces.iter().map(own).collect();
             let top = seen.top - frame.z.get();
-            new.extend(stand_obstacle(&mut self.world, area, &pieces, top));
+            let stood = stand_obstacle(&mut self.world, area, &pieces, top);
+            self.unknown.extend(stood);
+            changed.extend(stood);
         }
-        if !new.is_empty() {
-            self.rebuild(&new);
+        if !changed.is_empty() {
+            self.rebuild(&changed);
         }
-        !new.is_empty()
+        is_news
+    }
+
+    /// As [`Belief::no_way_to`], for something that nobody knows and that may go away again.
+    pub(super) fn no_way_for_now(&mut self, name: String) -> bool {
+        self.is_barred = true;
+        self.no_way_to(name)
+    }
+
+    pub(super) fn has_met_unknown(&self) -> bool {
+        !self.unknown.is_empty() || self.is_barred
+    }
+
+    /// What nobody knows may have been somebody, who is elsewhere by now.
+    pub(super) fn forget_unknown(&mut self) {
+        let gone = std::mem::take(&mut self.unknown);
+        self.world.replicas.retain(|id, _| !gone.contains(id));
+        self.rebuild(&gone);
+        // What it barred is not known; a rehearsal finds again what is barred all the same.
+        self.is_barred = false;
+        self.unreachable.clear();
+        self.no_return.clear();
     }
 
     pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {

@@ -124,6 +124,9 @@ pub enum Ending {
     Failed(Failure),
 }
 
+/// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
+const MOST_LOOKS: usize = 2;
+const LOOKS_OF_A_WAIT: usize = 8;
 /// So often what is seen of one thing may change the belief in one mission.
 const MOST_CHANGES: usize = 20;
 
@@ -252,7 +255,49 @@ impl<'r> Mission<'r> {
         }
     }
 
+    /// Where unknown things alone bar the way it looks again after a while: they may have been people.
     fn pursue(&mut self, goal: &[GoalFact], reins: &mut Reins<'_>) -> Result<Ending, MissionError> {
+        let mut looks = 0;
+        loop {
+            let ending = self.attempt(goal, reins)?;
+            match ending {
+                Ending::NoPlan(_) | Ending::Stuck(_) if looks < MOST_LOOKS => {
+                    looks += 1;
+                    if self.looked_again(reins) {
+                        continue;
+                    }
+                }
+                Ending::AlreadyTrue if looks > 0 => return Ok(Ending::Done),
+                _ => {}
+            }
+            return Ok(match ending {
+                Ending::NoPlan(planned) => {
+                    (reins.tell)(&Event::Planned(&planned));
+                    // Who is told may stop: another way that the task has is not tried then.
+                    if reins.stop.is_raised() { Ending::Stopped } else { Ending::NoPlan(planned) }
+                }
+                other => other,
+            });
+        }
+    }
+
+    /// Waits, and forgets the unknown things that it met; whether there were any, and it could.
+    fn looked_again(&mut self, reins: &mut Reins<'_>) -> bool {
+        if !self.belief.has_met_unknown() {
+            return false;
+        }
+        let waited = (0..LOOKS_OF_A_WAIT).all(|_| look_round(reins).is_ok());
+        self.belief.pose = reins.pose().1;
+        self.take_notice(reins);
+        self.belief.forget_unknown();
+        waited
+    }
+
+    fn attempt(
+        &mut self,
+        goal: &[GoalFact],
+        reins: &mut Reins<'_>,
+    ) -> Result<Ending, MissionError> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
@@ -289,12 +334,7 @@ impl<'r> Mission<'r> {
                 return stuck(refused, surprise, reins.tell);
             }
             let Some(plan) = planned.solved.outcome.plan() else {
-                (reins.tell)(&Event::Planned(&planned));
-                // Who is told may stop: another way that the task has is not tried then.
-                return Ok(match reins.stop.is_raised() {
-                    true => Ending::Stopped,
-                    false => Ending::NoPlan(Box::new(planned)),
-                });
+                return Ok(Ending::NoPlan(Box::new(planned)));
             };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
             self.places.clone_from(&planned.places);
@@ -324,8 +364,9 @@ impl<'r> Mission<'r> {
             if let Some(times) = self.is_restless(&surprise) {
                 return Ok(Ending::Failed(Failure::Restless { times }));
             }
+            let has_noticed = self.take_notice(reins).is_some();
             // What was noticed at the end of the last directive hindered none.
-            if !self.learn(&surprise, directives[done.min(directives.len() - 1)]) {
+            if !self.learn(&surprise, directives[done.min(directives.len() - 1)]) && !has_noticed {
                 return Ok(Ending::Stuck(surprise));
             }
             let bars = surprise.bars_a_way() || self.is_new(&surprise);
@@ -439,7 +480,7 @@ impl<'r> Mission<'r> {
                     _ => None,
                 });
                 // Each of them is noted.
-                aims.map(|name| self.belief.no_way_to(name)).filter(|is_news| *is_news).count() > 0
+                aims.map(|name| self.belief.no_way_for_now(name)).filter(|news| *news).count() > 0
             }
             // Where the thing stands may be known; that the door does not open for it was not.
             Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {

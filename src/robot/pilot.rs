@@ -10,9 +10,9 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use nalgebra::{Isometry2, Vector2};
+use nalgebra::Isometry2;
 
-use crate::geometry::{FloorPlan, Ride, nearest_on_segment};
+use crate::geometry::{FloorPlan, Polygon, Ride, convex_hull, nearest_on_segment};
 use crate::map::{DoorKind, DoorState, World};
 use crate::sensing::{
     Belief, Chart, Fit, Inspector, Localiser, Options, ThingSeen, Tracker, telling_move,
@@ -46,6 +46,8 @@ const STILL: f64 = 8.0;
 const SURE: f64 = 0.8;
 /// What is farther is not what stands in the way, cm.
 const NEAR: f64 = 200.0;
+/// How thick something is at least of which single returns tell, cm to each side.
+const THICK: f64 = 3.0;
 /// Contacts on one stretch of a way after which something unseen stands there.
 const CONTACTS: usize = 4;
 /// Away from what was touched, cm.
@@ -110,6 +112,8 @@ pub struct Pilot<'g, 'v> {
     doors: BTreeMap<DoorId, DoorState>,
     news: Vec<Sighting>,
     has_jumped: bool,
+    /// Returns for which it stopped last.
+    met: Vec<Point>,
 }
 
 /// What was heard on the way.
@@ -170,6 +174,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
             doors,
             news: Vec::new(),
             has_jumped: false,
+            met: Vec::new(),
         };
         let watch = &mut Watch::none();
         let looked: Done = pilot.ask(watch, |body, watch| body.look_round(watch));
@@ -369,6 +374,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
         let mut before: Option<Point> = None;
         for _ in 0..LOOKS {
             let met = self.in_the_way(path);
+            self.met.clone_from(&met);
             if met.is_empty() {
                 return Ok(());
             }
@@ -459,24 +465,37 @@ impl<'g, 'v> Pilot<'g, 'v> {
         }
     }
 
-    /// Away from what was touched: from the nearest return of the last look.
-    fn back_off(&mut self, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
-        let Some((from, sensor, ranges)) = &self.look else { return Ok(()) };
-        let ends = ranges.iter().zip(sensor.directions());
-        let near =
-            ends.filter(|(range, _)| sensor.returned(**range)).min_by(|a, b| a.0.total_cmp(b.0));
-        let Some((_, u)) = near else { return Ok(()) };
-        let away: Vector2<f64> = -(from.rotation * u);
-        let goal = self.at() + away * AWAY;
-        let goal = self.to_odometry(goal);
+    /// Back from what was touched on a way.
+    fn back_off(&mut self, way: Vector, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
+        let goal = self.to_odometry(self.at() - way.normalize() * AWAY);
         match self.ask(watch, |body, watch| body.follow(&[goal], None, watch)) {
             Ok(()) | Err(Unfinished::Met(_)) => self.settle(watch),
             Err(unfinished) => Err(unfinished),
         }
     }
 
+    /// Away from the nearest return of the last look.
+    fn away(&self) -> Vector {
+        let Some((from, sensor, ranges)) = &self.look else { return Vector::x() };
+        let ends = ranges.iter().zip(sensor.directions());
+        let near =
+            ends.filter(|(range, _)| sensor.returned(**range)).min_by(|a, b| a.0.total_cmp(b.0));
+        near.map_or(Vector::x(), |(_, u)| from.rotation * u)
+    }
+
     fn to_odometry(&self, p: Point) -> Point {
         self.odometry * (self.pose.inverse() * p)
+    }
+
+    /// Points just before the body on its way.
+    fn front(&self, way: Vector) -> Vec<Point> {
+        let radius = self.ground.world.robot.radius.get() + THICK + 1.0;
+        let course = way.y.atan2(way.x);
+        let before = |turn: f64| {
+            let (sin, cos) = (course + turn.to_radians()).sin_cos();
+            self.at() + Vector::new(cos, sin) * radius
+        };
+        [-25.0, 0.0, 25.0].map(before).to_vec()
     }
 
     /// Drives to one corner of a way.
@@ -506,12 +525,15 @@ impl<'g, 'v> Pilot<'g, 'v> {
                 Ok(()) => {}
                 Err(Unfinished::Met(bump)) => {
                     contacts += 1;
+                    self.settle(watch)?;
+                    // Below or above what the laser sees: it stands before the body.
+                    let met = self.front(way);
+                    self.back_off(way, watch)?;
                     if contacts >= CONTACTS {
+                        self.met = met;
                         let at = pose_of(&self.pose);
                         return Err(Bump { at, ..bump }.into());
                     }
-                    self.settle(watch)?;
-                    self.back_off(watch)?;
                 }
                 Err(unfinished) => return Err(unfinished),
             }
@@ -530,7 +552,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
                 Ok(()) => self.settle(watch)?,
                 Err(Unfinished::Met(_)) => {
                     self.settle(watch)?;
-                    self.back_off(watch)?;
+                    self.back_off(self.away(), watch)?;
                 }
                 Err(unfinished) => return Err(unfinished),
             }
@@ -625,7 +647,20 @@ impl Vehicle for Pilot<'_, '_> {
         let is_here = |middle: Point| (middle - at).norm() <= NEAR;
         let seen = self.inspector.differences().unmapped.into_iter();
         let seen = seen.filter(|seen| seen.sure >= SURE && is_here(seen.middle()));
-        Outlines { things: seen.map(|seen| seen.pieces).collect(), top: self.ground.height + 1.0 }
+        let mut things: Vec<Vec<Polygon>> = seen.map(|seen| seen.pieces).collect();
+        let is_told = |p: &Point| {
+            let mut pieces = things.iter().flatten();
+            pieces.any(|piece| piece.contains(*p, 0.0) || piece.border_distance(*p) <= UNKNOWN)
+        };
+        let untold: Vec<Point> = self.met.iter().filter(|p| !is_told(p)).copied().collect();
+        if untold.len() >= 2 {
+            let around = |p: &Point| {
+                [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
+                    .map(|(x, y)| p + Vector::new(x, y) * THICK)
+            };
+            things.push(vec![Polygon::new(convex_hull(untold.iter().flat_map(around).collect()))]);
+        }
+        Outlines { things, top: self.ground.height + 1.0 }
     }
 
     fn follow(

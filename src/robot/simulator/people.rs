@@ -90,12 +90,14 @@ impl Walker {
         self.stands = 0.0;
         self.rests_until = now + dice.f64() * REST;
         let scene = Scene::of(&body.truth, body.map);
+        // Who is nearer to something than people like, by a leaf that was opened, may walk on from there.
+        let kept = KEPT.min(clearance(body, self.at, self.at) - 1.0);
         for _ in 0..TRIES {
-            let Some(goal) = somewhere(&scene, self.area, dice) else { return };
+            let Some(goal) = somewhere(&scene, self.area, dice) else { continue };
             let past = nearest_on_segment(body.pose.at, self.at, goal) - body.pose.at;
             let here = (self.at - body.pose.at).norm();
             let is_away = past.norm() > (body.profile.radius.get() + POLITE).min(here - 1.0);
-            if is_away && clearance(body, self.at, goal) > KEPT {
+            if is_away && clearance(body, self.at, goal) > kept {
                 self.goal = goal;
                 return;
             }

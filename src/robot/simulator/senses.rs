@@ -9,12 +9,12 @@
 
 use fastrand::Rng;
 
-use crate::geometry::Ride;
+use crate::geometry::{Ride, opening_of};
 use crate::map::{DoorState, World};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 use crate::vehicle::protocol::Scan;
 use crate::vehicle::{
-    Bump, Done, Failure, Moment, Notice, Obstruction, Sighting, Unfinished, Vehicle, Watch,
+    Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
 
 use super::laser::Faces;
@@ -71,6 +71,9 @@ const LOOK: f64 = 0.25;
 /// Degrees by which the heading slips on a metre of way, per share of slip.
 const SWERVE: f64 = 30.0;
 
+/// So long it waits for people who stand in the way of a leaf, seconds.
+const PATIENCE: usize = 20;
+
 /// The simulated robot behind its senses.
 pub struct SensingRobot {
     body: Simulator,
@@ -126,6 +129,12 @@ impl SensingRobot {
     /// Somebody lifts it up and sets it down elsewhere: its wheels tell nothing of that.
     pub fn carry_off(&mut self, to: Pose) {
         self.body.pose = to;
+    }
+
+    /// Where people on the robot's Map are, as discs, for who judges a drive.
+    #[must_use]
+    pub fn people(&self) -> Vec<(Point, f64)> {
+        self.people_here()
     }
 
     fn people_here(&self) -> Vec<(Point, f64)> {
@@ -282,6 +291,16 @@ impl SensingRobot {
         Ok(())
     }
 
+    fn strikes_somebody(&self, door: DoorId, state: DoorState) -> bool {
+        let Some(model) = self.body.truth.doors.get(&door) else { return false };
+        let openings = (opening_of(model.state), opening_of(state));
+        let people = self.people_here();
+        self.body.doorways().filter(|doorway| doorway.door == Some(door)).any(|doorway| {
+            let swept = doorway.leaves(model).swept(openings);
+            swept.iter().any(|way| people.iter().any(|(at, girth)| way.contains(*at, *girth)))
+        })
+    }
+
     fn lift_comes(&mut self, watch: &mut Watch<'_>) -> Done {
         let late = self.dice.f64() * self.senses.lift_delay;
         self.wait(late, watch)
@@ -329,8 +348,28 @@ impl Vehicle for SensingRobot {
         Ok(())
     }
 
+    /// Nobody is struck by a leaf: the robot waits until people have gone out of its way.
     fn set_door(&mut self, door: DoorId, state: DoorState, watch: &mut Watch<'_>) -> Done {
-        self.act(watch, |body| body.set_door(door, state, &mut Watch::none()))
+        for _ in 0..PATIENCE {
+            if !self.strikes_somebody(door, state) {
+                break;
+            }
+            self.wait(1.0, watch)?;
+        }
+        if self.strikes_somebody(door, state) {
+            let by = Some(Obstruction::Something);
+            return Err(Refusal::DoorJammed { door, by, opening: 0 }.into());
+        }
+        let done = self.act(watch, |body| body.set_door(door, state, &mut Watch::none()));
+        // That a leaf strikes something is felt, not what it is.
+        done.map_err(|unfinished| {
+            unfinished.map(|refusal| match refusal {
+                Refusal::DoorJammed { door, by: Some(_), opening } => {
+                    Refusal::DoorJammed { door, by: Some(Obstruction::Something), opening }
+                }
+                other => other,
+            })
+        })
     }
 
     fn call_lift(&mut self, door: Option<DoorId>, watch: &mut Watch<'_>) -> Done {

@@ -21,9 +21,7 @@ fn file(name: &str) -> std::path::PathBuf {
 }
 
 fn floors(world: &World) -> BTreeMap<MapId, FloorPlan> {
-    let plan = |&map: &MapId| {
-        (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()))
-    };
+    let plan = |&map: &MapId| (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()));
     world.maps.keys().map(plan).collect()
 }
 
@@ -89,9 +87,8 @@ fn stands(world: &World, map: MapId, thing: ReplicaId, robot: Point) -> bool {
         prism.polygon.corners.iter().all(|p| room.polygon.contains(*p, 0.0))
             && !edges_cross(&prism.polygon, &room.polygon)
     });
-    let is_clear = scene.replicas.values().all(|other| {
-        other.id == thing || !overlap(&own, &other.prisms)
-    });
+    let is_clear =
+        scene.replicas.values().all(|other| other.id == thing || !overlap(&own, &other.prisms));
     let keeps_off = own.iter().all(|prism| {
         !prism.polygon.contains(robot, 0.0) && prism.polygon.border_distance(robot) > 60.0
     });
@@ -100,7 +97,8 @@ fn stands(world: &World, map: MapId, thing: ReplicaId, robot: Point) -> bool {
 
 /// The doors of a map that have leaves.
 fn leafed(world: &World) -> Vec<orthoframe_units::DoorId> {
-    let doors = world.doors.values().filter(|d| d.kind != DoorKind::Passage && !d.leaves.is_empty());
+    let doors =
+        world.doors.values().filter(|d| d.kind != DoorKind::Passage && !d.leaves.is_empty());
     let in_rooms: BTreeSet<_> =
         Openings::of(world, STEP_REACH).iter().filter_map(|opening| opening.door).collect();
     doors.map(|door| door.id).filter(|id| in_rooms.contains(id)).collect()
@@ -229,7 +227,8 @@ impl Judge {
                 (0..=40).any(|step| {
                     at(f64::from(step) * 2.5).iter().any(|leaf| {
                         bodies.iter().any(|body| {
-                            let tall = if door.height.get() > 0.0 { door.height.get() } else { 200.0 };
+                            let tall =
+                                if door.height.get() > 0.0 { door.height.get() } else { 200.0 };
                             body.bottom < tall
                                 && (leaf.corners.iter().any(|p| body.polygon.contains(*p, 0.0))
                                     || body.polygon.corners.iter().any(|p| leaf.contains(*p, 0.0))
@@ -240,7 +239,12 @@ impl Judge {
             };
             let stays_shut = match door.state.status {
                 DoorStatus::Open => {
-                    solids.extend(leaves.obstacles(door.state).iter().flat_map(|l| l.edges().collect::<Vec<_>>()));
+                    solids.extend(
+                        leaves
+                            .obstacles(door.state)
+                            .iter()
+                            .flat_map(|l| l.edges().collect::<Vec<_>>()),
+                    );
                     false
                 }
                 DoorStatus::Locked => true,
@@ -259,9 +263,10 @@ impl Judge {
             .collect();
         let is_free = |p: Point| {
             scene.area_at(p).is_some()
-                && walls.iter().filter(|(near, _)| near.contains(p)).all(|(_, (a, b))| {
-                    (nearest_on_segment(p, *a, *b) - p).norm() >= reach
-                })
+                && walls
+                    .iter()
+                    .filter(|(near, _)| near.contains(p))
+                    .all(|(_, (a, b))| (nearest_on_segment(p, *a, *b) - p).norm() >= reach)
                 && !bodies.iter().any(|body| body.polygon.contains(p, 0.0))
         };
         // Between the rooms' floors lies the threshold, which is in no room.
@@ -275,9 +280,10 @@ impl Judge {
         let is_way = |p: Point| {
             is_free(p)
                 || (lies_between(p)
-                    && walls.iter().filter(|(near, _)| near.contains(p)).all(|(_, (a, b))| {
-                        (nearest_on_segment(p, *a, *b) - p).norm() >= reach
-                    }))
+                    && walls
+                        .iter()
+                        .filter(|(near, _)| near.contains(p))
+                        .all(|(_, (a, b))| (nearest_on_segment(p, *a, *b) - p).norm() >= reach))
         };
         let mut reached = BTreeSet::new();
         // Where it stands it stands, however near to something.
@@ -316,6 +322,10 @@ impl Judge {
     }
 }
 
+fn short(told: &str) -> String {
+    told.chars().take(300).collect()
+}
+
 struct Counts {
     done: usize,
     truly_impossible: usize,
@@ -326,7 +336,14 @@ struct Counts {
 }
 
 /// A mission by senses alone in a truth.
-fn run(world: &World, differing: &Differing, task: &Task, senses: Senses, how: &str, counts: &mut Counts) {
+fn run(
+    world: &World,
+    differing: &Differing,
+    task: &Task,
+    senses: Senses,
+    how: &str,
+    counts: &mut Counts,
+) {
     let (map, pose) = starting_pose(world).unwrap();
     let rules = RelationRules::standard();
     let relations = derive(world, &rules, world.domain.profile).unwrap();
@@ -347,7 +364,7 @@ fn run(world: &World, differing: &Differing, task: &Task, senses: Senses, how: &
             let mut tell = |event: &Event<'_>| match event {
                 Event::Planned(_) => log.push("plan".to_owned()),
                 Event::Started { directive, .. } => log.push(directive.to_string()),
-                Event::Surprised { surprise, .. } => log.push(format!("{surprise:?}")),
+                Event::Surprised { surprise, .. } => log.push(short(&format!("{surprise:?}"))),
                 _ => {}
             };
             let goal = [task.goal(world)];
@@ -358,14 +375,27 @@ fn run(world: &World, differing: &Differing, task: &Task, senses: Senses, how: &
     counts.contacts += body.contacts();
     counts.replans += log.iter().filter(|line| *line == "plan").count().saturating_sub(1);
     let (_, truly) = body.body().pose();
-    let told = || format!("{how}: {:?}\n  {}\n  {ending:?}\n  at {truly:?} believed {:?}", differing.told, log.join("\n  "), mission.belief.pose);
+    let told = || {
+        format!(
+            "{how}: {:?}\n  {}\n  {}\n  at {truly:?} believed {:?}",
+            differing.told,
+            log.join("\n  "),
+            match &ending {
+                Ending::NoPlan(_) => "no plan".to_owned(),
+                other => short(&format!("{other:?}")),
+            },
+            (mission.belief.pose, body.people())
+        )
+    };
     match &ending {
         Ending::Done | Ending::AlreadyTrue => {
             let scene = Scene::of(body.body().truth(), map);
             let holds = match *task {
-                Task::BeIn(area) => scene.area_at(truly.at) == Some(area)
+                Task::BeIn(area) => {
+                    scene.area_at(truly.at) == Some(area)
                     // On the threshold it is in both.
-                    || scene.areas[&area].prisms[0].polygon.border_distance(truly.at) < 10.0,
+                    || scene.areas[&area].prisms[0].polygon.border_distance(truly.at) < 10.0
+                }
                 Task::Hold(thing) => !body.body().truth().replicas.contains_key(&thing),
             };
             assert!(holds, "told done, and is not so: {}", told());
