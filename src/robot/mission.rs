@@ -88,7 +88,7 @@ pub struct Leg {
 #[derive(Debug, Clone)]
 pub enum Surprise {
     /// Something stood in the way, and this is what was seen of it; where nobody knows it, of all that nobody knows there.
-    Blocked { bump: Bump, seen: Option<Sighting>, outlines: Outlines },
+    Blocked { bump: Bump, seen: Option<Sighting>, outlines: Box<Outlines> },
     /// The robot found itself elsewhere than it was held to be.
     Displaced,
     /// On its way the vehicle saw what was not believed.
@@ -637,10 +637,10 @@ fn refused(unfinished: Unfinished<Refusal>, reins: &mut Reins<'_>) -> Unfinished
 /// What stood in the way, with what there is to see of it.
 fn blocked(unfinished: Unfinished<Bump>, reins: &mut Reins<'_>) -> Unfinished<Surprise> {
     let about = |bump: &Bump| Some(bump.against);
-    let outlines = match &unfinished {
+    let outlines = Box::new(match &unfinished {
         Unfinished::Met(Bump { against: Obstruction::Something, .. }) => reins.outlines(),
         _ => Outlines::default(),
-    };
+    });
     let blocked = |bump, seen| Surprise::Blocked { bump, seen, outlines };
     surprised(unfinished, reins, about, blocked)
 }

@@ -12,7 +12,8 @@
 //! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
 //! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
-//! free floor that the route was made from; it draws no random numbers, so a run repeats itself.
+//! free floor that the route was made from. What is random is drawn from one seed, so a run repeats itself; behind its
+//! senses (`simulator/senses`) the simulated robot tells nothing else of its world, and a [`Pilot`] finds where it is.
 
 use orthoframe_geometry as geometry;
 use orthoframe_graphplan as graphplan;

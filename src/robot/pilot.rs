@@ -265,7 +265,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
         let off = led.inverse() * self.pose;
         let turned = off.rotation.angle().abs().to_degrees();
         self.has_jumped |= off.translation.vector.norm() > JUMP.0 || turned > JUMP.1;
-        if let Some(fit) = fit.filter(|fit| is_known(fit)) {
+        if let Some(fit) = fit.filter(is_known) {
             self.inspector.take_in(&sensor, &ranges, &fit.pose);
         }
         self.look = Some((self.pose, sensor, ranges));

@@ -2,6 +2,8 @@
 //! that came, that are gone, people who walk about. Each ends: done, and it is so; or told impossible, and it is so by a
 //! judge who goes over the truth cell by cell and knows nothing of the robot's floor, rules or routes.
 
+#![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
+
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::Path;
 use std::sync::Arc;

@@ -1,5 +1,7 @@
 //! A robot that knows its world by its senses alone: what they tell, and where it believes itself to be (X4).
 
+#![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
+
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
