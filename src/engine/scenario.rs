@@ -17,7 +17,9 @@ use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
 /// The predicates of which a deed of the robot, or where it stands after one, makes a fact true.
-const DRIVEN: [&str; 18] = [
+const DRIVEN: [&str; 20] = [
+    predicate::STANDS_OPEN,
+    predicate::STANDS_SHUT,
     predicate::ROBOT_IN,
     predicate::ROBOT_AT_DOOR,
     predicate::ROBOT_AT_PLACE,

@@ -313,7 +313,7 @@ impl State {
         let followed = self.followed(&now.world)?;
         let relations = followed.relations();
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
-        self.not_shut_in(commands, &goals, relations)?;
+        self.shut_again(commands, &mut goals, now, relations)?;
         let unsure = self.unsure_of(commands, &goals, now)?;
         // Of what it is not sure where it is, it looks first.
         for (thing, _) in unsure.iter().rev() {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::geometry::{Bounds, DoorStates, FloorPlan, Polygon, Scene};
-use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, set_open, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
@@ -72,6 +72,8 @@ pub struct Belief {
     pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
     pub sought: BTreeMap<String, BTreeSet<AreaId>>,
+    /// Of these what is looked for everywhere, since no way leads to where it is likely.
+    wide: BTreeSet<String>,
     /// What is or was in view since the mission began, or known to be in a hand.
     pub found: BTreeSet<String>,
     /// Where things belong: by the names of a thing and of its support.
@@ -122,6 +124,7 @@ impl Belief {
             is_barred: false,
             no_return: Vec::new(),
             sought: BTreeMap::new(),
+            wide: BTreeSet::new(),
             found: BTreeSet::new(),
             homes: Vec::new(),
             into: BTreeSet::new(),
@@ -281,14 +284,51 @@ impl Belief {
         doors.map(|(id, _)| self.world.name(Entity::Door(*id)))
     }
 
-    /// Where a thing is believed to be; once it proved not to be there, every Area not yet searched.
+    /// Where a thing is believed to be; once it proved not to be there, the Areas where things of its kind lie; then every
+    /// Area. Of these those not yet searched.
     fn where_may_be(&self, thing: &str, searched: &BTreeSet<AreaId>) -> Vec<AreaId> {
         let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
         let believed = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
         match believed.map(|r| r.area) {
             Some(area) if !searched.contains(&area) => vec![area],
-            _ => self.world.areas.keys().copied().filter(|a| !searched.contains(a)).collect(),
+            _ => self.where_else(thing, searched).0,
         }
+    }
+
+    /// Where a thing may be that is not where it was believed to be: the Areas, not yet searched, where others of its kind
+    /// lie, and that it is for these; else all that are left.
+    pub(super) fn where_else(
+        &self,
+        thing: &str,
+        searched: &BTreeSet<AreaId>,
+    ) -> (Vec<AreaId>, bool) {
+        let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+        let sought = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
+        let left = || self.world.areas.keys().copied().filter(|area| !searched.contains(area));
+        let kind = |other: &Replica| self.world.objects.get(&other.object)?.object_type;
+        let is_kin = |one: &Replica, other: &Replica| {
+            one.id != other.id
+                && (one.object == other.object || kind(one).is_some() && kind(one) == kind(other))
+        };
+        let has_kin = |area: AreaId| {
+            let mut here = self.world.replicas.values().filter(|other| other.area == area);
+            sought.is_some_and(|one| here.any(|other| is_kin(one, other)))
+        };
+        let likely: Vec<AreaId> = match self.wide.contains(thing) {
+            true => Vec::new(),
+            false => left().filter(|area| has_kin(*area)).collect(),
+        };
+        if likely.is_empty() { (left().collect(), false) } else { (likely, true) }
+    }
+
+    /// No way leads to where a thing is likely: it may be elsewhere. Whether that was not thought of before.
+    pub(super) fn widen_search(&mut self) -> bool {
+        let lost = self.sought.iter().filter(|(thing, searched)| {
+            !searched.is_empty() && !self.found.contains(*thing) && !self.wide.contains(*thing)
+        });
+        let lost: Vec<String> = lost.map(|(thing, _)| thing.clone()).collect();
+        self.wide.extend(lost.iter().cloned());
+        !lost.is_empty()
     }
 
     /// Notes that a thing is not in an Area; whether it was news.
@@ -315,6 +355,14 @@ impl Belief {
         if let Some(replica) = self.world.replicas.get_mut(&device) {
             switch(&mut replica.properties, on);
         }
+    }
+
+    pub(super) fn set_open(&mut self, thing: ReplicaId, open: bool) {
+        let Some(replica) = self.world.replicas.get_mut(&thing) else { return };
+        if let Some(object) = self.world.objects.get(&replica.object) {
+            set_open(replica, object, open);
+        }
+        self.rebuild(&[thing]);
     }
 
     /// Whether a fact of the Map speaks of a way that proved not to be there.

@@ -99,8 +99,9 @@ pub enum Surprise {
     NoWay { to: String, why: NoRoute },
     /// The directive names what the Map does not know.
     Unknown { name: String },
-    /// A thing that is sought is in view of no place of this Area.
-    NotSeen { thing: String, area: AreaId },
+    /// A thing that is sought is in view of no place of this Area; where it is looked for next, and whether for things of its
+    /// kind that lie there.
+    NotSeen { thing: String, area: AreaId, next: Vec<AreaId>, for_kin: bool },
     /// Once it is shut, the robot could not open the door again from this Area: something stops its leaves, or there is no
     /// place to stand.
     NoReturn { door: DoorId, area: AreaId, by: Option<Obstruction> },
@@ -327,6 +328,12 @@ impl<'r> Mission<'r> {
             if reins.stop.is_raised() {
                 return Ok(Ending::Stopped);
             }
+            if matches!(planned.solved.outcome, Outcome::NoPlan { .. })
+                && self.belief.widen_search()
+            {
+                learned = now_learned.and_then(|learned| learned.after(&[]));
+                continue;
+            }
             // The rules do not tell what is in the way where a way was given up, only that there is none.
             if let (Outcome::NoPlan { .. }, Some(surprise)) =
                 (&planned.solved.outcome, given_up.take())
@@ -502,7 +509,7 @@ impl<'r> Mission<'r> {
             // It was taken over when it was noticed.
             Surprise::Noticed { .. } => true,
             Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
-            Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
+            Surprise::NotSeen { thing, area, .. } => self.belief.searched(thing, *area),
             Surprise::NoReturn { door, area, .. } => {
                 let door = self.belief.world.name(Entity::Door(*door)).to_owned();
                 self.belief.no_return_by(*area, door)

@@ -48,7 +48,8 @@ pub use mission::{
 pub use obstacle::{is_obstacle, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};
-pub use simulator::{Senses, SensingRobot, Simulator};
+pub use simulator::Simulator;
+pub use simulator::senses::{Senses, SensingRobot};
 pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
 pub use vehicle::{
     Address, Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Patience, Refusal,

@@ -497,6 +497,7 @@ impl Reader<'_> {
             turn_rate: r.turn_rate,
             start: r.start.map(PlaceId),
             footprint: footprint(&r.footprint).or_bad(&r)?,
+            opens: r.opens,
         })
     }
 }

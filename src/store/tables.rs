@@ -486,6 +486,7 @@ tables! {
         col start: Option<u32> = "StartPlaceID",
         // Corners, "x,y x,y …"; empty for a disc.
         col footprint: String = "Footprint",
+        col opens: bool = "Opens",
     }
     /// Where the robot stood last. `RecDate` says when, `RecUser` who said so.
     Log RobotPose = 60 {

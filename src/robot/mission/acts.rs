@@ -58,6 +58,11 @@ impl Mission<'_> {
                 self.cabin_stands_at(lift, door, opening);
             }
             Deed::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
+            Deed::SetOpen { thing, open } => {
+                let id = self.replica(thing)?;
+                self.within_reach(id, reins, leg, |v, watch| v.set_open(id, *open, watch))?;
+                self.belief.set_open(id, *open);
+            }
             Deed::Take(name) => self.take(name, reins, leg)?,
             Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
             Deed::HandOver { thing, person } => {

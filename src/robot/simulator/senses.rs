@@ -404,6 +404,10 @@ impl Vehicle for SensingRobot {
         self.act(watch, |body| body.ride(ride, door, (arrival.0, truly), &mut Watch::none()))
     }
 
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        self.act(watch, |body| body.set_open(thing, open, &mut Watch::none()))
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         self.act(watch, |body| body.take(thing, &mut Watch::none()))
     }

@@ -81,7 +81,7 @@ fn the_robot_never_stands_where_a_leaf_sweeps_that_it_opens() {
     for seed in 0..count {
         let mut dice = fastrand::Rng::with_seed(seed);
         let map = ["rb2", "rb2", "two-storeys"][seed as usize % 3];
-        let world = World::load(&root.join(format!("maps/{map}.toml"))).unwrap();
+        let world = World::load(root.join(format!("maps/{map}.toml"))).unwrap();
         let world = varied(&world, &mut dice);
         let (map, pose) = starting_pose(&world).unwrap();
         let plan =

@@ -422,7 +422,7 @@ fn run(
 fn missions_in_worlds_that_differ_end_done_or_truly_impossible() {
     let count = if std::env::var_os("ORTHOFRAME_LONG").is_some() { 100 } else { 30 };
     let one = std::env::var("ORTHOFRAME_SEED").ok().and_then(|seed| seed.parse::<u64>().ok());
-    let world = World::load(&file("maps/rb2.toml")).unwrap();
+    let world = World::load(file("maps/rb2.toml")).unwrap();
     let (map, pose) = starting_pose(&world).unwrap();
     let medicine = world.find("Лекарство").into_iter().find_map(|entity| match entity {
         Entity::Replica(id) => Some(id),

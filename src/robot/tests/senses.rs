@@ -13,7 +13,7 @@ use orthoframe_units::{Deg, MapId, Point, Pose, Stop};
 
 fn rb2() -> World {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/rb2.toml");
-    World::load(&file).expect("the example map is sound")
+    World::load(file).expect("the example map is sound")
 }
 
 fn floors(world: &World) -> BTreeMap<MapId, FloorPlan> {

@@ -352,6 +352,11 @@ impl Vehicle for RemoteVehicle {
         self.act("ride", wish, watch)
     }
 
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        let thing = self.names.thing_name(thing);
+        self.act("set_open", Wish::SetOpen { thing, open }, watch)
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         let thing = self.names.thing_name(thing);
         self.act("take", Wish::Take { thing }, watch)

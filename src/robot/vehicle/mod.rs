@@ -302,6 +302,16 @@ pub trait Vehicle {
         watch: &mut Watch<'_>,
     ) -> Done;
 
+    /// Opens or shuts the doors, lid or drawer of a thing. A vehicle that cannot refuses.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the thing is then as it was.
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        let _cannot = open;
+        watch.check()?;
+        Err(Refusal::Shut(thing).into())
+    }
+
     /// Takes a thing into the hand, with what lies on it and in it.
     ///
     /// # Errors

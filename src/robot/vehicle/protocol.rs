@@ -64,6 +64,8 @@ pub enum Wish {
         /// Where it is then held to be.
         arrival: Stand,
     },
+    /// Open or shut the doors, lid or drawer of a thing. Asked only of a robot that the map says `opens`.
+    SetOpen { thing: String, open: bool },
     /// Take a thing into the hand, with what lies on it and in it.
     Take { thing: String },
     /// Put the thing in the hand down.

@@ -163,6 +163,7 @@ impl<W: Write> Desk<'_, W> {
                 let arrival = (names.map(&arrival.map)?, pose);
                 vehicle.ride(&ride, door, arrival, watch)
             }
+            Wish::SetOpen { thing, open } => vehicle.set_open(names.thing(&thing)?, open, watch),
             Wish::Take { thing } => vehicle.take(names.thing(&thing)?, watch),
             Wish::Put { thing, place } => {
                 let frame = place.frame().ok_or_else(|| format!("{place:?}"))?;
