@@ -38,7 +38,9 @@ const DOUBTS: usize = 2;
 /// A pose that jumps by more was not driven to, cm and degrees.
 const JUMP: (f64, f64) = (15.0, 10.0);
 /// Looks and moves after which it gives up finding itself.
-const TRIES: usize = 6;
+const TRIES: usize = 10;
+/// A lost robot drives no less and no more than this to see more, cm.
+const STROLL: (f64, f64) = (20.0, 80.0);
 /// A scan is held against the Map where the pose is known as well as this, cm and degrees.
 const KNOWN: (f64, f64) = (12.0, 1.5);
 /// Of a range finder nothing is known but what it tells: nothing in a building is farther, cm.
@@ -251,7 +253,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
 
     /// Where it is lost, it looks about and moves until it knows where it is.
     fn find_itself<Why>(&mut self, watch: &mut Watch<'_>) -> Result<(), Unfinished<Why>> {
-        for _ in 0..TRIES {
+        for number in 0..TRIES {
             if !self.is_lost {
                 return Ok(());
             }
@@ -260,14 +262,17 @@ impl<'g, 'v> Pilot<'g, 'v> {
                 _ => Vec::new(),
             };
             let radius = self.ground.world.robot.radius.get() + UNKNOWN;
-            let telling = telling_move(self.chart(), &fits, radius);
+            // From elsewhere it may see what it knows.
+            let telling = telling_move(self.chart(), &fits, radius)
+                .map(|by| (by.turn, by.ahead))
+                .or_else(|| self.open_way(radius).filter(|_| number % 2 == 1));
             let silent = &mut Watch::of(watch.stop());
             let looked = match telling {
-                Some(by) => {
-                    let turned = self.odometry * Isometry2::rotation(by.turn);
-                    let goal = turned * nalgebra::Point2::new(by.ahead, 0.0);
+                Some((turn, ahead)) => {
+                    let turned = self.odometry * Isometry2::rotation(turn);
+                    let goal = turned * nalgebra::Point2::new(ahead, 0.0);
                     let heading = Some(Deg::from_radians(turned.rotation.angle()));
-                    let path: &[Point] = if by.ahead > 0.0 { &[goal] } else { &[] };
+                    let path: &[Point] = if ahead > 0.0 { &[goal] } else { &[] };
                     let moved = self.ask(silent, |body, watch| body.follow(path, heading, watch));
                     moved.map_err(|unfinished| unfinished.map(|_| ()))
                 }
@@ -296,6 +301,27 @@ impl<'g, 'v> Pilot<'g, 'v> {
             ),
         };
         Err(Unfinished::Failed(failure))
+    }
+
+    /// A turn and a way ahead that the last look shows to be the freest, rad and cm; none where it is hemmed in.
+    fn open_way(&self, wide: f64) -> Option<(f64, f64)> {
+        let (_, sensor, ranges) = self.look.as_ref()?;
+        let ends = ranges.iter().zip(sensor.directions());
+        let ends: Vec<Point> = ends
+            .filter(|(range, _)| sensor.returned(**range))
+            .map(|(range, u)| Point::from(u * *range))
+            .collect();
+        let free = |turn: f64| {
+            let (sin, cos) = turn.sin_cos();
+            let ahead = ends.iter().filter_map(|p| {
+                let (along, aside) = (p.x * cos + p.y * sin, p.y * cos - p.x * sin);
+                (along > 0.0 && aside.abs() < wide).then_some(along - wide)
+            });
+            ahead.fold(f64::INFINITY, f64::min)
+        };
+        let turns = (0..24).map(|step| (f64::from(step) * 15.0).to_radians());
+        let best = turns.map(|turn| (turn, free(turn))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (best.1 >= STROLL.0).then(|| (best.0, best.1.min(STROLL.1)))
     }
 
     /// After a piece of the way: knows where it is, or tells that it found itself elsewhere.

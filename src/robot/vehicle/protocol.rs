@@ -113,8 +113,7 @@ pub enum Saying {
         protocol: u32,
         /// What the vehicle is called, for people.
         name: String,
-        /// What it tells of where it stands is what its wheels count, in a frame of their own, and so are the paths that it
-        /// follows: the mission finds it by its scans.
+        /// What it tells of where it stands is what its wheels count, and the paths that it follows are of that frame.
         #[serde(default, skip_serializing_if = "is_false")]
         odometry: bool,
     },
