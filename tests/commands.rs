@@ -166,7 +166,7 @@ fn search(truth: World) -> (TaskAnswer, Vec<AreaId>, usize) {
     let (mut missed, mut helped) = (Vec::new(), 0);
     let answer = engine.perform_in("Найди красную чашку", truth, &mut |progress| {
         match progress {
-            Progress::Surprised { surprise: Surprise::NotSeen { thing, area }, .. } => {
+            Progress::Surprised { surprise: Surprise::NotSeen { thing, area, .. }, .. } => {
                 assert_eq!(thing, "Чашка-2");
                 missed.push(*area);
             }

@@ -12,9 +12,9 @@ use orthoframe::engine::{
 };
 use orthoframe_language::Language;
 use orthoframe_language::question::Said;
-use orthoframe_map::World;
+use orthoframe_map::{Entity, World};
 use orthoframe_semantics::{Profile, RelationRules, Relations, derive};
-use orthoframe_units::{Frame, ReplicaId};
+use orthoframe_units::{Deg, Frame, ReplicaId};
 
 use crate::files::{project, shared};
 
@@ -492,4 +492,39 @@ fn doubt_is_told_as_large_as_it_is() {
     let (said, text) = ask(&engine, "Where is Cup 2?");
     assert!(said == Said::Unknown && text.contains("40%"), "{text}");
     assert_eq!(ask(&engine, "Where is the kitchen table?").0, Said::Found);
+}
+
+/// Milk in a shut fridge: fetched by a robot that opens furniture, and the fridge is shut again; else refused at once.
+#[test]
+fn what_is_in_shut_furniture_is_fetched_by_who_opens_it() {
+    let mut world = World::load(project("maps/rb2.toml")).unwrap();
+    let find = |world: &World, name: &str| {
+        let found = world.find(name).into_iter();
+        found
+            .filter_map(|e| if let Entity::Replica(id) = e { Some(id) } else { None })
+            .next()
+            .unwrap()
+    };
+    let (wardrobe, medicine) = (find(&world, "Шкаф-1"), find(&world, "Лекарство"));
+    let around = world.replicas[&wardrobe].clone();
+    let inside = around.frame.compose(&Frame::new(50.0, 25.0, 8.0, Deg::ZERO));
+    let thing = world.replicas.get_mut(&medicine).unwrap();
+    (thing.area, thing.frame) = (around.area, inside);
+    let object = world.objects[&around.object].clone();
+    orthoframe_map::set_open(world.replicas.get_mut(&wardrobe).unwrap(), &object, false);
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let refused = engine.perform("Принеси лекарство", &mut |_| {}).unwrap_err();
+    assert!(refused.to_string().contains("дверцы мебели робот не открывает"), "{refused}");
+    world.robot.opens = true;
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let mut truth = world.clone();
+    let commands = engine.understand("Принеси лекарство").unwrap();
+    let answer = engine.carry_out_in(&commands, &mut truth, &mut |_| {}).unwrap();
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    let actions: Vec<&str> = answer.reports.iter().map(|r| &*r.directive.action).collect();
+    for action in ["Открыть-объект", "Достать", "Закрыть-объект"] {
+        assert!(actions.contains(&action), "{actions:?}");
+    }
+    let shut = orthoframe_map::stands(&truth, &truth.replicas[&wardrobe]);
+    assert_eq!(shut, Some(orthoframe_map::DoorStatus::Closed));
 }

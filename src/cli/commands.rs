@@ -264,7 +264,10 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     if let Some(scenario) = &scenario {
         let mut robot: Box<dyn Vehicle> = match args.vehicle.connect(engine.world()?)? {
             Some(robot) => Box::new(robot),
-            None => Box::new(engine.simulator(truth)?),
+            None => match args.vehicle.senses() {
+                Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
+                None => Box::new(engine.simulator(truth)?),
+            },
         };
         let answer = super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot)?;
         if let Some(path) = &args.draw {
@@ -274,7 +277,9 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     let task = args.task.as_deref().unwrap_or_default();
     let mut dialogue = Dialogue::new(common.lang.language());
-    if let Some(truth) = truth {
+    if let Some(senses) = args.vehicle.senses() {
+        dialogue = dialogue.driving(Box::new(engine.sensing_robot(truth, senses)?));
+    } else if let Some(truth) = truth {
         dialogue = dialogue.in_truth(truth);
     }
     if let Some(robot) = args.vehicle.connect(engine.world()?)? {

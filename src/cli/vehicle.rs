@@ -9,7 +9,7 @@ use clap::Args;
 
 use crate::engine::{World, check_map_closely};
 use crate::robot::{Address, Moment, Patience, RemoteVehicle, Served, Simulator, serve};
-use crate::robot::{Vehicle, starting_pose};
+use crate::robot::{Senses, SensingRobot, Vehicle, starting_pose};
 use crate::units::Language;
 
 use super::Answer;
@@ -21,11 +21,31 @@ use super::fault::Failure;
 #[derive(Debug, Clone, Args)]
 pub(super) struct VehicleArgs {
     /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
-    #[arg(long, value_name = "ADDRESS", value_parser = address, conflicts_with = "truth")]
+    #[arg(long, value_name = "ADDRESS", value_parser = address, conflicts_with_all = ["truth", "senses"])]
     vehicle: Option<Address>,
     /// How long that robot may keep silent while it owes an answer
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "vehicle")]
     silence: Option<Duration>,
+    #[command(flatten)]
+    senses: SensesArgs,
+}
+
+/// What the simulated robot knows its world by.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SensesArgs {
+    /// The simulated robot knows its world by its senses alone: wheels that slip, a laser that errs, a bumper; what is
+    /// random is drawn from this number
+    #[arg(long, value_name = "SEED")]
+    senses: Option<u64>,
+    /// So many people walk about
+    #[arg(long, value_name = "N", requires = "senses", default_value_t = 0)]
+    people: usize,
+}
+
+impl SensesArgs {
+    fn senses(&self) -> Option<Senses> {
+        self.senses.map(|seed| Senses { people: self.people, ..Senses::of_seed(seed) })
+    }
 }
 
 fn address(text: &str) -> Result<Address, String> {
@@ -49,6 +69,11 @@ impl VehicleArgs {
         let patience = Patience { silence: self.silence.unwrap_or(usual.silence), ..usual };
         Ok(Some(address.connect(world, patience).map_err(Box::new)?))
     }
+
+    /// The senses by which alone the simulated robot is to know its world; none, where it is told.
+    pub(super) fn senses(&self) -> Option<Senses> {
+        self.senses.senses()
+    }
 }
 
 #[derive(Debug, Args)]
@@ -64,6 +89,8 @@ pub(super) struct SimulateArgs {
     /// Run so many times as fast as the clock; at once when left out
     #[arg(long, value_name = "TIMES", value_parser = pace)]
     pace: Option<f64>,
+    #[command(flatten)]
+    senses: SensesArgs,
 }
 
 pub(super) fn pace(text: &str) -> Result<f64, String> {
@@ -79,7 +106,11 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, F
     let (world, warnings) = check_map_closely(&args.map, rules_dir(common).as_deref())?;
     warn(&warnings, common.lang);
     let start = starting_pose(&world).ok_or(crate::engine::RequestError::RobotNowhere)?;
-    let mut robot = Simulator::new(world.clone(), start.0, start.1);
+    let robot = Simulator::new(world.clone(), start.0, start.1);
+    let mut robot: Box<dyn Vehicle> = match args.senses.senses() {
+        Some(senses) => Box::new(SensingRobot::new(robot, senses)),
+        None => Box::new(robot),
+    };
     let mut talk = |reader: Box<dyn Read + Send>, writer: Box<dyn Write>| {
         let mut told = robot.time();
         let mut wait = |moment: &Moment| {
@@ -88,7 +119,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, F
             }
             told = moment.time;
         };
-        serve(&mut robot, CALLED, &world, reader, writer, &mut wait)
+        serve(&mut *robot, CALLED, &world, reader, writer, &mut wait)
     };
     let Some(address) = &args.listen else {
         let served = talk(Box::new(std::io::stdin()), Box::new(std::io::stdout()));

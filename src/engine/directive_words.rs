@@ -31,6 +31,12 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
             let (ru, en) = if *on { ("включил", "on") } else { ("выключил", "off") };
             say(format!("Я {ru} {device}."), format!("I switched {en} {device}."))
         }
+        Deed::SetOpen { thing, open } => {
+            let thing = name(thing);
+            let (ru, en) =
+                if *open { ("открыл", "opened") } else { ("закрыл", "shut") };
+            say(format!("Я {ru} {thing}."), format!("I {en} {thing}."))
+        }
         Deed::Seek(thing) => {
             let thing = name(thing);
             say(format!("Я вижу {thing}."), format!("I see {thing}."))
@@ -333,6 +339,14 @@ impl Words<'_> {
                 Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),
                 Language::English => format!("ride the lift “{lift}” {}", self.storey(to)),
             },
+            Deed::SetOpen { thing, open } => {
+                let verb = if *open {
+                    pick("открыть", "open")
+                } else {
+                    pick("закрыть", "shut")
+                };
+                format!("{verb} {}", accusative(thing))
+            }
             Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
             Deed::Put { thing, onto: Some(onto) } => format!(
                 "{} {} {}",

@@ -7,7 +7,7 @@
 use std::time::SystemTime;
 
 use crate::language::command::Command;
-use crate::map::Entity;
+use crate::map::{DoorStatus, Entity, stands};
 use crate::robot::GoalFact;
 use crate::semantics::{Relations, predicate};
 use crate::units::ReplicaId;
@@ -49,22 +49,38 @@ impl State {
         Ok(unsure)
     }
 
-    /// That nothing that is to be carried is behind doors that are shut.
+    /// What is to be carried and is behind doors that are shut is taken out, and the doors are shut again, by a robot that
+    /// opens furniture.
     ///
     /// # Errors
-    /// [`RequestError::ShutIn`].
-    pub(super) fn not_shut_in(
+    /// [`RequestError::ShutIn`] for one that does not, and for what is locked.
+    pub(super) fn shut_again(
         &self,
         commands: &[Command<Entity>],
-        goals: &[Vec<GoalFact>],
+        goals: &mut [Vec<GoalFact>],
+        now: &Now,
         relations: &Relations,
     ) -> Result<(), Error> {
         let world = self.world()?;
+        let name = |id| world.name(Entity::Replica(id)).to_owned();
+        let knows_how = self.rules.robot.predicate(predicate::STANDS_SHUT).is_some();
         for id in self.carried_by(commands, goals)? {
-            if let Some(around) = relations.shut_in(id) {
-                let name = |id| world.name(Entity::Replica(id)).to_owned();
+            let Some(around) = relations.shut_in(id) else { continue };
+            let status = now.world.replicas.get(&around).and_then(|it| stands(&now.world, it));
+            if !(world.robot.opens && knows_how && status == Some(DoorStatus::Closed)) {
                 let (thing, container) = (name(id), name(around));
                 return Err(RequestError::ShutIn { thing, container }.into());
+            }
+            let shut =
+                GoalFact { predicate: predicate::STANDS_SHUT.to_owned(), args: vec![name(around)] };
+            let thing = name(id);
+            let speaks = |goal: &&mut Vec<GoalFact>| {
+                goal.iter().any(|fact| fact.args.first() == Some(&thing))
+            };
+            if let Some(goal) = goals.iter_mut().find(speaks)
+                && !goal.contains(&shut)
+            {
+                goal.push(shut);
             }
         }
         Ok(())

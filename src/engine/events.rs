@@ -175,6 +175,7 @@ fn thing(world: &World, surprise: &Surprise) -> Option<String> {
         Surprise::Blocked { bump, .. } => bump.against.entity(),
         Surprise::Refused { refusal, .. } => refusal.about().and_then(|what| what.entity()),
         Surprise::Noticed { seen } => Some(seen.entity()),
+        Surprise::Displaced => None,
         Surprise::NoWay { to: name, .. }
         | Surprise::Unknown { name }
         | Surprise::NotSeen { thing: name, .. } => return Some(name.clone()),
@@ -194,6 +195,7 @@ fn kind(surprise: &Surprise) -> &'static str {
         Surprise::NotSeen { .. } => "not_seen",
         Surprise::NoReturn { .. } => "no_return",
         Surprise::Noticed { .. } => "noticed",
+        Surprise::Displaced => "displaced",
     }
 }
 

@@ -11,7 +11,7 @@ use crate::robot::{Belief, Mission, starting_pose};
 use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
-use super::obstacles::put_up;
+use super::obstacles::{is_obstacle, put_up};
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError, State};
 
@@ -244,6 +244,10 @@ impl After {
         let mut moved = BTreeMap::new();
         for (id, is) in &belief.world.replicas {
             let was = before.world.replicas.get(id);
+            // What nobody knows is no thing of the map that was moved.
+            if is_obstacle(*id) {
+                continue;
+            }
             if was.is_none_or(|was| (was.area, was.frame) != (is.area, is.frame)) {
                 moved.insert(*id, Some(Seen { area: is.area, frame: is.frame }));
             }

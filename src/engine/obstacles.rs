@@ -1,114 +1,14 @@
-//! What was seen and is not on the map, as things of the world as it is now: temporary Orthoframes that free floor, ways and
-//! answers respect like all else, and that fade (SPEC L4).
-//!
-//! **Invariant**: the surveyed map never has them; nobody can push them, since nobody knows what they are.
+//! What was seen and is not on the map, in the world as it is now: it fades (SPEC L4).
 
-use crate::map::{BaseVector, Item, Object, Orthoframe, Permeability, Properties, Replica, World};
+use crate::map::World;
+use crate::robot::stand_obstacle;
 use crate::store::SeenObstacle;
-use crate::units::{Cm, Deg, Frame, ObjectId, OrFrId, Point, ReplicaId};
 
-/// Ids from here downwards are of no map: those of a map are given upwards from 1.
-const LAST_ID: u32 = u32::MAX - 1;
-
-/// Whether a thing is one that was only seen, and not surveyed.
-#[must_use]
-pub(super) fn is_obstacle(id: ReplicaId) -> bool {
-    id.0 > LAST_ID / 2
-}
+pub(super) use crate::robot::is_obstacle;
 
 /// Stands what was seen in the world.
 pub(super) fn put_up<'o>(world: &mut World, seen: impl Iterator<Item = &'o SeenObstacle>) {
-    let mut next_frame = LAST_ID;
-    let mut number = 0;
-    for (at, obstacle) in (0..).zip(seen) {
-        let Some(&origin) = obstacle.pieces.first().and_then(|piece| piece.first()) else {
-            continue;
-        };
-        if !world.areas.contains_key(&obstacle.area) {
-            continue;
-        }
-        let mut items = Vec::new();
-        for (index, piece) in obstacle.pieces.iter().enumerate() {
-            let id = OrFrId(next_frame);
-            next_frame -= 1;
-            let corner = piece[0];
-            world.orthoframes.insert(id, prism(id, piece, obstacle.top));
-            let off = corner - origin;
-            items.push(Item {
-                id: format!("P{index}"),
-                orthoframe: id,
-                frame: Frame::new(off.x, off.y, 0.0, Deg::ZERO),
-                is_base: index == 0,
-            });
-        }
-        let object = ObjectId(LAST_ID - at);
-        let (name, name_en) = loop {
-            number += 1;
-            let names = (format!("Препятствие-{number}"), format!("Obstacle {number}"));
-            if world.find(&names.0).is_empty() && world.find(&names.1).is_empty() {
-                break names;
-            }
-        };
-        world.objects.insert(
-            object,
-            Object {
-                id: object,
-                key: format!("obstacle-{number}"),
-                name: "Препятствие".to_owned(),
-                name_en: "Obstacle".to_owned(),
-                description: String::new(),
-                object_type: None,
-                items,
-                links: Vec::new(),
-                front: None,
-                back: None,
-                doors: Vec::new(),
-                properties: Properties::new(),
-            },
-        );
-        let id = ReplicaId(LAST_ID - at);
-        world.replicas.insert(
-            id,
-            Replica {
-                id,
-                area: obstacle.area,
-                object,
-                name,
-                name_en,
-                frame: Frame::new(origin.x, origin.y, 0.0, Deg::ZERO),
-                move_prob: 0,
-                properties: Properties::new(),
-                door_states: Default::default(),
-                forms: Default::default(),
-            },
-        );
-    }
-}
-
-fn prism(id: OrFrId, piece: &[Point], top: f64) -> Orthoframe {
-    let corner = |index: usize| Point::from(piece[index % piece.len()] - piece[0]);
-    let side = |index: usize| BaseVector {
-        id: format!("V{index}"),
-        start: corner(index),
-        end: corner(index + 1),
-        side_type: None,
-        permeability: Permeability::Impermeable,
-        names: Vec::new(),
-        properties: Properties::new(),
-    };
-    Orthoframe {
-        id,
-        key: format!("obstacle-{}", LAST_ID - id.0),
-        name: String::new(),
-        name_en: String::new(),
-        description: String::new(),
-        frame_type: None,
-        shape: None,
-        base: (0..piece.len()).map(side).collect(),
-        height: Cm::of(top.max(1.0)),
-        base_permeability: Permeability::Impermeable,
-        roof_permeability: Permeability::Impermeable,
-        roof_scale: 1.0,
-        properties: Properties::new(),
+    for obstacle in seen {
+        stand_obstacle(world, obstacle.area, &obstacle.pieces, obstacle.top);
     }
 }

@@ -32,6 +32,7 @@ pub const RULE_FILES: &[(&str, &str)] = files![
     "scenarios/medicine-closed-door.strips",
     "scenarios/medicine-locked-door.strips",
     "scenarios/medicine-walk.strips",
+    "scenarios/milk-in-the-fridge.strips",
     "scenarios/operator-opens-the-door.strips",
     "scenarios/tidy-up.strips",
     "scenarios/two-goals-exclude.strips",

@@ -12,11 +12,14 @@ use crate::semantics::predicate;
 use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
 use crate::units::{Bilingual, ReplicaId, Stop, name_key};
 
+use super::memory::Now;
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
 /// The predicates of which a deed of the robot, or where it stands after one, makes a fact true.
-const DRIVEN: [&str; 18] = [
+const DRIVEN: [&str; 20] = [
+    predicate::STANDS_OPEN,
+    predicate::STANDS_SHUT,
     predicate::ROBOT_IN,
     predicate::ROBOT_AT_DOOR,
     predicate::ROBOT_AT_PLACE,
@@ -51,9 +54,23 @@ impl State {
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
         let now = self.now(std::time::SystemTime::now().into())?;
-        let now = match self.now_with(&now, vehicle) {
+        self.piloted(&now, vehicle, |vehicle| match vehicle {
+            Ok(vehicle) => self.drive_scenario_placed(scenario, &now, vehicle, tell, stop),
+            Err(failure) => Ok(TaskAnswer::not_begun(&now, failure)),
+        })?
+    }
+
+    fn drive_scenario_placed(
+        &self,
+        scenario: &Scenario,
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let now = match self.now_with(now, vehicle) {
             Ok(now) => now,
-            Err(failure) => return Ok(TaskAnswer::not_begun(&now, failure)),
+            Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
         };
         let (mut belief, _) = self.belief_of(&now)?;
         let followed = self.followed_with(&now, &belief)?;

@@ -34,6 +34,12 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         Surprise::Blocked { bump, .. } => {
             told("путь преграждает {}", "{} is in the way", bump.against)
         }
+        Surprise::Displaced => language
+            .pick(
+                "робот оказался не там, где считал себя",
+                "the robot found itself elsewhere than it believed",
+            )
+            .to_owned(),
         Surprise::Noticed { seen } => {
             let what = match seen {
                 Sighting::Door { door, .. } => Obstruction::Door(*door),
@@ -49,10 +55,24 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             let to = place_in_words(world, to, language);
             format!("«{to}»: {}", no_way_in_words(world, why, language))
         }
-        Surprise::NotSeen { thing, area } => match language {
-            Language::Russian => format!("{}: «{thing}» не видно", said(Entity::Area(*area))),
-            Language::English => format!("{thing} is not seen in {}", said(Entity::Area(*area))),
-        },
+        Surprise::NotSeen { thing, area, next, for_kin } => {
+            let area = said(Entity::Area(*area));
+            let seen = match language {
+                Language::Russian => format!("{area}: «{thing}» не видно"),
+                Language::English => format!("{thing} is not seen in {area}"),
+            };
+            let rooms: Vec<String> = next.iter().map(|area| said(Entity::Area(*area))).collect();
+            let rooms = rooms.join(", ");
+            match (for_kin, language) {
+                (true, Language::Russian) => {
+                    format!("{seen}; такие вещи есть здесь: {rooms} – сначала искать там")
+                }
+                (true, Language::English) => {
+                    format!("{seen}; things of its kind are in {rooms}: there first")
+                }
+                (false, _) => seen,
+            }
+        }
         Surprise::NoReturn { door, area, by } => {
             let (door, room) = (said(Entity::Door(*door)), said(Entity::Area(*area)));
             let (ru, en) = match by.map(thing) {

@@ -8,8 +8,9 @@ use crate::language::command::Command;
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Ending, Event, Failure, GoalFact, Leg, Mission, MissionError, Moment,
-    Person, Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
+    Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission, MissionError,
+    Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station, Surprise, Vehicle,
+    facts_of_map, height_of_laser, protocol,
 };
 use crate::semantics::{Followed, Relations, predicate};
 use crate::strips::Domain;
@@ -226,6 +227,18 @@ impl State {
         Ok(simulated(&now, truth.unwrap_or_else(|| now.world.clone())))
     }
 
+    /// The same robot behind its senses, which alone it knows its world by.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn sensing_robot(
+        &self,
+        truth: Option<World>,
+        senses: Senses,
+    ) -> Result<SensingRobot, Error> {
+        Ok(SensingRobot::new(self.simulator(truth)?, senses))
+    }
+
     /// What is so now by the word of the vehicle, which knows where it stands; else why it cannot be used.
     pub(super) fn now_with(&self, now: &Now, vehicle: &dyn Vehicle) -> Result<Now, Failure> {
         let (map, pose) = vehicle.pose();
@@ -258,7 +271,44 @@ impl State {
         Ok((belief, here))
     }
 
+    /// Has a vehicle do something that knows where it stands: one that does not is given a pilot who finds it.
+    pub(super) fn piloted<T>(
+        &self,
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        begin: impl FnOnce(Result<&mut dyn Vehicle, Failure>) -> T,
+    ) -> Result<T, Error> {
+        if !vehicle.tells_odometry() {
+            return Ok(begin(Ok(vehicle)));
+        }
+        let height = match height_of_laser(vehicle) {
+            Ok(height) => height,
+            Err(failure) => return Ok(begin(Err(failure))),
+        };
+        let floors = self.floors_now(now)?;
+        let ground = Ground::of(&now.world, &floors, height);
+        let finders = ground.finders();
+        Ok(match Pilot::new(&ground, &finders, vehicle, (now.map, now.pose)) {
+            Ok(mut pilot) => begin(Ok(&mut pilot)),
+            Err(failure) => begin(Err(failure)),
+        })
+    }
+
     fn carry_out_by(
+        &self,
+        commands: &[Command<Entity>],
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        self.piloted(now, vehicle, |vehicle| match vehicle {
+            Ok(vehicle) => self.carry_out_placed(commands, now, vehicle, tell, stop),
+            Err(failure) => Ok(TaskAnswer::not_begun(now, failure)),
+        })?
+    }
+
+    fn carry_out_placed(
         &self,
         commands: &[Command<Entity>],
         now: &Now,
@@ -274,7 +324,7 @@ impl State {
         let followed = self.followed_with(now, &belief)?;
         let relations = followed.relations();
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
-        self.not_shut_in(commands, &goals, relations)?;
+        self.shut_again(commands, &mut goals, now, relations)?;
         let unsure = self.unsure_of(commands, &goals, now)?;
         // Of what it is not sure where it is, it looks first.
         for (thing, _) in unsure.iter().rev() {

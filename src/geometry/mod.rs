@@ -137,5 +137,5 @@ pub use route::{Method, Moved, Route, Target};
 pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};
 pub use seen::FaceInView;
 pub use site::{DoorStates, SLACK};
-pub use view::{Beam, SeenFace, Sight, Visible};
+pub use view::{Beam, SeenFace, Sight, Visible, is_solid};
 pub use zone::PlacedZone;

@@ -53,7 +53,8 @@ impl Prism {
     }
 
     /// Its outline at a height: a Uniframe narrows or widens towards its roof.
-    pub(super) fn section(&self, height: f64) -> Polygon {
+    #[must_use]
+    pub fn section(&self, height: f64) -> Polygon {
         let share = ((height - self.bottom) / (self.top - self.bottom)).clamp(0.0, 1.0);
         self.scaled(1.0 + (self.roof_scale - 1.0) * share)
     }

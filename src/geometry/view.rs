@@ -131,8 +131,9 @@ impl FloorPlan {
     }
 }
 
-/// Whether a side stops a beam: walls do, doors of Objects while they are shut.
-pub(super) fn is_solid(
+/// Whether a side of a thing's prism stops a beam: walls do, doors of Objects while they are shut.
+#[must_use]
+pub fn is_solid(
     world: &World,
     replica: crate::units::ReplicaId,
     prism: &Prism,

@@ -1,6 +1,6 @@
-//! Whether a device is switched on: what its properties say of it, and how they change.
+//! Whether a device is switched on and a thing stands open: what its properties and doors say of it, and how they change.
 
-use super::{Mark, Properties};
+use super::{DoorState, DoorStatus, Mark, Object, Properties, Replica, World};
 
 /// Of the two properties the first that is there counts: a thing that opens and is switched has its power apart.
 const STATES: [Mark; 2] = [Mark::Power, Mark::State];
@@ -22,6 +22,40 @@ pub fn is_open(properties: &Properties) -> Option<bool> {
         word if word.starts_with("закры") || word.starts_with("запер") => Some(false),
         _ => None,
     }
+}
+
+/// Opens or shuts a thing that opens: its state where that stood, in the language in which it stood, and its doors.
+pub fn set_open(replica: &mut Replica, object: &Object, open: bool) {
+    if is_open(&replica.properties).is_some()
+        && let Some((name, value)) = Mark::State.of(&replica.properties)
+    {
+        let word = match (open, value.is_ascii()) {
+            (true, false) => "Открыто",
+            (false, false) => "Закрыто",
+            (true, true) => "open",
+            (false, true) => "closed",
+        };
+        let name = name.to_owned();
+        replica.properties.insert(name, word.to_owned());
+    }
+    let state = if open { DoorState::OPEN } else { DoorState::CLOSED };
+    for mount in &object.doors {
+        replica.door_states.insert(mount.door, state);
+    }
+}
+
+/// How a thing that opens stands: as its properties tell, else as the widest open of its doors does. `None` for what has no
+/// doors and of which nothing of the kind is told.
+#[must_use]
+pub fn stands(world: &World, replica: &Replica) -> Option<DoorStatus> {
+    if let Some(open) = is_open(&replica.properties) {
+        return Some(if open { DoorStatus::Open } else { DoorStatus::Closed });
+    }
+    let states = world.objects.get(&replica.object)?.doors.iter().filter_map(|mount| {
+        let own = replica.door_states.get(&mount.door).copied();
+        own.or_else(|| world.doors.get(&mount.door).map(|door| door.state))
+    });
+    states.max_by(|a, b| a.opening.total_cmp(&b.opening)).map(|state| state.status)
 }
 
 /// Whether a room is dark by itself: without the lamps in it.

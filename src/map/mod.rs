@@ -63,7 +63,7 @@ mod zone;
 
 pub use check::plane;
 pub use check::{check, doubts, news};
-pub use device::{is_dark, is_on, is_open, switch};
+pub use device::{is_dark, is_on, is_open, set_open, stands, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{

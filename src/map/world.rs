@@ -160,6 +160,8 @@ pub struct RobotProfile {
     pub turn_rate: f64,
     /// Where it stands when nothing else is known.
     pub start: Option<PlaceId>,
+    /// Whether it opens and shuts the doors, lids and drawers of furniture.
+    pub opens: bool,
 }
 
 impl RobotProfile {
@@ -186,6 +188,7 @@ impl Default for RobotProfile {
             speed: 60.0,
             turn_rate: 90.0,
             start: None,
+            opens: false,
         }
     }
 }

@@ -2,15 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::{DoorStates, FloorPlan, Scene};
-use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
+use crate::geometry::{Bounds, DoorStates, FloorPlan, Polygon, Scene};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, set_open, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{
     Relations, Told, carried_to, lifts, predicate, robot_eye, storey_name, things_in_view,
 };
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
-use super::vehicle::Sighting;
+use super::obstacle::{is_obstacle, stand_obstacle};
+use super::vehicle::{Outlines, Sighting};
 
 /// Where the robot is, as the rules speak of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,6 +45,11 @@ pub const STARTING_POINT: &str = "Исходная-точка";
 /// A robot this near to a named place stands at it, cm.
 pub(super) const AT_PLACE: f64 = 15.0;
 
+/// Of more unknown things no way past them is looked for.
+const MOST_UNKNOWN: usize = 40;
+/// An unknown thing whose corners moved by no more is as it was, cm.
+const SAME: f64 = 5.0;
+
 /// What the mission holds to be so.
 #[derive(Debug, Clone)]
 pub struct Belief {
@@ -61,10 +67,15 @@ pub struct Belief {
     pub spots: Vec<Spot>,
     /// Places and doors that proved to have no way to them from within an Area.
     pub unreachable: Vec<(AreaId, String)>,
+    /// Unknown things that were met, and whether one whose outline was not seen bars one of these ways.
+    unknown: Vec<ReplicaId>,
+    is_barred: bool,
     /// Doors that could not be opened again from within an Area once they are shut.
     pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
     pub sought: BTreeMap<String, BTreeSet<AreaId>>,
+    /// Of these what is looked for everywhere, since no way leads to where it is likely.
+    wide: BTreeSet<String>,
     /// What is or was in view since the mission began, or known to be in a hand.
     pub found: BTreeSet<String>,
     /// Where things belong: by the names of a thing and of its support.
@@ -111,8 +122,11 @@ impl Belief {
             people: Vec::new(),
             spots,
             unreachable: Vec::new(),
+            unknown: Vec::new(),
+            is_barred: false,
             no_return: Vec::new(),
             sought: BTreeMap::new(),
+            wide: BTreeSet::new(),
             found: BTreeSet::new(),
             homes: Vec::new(),
             into: BTreeSet::new(),
@@ -299,14 +313,51 @@ impl Belief {
         doors.map(|(id, _)| self.world.name(Entity::Door(*id)))
     }
 
-    /// Where a thing is believed to be; once it proved not to be there, every Area not yet searched.
+    /// Where a thing is believed to be; once it proved not to be there, the Areas where things of its kind lie; then every
+    /// Area. Of these those not yet searched.
     fn where_may_be(&self, thing: &str, searched: &BTreeSet<AreaId>) -> Vec<AreaId> {
         let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
         let believed = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
         match believed.map(|r| r.area) {
             Some(area) if !searched.contains(&area) => vec![area],
-            _ => self.world.areas.keys().copied().filter(|a| !searched.contains(a)).collect(),
+            _ => self.where_else(thing, searched).0,
         }
+    }
+
+    /// Where a thing may be that is not where it was believed to be: the Areas, not yet searched, where others of its kind
+    /// lie, and that it is for these; else all that are left.
+    pub(super) fn where_else(
+        &self,
+        thing: &str,
+        searched: &BTreeSet<AreaId>,
+    ) -> (Vec<AreaId>, bool) {
+        let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+        let sought = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
+        let left = || self.world.areas.keys().copied().filter(|area| !searched.contains(area));
+        let kind = |other: &Replica| self.world.objects.get(&other.object)?.object_type;
+        let is_kin = |one: &Replica, other: &Replica| {
+            one.id != other.id
+                && (one.object == other.object || kind(one).is_some() && kind(one) == kind(other))
+        };
+        let has_kin = |area: AreaId| {
+            let mut here = self.world.replicas.values().filter(|other| other.area == area);
+            sought.is_some_and(|one| here.any(|other| is_kin(one, other)))
+        };
+        let likely: Vec<AreaId> = match self.wide.contains(thing) {
+            true => Vec::new(),
+            false => left().filter(|area| has_kin(*area)).collect(),
+        };
+        if likely.is_empty() { (left().collect(), false) } else { (likely, true) }
+    }
+
+    /// No way leads to where a thing is likely: it may be elsewhere. Whether that was not thought of before.
+    pub(super) fn widen_search(&mut self) -> bool {
+        let lost = self.sought.iter().filter(|(thing, searched)| {
+            !searched.is_empty() && !self.found.contains(*thing) && !self.wide.contains(*thing)
+        });
+        let lost: Vec<String> = lost.map(|(thing, _)| thing.clone()).collect();
+        self.wide.extend(lost.iter().cloned());
+        !lost.is_empty()
     }
 
     /// Notes that a thing is not in an Area; whether it was news.
@@ -333,6 +384,14 @@ impl Belief {
         if let Some(replica) = self.world.replicas.get_mut(&device) {
             switch(&mut replica.properties, on);
         }
+    }
+
+    pub(super) fn set_open(&mut self, thing: ReplicaId, open: bool) {
+        let Some(replica) = self.world.replicas.get_mut(&thing) else { return };
+        if let Some(object) = self.world.objects.get(&replica.object) {
+            set_open(replica, object, open);
+        }
+        self.rebuild(&[thing]);
     }
 
     /// Whether a fact of the Map speaks of a way that proved not to be there.
@@ -368,6 +427,69 @@ impl Belief {
                 true
             }
         }
+    }
+
+    /// Stands things there that were seen and that nobody knows, in place of what was seen there before; whether that was
+    /// otherwise.
+    pub(super) fn stand(&mut self, seen: &Outlines) -> bool {
+        let (mut changed, mut is_news) = (Vec::new(), false);
+        for pieces in seen.things.iter().take(MOST_UNKNOWN.saturating_sub(self.unknown.len())) {
+            let Some(middle) = pieces.first().map(Polygon::centroid) else { continue };
+            let bounds = pieces.iter().map(Polygon::bounds).reduce(|a, b| a.union(&b));
+            let Some(bounds) = bounds else { continue };
+            let Some(area) = self.scene().area_at(middle) else { continue };
+            // Where the robot stands nothing else does.
+            let (at, reach) = (self.pose.at, self.floor().reach());
+            if pieces.iter().any(|p| p.contains(at, 0.0) || p.border_distance(at) < reach) {
+                continue;
+            }
+            let Some((_, frame)) = self.world.placement(area) else { continue };
+            let known = self.scene().replicas.values();
+            let known = known.filter(|thing| is_obstacle(thing.id) && thing.bounds.meets(&bounds));
+            let known: Vec<(ReplicaId, Bounds)> = known.map(|one| (one.id, one.bounds)).collect();
+            let is_same = |(_, old): &(ReplicaId, Bounds)| {
+                (old.min - bounds.min).norm() <= SAME && (old.max - bounds.max).norm() <= SAME
+            };
+            if known.iter().any(is_same) {
+                continue;
+            }
+            is_news = true;
+            for (old, _) in known {
+                self.world.replicas.remove(&old);
+                changed.push(old);
+            }
+            let own = |piece: &Polygon| piece.corners.iter().map(|p| frame.invert(*p)).collect();
+            let pieces: Vec<Vec<Point>> = pieces.iter().map(own).collect();
+            let top = seen.top - frame.z.get();
+            let stood = stand_obstacle(&mut self.world, area, &pieces, top);
+            self.unknown.extend(stood);
+            changed.extend(stood);
+        }
+        if !changed.is_empty() {
+            self.rebuild(&changed);
+        }
+        is_news
+    }
+
+    /// As [`Belief::no_way_to`], for something that nobody knows and that may go away again.
+    pub(super) fn no_way_for_now(&mut self, name: String) -> bool {
+        self.is_barred = true;
+        self.no_way_to(name)
+    }
+
+    pub(super) fn has_met_unknown(&self) -> bool {
+        !self.unknown.is_empty() || self.is_barred
+    }
+
+    /// What nobody knows may have been somebody, who is elsewhere by now.
+    pub(super) fn forget_unknown(&mut self) {
+        let gone = std::mem::take(&mut self.unknown);
+        self.world.replicas.retain(|id, _| !gone.contains(id));
+        self.rebuild(&gone);
+        // What it barred is not known; a rehearsal finds again what is barred all the same.
+        self.is_barred = false;
+        self.unreachable.clear();
+        self.no_return.clear();
     }
 
     pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {

@@ -56,6 +56,11 @@ pub enum Deed {
         to: String,
         door: String,
     },
+    /// Open or shut the doors, lid or drawer of a thing.
+    SetOpen {
+        thing: String,
+        open: bool,
+    },
     Take(String),
     /// Put a thing onto another, or down where the robot stands.
     Put {
@@ -169,6 +174,11 @@ impl Directive {
         for (name, status) in states {
             if let Some([door, ..]) = self.added(name) {
                 deeds.push(Deed::SetDoor { door: door.clone(), status });
+            }
+        }
+        for (name, open) in [(predicate::STANDS_OPEN, true), (predicate::STANDS_SHUT, false)] {
+            if let Some([thing]) = self.added(name) {
+                deeds.push(Deed::SetOpen { thing: thing.clone(), open });
             }
         }
         if let Some([thing]) = self.added(predicate::ROBOT_HOLDS) {

@@ -22,7 +22,9 @@ use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
 use super::solve::{Solved, solve_again};
 use super::vehicle::protocol::Scan;
-use super::vehicle::{Bump, Failure, Moment, Obstruction, Refusal, Sighting, Unfinished, Vehicle};
+use super::vehicle::{
+    Bump, Failure, Moment, Obstruction, Outlines, Refusal, Sighting, Unfinished, Vehicle,
+};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,8 +87,10 @@ pub struct Leg {
 /// Why a directive could not be carried out.
 #[derive(Debug, Clone)]
 pub enum Surprise {
-    /// Something stood in the way, and this is what was seen of it.
-    Blocked { bump: Bump, seen: Option<Sighting> },
+    /// Something stood in the way, and this is what was seen of it; where nobody knows it, of all that nobody knows there.
+    Blocked { bump: Bump, seen: Option<Sighting>, outlines: Box<Outlines> },
+    /// The robot found itself elsewhere than it was held to be.
+    Displaced,
     /// On its way the vehicle saw what was not believed.
     Noticed { seen: Sighting },
     /// The vehicle would not.
@@ -95,8 +99,9 @@ pub enum Surprise {
     NoWay { to: String, why: NoRoute },
     /// The directive names what the Map does not know.
     Unknown { name: String },
-    /// A thing that is sought is in view of no place of this Area.
-    NotSeen { thing: String, area: AreaId },
+    /// A thing that is sought is in view of no place of this Area; where it is looked for next, and whether for things of its
+    /// kind that lie there.
+    NotSeen { thing: String, area: AreaId, next: Vec<AreaId>, for_kin: bool },
     /// Once it is shut, the robot could not open the door again from this Area: something stops its leaves, or there is no
     /// place to stand.
     NoReturn { door: DoorId, area: AreaId, by: Option<Obstruction> },
@@ -120,6 +125,9 @@ pub enum Ending {
     Failed(Failure),
 }
 
+/// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
+const MOST_LOOKS: usize = 2;
+const LOOKS_OF_A_WAIT: usize = 8;
 /// So often what is seen of one thing may change the belief in one mission.
 const MOST_CHANGES: usize = 20;
 
@@ -245,12 +253,58 @@ impl<'r> Mission<'r> {
         self.limits.stop = Some(stop.clone());
         self.changes.clear();
         match Reins::new(vehicle, (self.belief.map, self.belief.pose), stop, tell) {
-            Ok(mut reins) => self.pursue(goal, &mut reins),
+            Ok(mut reins) => {
+                // What was seen counts before the first metre.
+                self.take_notice(&mut reins);
+                self.pursue(goal, &mut reins)
+            }
             Err(failure) => Ok(Ending::Failed(failure)),
         }
     }
 
+    /// Where unknown things alone bar the way it looks again after a while: they may have been people.
     fn pursue(&mut self, goal: &[GoalFact], reins: &mut Reins<'_>) -> Result<Ending, MissionError> {
+        let mut looks = 0;
+        loop {
+            let ending = self.attempt(goal, reins)?;
+            match ending {
+                Ending::NoPlan(_) | Ending::Stuck(_) if looks < MOST_LOOKS => {
+                    looks += 1;
+                    if self.looked_again(reins) {
+                        continue;
+                    }
+                }
+                Ending::AlreadyTrue if looks > 0 => return Ok(Ending::Done),
+                _ => {}
+            }
+            return Ok(match ending {
+                Ending::NoPlan(planned) => {
+                    (reins.tell)(&Event::Planned(&planned));
+                    // Who is told may stop: another way that the task has is not tried then.
+                    if reins.stop.is_raised() { Ending::Stopped } else { Ending::NoPlan(planned) }
+                }
+                other => other,
+            });
+        }
+    }
+
+    /// Waits, and forgets the unknown things that it met; whether there were any, and it could.
+    fn looked_again(&mut self, reins: &mut Reins<'_>) -> bool {
+        if !self.belief.has_met_unknown() {
+            return false;
+        }
+        let waited = (0..LOOKS_OF_A_WAIT).all(|_| look_round(reins).is_ok());
+        self.belief.pose = reins.pose().1;
+        self.take_notice(reins);
+        self.belief.forget_unknown();
+        waited
+    }
+
+    fn attempt(
+        &mut self,
+        goal: &[GoalFact],
+        reins: &mut Reins<'_>,
+    ) -> Result<Ending, MissionError> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
@@ -280,6 +334,12 @@ impl<'r> Mission<'r> {
             if reins.stop.is_raised() {
                 return Ok(Ending::Stopped);
             }
+            if matches!(planned.solved.outcome, Outcome::NoPlan { .. })
+                && self.belief.widen_search()
+            {
+                learned = now_learned.and_then(|learned| learned.after(&[]));
+                continue;
+            }
             // The rules do not tell what is in the way where a way was given up, only that there is none.
             if let (Outcome::NoPlan { .. }, Some(surprise)) =
                 (&planned.solved.outcome, given_up.take())
@@ -287,12 +347,7 @@ impl<'r> Mission<'r> {
                 return stuck(refused, surprise, reins.tell);
             }
             let Some(plan) = planned.solved.outcome.plan() else {
-                (reins.tell)(&Event::Planned(&planned));
-                // Who is told may stop: another way that the task has is not tried then.
-                return Ok(match reins.stop.is_raised() {
-                    true => Ending::Stopped,
-                    false => Ending::NoPlan(Box::new(planned)),
-                });
+                return Ok(Ending::NoPlan(Box::new(planned)));
             };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
             self.places.clone_from(&planned.places);
@@ -322,7 +377,9 @@ impl<'r> Mission<'r> {
             if let Some(times) = self.is_restless(&surprise) {
                 return Ok(Ending::Failed(Failure::Restless { times }));
             }
-            if !self.learn(&surprise, directives[done]) {
+            let has_noticed = self.take_notice(reins).is_some();
+            // What was noticed at the end of the last directive hindered none.
+            if !self.learn(&surprise, directives[done.min(directives.len() - 1)]) && !has_noticed {
                 return Ok(Ending::Stuck(surprise));
             }
             let bars = surprise.bars_a_way() || self.is_new(&surprise);
@@ -392,15 +449,15 @@ impl<'r> Mission<'r> {
 
     /// Counts how often a thing was seen otherwise than before; the number, once it is too often.
     fn is_restless(&mut self, surprise: &Surprise) -> Option<usize> {
-        let (Surprise::Noticed { seen }
-        | Surprise::Blocked { seen: Some(seen), .. }
-        | Surprise::Refused { seen: Some(seen), .. }) = surprise
-        else {
-            return None;
-        };
-        let what = match seen {
-            Sighting::Door { door, .. } => Obstruction::Door(*door),
-            Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+        let what = match surprise {
+            Surprise::Noticed { seen }
+            | Surprise::Blocked { seen: Some(seen), .. }
+            | Surprise::Refused { seen: Some(seen), .. } => match seen {
+                Sighting::Door { door, .. } => Obstruction::Door(*door),
+                Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+            },
+            Surprise::Displaced => Obstruction::Something,
+            _ => return None,
         };
         let times = self.changes.entry(what).or_default();
         *times += 1;
@@ -420,6 +477,13 @@ impl<'r> Mission<'r> {
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
         match surprise {
+            // What was seen of it stands there from now on, and a way may lead past it.
+            Surprise::Blocked { outlines, .. }
+                if self.is_new(surprise) && self.belief.stand(outlines) =>
+            {
+                self.name_this_point();
+                true
+            }
             // How large it is nobody knows: the way of this directive is given up, others may be free.
             Surprise::Blocked { .. } if self.is_new(surprise) => {
                 self.name_this_point();
@@ -429,7 +493,7 @@ impl<'r> Mission<'r> {
                     _ => None,
                 });
                 // Each of them is noted.
-                aims.map(|name| self.belief.no_way_to(name)).filter(|is_news| *is_news).count() > 0
+                aims.map(|name| self.belief.no_way_for_now(name)).filter(|news| *news).count() > 0
             }
             // Where the thing stands may be known; that the door does not open for it was not.
             Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {
@@ -444,10 +508,14 @@ impl<'r> Mission<'r> {
                 self.name_this_point();
                 self.belief.learn(*seen)
             }
+            Surprise::Displaced => {
+                self.name_this_point();
+                self.belief.floor().locate(self.belief.pose.at).is_some()
+            }
             // It was taken over when it was noticed.
             Surprise::Noticed { .. } => true,
             Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
-            Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
+            Surprise::NotSeen { thing, area, .. } => self.belief.searched(thing, *area),
             Surprise::NoReturn { door, area, .. } => {
                 let door = self.belief.world.name(Entity::Door(*door)).to_owned();
                 self.belief.no_return_by(*area, door)
@@ -582,14 +650,19 @@ fn refused(unfinished: Unfinished<Refusal>, reins: &mut Reins<'_>) -> Unfinished
 /// What stood in the way, with what there is to see of it.
 fn blocked(unfinished: Unfinished<Bump>, reins: &mut Reins<'_>) -> Unfinished<Surprise> {
     let about = |bump: &Bump| Some(bump.against);
-    surprised(unfinished, reins, about, |bump, seen| Surprise::Blocked { bump, seen })
+    let outlines = Box::new(match &unfinished {
+        Unfinished::Met(Bump { against: Obstruction::Something, .. }) => reins.outlines(),
+        _ => Outlines::default(),
+    });
+    let blocked = |bump, seen| Surprise::Blocked { bump, seen, outlines };
+    surprised(unfinished, reins, about, blocked)
 }
 
 fn surprised<Why>(
     unfinished: Unfinished<Why>,
     reins: &mut Reins<'_>,
     about: impl Fn(&Why) -> Option<Obstruction>,
-    surprise: impl Fn(Why, Option<Sighting>) -> Surprise,
+    surprise: impl FnOnce(Why, Option<Sighting>) -> Surprise,
 ) -> Unfinished<Surprise> {
     match unfinished {
         Unfinished::Met(why) => match about(&why).map(|what| reins.look_at(what)).transpose() {

@@ -12,20 +12,25 @@
 //! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
 //! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
-//! free floor that the route was made from; it draws no random numbers, so a run repeats itself.
+//! free floor that the route was made from. What is random is drawn from one seed, so a run repeats itself; behind its
+//! senses (`simulator/senses`) the simulated robot tells nothing else of its world, and a [`Pilot`] finds where it is.
 
 use orthoframe_geometry as geometry;
 use orthoframe_graphplan as graphplan;
 use orthoframe_map as map;
 use orthoframe_semantics as semantics;
+use orthoframe_sensing as sensing;
 use orthoframe_strips as strips;
 use orthoframe_units as units;
+use orthoframe_vectors as vectors;
 
 mod belief;
 mod directive;
 mod eye;
 mod idle;
 mod mission;
+mod obstacle;
+mod pilot;
 mod placing;
 mod rehearsal;
 mod reins;
@@ -41,12 +46,15 @@ pub use directive::{Deed, Directive, Effect};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
+pub use obstacle::{is_obstacle, stand_obstacle};
+pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use shortness::Shortness;
 pub use simulator::Simulator;
+pub use simulator::senses::{Senses, SensingRobot};
 pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
 pub use vehicle::{
-    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Patience, Refusal, RemoteVehicle,
-    Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
+    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
+    RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
 };
 pub use wishes::Wishes;

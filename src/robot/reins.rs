@@ -11,7 +11,8 @@ use crate::units::{Deg, MapId, Point, Pose, Stop};
 use super::belief::AT_PLACE;
 use super::mission::Event;
 use super::vehicle::{
-    Bump, Done, Failure, Moment, Notice, Obstruction, Sighting, Unfinished, Vehicle, Watch,
+    Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished, Vehicle,
+    Watch,
 };
 use crate::units::ReplicaId;
 
@@ -32,6 +33,8 @@ pub(super) struct Reins<'v> {
     time: f64,
     /// What it saw on its way, and was not yet thought of.
     pub(super) seen: Vec<Sighting>,
+    /// It found itself elsewhere than it was held to be.
+    is_displaced: bool,
 }
 
 impl<'v> Reins<'v> {
@@ -44,8 +47,8 @@ impl<'v> Reins<'v> {
         tell: &'v mut dyn FnMut(&Event<'_>),
     ) -> Result<Self, Failure> {
         let time = vehicle.time();
-        let mut reins =
-            Self { vehicle, stop: stop.clone(), tell, at: believed, time, seen: Vec::new() };
+        let (stop, seen) = (stop.clone(), vehicle.news());
+        let mut reins = Self { vehicle, stop, tell, at: believed, time, seen, is_displaced: false };
         reins.take_over(&[believed.1.at])?;
         Ok(reins)
     }
@@ -57,6 +60,16 @@ impl<'v> Reins<'v> {
 
     pub(super) fn time(&self) -> f64 {
         self.time
+    }
+
+    /// What it sees about it that nobody knows.
+    pub(super) fn outlines(&self) -> Outlines {
+        self.vehicle.outlines()
+    }
+
+    /// Whether it found itself elsewhere since this was asked last.
+    pub(super) fn was_displaced(&mut self) -> bool {
+        std::mem::take(&mut self.is_displaced)
     }
 
     pub(super) fn look_at(&mut self, what: Obstruction) -> Result<Option<Sighting>, Failure> {
@@ -84,6 +97,10 @@ impl<'v> Reins<'v> {
         let way: Vec<Point> = std::iter::once(self.at.1.at).chain(path.iter().copied()).collect();
         let driven = self.watched(&way, |vehicle, watch| vehicle.follow(path, heading, watch));
         if let Err(Unfinished::Failed(_)) = driven {
+            return driven;
+        }
+        if self.is_displaced {
+            self.at = self.vehicle.pose();
             return driven;
         }
         self.take_over(&way).map_err(Unfinished::Failed)?;
@@ -150,7 +167,7 @@ impl<'v> Reins<'v> {
         deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Result<(), Unfinished<Why>>,
     ) -> Result<(), Unfinished<Why>> {
         self.check_stop()?;
-        let Self { vehicle, stop, tell, at, time, seen } = self;
+        let Self { vehicle, stop, tell, at, time, seen, is_displaced } = self;
         let mut lie = None;
         let mut hear = |notice: &Notice| {
             match notice {
@@ -165,6 +182,11 @@ impl<'v> Reins<'v> {
                 Notice::Saw(sighting) if seen.len() < MOST_SEEN => seen.push(*sighting),
                 Notice::Saw(_) => {}
                 Notice::Scanned(scan) => tell(&Event::Scanned(scan)),
+                Notice::Found(moment) => {
+                    (*at, *time) = ((moment.map, moment.pose), moment.time);
+                    *is_displaced = true;
+                    tell(&Event::Moved(moment));
+                }
             }
             ControlFlow::Continue(())
         };

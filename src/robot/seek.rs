@@ -27,7 +27,11 @@ impl Mission<'_> {
                 return Ok(());
             }
             let Some((place, target)) = views.next() else {
-                return Err(Surprise::NotSeen { thing: name.to_owned(), area }.into());
+                let mut searched = self.belief.sought.get(name).cloned().unwrap_or_default();
+                searched.insert(area);
+                let (next, for_kin) = self.belief.where_else(name, &searched);
+                let thing = name.to_owned();
+                return Err(Surprise::NotSeen { thing, area, next, for_kin }.into());
             };
             let driven = leg.route.take();
             let called = place.as_deref().unwrap_or(name);

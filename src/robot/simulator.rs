@@ -18,7 +18,10 @@ use crate::geometry::{
     Bounds, LIFT_WAIT, Leaves, Opening, Openings, Owner, Polygon, Prism, Ride, STEP_REACH, Scene,
     opening_of,
 };
-use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
+use crate::map::{
+    Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, set_open, stands,
+    switch,
+};
 use crate::semantics::{RelationRules, cargo, shut_around};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
@@ -28,6 +31,10 @@ use super::placing::rests;
 use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
+
+mod laser;
+mod people;
+pub(super) mod senses;
 
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
@@ -525,6 +532,24 @@ impl Vehicle for Simulator {
         self.advance(ride.seconds() - LIFT_WAIT, pose);
         self.rebuild();
         Ok(self.open_for_lift(door)?)
+    }
+
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
+        if !self.reaches(thing)? {
+            return Err(Refusal::OutOfReach(thing).into());
+        }
+        let replica = self.truth.replicas.get(&thing).ok_or(Refusal::NotThere(thing))?;
+        let status = stands(&self.truth, replica);
+        if !self.profile.opens || matches!(status, None | Some(DoorStatus::Locked)) {
+            return Err(Refusal::Shut(thing).into());
+        }
+        let object = self.truth.objects[&replica.object].clone();
+        if let Some(replica) = self.truth.replicas.get_mut(&thing) {
+            set_open(replica, &object, open);
+        }
+        self.advance(DOOR_TIME, self.pose);
+        Ok(())
     }
 
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {

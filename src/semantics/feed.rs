@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::geometry::contact::extent;
-use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, Properties, World, is_open};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, World, stands};
 use crate::units::{Cm, DoorId, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
@@ -354,20 +354,12 @@ impl Feed<'_> {
         });
         // A wardrobe with one door open stands open.
         let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
-        if is_shut(&replica.properties, widest) {
+        if stands(self.world, replica).is_some_and(|status| status != DoorStatus::Open) {
             row!(sink, "stands_shut", x);
         }
         if let Some(state) = widest.filter(|_| Mark::State.of(&replica.properties).is_none()) {
             row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
         }
-    }
-}
-
-/// Whether a thing stands shut: as its properties tell, else as the widest open of its doors does.
-fn is_shut(properties: &Properties, widest: Option<DoorState>) -> bool {
-    match is_open(properties) {
-        Some(open) => !open,
-        None => widest.is_some_and(|state| state.status != DoorStatus::Open),
     }
 }
 

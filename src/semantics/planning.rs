@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_dark, is_on};
+use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_dark, is_on, stands};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::lifts::{Lift, lifts, storey_name};
@@ -288,6 +288,15 @@ impl Writer<'_> {
             if self.world.has_trait(id, "device") {
                 self.device(id, &name, root, area);
             }
+            if let Some(status) = stands(self.world, replica).filter(|_| self.world.robot.opens) {
+                let kind = if self.world.has_trait(id, "portable") { ITEM } else { OBJECT };
+                match status {
+                    DoorStatus::Open => self.fact(predicate::STANDS_OPEN, &[(&name, kind)]),
+                    DoorStatus::Closed => self.fact(predicate::STANDS_SHUT, &[(&name, kind)]),
+                    // It has no key to furniture.
+                    DoorStatus::Locked => {}
+                }
+            }
             if let Some((_, door)) = Mark::KeyOf.of(&replica.properties) {
                 let known = self.world.find(door).into_iter().find_map(|entity| match entity {
                     Entity::Door(id) => Some(self.relations.symbols().door(id).to_string()),
@@ -307,8 +316,13 @@ impl Writer<'_> {
         root: ReplicaId,
         area: AreaId,
     ) {
-        // Behind doors that are shut nothing can be taken.
+        // Behind doors that are shut nothing can be taken, before they are opened.
         if self.shut.contains(&id) {
+            if let Some(around) = self.relations.shut_in(id).filter(|_| self.world.robot.opens) {
+                let on = self.relations.symbols().replica(around).to_string();
+                let kind = if self.world.has_trait(around, "portable") { ITEM } else { OBJECT };
+                self.fact(predicate::THING_IN, &[(name, ITEM), (&on, kind)]);
+            }
             return;
         }
         // On a plate on the table is on the table: the plate itself may be carried away. In a box is in the box; what is

@@ -35,6 +35,12 @@ pub const KEY_FITS: &str = "КЛЮЧ_ПОДХОДИТ-К";
 pub const PERSON_HAS_KEY: &str = "ЧЕЛОВЕК_ИМЕЕТ-КЛЮЧ-ОТ";
 /// (предмет, объект)
 pub const THING_ON: &str = "ПРЕДМЕТ_НАХОДИТСЯ-НА";
+/// (предмет, объект): in what stands shut
+pub const THING_IN: &str = "ПРЕДМЕТ_НАХОДИТСЯ-В";
+/// (объект): what the robot can open and shut stands open
+pub const STANDS_OPEN: &str = "ОБЪЕКТ-ОТКРЫТ";
+/// (объект)
+pub const STANDS_SHUT: &str = "ОБЪЕКТ-ЗАКРЫТ";
 /// (предмет, место)
 pub const THING_AT_PLACE: &str = "ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ";
 /// (человек, место)

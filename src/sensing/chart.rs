@@ -8,7 +8,7 @@ use parry2d_f64::math::Vector as Vec2;
 use parry2d_f64::query::Ray;
 use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 
-use crate::geometry::{FloorPlan, SeenFace, nearest_on_segment};
+use crate::geometry::{Blocker, FloorPlan, SeenFace, nearest_on_segment};
 use crate::map::World;
 use crate::vectors::Segment;
 use crate::vectors::read::Scan;
@@ -126,6 +126,16 @@ impl Chart {
         Self::new(lines)
     }
 
+    /// The same without the leaves of doors, which stand now so and now otherwise.
+    #[must_use]
+    pub fn without_leaves(&self) -> Self {
+        let is_fixed = |line: &&Line| {
+            let blocker = line.face.map(|face| face.blocker);
+            !matches!(blocker, Some(Blocker::DoorLeaf { .. }))
+        };
+        Self::new(self.lines.iter().filter(is_fixed).copied().collect())
+    }
+
     #[must_use]
     pub fn new(mut lines: Vec<Line>) -> Self {
         let is_sound = |line: &Line| {
@@ -172,7 +182,8 @@ impl Chart {
     }
 
     /// The line nearest to a point, with the nearest point of it, where one is within 40 cm.
-    pub(crate) fn nearest(&self, p: Point2<f64>) -> Option<(u32, Point2<f64>)> {
+    #[must_use]
+    pub fn nearest(&self, p: Point2<f64>) -> Option<(u32, Point2<f64>)> {
         let at = (p - self.corner) / BUCKET;
         if at.x < 0.0 || at.y < 0.0 || at.x as usize >= self.columns {
             return None;

@@ -62,6 +62,25 @@ impl<'l> Tracker<'l> {
         Self { localiser, belief: Belief::Lost, last: None, doubts: 0 }
     }
 
+    /// It is held to be at a pose of the sensor, where the odometry tells another: the first scan then speaks for or against.
+    #[must_use]
+    pub fn believing(
+        localiser: &'l Localiser<'l>,
+        pose: Isometry2<f64>,
+        odometry: Isometry2<f64>,
+    ) -> Self {
+        let mut tracker = Self { last: Some(odometry), ..Self::new(localiser) };
+        tracker.believe(pose);
+        tracker
+    }
+
+    /// It is held to be here after all, whatever was believed.
+    pub fn believe(&mut self, pose: Isometry2<f64>) {
+        let covariance = nalgebra::Matrix3::zeros();
+        self.belief = Belief::At(Fit { pose, covariance, explained: 0.0, through: 0.0 });
+        self.doubts = 0;
+    }
+
     #[must_use]
     pub fn belief(&self) -> &Belief {
         &self.belief

@@ -536,6 +536,7 @@ impl Reader<'_> {
             turn_rate: r.turn_rate,
             start: r.start.map(PlaceId),
             footprint: corners(&r.footprint).or_bad(&r)?,
+            opens: r.opens,
         })
     }
 }

@@ -486,6 +486,7 @@ tables! {
         col start: Option<u32> = "StartPlaceID",
         // Corners, "x,y x,y …"; empty for a disc.
         col footprint: String = "Footprint",
+        col opens: bool = "Opens",
     }
     /// Regions of the floor with rules of their own. Their places: points here, or Areas in `ZoneAreas`.
     Beyond Zones = 52 {

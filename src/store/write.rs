@@ -629,5 +629,6 @@ fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {
         turn_rate: robot.turn_rate,
         start: robot.start.map(|p| p.0),
         footprint: corners.join(" "),
+        opens: robot.opens,
     })
 }

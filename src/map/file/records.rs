@@ -85,6 +85,7 @@ impl Reader<'_> {
         robot.clearance = or(file.clearance, robot.clearance);
         robot.speed = file.speed.map_or(robot.speed, |n| n.0);
         robot.turn_rate = file.turn_rate.map_or(robot.turn_rate, |n| n.0);
+        robot.opens = file.opens.unwrap_or(false);
         if let Some(start) = file.start {
             let spot = Spot::of(Record::Robot).field("start");
             robot.start = self.follow(|n| &n.places, ("Место", "Place"), &start, spot);

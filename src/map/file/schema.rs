@@ -256,6 +256,8 @@ tables! {
         turn_rate: Option<Number>;
         /// Name of the place where it stands when nothing else is known.
         start: Option<String>;
+        /// Whether it opens and shuts the doors, lids and drawers of furniture.
+        opens: Option<bool>;
     }
 
     /// The type lists.

@@ -190,6 +190,7 @@ impl Writer<'_> {
             speed: Some(number(robot.speed)),
             turn_rate: Some(number(robot.turn_rate)),
             start: robot.start.map(|place| self.world.places[&place].name.clone()),
+            opens: robot.opens.then_some(true),
         }
     }
 

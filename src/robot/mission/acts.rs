@@ -58,6 +58,11 @@ impl Mission<'_> {
                 self.cabin_stands_at(lift, door, opening);
             }
             Deed::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
+            Deed::SetOpen { thing, open } => {
+                let id = self.replica(thing)?;
+                self.within_reach(id, reins, leg, |v, watch| v.set_open(id, *open, watch))?;
+                self.belief.set_open(id, *open);
+            }
             Deed::Take(name) => self.take(name, reins, leg)?,
             Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
             Deed::HandOver { thing, person } => {
@@ -149,6 +154,9 @@ impl Mission<'_> {
         let driven = reins.follow(&route.points, route.heading);
         leg.route = Some(route);
         self.belief.pose = reins.pose().1;
+        if reins.was_displaced() {
+            return Err(Surprise::Displaced.into());
+        }
         driven.map_err(|bump| blocked(bump, reins))
     }
 
@@ -156,6 +164,9 @@ impl Mission<'_> {
     fn turn(&mut self, heading: Deg, reins: &mut Reins<'_>) -> Result<(), Unfinished<Surprise>> {
         let turned = reins.follow(&[self.belief.pose.at], Some(heading));
         self.belief.pose = reins.pose().1;
+        if reins.was_displaced() {
+            return Err(Surprise::Displaced.into());
+        }
         turned.map_err(|bump| blocked(bump, reins))
     }
 

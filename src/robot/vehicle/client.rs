@@ -59,6 +59,7 @@ pub struct RemoteVehicle {
     /// Of the last order.
     id: u64,
     called: String,
+    is_by_odometry: bool,
     at: (MapId, Pose),
     time: f64,
     failed: Option<Failure>,
@@ -108,6 +109,7 @@ impl RemoteVehicle {
             from,
             id: 0,
             called: String::new(),
+            is_by_odometry: false,
             at: start,
             time: 0.0,
             failed: None,
@@ -115,7 +117,10 @@ impl RemoteVehicle {
         };
         let hello = Wish::Hello { protocol: VERSION, domain };
         match vehicle.ask("hello", hello, &mut Watch::none())? {
-            Saying::Ready { protocol, name } if protocol == VERSION => vehicle.called = name,
+            Saying::Ready { protocol, name, odometry } if protocol == VERSION => {
+                vehicle.called = name;
+                vehicle.is_by_odometry = odometry;
+            }
             Saying::Ready { protocol, .. } => {
                 return Err(Failure::Version { theirs: protocol, ours: VERSION });
             }
@@ -293,6 +298,10 @@ impl Vehicle for RemoteVehicle {
         self.time
     }
 
+    fn tells_odometry(&self) -> bool {
+        self.is_by_odometry
+    }
+
     fn follow(
         &mut self,
         path: &[Point],
@@ -341,6 +350,11 @@ impl Vehicle for RemoteVehicle {
             arrival: names.stand(arrival),
         };
         self.act("ride", wish, watch)
+    }
+
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        let thing = self.names.thing_name(thing);
+        self.act("set_open", Wish::SetOpen { thing, open }, watch)
     }
 
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {

@@ -75,6 +75,13 @@ pub enum Failure {
     #[error("робот отказал: {text}")]
     #[diagnostic(code(vehicle::own_fault), help("посмотрите, что написала программа робота"))]
     OwnFault { text: String },
+    /// It does not know where it is.
+    #[error("робот не знает, где он: {why}")]
+    #[diagnostic(
+        code(vehicle::nowhere),
+        help("скажите, где он стоит (--from), или отвезите его туда, где больше видно")
+    )]
+    Nowhere { why: Bilingual },
     /// What it sees changes with each look, so that no plan lasts.
     #[error("робот каждый раз видит мир иначе: одно и то же – по-разному, {times} раз")]
     #[diagnostic(code(vehicle::restless), help("проверьте, что робот сообщает о виденном"))]
@@ -123,6 +130,9 @@ impl InEnglish for Failure {
             }
             Self::NoNumber => "the robot told a pose or a time that cannot be".to_owned(),
             Self::OwnFault { text } => format!("the robot failed: {text}"),
+            Self::Nowhere { why } => {
+                format!("the robot does not know where it is: {}", why.say(Language::English))
+            }
             Self::Restless { times } => {
                 format!("the robot saw the same thing otherwise each time, {times} times")
             }
@@ -148,6 +158,9 @@ impl InEnglish for Failure {
             }
             Self::WrongMap => "only a ride in a lift changes the map",
             Self::NoNumber => "numbers are finite, and time does not go back",
+            Self::Nowhere { .. } => {
+                "say where it stands (--from), or bring it to where there is more to see"
+            }
             Self::Restless { .. } => "see what the robot says that it saw",
         };
         Some(help.to_owned())

@@ -16,7 +16,7 @@ pub use server::{Served, serve};
 
 use std::ops::ControlFlow;
 
-use crate::geometry::Ride;
+use crate::geometry::{Polygon, Ride};
 use crate::map::{DoorState, Entity};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Stop};
 
@@ -113,6 +113,15 @@ pub enum Sighting {
     },
 }
 
+/// Things that were seen and that nobody knows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Outlines {
+    /// Of each thing convex pieces, counter-clockwise, in the Map's frame.
+    pub things: Vec<Vec<Polygon>>,
+    /// They stand up to here at least, cm above the Map's zero.
+    pub top: f64,
+}
+
 impl Sighting {
     /// What was seen.
     #[must_use]
@@ -161,6 +170,8 @@ pub enum Notice {
     Saw(Sighting),
     /// Its range finder turned once.
     Scanned(Scan),
+    /// It had lost itself and finds itself here, wherever it was held to be.
+    Found(Moment),
 }
 
 /// Who is told of the way, and may break it off.
@@ -195,6 +206,12 @@ impl<'w> Watch<'w> {
     #[must_use]
     pub fn none() -> Self {
         Self::of(&Stop::new())
+    }
+
+    /// What stops the vehicle.
+    #[must_use]
+    pub fn stop(&self) -> &Stop {
+        &self.stop
     }
 
     /// Whether the vehicle is to stop at once.
@@ -232,6 +249,22 @@ pub trait Vehicle {
 
     fn time(&self) -> f64;
 
+    /// Whether its pose is what its wheels tell since they began to count, in a frame of their own, and paths are of that
+    /// frame. A mission then finds it by its scans ([`crate::Pilot`]).
+    fn tells_odometry(&self) -> bool {
+        false
+    }
+
+    /// What it saw since it was asked last, besides what it told on its way.
+    fn news(&mut self) -> Vec<Sighting> {
+        Vec::new()
+    }
+
+    /// What it sees about it that the Map has not.
+    fn outlines(&self) -> Outlines {
+        Outlines::default()
+    }
+
     /// Drives along a polyline from where it stands, turning on the spot at each corner, and ends facing
     /// `heading` when one is given.
     ///
@@ -268,6 +301,16 @@ pub trait Vehicle {
         arrival: (MapId, Pose),
         watch: &mut Watch<'_>,
     ) -> Done;
+
+    /// Opens or shuts the doors, lid or drawer of a thing. A vehicle that cannot refuses.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the thing is then as it was.
+    fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        let _cannot = open;
+        watch.check()?;
+        Err(Refusal::Shut(thing).into())
+    }
 
     /// Takes a thing into the hand, with what lies on it and in it.
     ///

@@ -64,6 +64,8 @@ pub enum Wish {
         /// Where it is then held to be.
         arrival: Stand,
     },
+    /// Open or shut the doors, lid or drawer of a thing. Asked only of a robot that the map says `opens`.
+    SetOpen { thing: String, open: bool },
     /// Take a thing into the hand, with what lies on it and in it.
     Take { thing: String },
     /// Put the thing in the hand down.
@@ -111,6 +113,9 @@ pub enum Saying {
         protocol: u32,
         /// What the vehicle is called, for people.
         name: String,
+        /// What it tells of where it stands is what its wheels count, and the paths that it follows are of that frame.
+        #[serde(default, skip_serializing_if = "is_false")]
+        odometry: bool,
     },
     /// It is at work.
     Going,
@@ -130,6 +135,11 @@ pub enum Saying {
     Seen { sighting: Option<Sight> },
     /// It can do no more, now or ever.
     Failed { text: String },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_false(told: &bool) -> bool {
+    !told
 }
 
 /// Where a vehicle stands.

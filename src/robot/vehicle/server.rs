@@ -109,6 +109,10 @@ impl<W: Write> Desk<'_, W> {
                 }
                 Notice::Saw(seen) => Saying::Saw { sighting: names.sight(*seen) },
                 Notice::Scanned(scan) => Saying::Scan(scan.clone()),
+                Notice::Found(moment) => {
+                    last = (moment.time, (moment.map, moment.pose));
+                    Saying::Going
+                }
             };
             let message = Message { id: self.id, time: last.0, at: names.stand(last.1), what };
             match write(self.writer, &message) {
@@ -120,7 +124,11 @@ impl<W: Write> Desk<'_, W> {
         let watch = &mut Watch::new(stop.clone(), &mut tell);
         let done = match wish {
             Wish::Hello { .. } => {
-                return Ok(Saying::Ready { protocol: VERSION, name: called.to_owned() });
+                return Ok(Saying::Ready {
+                    protocol: VERSION,
+                    name: called.to_owned(),
+                    odometry: vehicle.tells_odometry(),
+                });
             }
             Wish::Report => Ok(()),
             // The order that it speaks of was stopped when this line was read.
@@ -155,6 +163,7 @@ impl<W: Write> Desk<'_, W> {
                 let arrival = (names.map(&arrival.map)?, pose);
                 vehicle.ride(&ride, door, arrival, watch)
             }
+            Wish::SetOpen { thing, open } => vehicle.set_open(names.thing(&thing)?, open, watch),
             Wish::Take { thing } => vehicle.take(names.thing(&thing)?, watch),
             Wish::Put { thing, place } => {
                 let frame = place.frame().ok_or_else(|| format!("{place:?}"))?;

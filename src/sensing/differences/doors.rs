@@ -83,6 +83,13 @@ fn openings() -> impl Iterator<Item = f64> {
 }
 
 impl<'w> Doors<'w> {
+    pub(super) fn forget(&mut self, id: DoorId) {
+        for door in self.doors.iter_mut().filter(|door| door.id == id) {
+            door.costs.fill(0.0);
+            door.beams = 0.0;
+        }
+    }
+
     pub(super) fn of(world: &'w World, plan: &FloorPlan, height: f64) -> Self {
         let mut doors = Vec::new();
         for doorway in plan.doorways() {

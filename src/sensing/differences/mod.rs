@@ -135,15 +135,10 @@ impl<'w> Inspector<'w> {
     /// For a laser at `height` cm above the Map's zero.
     #[must_use]
     pub fn new(world: &'w World, plan: &'w FloorPlan, height: f64) -> Self {
-        let is_fixed = |line: &&Line| {
-            let blocker = line.face.map(|face| face.blocker);
-            !matches!(blocker, Some(Blocker::DoorLeaf { .. }))
-        };
-        let all = Chart::of_map(world, plan, height);
         Self {
             world,
             plan,
-            chart: Chart::new(all.lines().iter().filter(is_fixed).copied().collect()),
+            chart: Chart::of_map(world, plan, height).without_leaves(),
             doors: Doors::of(world, plan, height),
             looks: BTreeMap::new(),
             cells: Cells::default(),
@@ -220,6 +215,11 @@ impl<'w> Inspector<'w> {
             self.taken[self.count % SCANS] = taken;
         }
         self.count += 1;
+    }
+
+    /// A door was moved: what was seen of it before counts no more.
+    pub fn forget_door(&mut self, door: DoorId) {
+        self.doors.forget(door);
     }
 
     /// What differs by all scans so far; of what changed meanwhile the last look counts.

@@ -1,0 +1,120 @@
+//! What was seen and is not on the map, as things of the world as it is now: temporary Orthoframes that free floor, ways and
+//! answers respect like all else (SPEC L4).
+//!
+//! **Invariant**: the surveyed map never has them; nobody can push them, since nobody knows what they are.
+
+use crate::map::{BaseVector, Item, Object, Orthoframe, Permeability, Properties, Replica, World};
+use crate::units::{AreaId, Cm, Deg, Frame, ObjectId, OrFrId, Point, ReplicaId};
+
+/// Ids from here downwards are of no map: those of a map are given upwards from 1.
+const LAST_ID: u32 = u32::MAX - 1;
+
+/// Whether a thing is one that was only seen, and not surveyed.
+#[must_use]
+pub fn is_obstacle(id: ReplicaId) -> bool {
+    id.0 > LAST_ID / 2
+}
+
+/// Stands what was seen in an Area of the world: convex pieces in its frame, counter-clockwise, up to a height above its
+/// floor, cm. None where there is no such Area, or nothing was seen.
+pub fn stand_obstacle(
+    world: &mut World,
+    area: AreaId,
+    pieces: &[Vec<Point>],
+    top: f64,
+) -> Option<ReplicaId> {
+    let &origin = pieces.first().and_then(|piece| piece.first())?;
+    if !world.areas.contains_key(&area) {
+        return None;
+    }
+    let is_new = |id: &u32| {
+        !world.replicas.contains_key(&ReplicaId(*id)) && !world.objects.contains_key(&ObjectId(*id))
+    };
+    let own = (0..=LAST_ID).rev().find(is_new)?;
+    let mut next_frame =
+        (0..=LAST_ID).rev().find(|id| !world.orthoframes.contains_key(&OrFrId(*id)))?;
+    let mut items = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        let id = OrFrId(next_frame);
+        next_frame -= 1;
+        let corner = piece[0];
+        world.orthoframes.insert(id, prism(id, piece, top));
+        let off = corner - origin;
+        items.push(Item {
+            id: format!("P{index}"),
+            orthoframe: id,
+            frame: Frame::new(off.x, off.y, 0.0, Deg::ZERO),
+            is_base: index == 0,
+        });
+    }
+    let names = |number: usize| (format!("Препятствие-{number}"), format!("Obstacle {number}"));
+    let is_free = |number: &usize| {
+        let (name, name_en) = names(*number);
+        world.find(&name).is_empty() && world.find(&name_en).is_empty()
+    };
+    let number = (1..).find(is_free)?;
+    let (name, name_en) = names(number);
+    let object = ObjectId(own);
+    world.objects.insert(
+        object,
+        Object {
+            id: object,
+            key: format!("obstacle-{number}"),
+            name: "Препятствие".to_owned(),
+            name_en: "Obstacle".to_owned(),
+            description: String::new(),
+            object_type: None,
+            items,
+            links: Vec::new(),
+            front: None,
+            back: None,
+            doors: Vec::new(),
+            properties: Properties::new(),
+        },
+    );
+    let id = ReplicaId(own);
+    world.replicas.insert(
+        id,
+        Replica {
+            id,
+            area,
+            object,
+            name,
+            name_en,
+            frame: Frame::new(origin.x, origin.y, 0.0, Deg::ZERO),
+            move_prob: 0,
+            properties: Properties::new(),
+            door_states: Default::default(),
+            forms: Default::default(),
+        },
+    );
+    Some(id)
+}
+
+fn prism(id: OrFrId, piece: &[Point], top: f64) -> Orthoframe {
+    let corner = |index: usize| Point::from(piece[index % piece.len()] - piece[0]);
+    let side = |index: usize| BaseVector {
+        id: format!("V{index}"),
+        start: corner(index),
+        end: corner(index + 1),
+        side_type: None,
+        permeability: Permeability::Impermeable,
+        names: Vec::new(),
+        properties: Properties::new(),
+    };
+    Orthoframe {
+        id,
+        key: format!("obstacle-{}", LAST_ID - id.0),
+        name: String::new(),
+        name_en: String::new(),
+        description: String::new(),
+        frame_type: None,
+        shape: None,
+        base: (0..piece.len()).map(side).collect(),
+        height: Cm::of(top.max(1.0)),
+        base_permeability: Permeability::Impermeable,
+        roof_permeability: Permeability::Impermeable,
+        roof_scale: 1.0,
+        properties: Properties::new(),
+    }
+}

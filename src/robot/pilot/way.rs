@@ -1,0 +1,294 @@
+//! The way of a [`Pilot`]: piece by piece, looking ahead; what stands in it is waited for, recognised, or told with its
+//! outline.
+
+use crate::geometry::{PlacedReplica, Polygon, convex_hull, nearest_on_segment};
+use crate::map::DoorKind;
+use crate::sensing::ThingSeen;
+use crate::units::{Deg, Frame, Point, ReplicaId, Vector};
+use crate::vehicle::{Bump, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
+
+use super::{Pilot, SURE, UNKNOWN, pose_of};
+
+/// The robot drives so far before it aims anew, cm.
+const PIECE: f64 = 20.0;
+/// So near to a corner of its way, and to its end, it is there, cm; so near to a heading it faces it, degrees.
+const AT_CORNER: f64 = 1.5;
+const AT_END: f64 = 3.0;
+const AT_HEADING: f64 = 1.5;
+/// The way ahead is looked over so far, cm.
+const AHEAD: f64 = 70.0;
+/// Looks for which it waits before what stands in the way, and those after which what has not moved stays.
+const LOOKS: usize = 10;
+const STAYS: usize = 3;
+/// What moved by less stands, cm.
+const STILL: f64 = 8.0;
+/// What is farther is not what stands in the way, cm.
+const NEAR: f64 = 200.0;
+/// How thick something is at least of which single returns tell, cm to each side.
+const THICK: f64 = 3.0;
+/// Contacts on one stretch of a way after which something unseen stands there.
+const CONTACTS: usize = 4;
+/// Away from what was touched, cm.
+const AWAY: f64 = 4.0;
+
+impl Pilot<'_, '_> {
+    /// Leaves of doors as they are believed to stand, as edges.
+    fn leaves(&self) -> Vec<(Point, Point)> {
+        let doorways = self.ground.floors[&self.map].doorways().iter();
+        let leaves = doorways.filter_map(|doorway| {
+            let door = self.ground.world.doors.get(&doorway.door?)?;
+            Some(doorway.leaves(door).obstacles(*self.doors.get(&door.id)?))
+        });
+        leaves.flatten().flat_map(|leaf| leaf.edges().collect::<Vec<_>>()).collect()
+    }
+
+    /// Returns of the last look that lie on the way ahead, and on nothing that is known.
+    fn in_the_way(&self, path: &[Point]) -> Vec<Point> {
+        let Some((from, sensor, ranges)) = &self.look else { return Vec::new() };
+        let way = ahead(self.at(), path, AHEAD);
+        let robot = &self.ground.world.robot;
+        let wide = robot.passing_width() / 2.0 - robot.clearance.get() - 1.0;
+        let leaves = self.leaves();
+        let chart = self.chart();
+        let is_near = |p: Point| {
+            way.windows(2).any(|leg| (nearest_on_segment(p, leg[0], leg[1]) - p).norm() < wide)
+        };
+        let is_known = |p: Point| {
+            chart.nearest(p).is_some_and(|(_, foot)| (foot - p).norm() <= UNKNOWN)
+                || leaves.iter().any(|(a, b)| (nearest_on_segment(p, *a, *b) - p).norm() <= UNKNOWN)
+        };
+        let ends = ranges.iter().zip(sensor.directions());
+        let ends = ends.filter(|(range, _)| sensor.returned(**range));
+        let ends = ends.map(|(range, u)| from * Point::from(u * *range));
+        let met: Vec<Point> = ends.filter(|p| is_near(*p) && !is_known(*p)).collect();
+        // One by itself is noise.
+        if met.len() < 2 { Vec::new() } else { met }
+    }
+
+    /// Waits while what is in the way moves; what stays there, then.
+    fn wait_for_way(
+        &mut self,
+        path: &[Point],
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Unfinished<Bump>> {
+        let mut still = 0;
+        let mut before: Option<Point> = None;
+        for _ in 0..LOOKS {
+            let met = self.in_the_way(path);
+            self.met.clone_from(&met);
+            if met.is_empty() {
+                return Ok(());
+            }
+            if let Some(against) = self.recognise(&met, watch) {
+                return Err(Bump { at: pose_of(&self.pose), against }.into());
+            }
+            let middle = middle_of(&met);
+            still = match before {
+                Some(before) if (middle - before).norm() <= STILL => still + 1,
+                _ => 0,
+            };
+            if still >= STAYS {
+                break;
+            }
+            before = Some(middle);
+            let looked = self.ask(watch, |body, watch| body.look_round(watch));
+            looked.map_err(|unfinished| {
+                unfinished
+                    .map(|_| Bump { at: pose_of(&self.pose), against: Obstruction::Something })
+            })?;
+            self.settle(watch)?;
+        }
+        if self.in_the_way(path).is_empty() {
+            return Ok(());
+        }
+        Err(Bump { at: pose_of(&self.pose), against: Obstruction::Something }.into())
+    }
+
+    /// What of the Map stands here, where it is not mapped; it is told.
+    fn recognise(&mut self, met: &[Point], watch: &mut Watch<'_>) -> Option<Obstruction> {
+        let differences = self.inspector.differences();
+        let floor = &self.ground.floors[&self.map];
+        for (&id, seen) in &differences.doors {
+            let Some(door) = self.ground.world.doors.get(&id) else { continue };
+            let Some(state) = seen.state(self.doors[&id]).filter(|_| seen.sure >= SURE) else {
+                continue;
+            };
+            if state == self.doors[&id] || door.kind == DoorKind::Passage {
+                continue;
+            }
+            let leaves = floor.doorways_of(id).flat_map(|way| way.leaves(door).obstacles(state));
+            let is_it = leaves.into_iter().any(|leaf| {
+                met.iter()
+                    .any(|p| leaf.contains(*p, 0.0) || leaf.border_distance(*p) <= 2.0 * UNKNOWN)
+            });
+            if is_it {
+                self.doors.insert(id, state);
+                watch.notice(&Notice::Saw(Sighting::Door { door: id, state }));
+                return Some(Obstruction::Door(id));
+            }
+        }
+        for look in differences.things.iter().filter(|look| look.sure >= SURE) {
+            let ThingSeen::Moved(frame) = look.seen else { continue };
+            let placed = PlacedReplica::new(self.ground.world, look.thing, frame);
+            let is_it = placed.prisms.iter().any(|prism| {
+                met.iter().any(|p| {
+                    prism.polygon.contains(*p, 0.0)
+                        || prism.polygon.border_distance(*p) <= 2.0 * UNKNOWN
+                })
+            });
+            if is_it && let Some(seen) = self.in_area(look.thing, frame) {
+                watch.notice(&Notice::Saw(seen));
+                return Some(Obstruction::Replica(look.thing));
+            }
+        }
+        None
+    }
+
+    /// A thing at a frame of the Map, as a sighting in the Area that holds it.
+    fn in_area(&self, replica: ReplicaId, frame: Frame) -> Option<Sighting> {
+        let area = self.ground.floors[&self.map].scene().area_at(frame.origin())?;
+        let (_, placed) = self.ground.world.placement(area)?;
+        let at = placed.invert(frame.origin());
+        let (z, angle) = (frame.z - placed.z, frame.angle - placed.angle);
+        let frame = Frame::new(at.x, at.y, z.get(), angle);
+        Some(Sighting::Replica { replica, area, frame })
+    }
+
+    /// Back from what was touched on a way.
+    fn back_off(&mut self, way: Vector, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
+        let goal = self.to_odometry(self.at() - way.normalize() * AWAY);
+        match self.ask(watch, |body, watch| body.follow(&[goal], None, watch)) {
+            Ok(()) | Err(Unfinished::Met(_)) => self.settle(watch),
+            Err(unfinished) => Err(unfinished),
+        }
+    }
+
+    /// Away from the nearest return of the last look.
+    fn away(&self) -> Vector {
+        let Some((from, sensor, ranges)) = &self.look else { return Vector::x() };
+        let ends = ranges.iter().zip(sensor.directions());
+        let near =
+            ends.filter(|(range, _)| sensor.returned(**range)).min_by(|a, b| a.0.total_cmp(b.0));
+        near.map_or(Vector::x(), |(_, u)| from.rotation * u)
+    }
+
+    /// Points just before the body on its way.
+    fn front(&self, way: Vector) -> Vec<Point> {
+        let radius = self.ground.world.robot.radius.get() + THICK + 1.0;
+        let course = way.y.atan2(way.x);
+        let before = |turn: f64| {
+            let (sin, cos) = (course + turn.to_radians()).sin_cos();
+            self.at() + Vector::new(cos, sin) * radius
+        };
+        [-25.0, 0.0, 25.0].map(before).to_vec()
+    }
+
+    /// Drives to one corner of a way.
+    pub(super) fn approach(
+        &mut self,
+        leg: (Point, Point),
+        rest: &[Point],
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Unfinished<Bump>> {
+        let (from, goal) = leg;
+        let close = if rest.len() > 1 { AT_CORNER } else { AT_END };
+        let mut contacts = 0;
+        loop {
+            watch.check()?;
+            let way = goal - self.at();
+            let left = way.norm();
+            let is_past = left <= 2.0 * AT_END && way.dot(&(goal - from)) <= 0.0;
+            if left <= close || is_past {
+                return Ok(());
+            }
+            if !self.in_the_way(rest).is_empty() {
+                self.wait_for_way(rest, watch)?;
+                continue;
+            }
+            let target = self.to_odometry(self.at() + way * (PIECE.min(left) / left));
+            match self.ask(watch, |body, watch| body.follow(&[target], None, watch)) {
+                Ok(()) => {}
+                Err(Unfinished::Met(bump)) => {
+                    contacts += 1;
+                    self.settle(watch)?;
+                    // Below or above what the laser sees: it stands before the body.
+                    let met = self.front(way);
+                    self.back_off(way, watch)?;
+                    if contacts >= CONTACTS {
+                        self.met = met;
+                        let at = pose_of(&self.pose);
+                        return Err(Bump { at, ..bump }.into());
+                    }
+                }
+                Err(unfinished) => return Err(unfinished),
+            }
+            self.settle(watch)?;
+        }
+    }
+
+    pub(super) fn face(
+        &mut self,
+        heading: Deg,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Unfinished<Bump>> {
+        for _ in 0..CONTACTS {
+            let off = (heading - pose_of(&self.pose).heading).signed();
+            if off.abs() <= AT_HEADING {
+                break;
+            }
+            let goal = Deg::from_radians(self.odometry.rotation.angle()) + Deg::of(off);
+            match self.ask(watch, |body, watch| body.follow(&[], Some(goal), watch)) {
+                Ok(()) => self.settle(watch)?,
+                Err(Unfinished::Met(_)) => {
+                    self.settle(watch)?;
+                    self.back_off(self.away(), watch)?;
+                }
+                Err(unfinished) => return Err(unfinished),
+            }
+        }
+        Ok(())
+    }
+
+    /// Things that it sees about it and that nobody knows.
+    pub(super) fn unknown(&self) -> Outlines {
+        let at = self.at();
+        let is_here = |middle: Point| (middle - at).norm() <= NEAR;
+        let seen = self.inspector.differences().unmapped.into_iter();
+        let seen = seen.filter(|seen| seen.sure >= SURE && is_here(seen.middle()));
+        let mut things: Vec<Vec<Polygon>> = seen.map(|seen| seen.pieces).collect();
+        let is_told = |p: &Point| {
+            let mut pieces = things.iter().flatten();
+            pieces.any(|piece| piece.contains(*p, 0.0) || piece.border_distance(*p) <= UNKNOWN)
+        };
+        let untold: Vec<Point> = self.met.iter().filter(|p| !is_told(p)).copied().collect();
+        if untold.len() >= 2 {
+            let around = |p: &Point| {
+                [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
+                    .map(|(x, y)| p + Vector::new(x, y) * THICK)
+            };
+            things.push(vec![Polygon::new(convex_hull(untold.iter().flat_map(around).collect()))]);
+        }
+        Outlines { things, top: self.ground.height + 1.0 }
+    }
+}
+
+fn middle_of(points: &[Point]) -> Point {
+    let sum: Vector = points.iter().map(|p| p.coords).sum();
+    Point::from(sum / points.len().max(1) as f64)
+}
+
+/// The beginning of a way, so far along.
+fn ahead(from: Point, path: &[Point], mut left: f64) -> Vec<Point> {
+    let mut way = vec![from];
+    for &goal in path {
+        let last = way[way.len() - 1];
+        let length = (goal - last).norm();
+        if length >= left {
+            way.push(last + (goal - last) * (left / length.max(1e-9)));
+            break;
+        }
+        left -= length;
+        way.push(goal);
+    }
+    way
+}

@@ -1,0 +1,103 @@
+//! A thing that is not where it was: it is looked for where it is believed to be, then where things of its kind lie, then
+//! everywhere, and found wherever the robot gets to.
+
+#![allow(clippy::print_stdout, reason = "figures")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
+use orthoframe_geometry::{DoorStates, FloorPlan};
+use orthoframe_graphplan::Limits;
+use orthoframe_map::{Entity, Replica, World};
+use orthoframe_robot::*;
+use orthoframe_semantics::{Followed, RelationRules, derive};
+use orthoframe_strips::Domain;
+use orthoframe_units::{AreaId, Cm, Frame, MapId, ReplicaId, Stop};
+
+#[test]
+fn what_is_not_in_its_place_is_sought_where_its_kind_lies_first() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let world = World::load(root.join("maps/rb2.toml")).unwrap();
+    let (domain, _) = Domain::read(&root.join("rules/service-robot.strips")).unwrap();
+    let rules = RelationRules::standard();
+    let relations = Arc::new(derive(&world, &rules, world.domain.profile).unwrap());
+    let (map, pose) = starting_pose(&world).unwrap();
+    let plan =
+        |&map: &MapId| (map, FloorPlan::build(&world, map, &world.robot, &DoorStates::new()));
+    let floors: BTreeMap<MapId, FloorPlan> = world.maps.keys().map(plan).collect();
+    let kind = |thing: &Replica| world.objects[&thing.object].object_type;
+    let portable: Vec<ReplicaId> =
+        world.replicas.keys().copied().filter(|id| world.has_trait(*id, "portable")).collect();
+    assert!(portable.len() > 8);
+    let (mut found, mut in_order, mut told_at_once) = (0, 0, 0);
+    for (number, id) in portable.iter().enumerate() {
+        let thing = &world.replicas[id];
+        // Anywhere else: on the floor of another room, where a named place is.
+        let elsewhere: Vec<_> =
+            world.places.values().filter(|place| place.area != thing.area).collect();
+        let place = elsewhere[number % elsewhere.len()];
+        let mut truth = world.clone();
+        let moved = truth.replicas.get_mut(id).unwrap();
+        moved.area = place.area;
+        moved.frame = Frame::new(place.at.x + 40.0, place.at.y, 0.0, thing.frame.angle);
+        moved.frame.z = Cm::ZERO;
+        let mut belief = Belief::new(world.clone(), floors.clone(), map, pose).unwrap();
+        belief.sought.insert(thing.name.clone(), BTreeSet::new());
+        let followed = Followed::new(Arc::new(world.clone()), Arc::clone(&relations));
+        let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
+        let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
+        let mut robot = Simulator::new(truth, map, pose);
+        let goal = [GoalFact {
+            predicate: "ПРЕДМЕТ-НАЙДЕН".to_owned(),
+            args: vec![thing.name.clone()],
+        }];
+        let mut looked: Vec<AreaId> = Vec::new();
+        let mut sought: Vec<String> = Vec::new();
+        let mut tell = |event: &Event<'_>| match event {
+            Event::Surprised { surprise: Surprise::NotSeen { area, .. }, .. } => looked.push(*area),
+            Event::Started { directive, .. } if directive.brings_about("ПРЕДМЕТ-НАЙДЕН") =>
+            {
+                sought.push(directive.args[1].to_string());
+            }
+            _ => {}
+        };
+        let ending = mission.run(&goal, &mut robot, &Stop::new(), &mut tell).unwrap();
+        let is_found = matches!(ending, Ending::Done | Ending::AlreadyTrue);
+        // The rooms that were looked over, in their order.
+        let area_of = |name: &String| {
+            let found = world.find(name).into_iter();
+            found.filter_map(|e| if let Entity::Area(id) = e { Some(id) } else { None }).next()
+        };
+        let order: Vec<AreaId> = sought.iter().filter_map(area_of).collect();
+        assert!(order.starts_with(&looked), "{}: {order:?} {looked:?}", thing.name);
+        found += usize::from(is_found);
+        // What stands on the floor is missed, and seen, from the place before it: nothing is looked over for it there.
+        if order.first() != Some(&thing.area) {
+            told_at_once += 1;
+            continue;
+        }
+        let kin: BTreeSet<AreaId> = world
+            .replicas
+            .values()
+            .filter(|other| other.id != *id)
+            .filter(|other| {
+                other.object == thing.object || kind(other).is_some() && kind(other) == kind(thing)
+            })
+            .map(|other| other.area)
+            .filter(|area| *area != thing.area)
+            .collect();
+        let tail = &order[1..];
+        let first_other = tail.iter().position(|area| !kin.contains(area)).unwrap_or(tail.len());
+        let kin_looked: BTreeSet<AreaId> = tail[..first_other].iter().copied().collect();
+        let all_kin_first = first_other == tail.len() || kin_looked == kin;
+        assert!(all_kin_first, "{}: {order:?}, its kind in {kin:?}", thing.name);
+        in_order += usize::from(!kin.is_empty() && tail.len() > kin.len().min(1));
+    }
+    println!(
+        "{found} of {} found; {in_order} sought beyond the first room of their kind",
+        portable.len()
+    );
+    assert!(told_at_once * 4 <= portable.len(), "{told_at_once} of {}", portable.len());
+    assert!(found * 10 >= portable.len() * 8, "{found} of {}", portable.len());
+}
