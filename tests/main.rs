@@ -70,3 +70,4 @@ mod views;
 mod ways;
 mod words;
 mod worlds;
+mod zones;
