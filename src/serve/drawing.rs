@@ -5,9 +5,9 @@
 use serde_json::{Value, json};
 
 use crate::engine::{Error, State};
-use crate::geometry::{FloorPlan, Opening, Polygon, Region, Scene};
-use crate::map::{Door, DoorStatus, Permeability, World};
-use crate::units::{AreaId, MapId, Point};
+use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
+use crate::map::{Door, DoorStatus, Permeability, World, ZoneKind};
+use crate::units::{AreaId, Language, MapId, Point};
 
 /// Rooms, walls, things, doors and places of a Map.
 ///
@@ -28,11 +28,36 @@ pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
         "things": things(world, scene),
         "doors": doors(world, now, floor),
         "places": places(world, map),
+        "zones": zones(state, world, floor)?,
     });
     let elsewhere =
         if std::ptr::eq(world, now) { Vec::new() } else { moved(world, now, map, scene) };
     view["elsewhere"] = json!(elsewhere);
     Ok(view)
+}
+
+/// The zones of a Map, those for a time among them, with what they say in both languages.
+fn zones(state: &State, world: &World, floor: &FloorPlan) -> Result<Vec<Value>, Error> {
+    let [russian, english] = [Language::Russian, Language::English];
+    let (rules, rules_en) = (state.zones_in_words(russian)?, state.zones_in_words(english)?);
+    let all = floor.with_zones(world, |_| true);
+    let zone = |placed: &PlacedZone| {
+        let zone = &world.zones[&placed.id];
+        json!({
+            "name": zone.name,
+            "name_en": zone.name_en,
+            "kind": match zone.kind {
+                ZoneKind::KeepOut => "keep-out",
+                ZoneKind::Closed => "closed",
+                ZoneKind::Slow { .. } => "slow",
+                ZoneKind::OneWay { .. } => "one-way",
+            },
+            "rule": rules[&zone.id],
+            "rule_en": rules_en[&zone.id],
+            "polygons": placed.polygons.iter().map(outline).collect::<Vec<_>>(),
+        })
+    };
+    Ok(all.zones().iter().map(zone).collect())
 }
 
 /// The free floor of a Map: its Passframes, dead zones, and the network over them.
