@@ -4,9 +4,9 @@
 //! names in both languages (hover), where it is declared (definition), the names of a file, and names to complete.
 //! Documents are sent whole. A rule file of one's own may use what `rules/relations.dl` declares, as in the program.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, BufRead, Read as _, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use miette::Diagnostic;
 use serde_json::{Value, json};
@@ -20,6 +20,8 @@ use crate::units::{Source, name_key};
 
 /// A message that is longer is none.
 const MAX_MESSAGE: usize = 64 << 20;
+/// A rule file beside the one that is open.
+const MAX_FILE: u64 = 4 << 20;
 /// A line of a message's head.
 const MAX_LINE: u64 = 1 << 12;
 
@@ -38,6 +40,14 @@ struct Mark {
     /// As names are compared, with what the name is one of.
     key: (String, u8),
     declared: Option<String>,
+}
+
+/// Where a name is declared.
+struct Declared {
+    /// The document's URI; empty for the program itself.
+    place: String,
+    text: String,
+    mark: Mark,
 }
 
 #[derive(Debug, Default)]
@@ -136,8 +146,9 @@ impl Server {
         }
     }
 
-    /// The name at a position, and where it is declared: in this document, in another, or in the program itself.
-    fn named(&self, uri: &str, position: &Value) -> Option<(Mark, Option<(String, Mark)>)> {
+    /// The name at a position, and where it is declared: in this document, in another, in a file beside it or that it
+    /// includes, or in the program itself.
+    fn named(&self, uri: &str, position: &Value) -> Option<(Mark, Option<Declared>)> {
         let text = self.documents.get(uri)?;
         let offset = offset_of(text, position)?;
         let marks = marks(uri, text);
@@ -148,19 +159,48 @@ impl Server {
         let others = self.documents.iter().filter(|(other, _)| *other != uri);
         let mut places: Vec<(String, String)> = vec![(uri.to_owned(), text.clone())];
         places.extend(others.map(|(other, text)| (other.clone(), text.clone())));
-        if !is_robot_rules(uri) {
-            places.push((String::new(), STANDARD.to_owned()));
-        }
-        let declared = places.into_iter().find_map(|(place, text)| {
-            let found = marks_of_kind(uri, &place, &text).into_iter().find(is_it)?;
-            Some((place, found))
+        let find = |(place, text): (String, String)| {
+            let mark = marks_of_kind(uri, &place, &text).into_iter().find(is_it)?;
+            Some(Declared { place, text, mark })
+        };
+        let declared = places.into_iter().find_map(find).or_else(|| {
+            let standard = (!is_robot_rules(uri)).then(|| (String::new(), STANDARD.to_owned()));
+            self.on_disk(uri, text).into_iter().chain(standard).find_map(find)
         });
         Some((at, declared))
     }
 
+    /// The rule files that are not open and that a document includes, or that lie beside it.
+    fn on_disk(&self, uri: &str, text: &str) -> Vec<(String, String)> {
+        const MOST: usize = 64;
+        if !uri.starts_with("file://") {
+            return Vec::new();
+        }
+        let path = path_of(uri);
+        let mut known: Vec<PathBuf> = self.documents.keys().map(|uri| path_of(uri)).collect();
+        let mut open: VecDeque<PathBuf> = included(&path, text).into();
+        let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
+        let mut beside: Vec<PathBuf> =
+            beside.into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+        beside.retain(|other| other.extension() == path.extension());
+        beside.sort();
+        open.extend(beside);
+        let mut found = Vec::new();
+        while let Some(path) = open.pop_front().filter(|_| found.len() < MOST) {
+            if known.contains(&path) {
+                continue;
+            }
+            known.push(path.clone());
+            let Ok(source) = Source::read_within(&path, MAX_FILE) else { continue };
+            open.extend(included(&path, source.text()));
+            found.push((uri_of(&path), source.text().to_owned()));
+        }
+        found
+    }
+
     fn hover(&self, uri: &str, position: &Value) -> Value {
-        let Some((at, Some((_, declared)))) = self.named(uri, position) else { return Value::Null };
-        let text = declared.declared.unwrap_or_default();
+        let Some((at, Some(declared))) = self.named(uri, position) else { return Value::Null };
+        let text = declared.mark.declared.unwrap_or_default();
         let value = format!("```\n{text}\n```");
         json!({
             "contents": { "kind": "markdown", "value": value },
@@ -170,8 +210,8 @@ impl Server {
 
     fn definition(&self, uri: &str, position: &Value) -> Value {
         match self.named(uri, position) {
-            Some((_, Some((place, declared)))) if !place.is_empty() => {
-                json!({ "uri": place, "range": range(&self.documents[&place], &declared.range) })
+            Some((_, Some(Declared { place, text, mark }))) if !place.is_empty() => {
+                json!({ "uri": place, "range": range(&text, &mark.range) })
             }
             _ => Value::Null,
         }
@@ -369,6 +409,50 @@ fn path_of(uri: &str) -> PathBuf {
         rest = if code.is_some() { &behind[2..] } else { behind };
     }
     String::from_utf8_lossy(&bytes).into_owned().into()
+}
+
+/// The path as a URI; what no URI holds is written by its bytes.
+fn uri_of(path: &Path) -> String {
+    let mut uri = "file://".to_owned();
+    for byte in path.to_string_lossy().bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'.' | b'_' | b'~' => {
+                uri.push(char::from(byte));
+            }
+            other => uri.push_str(&format!("%{other:02X}")),
+        }
+    }
+    uri
+}
+
+/// The files that a rule text includes, seen from its folder.
+fn included(path: &Path, text: &str) -> Vec<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let named = text.lines().filter_map(|line| {
+        let line = line.trim();
+        let quoted = |rest: &str| rest.split('"').nth(1).map(str::to_owned);
+        let relations = line.strip_prefix(".include").or_else(|| line.strip_prefix("#include"));
+        let robot = line.strip_prefix("Включить:").or_else(|| line.strip_prefix("Include:"));
+        let robot =
+            robot.and_then(|rest| rest.split(';').next()).map(|name| name.trim().to_owned());
+        relations.and_then(quoted).or(robot)
+    });
+    named.map(|name| lexically(&folder.join(name))).collect()
+}
+
+/// The path without `.` and `..`, so that equal files have equal paths.
+fn lexically(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if plain.file_name().is_some() => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
 }
 
 /// A message: its head says how long its JSON is. None at the end of the input.

@@ -95,7 +95,7 @@ impl Apart<'_> {
         finished: &mut Finished<'_>,
         rows: Box<dyn Growing>,
     ) -> Result<SharedRows, Unfinished> {
-        let limits = finished.watch.limits();
+        let (limits, threads) = (finished.watch.limits(), finished.watch.threads());
         finished.words.settle();
         let words = finished.words.share();
         let sources: Vec<_> = self.rounds.iter().map(|(_, plan)| finished.plain(plan)).collect();
@@ -105,7 +105,7 @@ impl Apart<'_> {
             self.part(part, &sources, words.share(), &branch.watch(), base, &known)
         };
         let work = &work;
-        let mut parts = rows.split(self.column, limits.threads).into_iter();
+        let mut parts = rows.split(self.column, threads).into_iter();
         let own = parts.next();
         let done: Option<Vec<Taken>> = thread::scope(|scope| {
             let others: Vec<_> = parts
@@ -127,7 +127,7 @@ impl Apart<'_> {
         match done {
             _ if total > limits.rows => Err(Unfinished::Rows),
             _ if finished.watch.is_over() => Err(Unfinished::Limit),
-            Some(done) => Ok(rows.put_together(done, limits.threads)),
+            Some(done) => Ok(rows.put_together(done, threads)),
             None => Err(Unfinished::Limit),
         }
     }

@@ -20,12 +20,13 @@ use foldhash::fast::RandomState;
 
 use super::ask::{AskError, Computed};
 use super::called::{Called, Flat, Lookup, Mask, columns_of};
-use super::evaluate::MAX_ROWS;
+use super::finished::Outside;
 use super::finished::share;
 use super::head::Head;
 use super::kept::{Kept, View};
+use super::limits::MAX_ROWS;
 use super::limits::Watch;
-use super::magic::{Magic, Outside};
+use super::magic::Magic;
 use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, Version, plan_with_cost};
 use super::program::{Clause, Expr, Program, RelationId, VariableId};
 use super::proof::turned;

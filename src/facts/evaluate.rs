@@ -10,10 +10,9 @@ use thiserror::Error;
 
 use super::database::Database;
 use super::derived::Derived;
-use super::explain::RuleTrace;
 use super::finished::Finished;
 use super::head::{Head, head_variables};
-use super::limits::{Limits, Reached, Watch};
+use super::limits::{Limits, MAX_ROWS, Reached, Watch};
 use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
 use super::rows::{RowSet, SharedRows, Sink, heap};
@@ -22,6 +21,7 @@ use super::spread::{Join, Makes, can_spread};
 use super::strata::reads;
 use super::subsume::{Chosen, choosing};
 use super::syntax::Span;
+use super::trace::RuleTrace;
 use super::word::{Note, Word};
 
 /// Why a program has no result.
@@ -59,9 +59,6 @@ pub enum EvaluateError {
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
 }
 
-/// A relation's rows at most, unless `.limitsize` says less.
-pub(super) const MAX_ROWS: usize = 1 << 27;
-
 impl Program {
     /// Derives everything that follows from the database.
     ///
@@ -93,10 +90,11 @@ impl Program {
         let mut evaluation = Evaluation::new(self, database, limits.within(self.limits));
         evaluation.traced = is_traced.then(Vec::new);
         let last_readers = self.last_readers();
-        for (n, stratum) in self.strata.iter().enumerate() {
-            evaluation.stratum(stratum)?;
+        for wave in self.waves() {
+            evaluation.wave(&self.strata[wave.clone()])?;
             // What nobody will read again need not be held in any other order.
-            evaluation.finished.indexes.retain(|(read, _), _| last_readers[read.index()] > n);
+            let is_read = |read: &RelationId| last_readers[read.index()] >= wave.end;
+            evaluation.finished.indexes.retain(|(read, _), _| is_read(read));
         }
         let traced = evaluation.traced.take().unwrap_or_default();
         Ok((evaluation.derived(), traced))
@@ -248,7 +246,7 @@ impl<'a> Evaluation<'a> {
                     self.emit(clause, &plan, &no_parts(&plan), limit, true, sink.as_sink());
                     self.check_limits(clause)?;
                 }
-                let rows = new.sort_among(self.finished.watch.limits().threads);
+                let rows = new.sort_among(self.finished.watch.threads());
                 self.check_size(*relation, rows.len())?;
                 rows
             };
@@ -325,12 +323,21 @@ impl<'a> Evaluation<'a> {
             self.trace(clause, plan, found, started.elapsed());
         }
         if let Some(note) = self.finished.words.take_note() {
-            const MAX_NOTES: usize = 32;
-            let is_known = self.notes.iter().any(|(at, _)| *at == clause.at);
-            if !is_known && self.notes.len() < MAX_NOTES {
-                self.notes.push((clause.at, note));
-            }
+            self.note(clause.at, note);
         }
+    }
+
+    /// Keeps the first note of each rule.
+    pub(super) fn note(&mut self, at: Span, note: Note) {
+        const MAX_NOTES: usize = 32;
+        let is_known = self.notes.iter().any(|(known, _)| *known == at);
+        if !is_known && self.notes.len() < MAX_NOTES {
+            self.notes.push((at, note));
+        }
+    }
+
+    pub(super) fn take_notes(&mut self) -> Vec<(Span, Note)> {
+        std::mem::take(&mut self.notes)
     }
 }
 

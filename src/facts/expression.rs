@@ -309,6 +309,11 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
             let help = "есть арифметика, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
             rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
         }
+        _ if name.text == "__ITERATION__" => input.refuse(RuleError::Unsupported {
+            what: "__ITERATION__".into(),
+            help: "заведите столбец, который считает шаги",
+            at: name.at.into(),
+        }),
         _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
         _ if name.text == "nil" => Ok((rest, Expr::Nil(name.at))),
         _ => Ok((rest, Expr::Variable(name))),

@@ -14,10 +14,10 @@ use super::database::{Database, FactError, Known, Loader};
 use super::decimal::Decimal;
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
-use super::explain::RuleTrace;
 use super::fault::{Faults, FileFaults};
 use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
+use super::trace::{self, RuleTrace};
 use crate::units::{FileFault, Source, read_text, write_file_with};
 
 /// Why a program over files has no result.
@@ -147,7 +147,7 @@ fn run(
     let mut warnings = program.warnings().to_vec();
     warnings.extend(derived.notes());
     let mut report =
-        FilesReport { warnings, traced: super::explain::sorted(traced), ..FilesReport::default() };
+        FilesReport { warnings, traced: trace::sorted(traced), ..FilesReport::default() };
     for (relation, info) in program.relations() {
         if info.print_size {
             let size = derived.len(relation).expect("the relation is the program's own");
@@ -296,7 +296,8 @@ fn read(
     let mut tuple = Vec::new();
     let places =
         parameter(parameters, "columns").and_then(|of| file_columns(of, info.columns.len()));
-    let mut records = Records { rest: &text, line: 0, parameters };
+    let has_records = info.columns.iter().any(|column| matches!(column.kind, Kind::Record(_)));
+    let mut records = Records { rest: &text, line: 0, parameters, has_records };
     let mut values = Vec::new();
     let mut is_header = has_headers(parameters);
     while let Some(line) = records.next(&mut values) {
@@ -350,6 +351,8 @@ struct Records<'a> {
     rest: &'a str,
     line: usize,
     parameters: &'a Parameters,
+    /// Some column holds records, whose commas part no columns.
+    has_records: bool,
 }
 
 impl<'a> Records<'a> {
@@ -366,7 +369,9 @@ impl<'a> Records<'a> {
                 Some(inside) if is_quoted(self.parameters) => unquoted(inside),
                 _ => {
                     let line = self.rest.find('\n').unwrap_or(self.rest.len());
-                    let end = self.rest[..line].find(delimiter).unwrap_or(line);
+                    let line = &self.rest[..line];
+                    let whole = self.has_records.then(|| behind_record(line, delimiter)).flatten();
+                    let end = whole.or_else(|| line.find(delimiter)).unwrap_or(line.len());
                     (Cow::Borrowed(&self.rest[..end]), &self.rest[end..])
                 }
             };
@@ -388,6 +393,32 @@ impl<'a> Records<'a> {
             return Some(first);
         }
     }
+}
+
+/// Where a record that a line begins with ends: at the delimiter behind its brackets, or with the line. None for what is
+/// no record, or is left open.
+fn behind_record(line: &str, delimiter: &str) -> Option<usize> {
+    if !line.trim_start().starts_with(['[', '$']) {
+        return None;
+    }
+    let (mut depth, mut is_text) = (0_usize, false);
+    let mut letters = line.char_indices();
+    while let Some((at, letter)) = letters.next() {
+        if depth == 0 && line[at..].starts_with(delimiter) {
+            return Some(at);
+        }
+        match letter {
+            '\\' if is_text => {
+                letters.next();
+            }
+            '"' => is_text = !is_text,
+            _ if is_text => {}
+            '[' | '(' => depth += 1,
+            ']' | ')' => depth = depth.checked_sub(1)?,
+            _ => {}
+        }
+    }
+    (depth == 0 && !is_text).then_some(line.len())
 }
 
 /// The value up to the closing quote, two quotes standing for one, and what follows.
@@ -534,6 +565,32 @@ mod tests {
         let report = run_files(&program, folder.path(), folder.path(), Limits::default());
         let written = std::fs::read_to_string(folder.path().join("путь.csv")).unwrap_or_default();
         (report, written)
+    }
+
+    /// A record's commas are its own, also where commas part the columns.
+    #[test]
+    fn records_stand_whole_in_files_parted_by_commas() {
+        let folder = tempfile::tempdir().unwrap();
+        let program = folder.path().join("program.dl");
+        let text = r#"
+            .type P = [n: number, t: symbol]
+            .type T = Leaf {} | Node {l: T, n: number}
+            .decl a(s: symbol, p: P, t: T, q: P)
+            .input a(delimiter=",") .input a(delimiter=", ", filename="b.facts")
+            .decl out(s: symbol, p: P, t: T, q: P) .output out
+            out(S, P, T, Q) :- a(S, P, T, Q)."#;
+        std::fs::write(&program, text).unwrap();
+        let one = "x[,[1, a], $Node($Node($Leaf, 2),3) ,nil\n";
+        std::fs::write(folder.path().join("a.facts"), one).unwrap();
+        std::fs::write(folder.path().join("b.facts"), "y, [2, b], $Leaf, [3, \"c], d\"]\n")
+            .unwrap();
+        run_files(&program, folder.path(), folder.path(), Limits::default()).unwrap();
+        let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+        let all = "x[\t[1, a]\t$Node($Node($Leaf, 2), 3)\tnil\ny\t[2, b]\t$Leaf\t[3, c], d]\n";
+        assert_eq!(written, all);
+        std::fs::write(folder.path().join("a.facts"), "x,[1, a,$Leaf,nil\n").unwrap();
+        let fault = run_files(&program, folder.path(), folder.path(), Limits::default());
+        assert!(matches!(fault, Err(FilesError::Line { line: 1, .. })));
     }
 
     #[test]

@@ -3,11 +3,20 @@
 use std::ops::Range;
 
 use super::index::IndexColumn;
+use super::program::Expr;
 use super::rows::RowSet;
-use super::run::ColumnFilter;
 use super::syntax::Comparison;
 use super::value;
 use super::word::{LARGE, NO_WORD, Word, Words, is_in_place};
+
+/// `column op value`, where the value is known before the scan.
+#[derive(Debug, Clone)]
+pub(super) struct ColumnFilter {
+    pub(super) column: usize,
+    pub(super) op: Comparison,
+    pub(super) value: Expr,
+    pub(super) is_number: bool,
+}
 
 /// Where in a range of sorted rows a filter on the first column behind the key can hold: among the numbers in
 /// place, which stand in their order, and among the large ones behind them.

@@ -3,10 +3,11 @@
 use std::cell::{Ref, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::index::Index;
+use super::kept::KeptIndex;
 use super::limits::Watch;
-use super::magic::Outside;
 use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
 use super::program::{Expr, RelationId};
 use super::rows::{RowSet, SharedRows};
@@ -14,13 +15,23 @@ use super::run::{Goal, Source, Step, run};
 use super::spread::Plain;
 use super::word::{Word, Words};
 
+/// Relations that an evaluation reads and does not hold.
+pub(super) trait Outside: Statistics {
+    fn has(&self, relation: RelationId) -> bool;
+    fn index(&self, request: &Request) -> Option<Arc<KeptIndex>>;
+    fn source<'s>(&'s self, request: &'s Request, index: Option<&'s Arc<KeptIndex>>) -> Source<'s>;
+}
+
+/// Indexes by relation and key.
+pub(super) type Indexes = HashMap<(RelationId, Vec<Expr>), Arc<Index>>;
+
 /// Finished relations, and what is known and built about them.
 pub(super) struct Finished<'a> {
     /// Where relations are read that are not held here.
     pub(super) outside: Option<&'a dyn Outside>,
     pub(super) words: Words,
     pub(super) rows: Vec<Option<SharedRows>>,
-    pub(super) indexes: HashMap<(RelationId, Vec<Expr>), Index>,
+    pub(super) indexes: Indexes,
     pub(super) watch: Rc<Watch>,
     distinct: RefCell<HashMap<(RelationId, usize), f64>>,
 }
@@ -39,7 +50,7 @@ impl Finished<'_> {
     /// Memory held by relations and indexes, near enough.
     pub(super) fn bytes(&self) -> usize {
         let rows: usize = self.rows.iter().flatten().map(|rows| rows.bytes()).sum();
-        rows + self.indexes.values().map(Index::bytes).sum::<usize>()
+        rows + self.indexes.values().map(|index| index.bytes()).sum::<usize>()
     }
 
     pub(super) fn relation(&self, relation: RelationId) -> &dyn RowSet {
@@ -61,7 +72,7 @@ impl Finished<'_> {
 
     /// Builds the indexes that a plan asks for, and points the plan's scans to their columns.
     pub(super) fn provide(&mut self, plan: &mut Plan) {
-        let threads = self.watch.limits().threads;
+        let threads = self.watch.threads();
         let mut places: Vec<Option<Vec<usize>>> = Vec::with_capacity(plan.requests.len());
         for request in &plan.requests {
             let Request::Index { relation, key, columns } = request else {
@@ -76,8 +87,12 @@ impl Finished<'_> {
                 self.rows[relation.index()].as_deref().expect("strata come after those they read");
             let entry = self.indexes.entry((*relation, key.clone()));
             let words = &mut self.words;
-            let index = entry.or_insert_with(|| Index::new(rows, key, words, threads));
-            places.push(Some(index.places(rows, columns, words, threads)));
+            let index = entry.or_insert_with(|| Arc::new(Index::new(rows, key, words, threads)));
+            if index.places(columns).is_none() {
+                // What other threads read as well is copied.
+                Arc::make_mut(index).add(rows, columns, words, threads);
+            }
+            places.push(index.places(columns));
         }
         for step in &mut plan.steps {
             let Step::Scan(scan) = step else { continue };

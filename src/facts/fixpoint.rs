@@ -11,7 +11,8 @@ use std::time::Instant;
 use datafrog::Iteration;
 
 use super::apart::handed_on;
-use super::evaluate::{EvaluateError, Evaluation, MAX_ROWS, no_parts, own_atoms};
+use super::evaluate::{EvaluateError, Evaluation, no_parts, own_atoms};
+use super::limits::MAX_ROWS;
 use super::plan::{Plan, Request, Version};
 use super::program::{Clause, RelationId, Stratum};
 use super::rows::{self, Growing, RowSet};
@@ -21,7 +22,7 @@ use super::word::Word;
 
 /// How often the time from which a join is divided the rounds of a recursive relation go on in one thread, before they
 /// are: most relations are done by then.
-const ROUNDS_ALONE: u32 = 4;
+const ROUNDS_ALONE: u32 = 2;
 
 /// For relations with choice domains the combinations that have their tuple.
 type Choices = HashMap<RelationId, Chosen>;
@@ -123,6 +124,7 @@ impl Evaluation<'_> {
             let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
             self.finished.watch.hold(held);
             if let Some((relation, column)) = alone
+                && self.finished.watch.threads() > 1
                 && since.elapsed() >= ROUNDS_ALONE * limits.spread_from
                 && let Some(rows) = growing.remove(&relation)
             {
@@ -152,7 +154,8 @@ impl Evaluation<'_> {
             self.check_limits(clause)?;
         }
         for (relation, rows) in growing {
-            self.finished.rows[relation.index()] = Some(rows.complete(limits.threads));
+            self.finished.rows[relation.index()] =
+                Some(rows.complete(self.finished.watch.threads()));
         }
         Ok(())
     }
@@ -165,15 +168,7 @@ impl Evaluation<'_> {
         rounds: &mut Vec<(&'c Clause, Plan)>,
     ) {
         for recent in own {
-            let mut versions = vec![Version::Finished; clause.body.len()];
-            for n in own {
-                versions[*n] = match n.cmp(recent) {
-                    std::cmp::Ordering::Less => Version::Stable,
-                    std::cmp::Ordering::Equal => Version::Recent,
-                    std::cmp::Ordering::Greater => Version::All,
-                };
-            }
-            let mut plan = self.plan(clause, &versions, Some(*recent));
+            let mut plan = self.plan(clause, &versions(clause, own, *recent), Some(*recent));
             self.finished.provide(&mut plan);
             rounds.push((clause, plan));
         }
@@ -204,6 +199,19 @@ impl Evaluation<'_> {
         }
         Ok(())
     }
+}
+
+/// What the atoms of a clause range over, one of the stratum's own over the rows of the last round.
+pub(super) fn versions(clause: &Clause, own: &[usize], recent: usize) -> Vec<Version> {
+    let mut versions = vec![Version::Finished; clause.body.len()];
+    for n in own {
+        versions[*n] = match n.cmp(&recent) {
+            std::cmp::Ordering::Less => Version::Stable,
+            std::cmp::Ordering::Equal => Version::Recent,
+            std::cmp::Ordering::Greater => Version::All,
+        };
+    }
+    versions
 }
 
 /// The rows behind each growing source of a plan.

@@ -1,7 +1,6 @@
 //! The head of a clause: its tuple for each solution of the body.
 
-use super::evaluate::MAX_ROWS;
-use super::limits::Watch;
+use super::limits::{MAX_ROWS, Watch};
 use super::program::{Clause, Expr, Kind, Program, VariableId};
 use super::rows::Sink;
 use super::run::Goal;

@@ -17,7 +17,7 @@ use super::value;
 use super::word::{NO_WORD, Word, Words, is_in_place};
 
 /// One column of an index, in the index's order.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct IndexColumn {
     pub(super) words: Vec<Word>,
     /// Every word is a number in place, so that words compare as the numbers do.
@@ -25,7 +25,7 @@ pub(super) struct IndexColumn {
 }
 
 /// Rows of a relation, ordered by a key.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Index {
     /// Positions of rows in the relation; none when they stand in the relation's own order.
     order: Option<Vec<u32>>,
@@ -36,7 +36,7 @@ pub(super) struct Index {
 }
 
 /// Where the rows of each first key word stand.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Directory {
     /// No key: all rows.
     None,
@@ -73,14 +73,29 @@ impl Index {
         (words + 1) * self.len * size_of::<Word>()
     }
 
-    /// The numbers of the columns that hold the expressions; those that there are not yet are made.
-    pub(super) fn places(
+    pub(super) fn columns(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Keeps so many columns.
+    pub(super) fn leave(&mut self, columns: usize) {
+        self.columns.truncate(columns);
+    }
+
+    /// The numbers of the columns that hold the expressions; none where one is not made yet.
+    pub(super) fn places(&self, exprs: &[Expr]) -> Option<Vec<usize>> {
+        let place = |expr| self.columns.iter().position(|(known, _)| known == expr);
+        exprs.iter().map(place).collect()
+    }
+
+    /// Makes the columns of the expressions that there are not yet.
+    pub(super) fn add(
         &mut self,
         rows: &dyn RowSet,
         exprs: &[Expr],
         words: &mut Words,
         threads: usize,
-    ) -> Vec<usize> {
+    ) {
         let mut missing: Vec<&Expr> = Vec::new();
         for expr in exprs {
             if !missing.contains(&expr) && self.columns.iter().all(|(known, _)| known != expr) {
@@ -92,8 +107,6 @@ impl Index {
             let is_in_place = words.iter().all(|word| is_in_place(*word));
             self.columns.push((expr.clone(), IndexColumn { words, is_in_place }));
         }
-        let place = |expr| self.columns.iter().position(|(known, _)| known == expr);
-        exprs.iter().map(|expr| place(expr).expect("what was missing is made")).collect()
     }
 
     /// The place in the relation of the row at a place in the index.

@@ -52,6 +52,7 @@ const DIRECTIVES: &[&str] = &[
     "include",
     "once",
     "lattice",
+    "debug_delta",
     "override",
     "symbol_type",
     "number_type",

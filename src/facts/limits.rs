@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::evaluate::MAX_ROWS;
+/// A relation's rows at most, unless `.limitsize` says less.
+pub(super) const MAX_ROWS: usize = 1 << 27;
 
 /// How long an evaluation may go on, how much memory it may hold, and over how many threads it may spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +58,7 @@ impl Default for Limits {
             memory_bytes: 1 << 31,
             rows: MAX_ROWS,
             threads: thread::available_parallelism().map_or(1, usize::from),
-            spread_from: Duration::from_micros(500),
+            spread_from: Duration::from_millis(1),
         }
     }
 }
@@ -80,6 +81,10 @@ struct Common {
     reached: AtomicU8,
     /// Memory that the rule makes that runs, in all threads.
     made: AtomicUsize,
+    /// Memory of relations that threads have finished of which the others do not know yet.
+    kept: AtomicUsize,
+    /// Threads that have strata of their own.
+    busy: AtomicUsize,
 }
 
 /// Clock and memory of an evaluation under way, as one thread sees them. Once a limit is reached it stays so, and all
@@ -132,6 +137,28 @@ impl Watch {
     /// Ends all loops for a reason of the caller's own.
     pub(super) fn stop(&self) {
         self.reach(Reached::Time);
+    }
+
+    /// Threads that may have a part in what this one does.
+    pub(super) fn threads(&self) -> usize {
+        let busy = self.common.busy.load(Ordering::Relaxed).max(1);
+        (self.limits().threads / busy).max(1)
+    }
+
+    /// Until it is dropped this thread has strata of its own.
+    pub(super) fn busy(&self) -> Busy {
+        self.common.busy.fetch_add(1, Ordering::Relaxed);
+        Busy(Arc::clone(&self.common))
+    }
+
+    /// So much more is held by what this thread has finished.
+    pub(super) fn keep(&self, bytes: usize) {
+        self.common.kept.fetch_add(bytes, Ordering::Relaxed);
+    }
+
+    /// What threads have finished is known to all from now on.
+    pub(super) fn kept_is_held(&self) {
+        self.common.kept.store(0, Ordering::Relaxed);
     }
 
     pub(super) fn found(&self, rows: usize) {
@@ -199,11 +226,21 @@ impl Watch {
         let Some((limits, _)) = self.limits else { return false };
         self.make(bytes);
         let made = self.common.made.load(Ordering::Relaxed);
+        let made = made.saturating_add(self.common.kept.load(Ordering::Relaxed));
         if self.held.get().saturating_add(made) > limits.memory_bytes {
             self.reach(Reached::Memory);
         }
         self.look();
         self.is_over()
+    }
+}
+
+/// A thread that has strata of its own.
+pub(super) struct Busy(Arc<Common>);
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        self.0.busy.fetch_sub(1, Ordering::Relaxed);
     }
 }
 

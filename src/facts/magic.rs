@@ -10,7 +10,7 @@
 //! What comes before an atom in the order of [`Walk`] says how it is called. The order in which the clauses are then
 //! joined is the planner's: the guard is one more atom, and every solution of a guarded clause has its calls.
 //!
-//! Negations and aggregates of the clauses read lower strata, which are called as wholes outside ([`Outside`]).
+//! Negations and aggregates of the clauses read lower strata, which are called as wholes outside ([`Outside`](super::finished::Outside)).
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -21,26 +21,14 @@ use super::demand::{Besides, Demand};
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
 use super::ground::used_variables;
-use super::plan::{Request, Statistics};
+use super::plan::Statistics;
 use super::program::{
     Atom, Clause, Expr, Literal, Program, RelationId, RelationInfo, Stratum, Term,
 };
 use super::proof::turned;
 use super::rows::heap;
-use super::run::Source;
 use super::syntax::Comparison;
 use super::word::{Word, Words};
-
-/// Relations that an evaluation reads and does not hold.
-pub(super) trait Outside: Statistics {
-    fn has(&self, relation: RelationId) -> bool;
-    fn index(&self, request: &Request) -> Option<Arc<super::kept::KeptIndex>>;
-    fn source<'s>(
-        &'s self,
-        request: &'s Request,
-        index: Option<&'s Arc<super::kept::KeptIndex>>,
-    ) -> Source<'s>;
-}
 
 /// Ways of calling one group; more are called for all rows.
 const MAX_WAYS: usize = 24;

@@ -55,6 +55,7 @@
 
 use orthoframe_units as units;
 
+mod abreast;
 mod apart;
 mod ask;
 mod beside;
@@ -113,6 +114,7 @@ mod strata;
 mod subsume;
 mod syntax;
 mod together;
+mod trace;
 mod unify;
 mod value;
 mod why_not;
@@ -124,7 +126,6 @@ pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
 pub use derived::{Derived, Tuple, Tuples};
 pub use evaluate::EvaluateError;
-pub use explain::RuleTrace;
 pub use fault::{Faults, FileFaults, RuleError};
 pub use files::{FilesError, FilesReport, run_files, run_files_traced};
 pub use format::format_rules;
@@ -134,5 +135,6 @@ pub use outline::{Mark, Meaning, outline};
 pub use program::{Column, Kind, Parameters, Program, RelationId, RelationInfo};
 pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleInstance};
 pub use syntax::{Aggregation, Comparison};
+pub use trace::RuleTrace;
 pub use why_not::{Below, FailedRule, WhyNot};
 pub use word::Value;

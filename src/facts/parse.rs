@@ -17,7 +17,7 @@ use super::lex::{self, Token, Word};
 use super::preprocess;
 use super::read::{Furthest, Input, Read, list, long_name, many, name, number, sign, text_word};
 use super::syntax::{
-    Atom, Body, Branch, Comparison, Component, Item, Name, Role, Rule, Span, Type,
+    Atom, Body, Branch, Comparison, Component, Expr, Item, Name, Role, Rule, Span, Type,
 };
 use crate::units::Source;
 
@@ -30,8 +30,49 @@ const MAX_NESTED: usize = 16;
 /// All items of a text; what could not be read is in `faults`.
 pub(super) fn items(source: &Source, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
     let words = lex::words(source.text(), file, faults);
-    let words = preprocess::expand(words, source, file, faults);
+    let words = without_annotations(preprocess::expand(words, source, file, faults));
     items_of(&words, source.text().len(), file, faults)
+}
+
+/// The words without `@[…]` and `@![…]`, which say something to other tools.
+fn without_annotations(words: Vec<Token>) -> Vec<Token> {
+    if words.iter().all(|token| token.word != Word::Sign("@")) {
+        return words;
+    }
+    let mut kept = Vec::with_capacity(words.len());
+    let mut rest = words.as_slice();
+    while let [first, behind @ ..] = rest {
+        let is = |token: &Token, sign| token.word == Word::Sign(sign);
+        let inside = match rest {
+            [at, open, inside @ ..] if is(at, "@") && is(open, "[") => Some(inside),
+            [at, not, open, inside @ ..] if is(at, "@") && is(not, "!") && is(open, "[") => {
+                Some(inside)
+            }
+            _ => None,
+        };
+        rest = match inside.and_then(behind_bracket) {
+            Some(after) => after,
+            None => {
+                kept.push(first.clone());
+                behind
+            }
+        };
+    }
+    kept
+}
+
+/// The words behind the bracket that closes an open one.
+fn behind_bracket(inside: &[Token]) -> Option<&[Token]> {
+    let mut depth = 0_usize;
+    for (n, token) in inside.iter().enumerate() {
+        match token.word {
+            Word::Sign("[" | "(" | "{") => depth += 1,
+            Word::Sign("]") if depth == 0 => return Some(&inside[n + 1..]),
+            Word::Sign("]" | ")" | "}") => depth = depth.checked_sub(1)?,
+            _ => {}
+        }
+    }
+    None
 }
 
 /// All items of these words of a text that ends there.
@@ -134,7 +175,10 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         }),
         Word::Directive(word) => input.refuse(RuleError::Unsupported {
             what: format!(".{word}"),
-            help: FOREIGN,
+            help: match word {
+                "debug_delta" => "витки вычисления не хранятся: уберите эту строку",
+                _ => FOREIGN,
+            },
             at: token.at.into(),
         }),
         _ => rule(input),
@@ -275,7 +319,12 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
             Qualifier::Storage
         }
         word => {
-            let help = "уберите это слово: отношения хранятся одинаково";
+            let help = match word {
+                "btree_max" | "btree_min" | "btree_sum" | "btree_lattice" | "lattice" => {
+                    "оставить наибольшее можно вытеснением: r(x, a) <= r(x, b) :- a < b."
+                }
+                _ => "уберите это слово: отношения хранятся одинаково",
+            };
             return input.refuse(RuleError::Unsupported {
                 what: format!("свойство {word}"),
                 help,
@@ -459,5 +508,15 @@ fn comparison(input: Input<'_>) -> Read<'_, Body> {
     .parse(input)?;
     let (input, right) = expression(input)?;
     let at = left.at().to(right.at());
+    let (left, right) = match (op, &left, &right) {
+        (Comparison::Equal, Expr::Any(at), Expr::Aggregate { .. }) => (unnamed(*at), right),
+        (Comparison::Equal, Expr::Aggregate { .. }, Expr::Any(at)) => (left, unnamed(*at)),
+        _ => (left, right),
+    };
     Ok((input, Body::Compare { op, left, right, at }))
+}
+
+/// What takes an aggregate's value in `_ = min X : { … }`: a variable that nothing else names.
+fn unnamed(at: Span) -> Expr {
+    Expr::Variable(Name { text: format!("_′{}", at.start), at })
 }

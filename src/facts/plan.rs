@@ -6,11 +6,12 @@
 
 use std::collections::HashMap;
 
+use super::filter::ColumnFilter;
 use super::ground::used_variables;
 use super::program::{
     Aggregate, Atom, Clause, Compare, Expr, Literal, NumberRange, RelationId, Term, VariableId,
 };
-use super::run::{ColumnFilter, Scan, Step};
+use super::run::{Scan, Step};
 use super::syntax::Comparison;
 use super::value;
 use super::word::{Word, Words};

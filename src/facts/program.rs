@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::fault::{Faults, FileFaults, RuleError};
 use super::limits::Ceilings;
+pub use super::syntax::Kind;
 use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
 use super::word::{Value, Word, Words};
 use super::{check, component, declare, misuse, parse, strata};
@@ -20,26 +21,6 @@ pub struct RelationId(pub(super) u32);
 impl RelationId {
     pub(super) fn index(self) -> usize {
         self.0 as usize
-    }
-}
-
-/// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Kind {
-    Symbol,
-    Number,
-    /// A number of 32 bits that is never negative and goes round.
-    Unsigned,
-    /// An exact decimal, see [`Decimal`](super::Decimal).
-    Float,
-    /// A record or a value of a branched type, by the number of the type.
-    Record(u32),
-}
-
-impl Kind {
-    /// Whether its words stand for numbers, which decimals are in millionths.
-    pub(super) fn is_number(self) -> bool {
-        !matches!(self, Self::Symbol | Self::Record(_))
     }
 }
 

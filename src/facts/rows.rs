@@ -142,6 +142,9 @@ pub(super) trait Sink {
     /// Memory that they take, now and when they are sorted.
     fn bytes(&self) -> usize;
 
+    /// So many more rows are likely to come: room for them in one piece is not moved while they do.
+    fn expect(&mut self, _: usize) {}
+
     /// A sink for another thread, whose rows go on into this one; none where it matters which row comes first. Rows may
     /// come in any order at all where `is_any_order`.
     fn branch(&self, is_any_order: bool) -> Option<Box<dyn Branch + '_>> {
@@ -198,6 +201,10 @@ impl<const N: usize> Sink for Vec<Row<N>> {
 
     fn bytes(&self) -> usize {
         (self.capacity() + self.len()) * size_of::<Row<N>>()
+    }
+
+    fn expect(&mut self, rows: usize) {
+        self.reserve(rows);
     }
 
     fn branch(&self, _: bool) -> Option<Box<dyn Branch + '_>> {

@@ -9,14 +9,14 @@ use std::sync::Arc;
 
 use super::called::Called;
 use super::decimal::{self, Decimal};
-use super::filter::{choose, narrow, retain};
+use super::filter::{ColumnFilter, choose, narrow, retain};
 use super::index::Index;
 use super::kept::{KeptIndex, column_word};
 use super::limits::Watch;
 use super::program::{Bounds, Compare, Expr, Kind};
 use super::rows::RowSet;
 use super::stored::{Slot, Stored};
-use super::syntax::{Aggregation, Comparison};
+use super::syntax::Aggregation;
 use super::value;
 use super::word::{NO_WORD, Note, Word, Words};
 
@@ -124,15 +124,6 @@ pub(super) struct Scan {
     pub(super) once: bool,
     /// Within an aggregate, where each row counts, also one that looks like the row before.
     pub(super) counts: bool,
-}
-
-/// `column op value`, where the value is known before the scan.
-#[derive(Debug, Clone)]
-pub(super) struct ColumnFilter {
-    pub(super) column: usize,
-    pub(super) op: Comparison,
-    pub(super) value: Expr,
-    pub(super) is_number: bool,
 }
 
 /// What a body's solutions are for; true when one was accepted.

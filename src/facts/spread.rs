@@ -114,10 +114,16 @@ impl Join<'_> {
                         continue;
                     }
                 }
-                let to = all.min(if done == 0 { FIRST_ROWS } else { 2 * done });
+                // A part at a time: another thread may come free.
+                let more = done.clamp(FIRST_ROWS, all.div_ceil(PIECES).max(FIRST_ROWS));
+                let to = all.min(done + more);
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
                 let steps = &self.plan.steps;
                 run_window(steps, sources, &mut registers, words, watch, &mut head, done..to);
+                if done < all / PIECES && to >= all / PIECES {
+                    // A little more than it seems: room that is never written to costs nothing.
+                    sink.expect(sink.len().saturating_mul(all - to) / to * 5 / 4);
+                }
                 done = to;
             }
         });
@@ -133,7 +139,7 @@ impl Join<'_> {
         rows: Range<usize>,
         sink: &mut dyn Sink,
     ) -> bool {
-        let threads = watch.limits().threads.min(rows.len());
+        let threads = watch.threads().min(rows.len());
         let branches: Option<Vec<_>> =
             (0..threads).map(|_| sink.branch(self.is_any_order)).collect();
         let plain: Option<Vec<_>> = sources.iter().map(Plain::of).collect();
@@ -231,6 +237,9 @@ impl Join<'_> {
 fn wave_of(watch: &Watch, spent: Duration, done: usize, all: usize) -> Option<usize> {
     const MAX_WAVES: usize = 8;
     let from = watch.limits().spread_from;
+    if watch.threads() < 2 {
+        return None;
+    }
     let left = all - done;
     let rest = spent.mul_f64(left as f64 / done.max(1) as f64);
     if !from.is_zero() && (done == 0 || rest < from) {

@@ -31,7 +31,7 @@ pub(super) fn strata(
     for &(head, read) in edges.keys() {
         graph.add_edge(nodes[head], nodes[read], ());
     }
-    let groups = kosaraju_scc(&graph);
+    let groups = by_level(kosaraju_scc(&graph), &graph);
     let mut group_of = vec![0; nodes.len()];
     for (group, members) in groups.iter().enumerate() {
         members.iter().for_each(|node| group_of[node.index()] = group);
@@ -66,6 +66,21 @@ pub(super) fn strata(
         strata[group_of[of.relation.index()]].subsumptions.push(n);
     }
     strata
+}
+
+/// Groups, each behind those it reads, so that those which could come at the same time stand together.
+fn by_level(groups: Vec<Vec<NodeIndex>>, graph: &DiGraph<(), ()>) -> Vec<Vec<NodeIndex>> {
+    // None for those of the group itself, since groups come after those they read.
+    let mut level_of: Vec<Option<usize>> = vec![None; graph.node_count()];
+    let mut levels: Vec<(usize, Vec<NodeIndex>)> = Vec::with_capacity(groups.len());
+    for members in groups {
+        let read = members.iter().flat_map(|node| graph.neighbors(*node));
+        let level = read.filter_map(|node| level_of[node.index()]).max().map_or(0, |read| read + 1);
+        members.iter().for_each(|node| level_of[node.index()] = Some(level));
+        levels.push((level, members));
+    }
+    levels.sort_by_key(|(level, _)| *level);
+    levels.into_iter().map(|(_, members)| members).collect()
 }
 
 /// Every relation that a body reads, whether under a negation or aggregate, and where.

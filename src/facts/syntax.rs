@@ -4,8 +4,6 @@ use std::ops::Range;
 
 use miette::SourceSpan;
 
-use super::program::Kind;
-
 /// Byte range in one of the program's texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Span {
@@ -305,6 +303,26 @@ impl Aggregation {
     }
 }
 
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    Symbol,
+    Number,
+    /// A number of 32 bits that is never negative and goes round.
+    Unsigned,
+    /// An exact decimal, see [`Decimal`](super::Decimal).
+    Float,
+    /// A record or a value of a branched type, by the number of the type.
+    Record(u32),
+}
+
+impl Kind {
+    /// Whether its words stand for numbers, which decimals are in millionths.
+    pub(super) fn is_number(self) -> bool {
+        !matches!(self, Self::Symbol | Self::Record(_))
+    }
+}
+
 macro_rules! functors {
     ($($name:ident $word:literal $result:ident ($($arg:ident),*);)+) => {
         /// What computes a value from values. The list gives word, result and arguments (`N` number, `U` unsigned,
@@ -361,6 +379,7 @@ functors! {
     NegateDecimals "neg" D(D);
     SmallerOfDecimals "min" D(D, D);
     LargerOfDecimals "max" D(D, D);
+    AddTexts "+" S(S, S);
     SmallerText "min" S(S, S);
     LargerText "max" S(S, S);
     BitAnd "band" N(N, N);

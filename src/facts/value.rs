@@ -234,7 +234,7 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
         Expr::Call(functor, args) => (*functor, args.as_slice()),
     };
     match (functor, args) {
-        (Functor::Concatenate, [a, b]) => {
+        (Functor::Concatenate | Functor::AddTexts, [a, b]) => {
             let joined = text(a, variable, words)? + &text(b, variable, words)?;
             if joined.len() > MAX_TEXT {
                 words.note(Note::LongText);
@@ -311,7 +311,7 @@ pub(super) fn numbers(
     };
     let far = i128::from(to) - i128::from(from);
     let count = match i128::from(step) {
-        0 => i128::from(far > 0),
+        0 => i128::from(far != 0),
         step if far.signum() != step.signum() => 0,
         step => (far.abs() + step.abs() - 1) / step.abs(),
     };

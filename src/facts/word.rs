@@ -223,6 +223,11 @@ impl Words {
         self.number(self.counter - 1)
     }
 
+    /// All large numbers that have a word.
+    pub(super) fn large_numbers(&self) -> usize {
+        self.own.end().1
+    }
+
     /// Large numbers of the layers that are shared.
     pub(super) fn shared_numbers(&self) -> usize {
         self.own.below.1

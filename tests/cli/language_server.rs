@@ -189,3 +189,34 @@ fn robot_rules_under_an_editor() {
     assert!(faults.iter().any(|(_, severity, _)| *severity == 1), "{faults:?}");
     client.end();
 }
+
+/// What no editor has opened is found where it lies: in an included file, in one that this includes, in another of the
+/// folder.
+#[test]
+fn declarations_are_found_in_files_that_are_not_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+    };
+    let uri = |name: &str| format!("file://{}", folder.path().join(name).display());
+    write("parts/deep.dl", "\n// под всем\n.decl НИЖЕ(a: symbol) = BELOW\n");
+    write("parts/part.dl", ".include \"deep.dl\"\n.decl part(a: symbol)\n");
+    write("rules/own.dl", ".decl СОСЕД(a: symbol, b: symbol) = NEIGHBOUR\n");
+    let text = ".include \"../parts/part.dl\"\n.decl r(a: symbol) .output r\nr(X) :- part(X), BELOW(X), NEIGHBOUR(X, _).\n";
+    let mut client = Client::start();
+    let open = uri("rules/open.dl");
+    client.open(&open, text);
+    for (column, place, line) in
+        [(9, "parts/part.dl", 1), (18, "parts/deep.dl", 2), (28, "rules/own.dl", 0)]
+    {
+        let found = client.at("textDocument/definition", &open, 2, column);
+        assert_eq!(found["uri"], uri(place), "{found}");
+        assert_eq!(found["range"]["start"]["line"], line, "{found}");
+    }
+    let hover = client.at("textDocument/hover", &open, 2, 18);
+    let value = hover["contents"]["value"].as_str().unwrap();
+    assert!(value.contains("НИЖЕ") && value.contains("под всем"), "{value}");
+    client.end();
+}

@@ -546,3 +546,94 @@ fn numbers_become_texts_and_others_as_in_souffle() {
         "#]],
     );
 }
+
+/// A step of none gives the first number wherever the range is not empty, up or down.
+#[test]
+fn a_range_without_a_step_gives_its_first_number() {
+    check(
+        "
+        .decl r(a: number, s: symbol) .output r
+        .decl u(a: unsigned) .output u
+        .decl f(a: float) .output f
+        r(X, \"up\") :- X = range(1, 5, 0).
+        r(X, \"down\") :- X = range(5, 1, 0).
+        r(X, \"empty\") :- X = range(5, 5, 0).
+        r(X, \"known\") :- X = 5, X = range(5, 1, 0).
+        r(X, \"other\") :- X = 4, X = range(5, 1, 0).
+        u(X) :- X = range(7, 2, 0).
+        f(X) :- X = range(5.0, 3.75, 0.0).",
+        &expect![[r#"
+            r(1, up)
+            r(5, down)
+            r(5, known)
+            u(7)
+            f(5)
+        "#]],
+    );
+}
+
+#[test]
+fn texts_are_joined_by_a_plus() {
+    check(
+        r#"
+        .decl s(a: symbol) s("(a)"). s("(b)").
+        .decl t(a: symbol) .output t
+        t("до" + "-" + "после").
+        t("до-" + S) :- s(S).
+        t(A + B + to_string(1 + 2)) :- s(A), s(B), A != B.
+        t(T) :- s(S), T = S + "-после", T != "(b)" + "-после"."#,
+        &expect![[r#"
+            t((a)(b)3)
+            t((a)-после)
+            t((b)(a)3)
+            t(до-(a))
+            t(до-(b))
+            t(до-после)
+        "#]],
+    );
+    for wrong in ["S - \"x\"", "S + 1", "1 + S", "S * S"] {
+        let text =
+            format!(".decl s(a: symbol) s(\"a\"). .decl t(a: symbol) t(T) :- s(S), T = {wrong}.");
+        assert!(Program::parse(&Source::new("t.dl", text)).is_err(), "{wrong}");
+    }
+}
+
+/// `_ = min …` asks for a value and its witnesses; `_` compared with anything else says nothing, and is refused.
+#[test]
+fn an_aggregate_may_go_to_a_nameless_variable() {
+    check(
+        "
+        .decl d(a: number, b: number) d(3, 1). d(1, 2). d(1, 1).
+        .decl w(a: number, b: number) .output w
+        .decl any(a: number) .output any
+        w(X, Y) :- _ = min X + Y : { d(X, Y) }.
+        any(1) :- _ = max X : { d(X, _) }, _ = min X : { d(X, _) }.
+        any(2) :- max X : { d(X, 7) } = _.",
+        &expect![[r#"
+            w(1, 1)
+            any(1)
+        "#]],
+    );
+}
+
+/// What stands in `@[…]` and `@![…]` is for other tools, whatever words it is made of.
+#[test]
+fn annotations_are_left_out() {
+    check(
+        r#"
+        .type R = [ @[form = {}] a: number, @[doc = "]"] b: number ]
+        @[xcomp { .comp C { @[x(q())] .decl q(a: number) q(1). } }]
+        .comp C { @[xdecl] .decl q( @[t] @[u (=)] r: R) @[x [=]] q([1, 2]). }
+        @[xinit(.init c = C)] .init c = C
+        @[out] .output c.q
+        .decl m(a: number) .decl j(a: number) .output m, j
+        @[x] @[y()] m(X), @[z] j(X) :- @![doc = "inner"] X = range(0, 2)."#,
+        &expect![[r#"
+            c.q([1, 2])
+            m(0)
+            m(1)
+            j(0)
+            j(1)
+        "#]],
+    );
+}

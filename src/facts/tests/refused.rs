@@ -82,6 +82,22 @@ a(1). .decl b(x:number)
 b(X) :- a(X), _ < X.",
     ),
     (
+        "lattice_storage",
+        ".decl a(x: symbol, c: number) btree_max
+a(\"x\", 1).",
+    ),
+    (
+        "iteration",
+        ".decl a(x: number)
+a(0). a(X + 1) :- a(X), __ITERATION__ < 10.",
+    ),
+    (
+        "delta",
+        ".decl a(x: number)
+.debug_delta a()
+a(0).",
+    ),
+    (
         "mutual_agg",
         ".decl a(x:number,y:number) .decl b(x:number) a(1,2).
 b(x) :- x = max y : { a(_, y), y < z }, z = max w : { a(_, w), w < x }.",

@@ -181,6 +181,35 @@ fn limits_hold_for_all_threads_together() {
     }
 }
 
+/// Strata that read nothing of each other run beside one another; of those that reach a limit of their own, the first in
+/// order is named, as by one thread.
+#[test]
+fn limits_hold_for_strata_that_run_at_the_same_time() {
+    let rules = ".decl e(x: number)
+        e(X) :- X = range(0, 80).
+        .decl few(x: number) few(X + 1) :- e(X).
+        .decl one(x: number, y: number) one(X, Y) :- e(X), e(Y).
+        .decl two(x: number, y: number) two(X, Y) :- e(Y), e(X), X < Y.
+        .decl all(x: number, y: number, z: number) all(X, Y, Z) :- e(X), e(Y), e(Z).
+        .decl end(x: number) end(X) :- few(X). end(X + 1) :- end(X).";
+    let program = Program::parse(&Source::new("beside.dl", rules)).unwrap();
+    let database = program.database();
+    let few = |more| Limits { rows: 2000, ..threads(more) };
+    let first = program.evaluate_within(&database, few(1)).unwrap_err();
+    assert!(matches!(first, EvaluateError::TooMany { .. }), "{first}");
+    for more in [1, 2, 3] {
+        for _ in 0..4 {
+            assert_eq!(program.evaluate_within(&database, few(more)).unwrap_err(), first);
+        }
+        let little = Limits { memory_bytes: 2 << 20, ..threads(more) };
+        let error = program.evaluate_within(&database, little).unwrap_err();
+        assert!(matches!(error, EvaluateError::Memory { .. }), "{error}");
+        let short = Limits { time: Duration::from_millis(5), ..threads(more) };
+        let error = program.evaluate_within(&database, short).unwrap_err();
+        assert!(matches!(error, EvaluateError::Time { .. }), "{error}");
+    }
+}
+
 /// More solutions than a relation may have rows, most of them the same: none is left out.
 #[test]
 fn solutions_are_not_rows() {
