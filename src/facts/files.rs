@@ -16,7 +16,8 @@ use super::derived::Derived;
 use super::evaluate::EvaluateError;
 use super::fault::{Faults, FileFaults};
 use super::limits::Limits;
-use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
+use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo};
+use super::texts::includes;
 use super::trace::{self, RuleTrace};
 use crate::units::{FileFault, Source, read_text, write_file_with};
 

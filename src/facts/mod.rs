@@ -113,6 +113,7 @@ mod stored;
 mod strata;
 mod subsume;
 mod syntax;
+mod texts;
 mod together;
 mod trace;
 mod unify;

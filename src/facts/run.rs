@@ -164,15 +164,15 @@ pub(super) fn run_window(
     machine.run_window(window)
 }
 
-/// The number of rows of the first step's scan, before filters; none where it is no scan, or no scan of rows that are
-/// there, or stops at its first success.
+/// The window of the first step's scan outside of which no row passes its first filter; none where it is no scan, or no
+/// scan of rows that are there, or stops at its first success.
 pub(super) fn extent(
     steps: &[Step],
     sources: &[Source<'_>],
     registers: &mut [Word],
     words: &mut Words,
     watch: &Watch,
-) -> Option<usize> {
+) -> Option<Range<usize>> {
     let Step::Scan(scan) = steps.first()? else { return None };
     if scan.once {
         return None;
@@ -181,8 +181,19 @@ pub(super) fn extent(
     let mut machine = Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() };
     let key = machine.key(&scan.key)?;
     match &sources[scan.source] {
-        Source::Index(index) => Some(index.range(key.words()).len()),
-        Source::Rows(parts) => Some(parts.iter().map(|rows| rows.range(key.words()).len()).sum()),
+        Source::Index(index) => Some(0..index.range(key.words()).len()),
+        Source::Rows(parts) => match (parts.as_slice(), scan.filters.first()) {
+            ([rows], Some(filter)) => {
+                let whole = rows.range(key.words());
+                let word = machine.compute(&filter.value)?;
+                let (near, far) = narrow(*rows, whole.clone(), key.len, filter, word);
+                let parts = || [&near, &far].into_iter().filter(|part| !part.is_empty());
+                let from = parts().map(|part| part.start).min().unwrap_or(whole.start);
+                let to = parts().map(|part| part.end).max().unwrap_or(whole.start);
+                Some(from - whole.start..to - whole.start)
+            }
+            (parts, _) => Some(0..parts.iter().map(|rows| rows.range(key.words()).len()).sum()),
+        },
         Source::Kept(_) | Source::Called(_) => None,
     }
 }

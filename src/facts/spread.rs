@@ -97,20 +97,23 @@ impl Join<'_> {
     ) {
         let mut registers = vec![0; self.clause.variables.len()];
         finished.with_sources(self.plan, parts, |sources, words, watch| {
-            let all = extent(&self.plan.steps, sources, &mut registers, words, watch);
-            let is_worth = |all: &usize| *all >= MIN_ROWS || watch.limits().spread_from.is_zero();
-            let Some(all) = all.filter(is_worth) else {
+            let window = extent(&self.plan.steps, sources, &mut registers, words, watch);
+            let is_worth = |window: &Range<usize>| {
+                window.len() >= MIN_ROWS || watch.limits().spread_from.is_zero()
+            };
+            let Some(Range { start, end }) = window.filter(is_worth) else {
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
                 run(&self.plan.steps, sources, &mut registers, words, watch, &mut head);
                 return;
             };
-            let begun = Instant::now();
+            let (begun, all) = (Instant::now(), end - start);
             let mut done = 0;
             while done < all && !watch.is_over() {
                 if let Some(wave) = wave_of(watch, begun.elapsed(), done, all) {
-                    let rows = done..all.min(done + wave);
-                    if self.spread(sources, words, watch, &registers, rows.clone(), sink) {
-                        done = rows.end;
+                    let to = all.min(done + wave);
+                    let rows = start + done..start + to;
+                    if self.spread(sources, words, watch, &registers, rows, sink) {
+                        done = to;
                         continue;
                     }
                 }
@@ -119,7 +122,15 @@ impl Join<'_> {
                 let to = all.min(done + more);
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
                 let steps = &self.plan.steps;
-                run_window(steps, sources, &mut registers, words, watch, &mut head, done..to);
+                run_window(
+                    steps,
+                    sources,
+                    &mut registers,
+                    words,
+                    watch,
+                    &mut head,
+                    start + done..start + to,
+                );
                 if done < all / PIECES && to >= all / PIECES {
                     // A little more than it seems: room that is never written to costs nothing.
                     sink.expect(sink.len().saturating_mul(all - to) / to * 5 / 4);
