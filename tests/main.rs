@@ -72,3 +72,4 @@ mod views;
 mod ways;
 mod words;
 mod worlds;
+mod zones;

@@ -33,6 +33,7 @@ mod seen;
 mod sight;
 mod tree;
 mod view;
+mod zones;
 
 pub use corridor::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
@@ -46,3 +47,4 @@ pub use seen::{SeenDrawing, SeenSegment, SeenSign, seen_svg};
 pub use sight::{SightDrawing, SightLine, SightSign, beside, sight_svg};
 pub use tree::{TreeNode, tree_svg};
 pub use view::{LeafBody, Mouth, ViewDrawing};
+pub use zones::ZoneGlyph;

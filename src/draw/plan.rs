@@ -17,6 +17,7 @@ use super::legend::{
     Entry, Legend, List, Sample, arrow_head, diamond, goal, scale_bar, scale_bar_width,
 };
 use super::rooms;
+use super::zones::{self, ZoneGlyph};
 
 /// Free floor and its partition, as the drawing needs them.
 #[derive(Debug, Clone, Default)]
@@ -120,6 +121,7 @@ pub struct PlanDrawing<'a> {
     pub view: ViewLayer,
     /// Points with a name: «Точка-А».
     pub places: Vec<(PlaceId, Point, String)>,
+    pub zones: Vec<ZoneGlyph>,
     pub language: Language,
 }
 
@@ -230,6 +232,7 @@ impl PlanDrawing<'_> {
             rooms::floor(&mut canvas, self.world, area, pen);
         }
         self.floor(&mut canvas, pen);
+        zones::draw(&mut canvas, &self.zones, pen);
         furniture::draw(&mut canvas, self.world, self.things(), pen);
         rooms::walls(&mut canvas, self.world, self.areas(), pen);
         for door in self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())) {
@@ -239,6 +242,7 @@ impl PlanDrawing<'_> {
         self.view(&mut canvas, pen);
         self.route(&mut canvas, pen);
         self.labels(&mut canvas, *names, pen);
+        zones::names(&mut canvas, &self.zones, pen);
         if let Some(heading) = self.heading() {
             let lettering = Lettering {
                 anchor: Anchor::Start,
@@ -562,6 +566,14 @@ impl PlanDrawing<'_> {
         let has_dead = !self.floor.dead_zones.is_empty();
         let dead = ["мёртвые зоны", "dead zones"];
         entry(has_dead, Sample::Fill(DEAD_ZONE), "key dead-zone", dead);
+        let mut told = Vec::new();
+        for zone in &self.zones {
+            let (style, _, class, words) = zones::look(zone.kind);
+            if !told.contains(&class) {
+                told.push(class);
+                entry(true, Sample::Fill(style), class, words);
+            }
+        }
         let has_eye = self.view.eye.is_some();
         let has_fan = has_eye && self.view.fan.len() >= 2;
         entry(has_fan, Sample::Fill(SIGHT), "key sight", ["обозреваемый пол", "floor in view"]);

@@ -2,9 +2,10 @@
 
 use crate::draw::{
     DoorGlyph, FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing,
-    ViewLayer, object_svg,
+    ViewLayer, ZoneGlyph, object_svg,
 };
-use crate::geometry::{FloorPlan, Opening, Sight};
+use crate::geometry::{Bounds, FloorPlan, Opening, PlacedZone, Sight};
+use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
 use crate::units::{AreaId, Language, MapId, PlaceId, Point, Pose, Vector, nearest_name};
 
@@ -72,6 +73,7 @@ impl State {
             },
             view: drawing.view.map(|lens| view_layer(world, floor, lens)).unwrap_or_default(),
             places: places(world, map, only, drawing.language),
+            zones: zone_glyphs(world, floor, only, drawing.language),
             language: drawing.language,
         };
         Ok(drawing.to_svg())
@@ -247,6 +249,29 @@ fn view_layer(world: &World, floor: &FloorPlan, lens: Lens) -> ViewLayer {
     let seen = sight.visible(lens.pose, lens.field, lens.range);
     let seen = seen.into_iter().map(|v| (v.right, v.left)).collect();
     ViewLayer { eye: Some(lens.pose), fan, seen }
+}
+
+/// The zones of a map, those for a time among them.
+fn zone_glyphs(
+    world: &World,
+    floor: &FloorPlan,
+    only: Option<AreaId>,
+    language: Language,
+) -> Vec<ZoneGlyph> {
+    let all = floor.with_zones(world, |_| true);
+    let room = only.and_then(|area| floor.scene().areas.get(&area));
+    let room =
+        room.map(|a| a.prisms.iter().map(|p| p.bounds).fold(Bounds::EMPTY, |a, b| a.union(&b)));
+    let is_shown =
+        |zone: &&PlacedZone| room.is_none_or(|room| room.grown(-1.0).meets(&zone.bounds()));
+    let glyph = |zone: &PlacedZone| ZoneGlyph {
+        kind: zone.kind,
+        name: super::sighting::named(world, Entity::Zone(zone.id), language),
+        rule: zone_in_words(world, zone.id, language),
+        polygons: zone.polygons.clone(),
+        is_timed: !world.zones[&zone.id].is_standing(),
+    };
+    all.zones().iter().filter(is_shown).map(glyph).collect()
 }
 
 fn places(

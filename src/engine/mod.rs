@@ -79,6 +79,7 @@ mod truth;
 mod upkeep;
 mod utterance;
 mod words;
+mod zones;
 
 use std::path::Path;
 use std::sync::Arc;

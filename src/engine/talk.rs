@@ -37,6 +37,10 @@ impl State {
     ) -> Result<Result<Answer, Unanswered>, Error> {
         self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
+        if let Some(answer) = self.ask_of_zones(question, &senses)? {
+            memory.learn(&answer);
+            return Ok(Ok(answer.of(memory)));
+        }
         let answered = self.asker(&senses)?.ask(question, memory);
         let answered = match answered {
             Err(unanswered)

@@ -161,6 +161,46 @@ impl FloorPlan {
         Some(if is_plain { plain.to_vec() } else { points })
     }
 
+    /// A way in pieces, each with the speed in cm/s that slow zones allow on it; none where they say nothing.
+    #[must_use]
+    pub fn paces(&self, points: &[Point]) -> Vec<(Vec<Point>, Option<f64>)> {
+        let slow: Vec<(&Polygon, f64)> = self
+            .zones
+            .iter()
+            .filter_map(|zone| match zone.kind {
+                ZoneKind::Slow { speed } => Some((zone, speed)),
+                _ => None,
+            })
+            .flat_map(|(zone, speed)| zone.polygons.iter().map(move |polygon| (polygon, speed)))
+            .collect();
+        if slow.is_empty() {
+            return vec![(points.to_vec(), None)];
+        }
+        let mut pieces: Vec<(Vec<Point>, Option<f64>)> = Vec::new();
+        for leg in points.windows(2) {
+            let mut ends: Vec<f64> =
+                slow.iter().flat_map(|(polygon, _)| cuts(polygon, leg[0], leg[1])).collect();
+            ends.extend([0.0, 1.0]);
+            ends.sort_by(f64::total_cmp);
+            ends.dedup_by(|b, a| (*b - *a) * (leg[1] - leg[0]).norm() < ROUNDING);
+            for share in ends.windows(2) {
+                let at = |t: f64| leg[0] + (leg[1] - leg[0]) * t;
+                let middle = at((share[0] + share[1]) / 2.0);
+                let here = slow.iter().filter(|(polygon, _)| is_within(polygon, middle));
+                let pace = here.map(|(_, speed)| *speed).reduce(f64::min);
+                let to = if share[1] < 1.0 { at(share[1]) } else { leg[1] };
+                match pieces.last_mut() {
+                    Some((piece, known)) if *known == pace => piece.push(to),
+                    _ => pieces.push((vec![at(share[0]), to], pace)),
+                }
+            }
+        }
+        if pieces.is_empty() {
+            pieces.push((points.to_vec(), None));
+        }
+        pieces
+    }
+
     /// The start, the goal, and all places where a way may bend.
     fn places_of_ways(
         &self,

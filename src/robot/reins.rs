@@ -76,6 +76,22 @@ impl<'v> Reins<'v> {
         Ok(())
     }
 
+    /// A way piece by piece, each at the pace that its zones ask for.
+    pub(super) fn follow_paced(
+        &mut self,
+        pieces: &[(Vec<Point>, Option<f64>)],
+        heading: Option<Deg>,
+    ) -> Result<(), Unfinished<Bump>> {
+        let last = pieces.len().saturating_sub(1);
+        for (number, (path, pace)) in pieces.iter().enumerate() {
+            self.vehicle.keep_to(*pace);
+            let driven = self.follow(path, heading.filter(|_| number == last));
+            self.vehicle.keep_to(None);
+            driven?;
+        }
+        Ok(())
+    }
+
     pub(super) fn follow(
         &mut self,
         path: &[Point],

@@ -64,6 +64,8 @@ pub struct Simulator {
     openings: Arc<Openings>,
     trace: Vec<Moment>,
     calls: Vec<String>,
+    /// The speed that it keeps to, cm/s, where it was told one.
+    pace: Option<f64>,
 }
 
 impl Simulator {
@@ -85,6 +87,7 @@ impl Simulator {
             openings,
             trace: vec![Moment { time: 0.0, map, pose }],
             calls: Vec::new(),
+            pace: None,
         };
         simulator.rebuild();
         simulator
@@ -491,7 +494,8 @@ impl Vehicle for Simulator {
             let contact = self.first_contact(goal);
             let driven = contact.map_or(length, |(distance, _)| (distance - SKIN).max(0.0));
             let at = self.pose.at + way * (driven / length);
-            self.move_to(driven / self.profile.speed, Pose { at, ..self.pose }, watch)?;
+            let speed = self.pace.map_or(self.profile.speed, |pace| pace.min(self.profile.speed));
+            self.move_to(driven / speed, Pose { at, ..self.pose }, watch)?;
             if let Some((_, against)) = contact {
                 return Err(Bump { at: self.pose, against }.into());
             }
@@ -500,6 +504,10 @@ impl Vehicle for Simulator {
             self.turn_to(heading, watch)?;
         }
         Ok(())
+    }
+
+    fn keep_to(&mut self, pace: Option<f64>) {
+        self.pace = pace;
     }
 
     fn set_door(&mut self, door: DoorId, state: DoorState, watch: &mut Watch<'_>) -> Done {

@@ -146,7 +146,8 @@ impl Mission<'_> {
             .floor()
             .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
             .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
-        let driven = reins.follow(&route.points, route.heading);
+        let pieces = self.belief.floor().paces(&route.points);
+        let driven = reins.follow_paced(&pieces, route.heading);
         leg.route = Some(route);
         self.belief.pose = reins.pose().1;
         driven.map_err(|bump| blocked(bump, reins))

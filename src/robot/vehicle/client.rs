@@ -62,6 +62,8 @@ pub struct RemoteVehicle {
     at: (MapId, Pose),
     time: f64,
     failed: Option<Failure>,
+    /// The speed that it is to keep to on the next ways, cm/s.
+    pace: Option<f64>,
     /// The process or the connection, which ends with it.
     _link: Option<super::link::Link>,
 }
@@ -111,6 +113,7 @@ impl RemoteVehicle {
             at: start,
             time: 0.0,
             failed: None,
+            pace: None,
             _link: link,
         };
         let hello = Wish::Hello { protocol: VERSION, domain };
@@ -302,7 +305,7 @@ impl Vehicle for RemoteVehicle {
         const ASKED: &str = "follow";
         watch.check()?;
         let path = path.iter().map(|p| [p.x, p.y]).collect();
-        let wish = Wish::Follow { path, heading: heading.map(Deg::get) };
+        let wish = Wish::Follow { path, heading: heading.map(Deg::get), speed: self.pace };
         match self.ask(ASKED, wish, watch).map_err(Unfinished::Failed)? {
             Saying::Done => Ok(()),
             Saying::Stopped => Err(Unfinished::Stopped),
@@ -312,6 +315,10 @@ impl Vehicle for RemoteVehicle {
             }
             other => Err(Unfinished::Failed(self.unfit(ASKED, &other))),
         }
+    }
+
+    fn keep_to(&mut self, pace: Option<f64>) {
+        self.pace = pace;
     }
 
     fn set_door(&mut self, door: DoorId, state: DoorState, watch: &mut Watch<'_>) -> Done {

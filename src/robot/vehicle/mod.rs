@@ -244,6 +244,10 @@ pub trait Vehicle {
         watch: &mut Watch<'_>,
     ) -> Result<(), Unfinished<Bump>>;
 
+    /// Drives no faster than so many cm/s from now on; as fast as it likes without a number. What cannot keep to a pace
+    /// drives on as before.
+    fn keep_to(&mut self, _pace: Option<f64>) {}
+
     /// Opens, shuts, locks or unlocks a door next to the vehicle.
     ///
     /// # Errors

@@ -125,7 +125,11 @@ impl<W: Write> Desk<'_, W> {
             Wish::Report => Ok(()),
             // The order that it speaks of was stopped when this line was read.
             Wish::Cancel { .. } => return Err("cancel".to_owned()),
-            Wish::Follow { path, heading } => {
+            Wish::Follow { path, heading, speed } => {
+                if speed.is_some_and(|speed| !(speed.is_finite() && speed > 0.0)) {
+                    return Err("speed".to_owned());
+                }
+                vehicle.keep_to(speed);
                 let path: Option<Vec<Point>> = path.into_iter().map(point).collect();
                 let path = path.ok_or_else(|| "path".to_owned())?;
                 let driven = vehicle.follow(&path, heading.map(Deg::of), watch);
