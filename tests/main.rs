@@ -60,6 +60,7 @@ mod store_faults;
 mod store_world;
 mod storeys;
 mod story;
+mod substitutes;
 mod surface;
 mod talk;
 mod talk_ways;

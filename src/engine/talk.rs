@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, News, Past, Query, Said, Senses, Settled, Sighting,
-    Thing, Unanswered, Way,
+    Answer, Asker, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Said, Senses, Settled,
+    Sighting, Thing, Unanswered, Way,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -153,6 +153,16 @@ impl State {
             let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
             misheard(unanswered).into()
         })
+    }
+
+    /// The things that come nearest to a description that nothing fits, as [`Asker::nearest`].
+    pub(super) fn substitutes(
+        &self,
+        noun: &Noun,
+        language: Language,
+    ) -> Result<Vec<ReplicaId>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.nearest(noun, language))
     }
 
     /// Notes what a sentence speaks of that neither asks nor orders.

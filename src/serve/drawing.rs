@@ -5,9 +5,10 @@
 use serde_json::{Value, json};
 
 use crate::engine::{Error, State};
-use crate::geometry::{FloorPlan, Opening, Polygon, Region, Scene};
-use crate::map::{Door, DoorStatus, Permeability, World};
-use crate::units::{AreaId, MapId, Point};
+use crate::engine::zone_in_words;
+use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
+use crate::map::{Door, DoorStatus, Permeability, World, ZoneKind};
+use crate::units::{AreaId, Language, MapId, Point};
 
 /// Rooms, walls, things, doors and places of a Map.
 ///
@@ -28,11 +29,34 @@ pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
         "things": things(world, scene),
         "doors": doors(world, now, floor),
         "places": places(world, map),
+        "zones": zones(world, floor),
     });
     let elsewhere =
         if std::ptr::eq(world, now) { Vec::new() } else { moved(world, now, map, scene) };
     view["elsewhere"] = json!(elsewhere);
     Ok(view)
+}
+
+/// The zones of a Map, those for a time among them, with what they say in both languages.
+fn zones(world: &World, floor: &FloorPlan) -> Vec<Value> {
+    let all = floor.with_zones(world, |_| true);
+    let zone = |placed: &PlacedZone| {
+        let zone = &world.zones[&placed.id];
+        json!({
+            "name": zone.name,
+            "name_en": zone.name_en,
+            "kind": match zone.kind {
+                ZoneKind::KeepOut => "keep-out",
+                ZoneKind::Closed => "closed",
+                ZoneKind::Slow { .. } => "slow",
+                ZoneKind::OneWay { .. } => "one-way",
+            },
+            "rule": zone_in_words(world, zone.id, Language::Russian),
+            "rule_en": zone_in_words(world, zone.id, Language::English),
+            "polygons": placed.polygons.iter().map(outline).collect::<Vec<_>>(),
+        })
+    };
+    all.zones().iter().map(zone).collect()
 }
 
 /// The free floor of a Map: its Passframes, dead zones, and the network over them.

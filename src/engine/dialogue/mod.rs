@@ -22,6 +22,7 @@
 //! - What is remembered belongs to a revision of the map: see [`Engine::ask`].
 
 mod heard;
+mod substitute;
 
 pub use heard::{Event, Heard, Outcome, Reply};
 
@@ -383,7 +384,12 @@ impl Hearing<'_, '_> {
         (self.tell)(self.engine, &Event::Ordered(line));
         let commands = match self.engine.understand_in(line, &mut self.dialogue.memory) {
             Ok(commands) => commands,
-            Err(error) => return self.refuse(error, language),
+            Err(error) => {
+                return match self.offer_nearest(line, &error, language)? {
+                    true => Ok(()),
+                    false => self.refuse(error, language),
+                };
+            }
         };
         let pick = |russian, english| language.pick(russian, english);
         match &commands[..] {

@@ -6,8 +6,8 @@
 
 use serde_json::{Map as Members, Value, json};
 
-use crate::geometry::{FloorPlan, Scene};
-use crate::map::{self, Door, DoorKind, DoorStatus, HingeSide, TypeList, World};
+use crate::geometry::{FloorPlan, PlacedZone, Scene};
+use crate::map::{self, Door, DoorKind, DoorStatus, HingeSide, TypeList, World, ZoneKind};
 use crate::units::{AreaId, Cm, DoorId, Frame, Point, TypeId};
 
 use super::{metre, metres, ring};
@@ -95,6 +95,8 @@ impl<'a> Floor<'a> {
         for replica in scene.replicas.keys() {
             features.extend(self.fixtures(scene, *replica));
         }
+        let zones = self.plan.with_zones(self.world, |_| true);
+        features.extend(zones.zones().iter().map(|zone| self.zone(zone)));
         let placements = self.world.placements();
         for place in self.world.places.values() {
             let Some((on, frame)) = placements.get(&place.area) else { continue };
@@ -102,6 +104,37 @@ impl<'a> Floor<'a> {
                 features.push(self.place(place, frame));
             }
         }
+    }
+
+    /// A zone is a geofence, with what it says to the robot.
+    fn zone(&self, placed: &PlacedZone) -> Value {
+        let zone = &self.world.zones[&placed.id];
+        let (kind, speed, heading) = match zone.kind {
+            ZoneKind::KeepOut => ("keep-out", None, None),
+            ZoneKind::Closed => ("closed", None, None),
+            ZoneKind::Slow { speed } => ("slow", Some(metre(speed)), None),
+            ZoneKind::OneWay { heading } => {
+                ("one-way", None, Some((heading + self.frame.angle).get()))
+            }
+        };
+        let mut properties = json!({
+            "name": label(&zone.name, &zone.name_en),
+            "category": kind,
+            "level_id": self.level,
+            "reason": label(&zone.reason, &zone.reason_en),
+        });
+        for (name, value) in [("speed", speed), ("heading", heading)] {
+            if let Some(value) = value {
+                properties[name] = json!(value);
+            }
+        }
+        for (name, moment) in [("from", zone.from), ("until", zone.until)] {
+            if let Some(moment) = moment {
+                properties[name] = json!(moment.to_string());
+            }
+        }
+        let geometry = self.rings(placed.polygons.iter());
+        feature(&format!("zone-{}", zone.id.0), "geofence", geometry, properties)
     }
 
     /// Floors below the base are negative.

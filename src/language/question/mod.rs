@@ -26,6 +26,7 @@ mod level_words;
 mod lexicon;
 mod mark;
 mod memory;
+mod nearest;
 mod notation;
 mod opening;
 mod orders;

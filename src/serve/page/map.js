@@ -43,6 +43,7 @@ function ground(d, box, lod) {
   else for (const room of rooms) g.append(sv('path', { class: 'm-floor', d: room.polygons.map(Z).join(''), 'data-name': room.name, 'data-kind': 'room' }));
   if (S.floor && S.layers.frames) for (const frame of S.floor.passframes) if (meets(bounds([frame.points]), box)) g.append(sv('path', { class: 'm-frame', d: Z(frame.points) }, sv('title', null, frame.id)));
   if (S.floor && S.layers.dead) for (const dead of S.floor.dead) if (meets(bounds([dead.outer]), box)) g.append(sv('path', { class: 'm-dead', 'fill-rule': 'evenodd', d: Z(dead.outer) + dead.holes.map(Z).join('') }));
+  for (const zone of d.zones ?? []) g.append(sv('path', { class: `m-zone m-zone-${zone.kind}`, d: zone.polygons.map(Z).join('') }, sv('title', null, `${N(zone)}: ${L(zone.rule, zone.rule_en)}`)));
   if (S.layers.things && lod > 0) {
     const things = d.things.filter(shown);
     if (lod === 1) for (const movable of [false, true]) {
