@@ -17,7 +17,9 @@ fn change(reason: &str) -> Change {
 fn rb2(dir: &Path, zones: &str) -> Engine {
     let mut engine = Engine::open(dir, None).expect("a new store");
     engine.import(&project("maps/rb2.toml"), &change("съёмка")).expect("rb2 is sound");
-    lay(&mut engine, zones);
+    if !zones.is_empty() {
+        lay(&mut engine, zones);
+    }
     engine
 }
 

@@ -266,7 +266,10 @@ fn zone_glyphs(
         |zone: &&PlacedZone| room.is_none_or(|room| room.grown(-1.0).meets(&zone.bounds()));
     let glyph = |zone: &PlacedZone| ZoneGlyph {
         kind: zone.kind,
-        name: super::sighting::named(world, Entity::Zone(zone.id), language),
+        name: match (language, &world.zones[&zone.id]) {
+            (Language::English, zone) if !zone.name_en.is_empty() => zone.name_en.clone(),
+            (_, zone) => zone.name.clone(),
+        },
         rule: zone_in_words(world, zone.id, language),
         polygons: zone.polygons.clone(),
         is_timed: !world.zones[&zone.id].is_standing(),

@@ -127,7 +127,6 @@ pub use crate::exchange::{
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::language::question::{Answer, Memory, Unanswered};
-pub use crate::language::zone_in_words;
 pub use crate::map::{Format, World};
 pub use crate::robot::{Replanned, Solved};
 pub use crate::semantics::Relations;

@@ -3,7 +3,9 @@
 //! **Invariant**: every word of a question is one of these questions' own, or of the one name that it asks about; what has
 //! others is left to the rest of the grammar.
 
-use crate::geometry::PlacedZone;
+use std::collections::BTreeMap;
+
+use crate::geometry::{PlacedZone, Polygon, Prism};
 use crate::language::question::{Answer, Query, Said, Senses, Thing};
 use crate::language::report::Detail;
 use crate::language::zones::{when, zone_in_words};
@@ -166,20 +168,25 @@ fn asked(words: &Words<'_>) -> Option<(Ask, Vec<&'static str>)> {
 }
 
 impl Known {
-    /// The zones that lie on an Area, in force or not, in the order of their ids.
-    fn zones_on(&self, area: AreaId) -> Result<Vec<ZoneId>, Error> {
+    /// The zones that lie on an Area, in force or not, in the order of their ids, each with whether it is all of it.
+    fn zones_on(&self, area: AreaId) -> Result<Vec<(ZoneId, bool)>, Error> {
         let Some((map, _)) = self.world().placement(area) else { return Ok(Vec::new()) };
         let floor = self.floor(map)?.with_zones(self.world(), |_| true);
         let Some(placed) = floor.scene().areas.get(&area) else { return Ok(Vec::new()) };
-        let lies = |zone: &&PlacedZone| {
-            zone.polygons.iter().any(|polygon| {
-                let common = |corners: &[crate::units::Point]| {
-                    plane::intersection(corners, &polygon.corners).area
-                };
-                placed.prisms.iter().any(|p| common(&p.polygon.corners) > LEAST)
-            })
+        let whole: f64 = placed.prisms.iter().map(|p| p.polygon.signed_area().abs()).sum();
+        let taken = |zone: &PlacedZone| -> f64 {
+            let pairs = zone
+                .polygons
+                .iter()
+                .flat_map(|polygon| placed.prisms.iter().map(move |prism| (polygon, prism)));
+            let common = |(polygon, prism): (&Polygon, &Prism)| {
+                plane::intersection(&prism.polygon.corners, &polygon.corners).area
+            };
+            pairs.map(common).sum()
         };
-        Ok(floor.zones().iter().filter(lies).map(|zone| zone.id).collect())
+        let all = floor.zones().iter().map(|zone| (zone.id, taken(zone)));
+        let lying = all.filter(|(_, taken)| *taken > LEAST);
+        Ok(lying.map(|(id, taken)| (id, taken >= whole - LEAST)).collect())
     }
 }
 
@@ -187,6 +194,15 @@ impl Known {
 const LEAST: f64 = 100.0;
 
 impl State {
+    /// What each zone of the map says, in words.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn zones_in_words(&self, language: Language) -> Result<BTreeMap<ZoneId, String>, Error> {
+        let world = self.world()?;
+        Ok(world.zones.keys().map(|id| (*id, zone_in_words(world, *id, language))).collect())
+    }
+
     /// The answer to a question of zones; none where it is no such question.
     ///
     /// # Errors
@@ -264,15 +280,18 @@ impl State {
         };
         let Some(subject) = words.subject(&own, find) else { return Ok(None) };
         let name = named(world, subject);
-        let zones = match subject {
-            Entity::Zone(id) => vec![id],
+        let lying = match subject {
+            Entity::Zone(id) => vec![(id, true)],
             Entity::Area(area) => known.zones_on(area)?,
             Entity::Place(_) | Entity::Replica(_) if ask == Ask::WhyNoWay => Vec::new(),
             _ => return Ok(None),
         };
-        let shut: Vec<ZoneId> = zones
+        let zones: Vec<ZoneId> = lying.iter().map(|(id, _)| *id).collect();
+        // A room is closed by what is all of it.
+        let shut: Vec<ZoneId> = lying
             .iter()
-            .copied()
+            .filter(|(_, is_whole)| *is_whole)
+            .map(|(id, _)| *id)
             .filter(|id| world.zones[id].kind.is_shut() && known.is_in_force(&world.zones[id]))
             .collect();
         if let (Ask::WhyNoWay, false) = (ask, matches!(subject, Entity::Zone(_))) {
@@ -296,10 +315,10 @@ impl State {
         if shut.is_empty() {
             let open = language.pick(
                 format!(
-                    "{}: сейчас никакая зона этого не закрывает.",
+                    "{}: целиком этого сейчас никакая зона не закрывает.",
                     capitalized(&name.form(Case::Nominative, language))
                 ),
-                format!("No zone closes {} now.", name.english()),
+                format!("No zone closes the whole of {} now.", name.english()),
             );
             let beside =
                 if zones.is_empty() { String::new() } else { format!(" {}", told(&zones)) };

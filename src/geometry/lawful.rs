@@ -11,13 +11,12 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 use crate::map::ZoneKind;
 use crate::units::{Point, Vector};
 
-use super::cells::CellKey;
-use super::plan::FloorPlan;
-use super::route::Anchor;
+use super::floor::FragmentFloor;
 use super::zone::PlacedZone;
 use super::{Bounds, Polygon};
 
@@ -128,6 +127,53 @@ fn crosses(polygon: &Polygon, a: Point, b: Point) -> bool {
     })
 }
 
+/// A way in pieces, each with the speed in cm/s that slow zones allow on it; none where they say nothing.
+pub(super) fn paces(zones: &[PlacedZone], points: &[Point]) -> Vec<(Vec<Point>, Option<f64>)> {
+    let slow: Vec<(&Polygon, f64)> = zones
+        .iter()
+        .filter_map(|zone| match zone.kind {
+            ZoneKind::Slow { speed } => Some((zone, speed)),
+            _ => None,
+        })
+        .flat_map(|(zone, speed)| zone.polygons.iter().map(move |polygon| (polygon, speed)))
+        .collect();
+    if slow.is_empty() {
+        return vec![(points.to_vec(), None)];
+    }
+    let mut pieces: Vec<(Vec<Point>, Option<f64>)> = Vec::new();
+    for leg in points.windows(2) {
+        let mut ends: Vec<f64> =
+            slow.iter().flat_map(|(polygon, _)| cuts(polygon, leg[0], leg[1])).collect();
+        ends.extend([0.0, 1.0]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|b, a| (*b - *a) * (leg[1] - leg[0]).norm() < ROUNDING);
+        for share in ends.windows(2) {
+            let at = |t: f64| leg[0] + (leg[1] - leg[0]) * t;
+            let middle = at((share[0] + share[1]) / 2.0);
+            let here = slow.iter().filter(|(polygon, _)| is_within(polygon, middle));
+            let pace = here.map(|(_, speed)| *speed).reduce(f64::min);
+            let to = if share[1] < 1.0 { at(share[1]) } else { leg[1] };
+            match pieces.last_mut() {
+                Some((piece, known)) if *known == pace => piece.push(to),
+                _ => pieces.push((vec![at(share[0]), to], pace)),
+            }
+        }
+    }
+    if pieces.is_empty() {
+        pieces.push((points.to_vec(), None));
+    }
+    pieces
+}
+
+/// The floor over which ways are looked for.
+pub(super) struct Ground<'a> {
+    pub(super) floors: &'a [Arc<FragmentFloor>],
+    /// Where the centre spaces of two Fragments touch, by their numbers, both ways round.
+    pub(super) doorways: Vec<(u32, u32, (Point, Point))>,
+    /// How far the robot's centre keeps from things, in cm.
+    pub(super) reach: f64,
+}
+
 /// A place over which a way may go.
 struct Place {
     at: Point,
@@ -137,13 +183,17 @@ struct Place {
     line: Option<(Point, Point)>,
 }
 
-impl FloorPlan {
+impl Ground<'_> {
+    fn floor(&self, number: u32) -> &FragmentFloor {
+        &self.floors[number as usize]
+    }
+
     /// The quickest way that keeps to the rules, over the Fragments named; `plain` is the shortest one.
     pub(super) fn lawful(
         &self,
         rules: &Rules<'_>,
         within: &[u32],
-        (start, goal): (&Anchor, &Anchor),
+        (start, goal): ((Point, u32), (Point, u32)),
         plain: &[Point],
     ) -> Option<Vec<Point>> {
         let shortest: f64 = super::search::length(plain);
@@ -161,67 +211,27 @@ impl FloorPlan {
         Some(if is_plain { plain.to_vec() } else { points })
     }
 
-    /// A way in pieces, each with the speed in cm/s that slow zones allow on it; none where they say nothing.
-    #[must_use]
-    pub fn paces(&self, points: &[Point]) -> Vec<(Vec<Point>, Option<f64>)> {
-        let slow: Vec<(&Polygon, f64)> = self
-            .zones
-            .iter()
-            .filter_map(|zone| match zone.kind {
-                ZoneKind::Slow { speed } => Some((zone, speed)),
-                _ => None,
-            })
-            .flat_map(|(zone, speed)| zone.polygons.iter().map(move |polygon| (polygon, speed)))
-            .collect();
-        if slow.is_empty() {
-            return vec![(points.to_vec(), None)];
-        }
-        let mut pieces: Vec<(Vec<Point>, Option<f64>)> = Vec::new();
-        for leg in points.windows(2) {
-            let mut ends: Vec<f64> =
-                slow.iter().flat_map(|(polygon, _)| cuts(polygon, leg[0], leg[1])).collect();
-            ends.extend([0.0, 1.0]);
-            ends.sort_by(f64::total_cmp);
-            ends.dedup_by(|b, a| (*b - *a) * (leg[1] - leg[0]).norm() < ROUNDING);
-            for share in ends.windows(2) {
-                let at = |t: f64| leg[0] + (leg[1] - leg[0]) * t;
-                let middle = at((share[0] + share[1]) / 2.0);
-                let here = slow.iter().filter(|(polygon, _)| is_within(polygon, middle));
-                let pace = here.map(|(_, speed)| *speed).reduce(f64::min);
-                let to = if share[1] < 1.0 { at(share[1]) } else { leg[1] };
-                match pieces.last_mut() {
-                    Some((piece, known)) if *known == pace => piece.push(to),
-                    _ => pieces.push((vec![at(share[0]), to], pace)),
-                }
-            }
-        }
-        if pieces.is_empty() {
-            pieces.push((points.to_vec(), None));
-        }
-        pieces
-    }
-
     /// The start, the goal, and all places where a way may bend.
     fn places_of_ways(
         &self,
         rules: &Rules<'_>,
         within: &[u32],
-        start: &Anchor,
-        goal: &Anchor,
+        start: (Point, u32),
+        goal: (Point, u32),
     ) -> Vec<Place> {
         let single = |at: Point, number: u32| Place { at, on: [number; 2], line: None };
-        let mut places = vec![single(start.at, start.cell.0), single(goal.at, goal.cell.0)];
+        let mut places = vec![single(start.0, start.1), single(goal.0, goal.1)];
         let locate = |number: u32, p: Point| self.floor(number).cells.locate(p, 1e-6);
         for &number in within {
             for corner in self.floor(number).cells.bends() {
                 places.push(single(corner, number));
             }
-            for portal in &self.network.portals[number as usize] {
-                if portal.from.0 > portal.to.0 || within.binary_search(&portal.to.0).is_err() {
+            let ahead = self.doorways.iter().filter(|(from, to, _)| *from == number && to > from);
+            for &(from, to, line) in ahead {
+                if within.binary_search(&to).is_err() {
                     continue;
                 }
-                let line = (portal.right, portal.left);
-                let on = [portal.from.0, portal.to.0];
+                let on = [from, to];
                 let along = along(line).map(|at| Place { at, on, line: Some(line) });
                 places.extend(along);
             }
@@ -229,7 +239,7 @@ impl FloorPlan {
         let corners: Vec<(Point, [u32; 2])> = places.iter().map(|p| (p.at, p.on)).collect();
         for &number in within {
             let floor = self.floor(number);
-            let near = |bounds: &Bounds| bounds.meets(&floor.bounds.grown(2.0 * self.reach()));
+            let near = |bounds: &Bounds| bounds.meets(&floor.bounds.grown(2.0 * self.reach));
             for (polygon, _) in rules.polygons().filter(|(_, bounds)| near(bounds)) {
                 for side in polygon.edges() {
                     for (from, to) in floor.cells.stretches(side.0, side.1) {
@@ -343,12 +353,6 @@ impl FloorPlan {
                 i += 1;
             }
         }
-    }
-
-    /// The robot's centre in the cell that holds it, if it fits there.
-    pub(super) fn fitting(&self, p: Point) -> Option<CellKey> {
-        let holds = |&n: &u32| Some((n, self.floor(n).cells.locate(p, 1e-6)?));
-        self.fragments_at(p).iter().find_map(holds)
     }
 }
 

@@ -225,6 +225,12 @@ impl FloorPlan {
         self.renew(world, &stale);
     }
 
+    /// The zones that it respects: those without a time, until told otherwise by [`Self::with_zones`].
+    #[must_use]
+    pub fn zones(&self) -> &[PlacedZone] {
+        &self.zones
+    }
+
     /// The same floor with those zones of the world in force that are wanted, and no others.
     #[must_use]
     pub fn with_zones(&self, world: &World, is_wanted: impl Fn(&Zone) -> bool) -> Self {

@@ -15,7 +15,7 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::blocker::Blocker;
 use super::cells::CellKey;
-use super::lawful::Rules;
+use super::lawful::{Ground, Rules, paces};
 use super::network::{Marks, Walkable};
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
@@ -236,6 +236,50 @@ impl FloorPlan {
         best.map(|(_, points, exit)| (points, start.moved, exit))
     }
 
+    /// The floor as the search for lawful ways wants it.
+    fn ground(&self) -> Ground<'_> {
+        let portals = self.network.portals.iter().flatten();
+        let line = |p: &super::network::Portal| (p.from.0, p.to.0, (p.right, p.left));
+        Ground {
+            floors: &self.fragments,
+            doorways: portals.map(line).collect(),
+            reach: self.reach(),
+        }
+    }
+
+    /// A way in pieces, each with the speed in cm/s that slow zones allow on it; none where they say nothing.
+    #[must_use]
+    pub fn paces(&self, points: &[Point]) -> Vec<(Vec<Point>, Option<f64>)> {
+        paces(&self.zones, points)
+    }
+
+    /// The robot's centre in the cell that holds it, if it fits there.
+    pub(super) fn fitting(&self, p: Point) -> Option<CellKey> {
+        let holds = |&n: &u32| Some((n, self.floor(n).cells.locate(p, 1e-6)?));
+        self.fragments_at(p).iter().find_map(holds)
+    }
+
+    /// The zones of these kinds to which a way comes nearer than the robot keeps from things, in the order of their ids.
+    pub(super) fn touched(
+        &self,
+        points: &[Point],
+        is_wanted: impl Fn(ZoneKind) -> bool,
+    ) -> Vec<ZoneId> {
+        let reach = self.reach();
+        let touches = |zone: &&PlacedZone| {
+            zone.polygons.iter().any(|polygon| {
+                points.windows(2).any(|leg| {
+                    polygon.contains(leg[0], 0.0)
+                        || polygon.edges().any(|(a, b)| {
+                            super::apart::segment_distance(leg[0], leg[1], a, b) < reach
+                        })
+                })
+            })
+        };
+        let zones = self.zones.iter().filter(|zone| is_wanted(zone.kind)).filter(touches);
+        zones.map(|zone| zone.id).collect()
+    }
+
     /// The same floor as if nothing were shut by a zone.
     fn opened(&self, world: &World) -> Self {
         let is_kept =
@@ -341,7 +385,8 @@ impl FloorPlan {
                         // A way round what a zone forbids or slows down may lead into a room and out again.
                         let all = 0..self.fragments().len() as u32;
                         let all: Vec<u32> = all.filter(admitted).collect();
-                        self.lawful(rules, &all, (from, to), &leg(from, to)?)
+                        let ends = ((from.at, from.cell.0), (to.at, to.cell.0));
+                        self.ground().lawful(rules, &all, ends, &leg(from, to)?)
                     };
                     let kept = way(&lawful).filter(|points| rules.cost_of(points).is_some());
                     if kept.is_none() && against.is_none() {

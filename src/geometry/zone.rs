@@ -7,7 +7,6 @@ use crate::map::{Extent, World, Zone, ZoneKind};
 use crate::units::{MapId, Point, ZoneId};
 
 use super::blocker::{Blocker, Obstacle};
-use super::plan::FloorPlan;
 use super::scene::Scene;
 use super::{Bounds, Polygon};
 
@@ -82,33 +81,4 @@ pub(super) fn obstacles_of(zones: &[PlacedZone], near: &[Bounds], height: f64) -
             top: height,
         })
         .collect()
-}
-
-impl FloorPlan {
-    /// The zones that it respects: those without a time, until told otherwise by [`Self::with_zones`].
-    #[must_use]
-    pub fn zones(&self) -> &[PlacedZone] {
-        &self.zones
-    }
-
-    /// The zones of these kinds to which a way comes nearer than the robot keeps from things, in the order of their ids.
-    pub(super) fn touched(
-        &self,
-        points: &[Point],
-        is_wanted: impl Fn(ZoneKind) -> bool,
-    ) -> Vec<ZoneId> {
-        let reach = self.reach();
-        let touches = |zone: &&PlacedZone| {
-            zone.polygons.iter().any(|polygon| {
-                points.windows(2).any(|leg| {
-                    polygon.contains(leg[0], 0.0)
-                        || polygon.edges().any(|(a, b)| {
-                            super::apart::segment_distance(leg[0], leg[1], a, b) < reach
-                        })
-                })
-            })
-        };
-        let zones = self.zones.iter().filter(|zone| is_wanted(zone.kind)).filter(touches);
-        zones.map(|zone| zone.id).collect()
-    }
 }

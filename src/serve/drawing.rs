@@ -5,7 +5,6 @@
 use serde_json::{Value, json};
 
 use crate::engine::{Error, State};
-use crate::engine::zone_in_words;
 use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
 use crate::map::{Door, DoorStatus, Permeability, World, ZoneKind};
 use crate::units::{AreaId, Language, MapId, Point};
@@ -29,7 +28,7 @@ pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
         "things": things(world, scene),
         "doors": doors(world, now, floor),
         "places": places(world, map),
-        "zones": zones(world, floor),
+        "zones": zones(state, world, floor)?,
     });
     let elsewhere =
         if std::ptr::eq(world, now) { Vec::new() } else { moved(world, now, map, scene) };
@@ -38,7 +37,9 @@ pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
 }
 
 /// The zones of a Map, those for a time among them, with what they say in both languages.
-fn zones(world: &World, floor: &FloorPlan) -> Vec<Value> {
+fn zones(state: &State, world: &World, floor: &FloorPlan) -> Result<Vec<Value>, Error> {
+    let [russian, english] = [Language::Russian, Language::English];
+    let (rules, rules_en) = (state.zones_in_words(russian)?, state.zones_in_words(english)?);
     let all = floor.with_zones(world, |_| true);
     let zone = |placed: &PlacedZone| {
         let zone = &world.zones[&placed.id];
@@ -51,12 +52,12 @@ fn zones(world: &World, floor: &FloorPlan) -> Vec<Value> {
                 ZoneKind::Slow { .. } => "slow",
                 ZoneKind::OneWay { .. } => "one-way",
             },
-            "rule": zone_in_words(world, zone.id, Language::Russian),
-            "rule_en": zone_in_words(world, zone.id, Language::English),
+            "rule": rules[&zone.id],
+            "rule_en": rules_en[&zone.id],
             "polygons": placed.polygons.iter().map(outline).collect::<Vec<_>>(),
         })
     };
-    all.zones().iter().map(zone).collect()
+    Ok(all.zones().iter().map(zone).collect())
 }
 
 /// The free floor of a Map: its Passframes, dead zones, and the network over them.

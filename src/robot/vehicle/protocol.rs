@@ -43,7 +43,7 @@ pub enum Wish {
         /// Face this way in the end.
         heading: Option<f64>,
         /// Not faster than so many cm/s, where a zone asks for it; left out elsewhere.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         speed: Option<f64>,
     },
     /// Open, shut, lock or unlock a door next to the vehicle.

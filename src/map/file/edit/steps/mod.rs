@@ -45,7 +45,23 @@ const VERBS: &[(&str, &[&str])] = &[
     ("stand", &["map", "at", "angle", "base"]),
     ("include", &["at", "angle", "base"]),
     ("lift", &["stops"]),
-    ("zone", zones::FIELDS),
+    ("zone", ZONE),
+];
+
+/// What can be said of a zone, in the words of the map file.
+const ZONE: &[&str] = &[
+    "kind",
+    "rooms",
+    "map",
+    "points",
+    "speed",
+    "heading",
+    "reason",
+    "reason_en",
+    "from",
+    "until",
+    "name_en",
+    "forms",
 ];
 
 /// What may stand in an edit file beside `edit`.

@@ -1,33 +1,17 @@
 //! Zones laid out, changed and moved.
 
-use super::Steps;
 use super::word::{Done, Step, misprint, numbers, table, text_of, written};
+use super::{Steps, ZONE};
 use crate::fault::MapError;
 use crate::file::decode::shortened;
 use crate::file::edit::tree::{Handle, Kind, entry};
 use crate::file::node::{Entry, Node, Value};
 
-/// What can be said of a zone, in the words of the map file.
-pub(super) const FIELDS: &[&str] = &[
-    "kind",
-    "rooms",
-    "map",
-    "points",
-    "speed",
-    "heading",
-    "reason",
-    "reason_en",
-    "from",
-    "until",
-    "name_en",
-    "forms",
-];
-
 impl Steps<'_> {
     /// `zone`: a new one, or what is said anew of one that is there. A field that is empty is taken back.
     pub(super) fn zone(&mut self, step: &Step<'_>) -> Done {
         let name = step.what()?;
-        let mut said = step.copies(FIELDS);
+        let mut said = step.copies(ZONE);
         for field in &mut said {
             match (field.key.as_str(), &mut field.node.value) {
                 ("rooms", Value::List(rooms)) => {
