@@ -247,7 +247,7 @@ impl Ground<'_> {
                         let line = (end(from), end(to));
                         let mut on_it: Vec<Point> = along(line).collect();
                         on_it.extend(
-                            rules.levels(line, corners.iter().filter(|c| c.1.contains(&number))),
+                            rules.levels(line, &corners.iter().filter(|c| c.1.contains(&number))),
                         );
                         on_it.extend(rules.levels_of_zones(line));
                         for at in on_it.into_iter().filter(|p| locate(number, *p).is_some()) {
@@ -361,7 +361,7 @@ impl Rules<'_> {
     fn levels<'p>(
         &self,
         line: (Point, Point),
-        others: impl Iterator<Item = &'p (Point, [u32; 2])> + Clone,
+        others: &(impl Iterator<Item = &'p (Point, [u32; 2])> + Clone),
     ) -> Vec<Point> {
         let mut found = Vec::new();
         for (_, _, along) in &self.one_way {

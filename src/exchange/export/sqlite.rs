@@ -199,6 +199,10 @@ fn write_tables(path: &Path, reader: &Reader, world: &World) -> Result<(), Sqlit
     connection.close().map_err(|(_, source)| failed(source))
 }
 
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
 /// Reads the records of an SQLite file. Whether they make a sound map is for the caller to check.
 ///
 /// # Errors
@@ -208,19 +212,28 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     let failed = |source| SqliteError::Sqlite { path: shown.clone(), source };
     let content = |what: String| SqliteError::Content { path: shown.clone(), what };
     let limit = |what, limit| SqliteError::Limit { path: shown.clone(), what, limit };
-    match std::fs::metadata(path) {
+    let bytes = match std::fs::metadata(path) {
         Ok(data) if data.len() > LARGEST => return Err(limit("байт", LARGEST)),
         // Opening a pipe could wait for ever.
         Ok(data) if !data.is_file() => return Err(content("это не файл".to_owned())),
-        Ok(_) => {}
+        Ok(data) => data.len(),
         Err(e) => return Err(content(e.to_string())),
-    }
+    };
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(path, flags).map_err(failed)?;
     // A file from outside may bring views and triggers; none of their code is to run.
     connection
         .execute_batch("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;")
         .map_err(failed)?;
+    // SQLite itself misses the end of a file only where a row lies there; pages of a log beside it come later.
+    let number =
+        |pragma: &str| connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0));
+    let whole = number("page_count").map_err(failed)? * number("page_size").map_err(failed)?;
+    if bytes < whole.unsigned_abs()
+        && !path.with_file_name(format!("{}-wal", file_name(path))).exists()
+    {
+        return Err(content(format!("файл обрезан: в нём {bytes} байт из {whole}")));
+    }
     let mut sheet = Sheet::default();
     let mut rows = 0_usize;
     for table in tables().filter(|t| t.is_stored()) {
