@@ -157,10 +157,9 @@ impl FloorPlan {
         let found = match self.zones.iter().any(|zone| is_in(&zone)) && self.fitting(from).is_none()
         {
             true => self.route_out(world, from, target, method, within.as_deref()),
-            false => self
-                .anchor(from, None, within.as_deref())
-                .ok_or(NoRoute::NoFloor)
-                .and_then(|start| self.route_from(world, start, target, method, within.as_deref())),
+            false => self.anchor(from, None, within.as_deref()).ok_or(NoRoute::NoFloor).and_then(
+                |start| self.route_from(world, &start, target, method, within.as_deref()),
+            ),
         };
         found.map_err(|no| if has_shut { self.zones_between(world, from, target, no) } else { no })
     }
@@ -176,7 +175,7 @@ impl FloorPlan {
     ) -> Result<Route, NoRoute> {
         let (mut points, moved, exit) =
             self.way_out(world, from, within).ok_or(NoRoute::NoFloor)?;
-        let on = self.route_from(world, exit, target, method, within)?;
+        let on = self.route_from(world, &exit, target, method, within)?;
         points.extend(on.points.into_iter().skip(1));
         let length = super::search::length(&points);
         Ok(Route { points, length, moved_start: moved, ..on })
@@ -306,7 +305,7 @@ impl FloorPlan {
             }
             Err(_) => return no,
         };
-        let mut ends = way.points.clone();
+        let mut ends = way.points;
         ends.extend(self.point_of(world, target));
         let mut zones = self.touched(&ends, ZoneKind::is_shut);
         // A way may come near to others than the one that bars it.
@@ -348,12 +347,12 @@ impl FloorPlan {
     fn route_from(
         &self,
         world: &World,
-        start: Anchor,
+        start: &Anchor,
         target: Target,
         method: Method,
         within: Option<&[u32]>,
     ) -> Result<Route, NoRoute> {
-        let goals = self.goals(world, &start, target)?;
+        let goals = self.goals(world, start, target)?;
         let rules = Rules::of(&self.zones, self.robot().speed);
         let mut best: Option<(f64, Route)> = None;
         let mut against: Option<Vec<Point>> = None;
@@ -373,9 +372,9 @@ impl FloorPlan {
             // Straits are single legs, which keep to the rules or are none.
             let way = |leg: &dyn Fn(&Anchor, &Anchor) -> Option<Vec<Point>>| {
                 if self.network.straits.is_empty() {
-                    leg(&start, &goal.anchor)
+                    leg(start, &goal.anchor)
                 } else {
-                    strait::way(self, &start, &goal.anchor, leg)
+                    strait::way(self, start, &goal.anchor, leg)
                 }
             };
             let points = match &rules {
