@@ -3,6 +3,7 @@
 use orthoframe::Engine;
 use orthoframe::engine::{Rules, plan_alone};
 use orthoframe_graphplan::{Limits, Outcome};
+use orthoframe_map::{Format, World};
 use orthoframe_robot::Wanted;
 use orthoframe_strips::Scenario;
 use orthoframe_units::Source;
@@ -29,6 +30,17 @@ fn the_guide_to_maps_shows_the_map_as_it_is() {
     for piece in pieces {
         assert!(map.contains(&lines(piece)), "not in maps/lab.toml:\n{piece}");
     }
+}
+
+#[test]
+fn the_zones_of_the_guide_to_maps_stand_on_its_map() {
+    let [zones] = pieces(include_str!("../docs/map.md"), "toml zones")[..] else {
+        panic!("zones are shown in one piece")
+    };
+    let text = format!("{}\n{zones}", include_str!("../maps/lab.toml"));
+    let world = World::parse(&Source::new("lab.toml", text), Format::Toml)
+        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+    assert_eq!(world.zones.len(), zones.matches("[zone.").count());
 }
 
 #[test]

@@ -247,7 +247,7 @@ impl Ground<'_> {
                         let line = (end(from), end(to));
                         let mut on_it: Vec<Point> = along(line).collect();
                         on_it.extend(
-                            rules.levels(line, &corners.iter().filter(|c| c.1.contains(&number))),
+                            rules.levels(line, corners.iter().filter(|c| c.1.contains(&number))),
                         );
                         on_it.extend(rules.levels_of_zones(line));
                         for at in on_it.into_iter().filter(|p| locate(number, *p).is_some()) {
@@ -361,13 +361,12 @@ impl Rules<'_> {
     fn levels<'p>(
         &self,
         line: (Point, Point),
-        others: &(impl Iterator<Item = &'p (Point, [u32; 2])> + Clone),
+        others: impl Iterator<Item = &'p (Point, [u32; 2])>,
     ) -> Vec<Point> {
-        let mut found = Vec::new();
-        for (_, _, along) in &self.one_way {
-            found.extend(others.clone().filter_map(|(p, _)| level_with(line, *along, *p)));
-        }
-        found
+        let of = |(p, _): &(Point, [u32; 2])| -> Vec<Point> {
+            self.one_way.iter().filter_map(|(_, _, along)| level_with(line, *along, *p)).collect()
+        };
+        others.flat_map(of).collect()
     }
 
     /// Likewise with the corners of the zones themselves.
