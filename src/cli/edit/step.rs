@@ -264,6 +264,7 @@ pub(super) enum Step {
     },
     /// Lay out a zone, or say something else of one: a field given empty is taken back
     Zone {
+        /// A new zone, or one that is there
         name: String,
         /// keep-out, closed, slow or one-way
         #[arg(long, value_name = "WORD")]
@@ -283,15 +284,19 @@ pub(super) enum Step {
         /// Of a one-way zone, degrees counter-clockwise
         #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
         heading: Option<f64>,
+        /// Why, in a few words that follow "closed:"
         #[arg(long, value_name = "TEXT")]
         reason: Option<String>,
+        /// The same in English
         #[arg(long, value_name = "TEXT")]
         reason_en: Option<String>,
-        /// 2026-11-21T09:30Z
+        /// From when it is in force, such as 2026-11-21T09:30Z
         #[arg(long, value_name = "MOMENT")]
         from: Option<String>,
+        /// Until when it is in force
         #[arg(long, value_name = "MOMENT")]
         until: Option<String>,
+        /// The name in English
         #[arg(long, value_name = "NAME")]
         name_en: Option<String>,
     },

@@ -65,9 +65,13 @@ impl Hearing<'_, '_> {
         let Some(at) = at.filter(|_| !head.is_empty()) else { return Ok(None) };
         let end = words[at + head.len() - 1].end;
         let world = self.engine.world()?;
-        let name = named(world, Entity::Replica(substitute)).form(Case::Nominative, language);
-        // What is said of it before its noun goes with that, as far as the order has a sense then.
-        for first in (0..=at).rev() {
+        let name = named(world, Entity::Replica(substitute));
+        // It stands as what is done something with. What is said of it before its noun goes with that, as far as the
+        // order has a sense then.
+        let cases = [Case::Accusative, Case::Nominative];
+        let forms = cases.map(|case| name.form(case, language));
+        for (first, name) in (0..=at).rev().flat_map(|first| forms.iter().map(move |f| (first, f)))
+        {
             let order = format!("{}{name}{}", &line[..words[first].start], &line[end..]);
             let mut memory = self.dialogue.memory.clone();
             let Ok(commands) = self.engine.understand_in(&order, &mut memory) else { continue };
