@@ -112,7 +112,7 @@ impl Followed {
     /// Tells the rules what a robot knows beside the world that was followed last, where they ask for it.
     ///
     /// # Errors
-    /// As [`derive()`].
+    /// As [`derive()`](super::derive).
     pub fn tell(&mut self, told: Told) -> Result<(), RelationError> {
         if self.relations.rules().asks_the_robot() {
             Arc::make_mut(&mut self.relations).tell(&self.world, &told)?;
