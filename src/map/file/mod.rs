@@ -3,6 +3,7 @@
 //! Reading reports all faults at once, each at its line and character column. Writing loses nothing: what is
 //! written reads as the same [`World`], ids included.
 
+mod corners;
 mod decode;
 mod edit;
 mod misprint;

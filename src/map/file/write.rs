@@ -1,6 +1,6 @@
 //! From a [`World`] to the text of its map file: a header per record, a line per part, replica and link.
 
-use super::records::{lettered, letters};
+use super::corners::{lettered, letters};
 use super::schema::{
     AreaFile, At, DomainFile, DomainMapFile, DoorFile, DoorStateFile, FORMAT, FormsFile, ItemFile,
     ItemLinkFile, LeafFile, LiftFile, MapFile, MountFile, Number, ObjectFile, OrthoframeFile,
