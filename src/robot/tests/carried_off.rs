@@ -1,17 +1,12 @@
 //! Somebody lifts the robot up on its way and sets it down elsewhere: it finds itself again, tells so and does its task from
 //! there, or says that it does not know where it is.
 
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Arc;
-
-use orthoframe_geometry::{DoorStates, FloorPlan, Ride};
-use orthoframe_graphplan::Limits;
-use orthoframe_map::{DoorState, Entity, World};
+use orthoframe_geometry::Ride;
+use orthoframe_map::{DoorState, Entity};
 use orthoframe_robot::*;
-use orthoframe_semantics::{Followed, RelationRules, derive};
-use orthoframe_strips::Domain;
 use orthoframe_units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Stop};
+
+use super::setting::{Setting, example, fact};
 
 /// A robot that is carried off once, after so many pieces of its way.
 struct CarriedOff {
@@ -104,24 +99,15 @@ impl Vehicle for CarriedOff {
 
 #[test]
 fn who_is_carried_off_on_its_way_finds_itself_and_goes_on() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let world = World::load(root.join("maps/rb2.toml")).unwrap();
-    let (domain, _) = Domain::read(&root.join("rules/service-robot.strips")).unwrap();
-    let rules = RelationRules::standard();
-    let relations = Arc::new(derive(&world, &rules, world.domain.profile).unwrap());
-    let (map, pose) = starting_pose(&world).unwrap();
-    let plan =
-        |&map: &MapId| (map, FloorPlan::build(&world, map, &world.robot, &DoorStates::new()));
-    let floors: BTreeMap<MapId, FloorPlan> = world.maps.keys().map(plan).collect();
+    let setting = Setting::of(example("rb2"));
+    let Setting { world, floors, map, pose, .. } = &setting;
+    let (map, pose) = (*map, *pose);
     let area = world.find("Комната-Y").into_iter().find_map(|entity| match entity {
         Entity::Area(id) => Some(id),
         _ => None,
     });
     let area = area.unwrap();
-    let goal = [GoalFact {
-        predicate: "РОБОТ-НАХОДИТСЯ-В".to_owned(),
-        args: vec![world.name(Entity::Area(area)).to_owned()],
-    }];
+    let goal = [fact("РОБОТ-НАХОДИТСЯ-В", world.name(Entity::Area(area)))];
     let (mut found, mut lost) = (0, 0);
     for (number, place) in world.places.values().enumerate() {
         for after in [3, 11] {
@@ -131,12 +117,9 @@ fn who_is_carried_off_on_its_way_finds_itself_and_goes_on() {
             let robot = Simulator::new(world.clone(), map, pose);
             let robot = SensingRobot::new(robot, Senses::of_seed(number as u64));
             let mut body = CarriedOff { robot, pieces: 0, after, to };
-            let ground = Ground::of(&world, &floors, 20.0);
+            let ground = Ground::of(world, floors, 20.0);
             let finders = ground.finders();
-            let belief = Belief::new(world.clone(), floors.clone(), map, pose).unwrap();
-            let followed = Followed::new(Arc::new(world.clone()), Arc::clone(&relations));
-            let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
-            let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
+            let mut mission = setting.mission(setting.belief().unwrap());
             let mut displaced = 0;
             let ending = {
                 let mut pilot = Pilot::new(&ground, &finders, &mut body, (map, pose)).unwrap();

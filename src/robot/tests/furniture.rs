@@ -1,17 +1,12 @@
 //! What lies behind shut doors of furniture: a robot that opens them opens, takes out and shuts; one that does not is told so
 //! before it moves.
 
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Arc;
-
-use orthoframe_geometry::{DoorStates, FloorPlan, Scene};
-use orthoframe_graphplan::Limits;
+use orthoframe_geometry::Scene;
 use orthoframe_map::{DoorState, DoorStatus, Entity, World, stands};
 use orthoframe_robot::*;
-use orthoframe_semantics::{Followed, RelationRules, derive};
-use orthoframe_strips::Domain;
-use orthoframe_units::{Deg, Frame, MapId, ReplicaId, Stop};
+use orthoframe_units::{Deg, Frame, ReplicaId, Stop};
+
+use super::setting::{Setting, example, fact};
 
 fn thing(world: &World, name: &str) -> ReplicaId {
     let found = world.find(name).into_iter();
@@ -20,8 +15,7 @@ fn thing(world: &World, name: &str) -> ReplicaId {
 
 /// The flat with the medicine in a shut wardrobe.
 fn flat(wardrobe: &str, opens: bool) -> World {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/rb2.toml");
-    let mut world = World::load(file).unwrap();
+    let mut world = example("rb2");
     world.robot.opens = opens;
     let (around, medicine) = (thing(&world, wardrobe), thing(&world, "Лекарство"));
     let wardrobe = world.replicas[&around].clone();
@@ -41,21 +35,9 @@ fn fetch(
     wardrobe: &str,
     by_senses: bool,
 ) -> (Result<Ending, MissionError>, Vec<String>, World) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let (domain, _) = Domain::read(&root.join("rules/service-robot.strips")).unwrap();
-    let rules = RelationRules::standard();
-    let relations = derive(world, &rules, world.domain.profile).unwrap();
-    let followed = Followed::new(Arc::new(world.clone()), Arc::new(relations));
-    let (map, pose) = starting_pose(world).unwrap();
-    let plan = |&map: &MapId| (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()));
-    let floors: BTreeMap<MapId, FloorPlan> = world.maps.keys().map(plan).collect();
-    let belief = Belief::new(world.clone(), floors.clone(), map, pose).unwrap();
-    let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
-    let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
-    let fact = |predicate: &str, name: &str| GoalFact {
-        predicate: predicate.to_owned(),
-        args: vec![name.to_owned()],
-    };
+    let setting = Setting::of(world.clone());
+    let (map, pose, floors) = (setting.map, setting.pose, &setting.floors);
+    let mut mission = setting.mission(setting.belief().unwrap());
     let goal = [fact("РОБОТ-ДЕРЖИТ", "Лекарство"), fact("ОБЪЕКТ-ЗАКРЫТ", wardrobe)];
     let mut done = Vec::new();
     let mut tell = |event: &Event<'_>| {
@@ -67,7 +49,7 @@ fn fetch(
     let (stop, tell) = (Stop::new(), &mut tell);
     if by_senses {
         let mut robot = SensingRobot::new(robot, Senses::of_seed(5));
-        let ground = Ground::of(world, &floors, 20.0);
+        let ground = Ground::of(world, floors, 20.0);
         let finders = ground.finders();
         let mut pilot = Pilot::new(&ground, &finders, &mut robot, (map, pose)).unwrap();
         mission.belief.pose = pilot.pose().1;

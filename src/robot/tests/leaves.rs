@@ -4,18 +4,15 @@
 #![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
 
 use std::collections::BTreeMap;
-use std::path::Path;
-use std::sync::Arc;
 
-use orthoframe_geometry::{DoorStates, FloorPlan, Openings, STEP_REACH};
-use orthoframe_graphplan::Limits;
+use orthoframe_geometry::{Openings, STEP_REACH};
 use orthoframe_map::{
     DoorKind, DoorLeaf, DoorState, DoorStatus, Entity, HingeSide, OpensTo, World,
 };
 use orthoframe_robot::*;
-use orthoframe_semantics::{Followed, RelationRules, derive};
-use orthoframe_strips::Domain;
-use orthoframe_units::{AreaId, Cm, DoorId, MapId, Point, Stop};
+use orthoframe_units::{AreaId, Cm, DoorId, Point, Stop};
+
+use super::setting::{Setting, example, fact};
 
 /// All doors shut, each of another kind, with other leaves, hung otherwise; the robot of another size.
 fn varied(world: &World, dice: &mut fastrand::Rng) -> World {
@@ -73,30 +70,18 @@ fn nearest_leaf(world: &World, door: DoorId, from: f64, at: Point) -> f64 {
 
 #[test]
 fn the_robot_never_stands_where_a_leaf_sweeps_that_it_opens() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let (domain, _) = Domain::read(&root.join("rules/service-robot.strips")).unwrap();
-    let rules = RelationRules::standard();
     let count = if std::env::var_os("ORTHOFRAME_LONG").is_some() { 600 } else { 60 };
     let (mut opened, mut ended) = (0, 0);
     for seed in 0..count {
         let mut dice = fastrand::Rng::with_seed(seed);
         let map = ["rb2", "rb2", "two-storeys"][seed as usize % 3];
-        let world = World::load(root.join(format!("maps/{map}.toml"))).unwrap();
-        let world = varied(&world, &mut dice);
-        let (map, pose) = starting_pose(&world).unwrap();
-        let plan =
-            |&map: &MapId| (map, FloorPlan::build(&world, map, &world.robot, &DoorStates::new()));
-        let floors: BTreeMap<MapId, FloorPlan> = world.maps.keys().map(plan).collect();
-        let relations = derive(&world, &rules, world.domain.profile).unwrap();
-        let followed = Followed::new(Arc::new(world.clone()), Arc::new(relations));
-        let Some(belief) = Belief::new(world.clone(), floors, map, pose) else { continue };
+        let setting = Setting::of(varied(&example(map), &mut dice));
+        let (world, map, pose) = (&setting.world, setting.map, setting.pose);
+        let Some(belief) = setting.belief() else { continue };
         let areas: Vec<AreaId> = world.areas.keys().copied().collect();
         let to = world.name(Entity::Area(areas[dice.usize(..areas.len())])).to_owned();
-        let goal = [GoalFact {
-            predicate: "РОБОТ-НАХОДИТСЯ-В".to_owned(), args: vec![to.clone()]
-        }];
-        let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
-        let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
+        let goal = [fact("РОБОТ-НАХОДИТСЯ-В", &to)];
+        let mut mission = setting.mission(belief);
         let mut robot = Simulator::new(world.clone(), map, pose);
         let mut tell = |event: &Event<'_>| match event {
             Event::Finished { directive, belief, .. } => {
@@ -107,7 +92,7 @@ fn the_robot_never_stands_where_a_leaf_sweeps_that_it_opens() {
                         _ => None,
                     });
                     let id = id.expect("a door of the map");
-                    let far = nearest_leaf(&world, id, 0.0, belief.pose.at);
+                    let far = nearest_leaf(world, id, 0.0, belief.pose.at);
                     let radius = world.robot.radius.get();
                     assert!(
                         far >= radius - 0.2,

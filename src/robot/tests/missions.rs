@@ -4,28 +4,16 @@
 
 #![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::path::Path;
-use std::sync::Arc;
+use std::collections::{BTreeSet, VecDeque};
 
 use orthoframe_geometry::{
-    Bounds, DoorStates, FloorPlan, Openings, Polygon, Prism, STEP_REACH, Scene, nearest_on_segment,
+    Bounds, Openings, Polygon, Prism, STEP_REACH, Scene, nearest_on_segment,
 };
-use orthoframe_graphplan::Limits;
 use orthoframe_map::{DoorKind, DoorState, DoorStatus, Entity, Permeability, Replica, World};
 use orthoframe_robot::*;
-use orthoframe_semantics::{Followed, RelationRules, derive};
-use orthoframe_strips::Domain;
 use orthoframe_units::{AreaId, Frame, MapId, Point, ReplicaId, Stop};
 
-fn file(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
-}
-
-fn floors(world: &World) -> BTreeMap<MapId, FloorPlan> {
-    let plan = |&map: &MapId| (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()));
-    world.maps.keys().map(plan).collect()
-}
+use super::setting::{Setting, file};
 
 /// What the robot is to bring about.
 #[derive(Debug, Clone)]
@@ -346,18 +334,12 @@ fn run(
     how: &str,
     counts: &mut Counts,
 ) {
-    let (map, pose) = starting_pose(world).unwrap();
-    let rules = RelationRules::standard();
-    let relations = derive(world, &rules, world.domain.profile).unwrap();
-    let (domain, _) = Domain::read(&file("rules/service-robot.strips")).unwrap();
-    let followed = Followed::new(Arc::new(world.clone()), Arc::new(relations));
-    let floors = floors(world);
-    let belief = Belief::new(world.clone(), floors.clone(), map, pose).unwrap();
+    let setting = Setting::of(world.clone());
+    let (map, pose, floors) = (setting.map, setting.pose, &setting.floors);
     let body = Simulator::new(differing.truth.clone(), map, pose);
     let mut body = SensingRobot::new(body, senses);
-    let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
-    let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
-    let ground = Ground::of(world, &floors, senses.height);
+    let mut mission = setting.mission(setting.belief().unwrap());
+    let ground = Ground::of(world, floors, senses.height);
     let finders = ground.finders();
     let mut log = Vec::new();
     let ending = match Pilot::new(&ground, &finders, &mut body, (map, pose)) {

@@ -3,29 +3,18 @@
 
 #![allow(clippy::print_stdout, reason = "figures")]
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-use std::sync::Arc;
+use std::collections::BTreeSet;
 
-use orthoframe_geometry::{DoorStates, FloorPlan};
-use orthoframe_graphplan::Limits;
-use orthoframe_map::{Entity, Replica, World};
+use orthoframe_map::{Entity, Replica};
 use orthoframe_robot::*;
-use orthoframe_semantics::{Followed, RelationRules, derive};
-use orthoframe_strips::Domain;
-use orthoframe_units::{AreaId, Cm, Frame, MapId, ReplicaId, Stop};
+use orthoframe_units::{AreaId, Cm, Frame, ReplicaId, Stop};
+
+use super::setting::{Setting, example, fact};
 
 #[test]
 fn what_is_not_in_its_place_is_sought_where_its_kind_lies_first() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let world = World::load(root.join("maps/rb2.toml")).unwrap();
-    let (domain, _) = Domain::read(&root.join("rules/service-robot.strips")).unwrap();
-    let rules = RelationRules::standard();
-    let relations = Arc::new(derive(&world, &rules, world.domain.profile).unwrap());
-    let (map, pose) = starting_pose(&world).unwrap();
-    let plan =
-        |&map: &MapId| (map, FloorPlan::build(&world, map, &world.robot, &DoorStates::new()));
-    let floors: BTreeMap<MapId, FloorPlan> = world.maps.keys().map(plan).collect();
+    let setting = Setting::of(example("rb2"));
+    let Setting { world, map, pose, .. } = &setting;
     let kind = |thing: &Replica| world.objects[&thing.object].object_type;
     let portable: Vec<ReplicaId> =
         world.replicas.keys().copied().filter(|id| world.has_trait(*id, "portable")).collect();
@@ -42,16 +31,11 @@ fn what_is_not_in_its_place_is_sought_where_its_kind_lies_first() {
         moved.area = place.area;
         moved.frame = Frame::new(place.at.x + 40.0, place.at.y, 0.0, thing.frame.angle);
         moved.frame.z = Cm::ZERO;
-        let mut belief = Belief::new(world.clone(), floors.clone(), map, pose).unwrap();
+        let mut belief = setting.belief().unwrap();
         belief.sought.insert(thing.name.clone(), BTreeSet::new());
-        let followed = Followed::new(Arc::new(world.clone()), Arc::clone(&relations));
-        let limits = Limits { effort: Some(Limits::TO_START), ..Limits::default() };
-        let mut mission = Mission::new(belief, &domain, followed, &rules, limits);
-        let mut robot = Simulator::new(truth, map, pose);
-        let goal = [GoalFact {
-            predicate: "ПРЕДМЕТ-НАЙДЕН".to_owned(),
-            args: vec![thing.name.clone()],
-        }];
+        let mut mission = setting.mission(belief);
+        let mut robot = Simulator::new(truth, *map, *pose);
+        let goal = [fact("ПРЕДМЕТ-НАЙДЕН", &thing.name)];
         let mut looked: Vec<AreaId> = Vec::new();
         let mut sought: Vec<String> = Vec::new();
         let mut tell = |event: &Event<'_>| match event {

@@ -2,24 +2,14 @@
 
 #![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::Path;
 
-use orthoframe_geometry::{DoorStates, FloorPlan, Method, Target};
+use orthoframe_geometry::{FloorPlan, Method, Target};
 use orthoframe_map::{Entity, World};
 use orthoframe_robot::*;
 use orthoframe_units::{Deg, MapId, Point, Pose, Stop};
 
-fn rb2() -> World {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/rb2.toml");
-    World::load(file).expect("the example map is sound")
-}
-
-fn floors(world: &World) -> BTreeMap<MapId, FloorPlan> {
-    let plan = |&map: &MapId| (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()));
-    world.maps.keys().map(plan).collect()
-}
+use super::setting::{example, floors};
 
 /// A robot in a truth, at the start of its Map.
 fn robot(truth: &World, senses: Senses) -> SensingRobot {
@@ -46,7 +36,7 @@ fn way(world: &World, floor: &FloorPlan, from: Point, to: &str) -> (Vec<Point>, 
 
 #[test]
 fn a_laser_sees_what_is_there_and_errs_as_told() {
-    let world = rb2();
+    let world = example("rb2");
     let exact = Senses { noise: 0.0, dropouts: 0.0, slip: 0.0, ..Senses::of_seed(1) };
     let look = |senses: Senses| {
         let mut robot = robot(&world, senses);
@@ -103,7 +93,7 @@ fn a_laser_sees_what_is_there_and_errs_as_told() {
 /// Ways between the places of the flat: by its wheels alone the robot is lost, by its laser it is where it believes.
 #[test]
 fn a_pilot_knows_where_it_is_though_its_wheels_slip() {
-    let world = rb2();
+    let world = example("rb2");
     let floors = floors(&world);
     let places: Vec<String> = world.places.values().map(|place| place.name.clone()).collect();
     let seeds = if std::env::var_os("ORTHOFRAME_LONG").is_some() { 40 } else { 3 };
@@ -151,7 +141,7 @@ fn a_pilot_knows_where_it_is_though_its_wheels_slip() {
 /// Somebody carries it off while it stands: it finds itself again, and says so.
 #[test]
 fn who_is_carried_off_finds_itself_again() {
-    let world = rb2();
+    let world = example("rb2");
     let floors = floors(&world);
     let ground = Ground::of(&world, &floors, 20.0);
     let finders = ground.finders();
