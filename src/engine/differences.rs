@@ -13,7 +13,6 @@ use crate::store::{FoundAt, Observation, RobotMemory, Seen, SeenObstacle, Timest
 use crate::units::{AreaId, DoorId, Frame, MapId, Point, ReplicaId};
 use crate::vectors::read::Scan;
 
-use super::localisation::pose_of;
 use super::memory::ROBOT;
 use super::sighting::named;
 use super::{Engine, Error, RequestError, Sighted, State};
@@ -161,7 +160,7 @@ impl State {
         let found = last.iter().map(|fit| {
             let (place, heading) = fit.deviations();
             let deviation = (place, heading.to_degrees());
-            FoundAt { map, pose: pose_of(&fit.pose), deviation, explained: fit.explained, at }
+            FoundAt { map, pose: fit.pose.into(), deviation, explained: fit.explained, at }
         });
         let found = found.collect();
         Ok(Differing { map, scans, held, things, doors, obstacles, gone, found })

@@ -2,7 +2,7 @@
 
 use crate::language::Language;
 use crate::sensing::{Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, telling_move};
-use crate::units::{Deg, MapId, Point, Pose};
+use crate::units::{MapId, Pose};
 
 use super::news::move_in_words;
 use super::{Error, RequestError, Sighted, State, Whereabout};
@@ -87,7 +87,7 @@ impl State {
     }
 
     fn found_pose(&self, map: MapId, fit: &Fit) -> FoundPose {
-        let pose = pose_of(&fit.pose);
+        let pose = Pose::from(fit.pose);
         let (place, heading) = fit.deviations();
         FoundPose {
             pose,
@@ -96,13 +96,6 @@ impl State {
             through: fit.through,
             place: self.locate(map, pose, false).ok(),
         }
-    }
-}
-
-pub(super) fn pose_of(pose: &nalgebra::Isometry2<f64>) -> Pose {
-    Pose {
-        at: Point::from(pose.translation.vector),
-        heading: Deg::from_radians(pose.rotation.angle()),
     }
 }
 

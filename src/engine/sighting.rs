@@ -8,7 +8,6 @@ use crate::map::{Entity, World};
 use crate::sensing::{Bound, Chart, Localiser, Operative, Options};
 use crate::units::{MapId, Point, Pose};
 
-use super::localisation::pose_of;
 use super::{Drawing, Error, RequestError, Sighted, State};
 
 /// The operative model of one scan.
@@ -57,7 +56,7 @@ impl State {
         let Some(&pose) = poses.first() else { return Ok(None) };
         let named = |blocker: Blocker| name_of(world, blocker, Language::Russian);
         let operative = Operative::of(sensor, &told.ranges, &pose, &world.robot, &chart, &named);
-        let at = pose_of(&pose);
+        let at = Pose::from(pose);
         let is_one_of = poses.len();
         Ok(operative.map(|operative| Sighting { scan, pose: at, is_one_of, operative }))
     }

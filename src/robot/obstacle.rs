@@ -24,7 +24,7 @@ pub fn stand_obstacle(
     top: f64,
 ) -> Option<ReplicaId> {
     let &origin = pieces.first().and_then(|piece| piece.first())?;
-    if !world.areas.contains_key(&area) {
+    if !world.areas.contains_key(&area) || pieces.iter().any(Vec::is_empty) {
         return None;
     }
     let is_new = |id: &u32| {
@@ -52,7 +52,8 @@ pub fn stand_obstacle(
         let (name, name_en) = names(*number);
         world.find(&name).is_empty() && world.find(&name_en).is_empty()
     };
-    let number = (1..).find(is_free)?;
+    // Its place among such things is free, unless the map has a thing of that name.
+    let number = ((LAST_ID - own) as usize + 1..).find(is_free)?;
     let (name, name_en) = names(number);
     let object = ObjectId(own);
     world.objects.insert(
@@ -116,5 +117,29 @@ fn prism(id: OrFrId, piece: &[Point], top: f64) -> Orthoframe {
         roof_permeability: Permeability::Impermeable,
         roof_scale: 1.0,
         properties: Properties::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_is_one_of_its_own_and_one_without_an_outline_is_none() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/rb2.toml");
+        let mut world = World::load(path).expect("the example map is sound");
+        let area = *world.areas.keys().next().expect("the map has rooms");
+        let square = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]].map(|[x, y]| Point::new(x, y));
+        let before = world.clone();
+        assert_eq!(stand_obstacle(&mut world, area, &[], 50.0), None);
+        let holed = [square.to_vec(), Vec::new()];
+        assert_eq!(stand_obstacle(&mut world, area, &holed, 50.0), None);
+        assert!(world == before);
+        let mut stand = || {
+            let id = stand_obstacle(&mut world, area, &[square.to_vec()], 50.0);
+            world.replicas[&id.expect("it has an outline")].name.clone()
+        };
+        let names: Vec<String> = (0..3).map(|_| stand()).collect();
+        assert_eq!(names, ["Препятствие-1", "Препятствие-2", "Препятствие-3"]);
     }
 }

@@ -134,8 +134,8 @@ impl<'g, 'v> Pilot<'g, 'v> {
         body: &'v mut dyn Vehicle,
         (map, believed): (MapId, Pose),
     ) -> Result<Self, Failure> {
-        let odometry = isometry(body.pose().1);
-        let pose = isometry(believed);
+        let odometry = Isometry2::from(body.pose().1);
+        let pose = Isometry2::from(believed);
         let (tracker, inspector) = on_map(ground, finders, map, pose, odometry)
             .ok_or_else(|| nowhere("такого этажа на карте нет", "the map has no such storey"))?;
         let doors = ground.world.doors.values().map(|door| (door.id, door.state)).collect();
@@ -191,8 +191,8 @@ impl<'g, 'v> Pilot<'g, 'v> {
         let mut hear = |notice: &Notice| {
             match notice {
                 Notice::Moved(moment) => {
-                    last = isometry(moment.pose);
-                    let pose = pose_of(&(to_map * last));
+                    last = Isometry2::from(moment.pose);
+                    let pose = Pose::from(to_map * last);
                     watch.notice(&Notice::Moved(Moment { map, pose, ..*moment }));
                 }
                 Notice::Scanned(scan) => {
@@ -209,7 +209,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
             self.take_in(odometry, &scan);
         }
         // The wheels may have turned since the last look.
-        let now = isometry(self.body.pose().1);
+        let now = Isometry2::from(self.body.pose().1);
         self.pose *= self.odometry.inverse() * now;
         self.odometry = now;
         done
@@ -328,7 +328,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
     fn settle(&mut self, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         self.find_itself(watch)?;
         if std::mem::take(&mut self.has_jumped) {
-            let (time, map, pose) = (self.body.time(), self.map, pose_of(&self.pose));
+            let (time, map, pose) = (self.body.time(), self.map, Pose::from(self.pose));
             watch.notice(&Notice::Found(Moment { time, map, pose }));
             return Err(Bump { at: pose, against: Obstruction::Something }.into());
         }
@@ -390,18 +390,9 @@ fn sensor_of(scan: &Scan) -> Option<(Sensor, Vec<f64>)> {
     Some((sensor, scan.ranges.iter().map(|range| range.unwrap_or(f64::INFINITY)).collect()))
 }
 
-fn isometry(pose: Pose) -> Isometry2<f64> {
-    Isometry2::new(pose.at.coords, pose.heading.radians())
-}
-
-fn pose_of(pose: &Isometry2<f64>) -> Pose {
-    let heading = Deg::from_radians(pose.rotation.angle());
-    Pose { at: Point::from(pose.translation.vector), heading }
-}
-
 impl Vehicle for Pilot<'_, '_> {
     fn pose(&self) -> (MapId, Pose) {
-        (self.map, pose_of(&self.pose))
+        (self.map, Pose::from(self.pose))
     }
 
     fn time(&self) -> f64 {
@@ -475,7 +466,8 @@ impl Vehicle for Pilot<'_, '_> {
             _ => {}
         }
         self.map = arrival.0;
-        (self.pose, self.odometry) = (isometry(arrival.1), isometry(self.body.pose().1));
+        (self.pose, self.odometry) =
+            (Isometry2::from(arrival.1), Isometry2::from(self.body.pose().1));
         let found = on_map(self.ground, self.finders, self.map, self.pose, self.odometry);
         let Some((tracker, inspector)) = found else {
             let failure = nowhere("такого этажа на карте нет", "the map has no such storey");

@@ -16,6 +16,19 @@ pub struct Pose {
     pub heading: Deg,
 }
 
+impl From<Pose> for nalgebra::Isometry2<f64> {
+    fn from(pose: Pose) -> Self {
+        Self::new(pose.at.coords, pose.heading.radians())
+    }
+}
+
+impl From<nalgebra::Isometry2<f64>> for Pose {
+    fn from(motion: nalgebra::Isometry2<f64>) -> Self {
+        let heading = Deg::from_radians(motion.rotation.angle());
+        Self { at: Point::from(motion.translation.vector), heading }
+    }
+}
+
 /// Position of a child frame in its parent: the paper's PosX, PosY, PosZ, PosA.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Frame {

@@ -4,10 +4,10 @@
 use crate::geometry::{PlacedReplica, Polygon, convex_hull, nearest_on_segment};
 use crate::map::DoorKind;
 use crate::sensing::ThingSeen;
-use crate::units::{Deg, Frame, Point, ReplicaId, Vector};
+use crate::units::{Deg, Frame, Point, Pose, ReplicaId, Vector};
 use crate::vehicle::{Bump, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
 
-use super::{Pilot, SURE, UNKNOWN, pose_of};
+use super::{Pilot, SURE, UNKNOWN};
 
 /// The robot drives so far before it aims anew, cm.
 const PIECE: f64 = 20.0;
@@ -80,7 +80,7 @@ impl Pilot<'_, '_> {
                 return Ok(());
             }
             if let Some(against) = self.recognise(&met, watch) {
-                return Err(Bump { at: pose_of(&self.pose), against }.into());
+                return Err(Bump { at: Pose::from(self.pose), against }.into());
             }
             let middle = middle_of(&met);
             still = match before {
@@ -94,14 +94,14 @@ impl Pilot<'_, '_> {
             let looked = self.ask(watch, |body, watch| body.look_round(watch));
             looked.map_err(|unfinished| {
                 unfinished
-                    .map(|_| Bump { at: pose_of(&self.pose), against: Obstruction::Something })
+                    .map(|_| Bump { at: Pose::from(self.pose), against: Obstruction::Something })
             })?;
             self.settle(watch)?;
         }
         if self.in_the_way(path).is_empty() {
             return Ok(());
         }
-        Err(Bump { at: pose_of(&self.pose), against: Obstruction::Something }.into())
+        Err(Bump { at: Pose::from(self.pose), against: Obstruction::Something }.into())
     }
 
     /// What of the Map stands here, where it is not mapped; it is told.
@@ -216,7 +216,7 @@ impl Pilot<'_, '_> {
                     self.back_off(way, watch)?;
                     if contacts >= CONTACTS {
                         self.met = met;
-                        let at = pose_of(&self.pose);
+                        let at = Pose::from(self.pose);
                         return Err(Bump { at, ..bump }.into());
                     }
                 }
@@ -232,7 +232,7 @@ impl Pilot<'_, '_> {
         watch: &mut Watch<'_>,
     ) -> Result<(), Unfinished<Bump>> {
         for _ in 0..CONTACTS {
-            let off = (heading - pose_of(&self.pose).heading).signed();
+            let off = (heading - Pose::from(self.pose).heading).signed();
             if off.abs() <= AT_HEADING {
                 break;
             }

@@ -131,13 +131,9 @@ impl SensingRobot {
         self.body.pose = to;
     }
 
-    /// Where people on the robot's Map are, as discs, for who judges a drive.
+    /// Where people on the robot's Map are, as discs.
     #[must_use]
     pub fn people(&self) -> Vec<(Point, f64)> {
-        self.people_here()
-    }
-
-    fn people_here(&self) -> Vec<(Point, f64)> {
         let here = self.people.iter().filter(|walker| walker.is_on(self.body.map));
         here.map(|walker| (walker.at, GIRTH)).collect()
     }
@@ -158,7 +154,7 @@ impl SensingRobot {
     }
 
     fn scan(&mut self) -> Scan {
-        let people = self.people_here();
+        let people = self.people();
         let step = 360.0 / self.senses.beams as f64;
         let ranges = (0..self.senses.beams)
             .map(|beam| {
@@ -197,7 +193,7 @@ impl SensingRobot {
         let length = way.norm();
         let thing = self.body.first_contact(goal).map(|(distance, _)| distance);
         let girth = self.body.profile.radius.get() + GIRTH;
-        let person = self.people_here().into_iter().filter_map(|(at, _)| {
+        let person = self.people().into_iter().filter_map(|(at, _)| {
             let to = at - from;
             let along = to.dot(&way) / length;
             let half = (girth * girth - (to.norm_squared() - along * along)).sqrt();
@@ -294,7 +290,7 @@ impl SensingRobot {
     fn strikes_somebody(&self, door: DoorId, state: DoorState) -> bool {
         let Some(model) = self.body.truth.doors.get(&door) else { return false };
         let openings = (opening_of(model.state), opening_of(state));
-        let people = self.people_here();
+        let people = self.people();
         self.body.doorways().filter(|doorway| doorway.door == Some(door)).any(|doorway| {
             let swept = doorway.leaves(model).swept(openings);
             swept.iter().any(|way| people.iter().any(|(at, girth)| way.contains(*at, *girth)))
