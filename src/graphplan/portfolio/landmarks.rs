@@ -222,7 +222,7 @@ pub(crate) fn longest_row(task: &Task, state: &State) -> Vec<FactId> {
     };
     let mut new: Vec<FactId> =
         members(&all).map(|fact| FactId(fact as u32)).filter(|&fact| !holds(state, fact)).collect();
-    new.sort_by_key(|&fact| (own(fact).count(), fact));
+    new.sort_by_cached_key(|&fact| (own(fact).count(), fact));
     // Of each the length of the longest row that ends with it, and what stands before it there.
     let mut rows: BTreeMap<FactId, (usize, Option<FactId>)> = BTreeMap::new();
     for &fact in &new {
