@@ -11,7 +11,6 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use std::thread;
 
 use super::evaluate::{EvaluateError, Evaluation, own_atoms};
 use super::finished::{Finished, Indexes};
@@ -21,6 +20,7 @@ use super::limits;
 use super::plan::{Plan, Request, Version};
 use super::program::{Clause, Expr, Program, RelationId, Stratum};
 use super::rows::{SharedRows, heap};
+use super::shares::shared_out;
 use super::spread::Makes;
 use super::strata::reads;
 use super::syntax::Span;
@@ -113,23 +113,11 @@ impl Evaluation<'_> {
             given: self.given.clone(),
         };
         let (next, has_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let work = |branch: limits::Branch| shared.work(strata, &next, &has_failed, branch);
-        let work = &work;
         let watch = &self.finished.watch;
         let threads = watch.limits().threads.min(strata.len());
-        let done: Vec<Vec<Done>> = thread::scope(|scope| {
-            let others: Vec<_> = (1..threads)
-                .map(|_| {
-                    let branch = watch.branch();
-                    scope.spawn(move || work(branch))
-                })
-                .collect();
-            let own = work(watch.branch());
-            let joined = others
-                .into_iter()
-                .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
-            std::iter::once(own).chain(joined).collect()
-        });
+        let branches = (0..threads).map(|_| watch.branch());
+        let done: Vec<Vec<Done>> =
+            shared_out(branches, |branch| shared.work(strata, &next, &has_failed, branch));
         drop(shared);
         self.finished.watch.kept_is_held();
         let mut done: Vec<Done> = done.into_iter().flatten().collect();
@@ -206,7 +194,7 @@ impl Evaluation<'_> {
         let tasks = Mutex::new(tasks.collect::<Vec<_>>());
         let rows = &*rows;
         let next = || tasks.lock().ok().and_then(|mut tasks| tasks.pop());
-        let work = || {
+        let work = |_: usize| {
             let mut made = Vec::new();
             while let Some((of, columns, index)) = next() {
                 let Some(rows) = rows[of.0.index()].as_deref() else { continue };
@@ -225,16 +213,8 @@ impl Evaluation<'_> {
             }
             made
         };
-        let work = &work;
-        let made: Vec<_> = thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let own = work();
-            let joined = others
-                .into_iter()
-                .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
-            std::iter::once(own).chain(joined).flatten().collect()
-        });
-        indexes.extend(made.into_iter().map(|(of, index)| (of, Arc::new(index))));
+        let made = shared_out(0..threads, work).into_iter().flatten();
+        indexes.extend(made.map(|(of, index)| (of, Arc::new(index))));
     }
 
     /// All plans that a stratum's rules run by.

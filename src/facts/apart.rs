@@ -5,7 +5,6 @@
 //! it, no thread waits for another between rounds, and none looks at what another has found.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use datafrog::Iteration;
 
@@ -17,6 +16,7 @@ use super::plan::{Plan, Request};
 use super::program::{Clause, Expr, Literal, Program, RelationId, Term};
 use super::rows::{self, Growing, RowSet, SharedRows, Taken};
 use super::run::{Source, run};
+use super::shares::shared_out;
 use super::spread::Plain;
 use super::word::{Word, Words};
 
@@ -101,25 +101,12 @@ impl Apart<'_> {
         let sources: Vec<_> = self.rounds.iter().map(|(_, plan)| finished.plain(plan)).collect();
         let base = finished.bytes();
         let known = AtomicUsize::new(rows.len());
-        let work = |part: Taken, branch: limits::Branch| {
+        let parts = rows.split(self.column, threads).into_iter();
+        let parts = parts.map(|part| (part, finished.watch.branch()));
+        let done = shared_out(parts, |(part, branch): (Taken, limits::Branch)| {
             self.part(part, &sources, words.share(), &branch.watch(), base, &known)
-        };
-        let work = &work;
-        let mut parts = rows.split(self.column, threads).into_iter();
-        let own = parts.next();
-        let done: Option<Vec<Taken>> = thread::scope(|scope| {
-            let others: Vec<_> = parts
-                .map(|part| {
-                    let branch = finished.watch.branch();
-                    scope.spawn(move || work(part, branch))
-                })
-                .collect();
-            let own = own.map(|part| work(part, finished.watch.branch()));
-            let joined = others
-                .into_iter()
-                .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
-            own.into_iter().chain(joined).collect()
         });
+        let done: Option<Vec<Taken>> = done.into_iter().collect();
         let total = known.load(Ordering::Relaxed);
         finished.watch.found(total);
         let columns = self.program.info(self.relation).columns.len();

@@ -108,6 +108,7 @@ mod rows;
 mod run;
 mod saved;
 mod seen;
+mod shares;
 mod sorting;
 mod spread;
 mod stored;

@@ -12,16 +12,16 @@
 use std::cell::Ref;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 use std::time::{Duration, Instant};
 
 use super::finished::Finished;
 use super::head::Head;
-use super::limits::{self, Watch};
+use super::limits::Watch;
 use super::plan::Plan;
 use super::program::{Clause, Expr, Literal, Program};
 use super::rows::{Branch, Rename, RowSet, Sink, Taken};
 use super::run::{Source, Step, extent, run, run_window};
+use super::shares::shared_out;
 use super::syntax::Functor;
 use super::word::{LARGE, Note, Word, Words};
 
@@ -158,25 +158,10 @@ impl Join<'_> {
         words.settle();
         let known = words.share();
         let pieces = Pieces::new(rows, threads * PIECES);
-        let work = |branch: Box<dyn Branch + '_>, watch: limits::Branch| {
+        let shares = branches.into_iter().map(|branch| (branch, watch.branch()));
+        let done: Vec<Done> = shared_out(shares, |(branch, watch)| {
             let (words, registers) = (known.share(), registers.to_vec());
             self.work(&plain, words, registers, &watch.watch(), &pieces, branch)
-        };
-        let work = &work;
-        let done: Vec<Done> = thread::scope(|scope| {
-            let mut branches = branches.into_iter();
-            let own = branches.next();
-            let others: Vec<_> = branches
-                .map(|branch| {
-                    let watch = watch.branch();
-                    scope.spawn(move || work(branch, watch))
-                })
-                .collect();
-            let own = own.map(|branch| work(branch, watch.branch()));
-            let joined = others
-                .into_iter()
-                .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
-            own.into_iter().chain(joined).collect()
         });
         self.gather(done, words, pieces.count, sink);
         true
