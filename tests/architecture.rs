@@ -401,7 +401,7 @@ const IN_CIRCLES: [(&str, usize); 16] = [
     ("draw", 2),
     ("engine", 16),
     ("exchange", 3),
-    ("facts", 29),
+    ("facts", 27),
     ("geometry", 11),
     ("graphplan", 4),
     ("language", 37),

@@ -3,7 +3,8 @@
 //! Pairs come in runs whose bits stand in one word of 64. A thread looks at a word when it comes to it and puts its new
 //! bits there when it leaves it, all at once; what another thread has put meanwhile is that one's.
 
-use super::rows::{Branch, Row, Sink, Taken};
+use super::row::Row;
+use super::rows::{Branch, Sink, Taken};
 use super::seen::Seen;
 use super::word::Word;
 

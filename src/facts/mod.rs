@@ -104,6 +104,7 @@ mod question;
 mod read;
 mod record;
 mod regular;
+mod row;
 mod rows;
 mod run;
 mod saved;

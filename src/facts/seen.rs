@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-use super::rows::Row;
+use super::row::Row;
 use super::word::Word;
 
 /// The bits may take so many for each row: twice the space of the row itself.

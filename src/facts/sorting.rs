@@ -4,7 +4,7 @@ use std::thread;
 
 use datafrog::Relation;
 
-use super::rows::Row;
+use super::row::Row;
 use super::word::Word;
 
 /// Rows from which on it pays to sort them in several threads.

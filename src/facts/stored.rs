@@ -16,7 +16,8 @@ use std::sync::{Arc, OnceLock};
 
 use datafrog::Relation;
 
-use super::rows::{Row, RowSet, SharedRows, at_width};
+use super::row::Row;
+use super::rows::{RowSet, SharedRows, at_width};
 use super::sorting::sorted;
 use super::word::Word;
 

@@ -6,7 +6,7 @@ use std::thread;
 
 use datafrog::Relation;
 
-use super::rows::Row;
+use super::row::Row;
 use super::seen::Seen;
 use super::word::Word;
 
