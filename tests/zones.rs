@@ -130,4 +130,16 @@ fn a_mission_goes_round_zones_or_says_which_bars_it() {
     assert!(!told.contains("Комната-Z,"), "{told}");
     let told = drive(&mut engine, "Иди в Комнату-Z");
     assert!(told.contains("Мокрый пол закрыт"), "{told}");
+    // One that is in force for a time bars the way as one does that always is, and no longer than it is.
+    lay(
+        &mut engine,
+        "[[edit]]\nzone = \"Мокрый пол\"\nfrom = \"2020-01-01\"\nuntil = \"2400-01-01\"\n",
+    );
+    let told = drive(&mut engine, "Иди в Комнату-Z");
+    assert!(told.contains("Мокрый пол закрыт"), "{told}");
+    let told = drive(&mut engine, "Иди в Комнату-В");
+    assert!(!told.contains("Комната-Z,"), "{told}");
+    lay(&mut engine, "[[edit]]\nzone = \"Мокрый пол\"\nuntil = \"2020-01-02\"\n");
+    let told = drive(&mut engine, "Иди в Комнату-Z");
+    assert!(told.contains("Сделано"), "{told}");
 }

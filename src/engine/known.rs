@@ -119,6 +119,15 @@ impl Known {
         &self.world
     }
 
+    /// The world without what is carried.
+    pub(super) fn empty_handed(&self) -> World {
+        let mut world = World::clone(&self.world);
+        for carried in self.holders.keys() {
+            world.replicas.remove(carried);
+        }
+        world
+    }
+
     /// Whether a zone is in force: at its moment, or on the map as surveyed.
     pub(super) fn is_in_force(&self, zone: &Zone) -> bool {
         self.moment.map_or(zone.is_standing(), |moment| zone.is_in_force(moment))
@@ -200,10 +209,7 @@ impl Known {
             .filter(|basis| basis.openings().is_ok_and(|surveyed| surveyed == openings));
         let mut floors = match basis {
             Some(basis) => {
-                let mut empty_handed = World::clone(world);
-                for gone in self.holders.keys() {
-                    empty_handed.replicas.remove(gone);
-                }
+                let empty_handed = self.empty_handed();
                 let mut floors = basis.floors()?.clone();
                 floors.values_mut().for_each(|floor| floor.follow(&basis.world, &empty_handed));
                 floors

@@ -4,13 +4,16 @@
 //! world of a task is the map with that applied.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::geometry::FloorPlan;
 use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
+use crate::semantics::Followed;
 use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
+use super::known::Known;
 use super::obstacles::{is_obstacle, put_up};
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError, State};
@@ -20,9 +23,12 @@ pub const ROBOT: &str = "робот";
 /// How sure the robot is of what it did or touched.
 const SURE_OF_OWN_DEED: f64 = 0.95;
 
-/// The world as it is believed to be now, and the robot in it.
+/// The world as it is believed to be now, and the robot in it: what a task begins from.
 #[derive(Debug, Clone)]
 pub struct Now {
+    /// With the floors and relations of this world.
+    pub(super) known: Arc<Known>,
+    pub(super) at: Timestamp,
     /// Without what is carried or was handed over.
     pub world: World,
     pub map: MapId,
@@ -38,6 +44,21 @@ pub struct Now {
     pub goes_on: bool,
 }
 
+impl Now {
+    /// The floor that is free at this moment, of the robot's map and of those to which lifts lead.
+    pub(super) fn floors(&self) -> Result<BTreeMap<MapId, FloorPlan>, Error> {
+        let leads = |map: &MapId| *map == self.map || !self.world.domain.lifts.is_empty();
+        let floors = self.known.floors()?.iter().filter(|(map, _)| leads(map));
+        Ok(floors.map(|(map, floor)| (*map, floor.clone())).collect())
+    }
+
+    /// The relations that hold at this moment, to be followed from here.
+    pub(super) fn followed(&self) -> Result<Followed, Error> {
+        let relations = Arc::clone(self.known.shared_relations()?);
+        Ok(Followed::new(Arc::new(self.world.clone()), relations))
+    }
+}
+
 impl State {
     /// The map with all that the robot remembers, at this moment.
     ///
@@ -45,12 +66,12 @@ impl State {
     /// There is no map, or it does not say where the robot starts.
     pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
         let memory = self.memory()?;
-        let mut world = self.believed(memory, at)?;
+        let known = self.known_at(at)?;
+        let world = known.empty_handed();
         let (mut held, mut handed_over, mut aboard) = (None, Vec::new(), Vec::new());
-        let carriers = self.carriers(&world, &memory.carried)?;
-        for (thing, holder) in &memory.carried {
-            let Some(replica) = world.replicas.remove(thing) else { continue };
-            match carriers.get(thing) {
+        for (thing, holder) in &known.holders {
+            let replica = known.world().replicas[thing].clone();
+            match known.carriers.get(thing) {
                 Some(carrier) => aboard.push((replica, *carrier)),
                 None if holder.is_empty() => held = Some(replica),
                 None => handed_over.push((replica, holder.clone())),
@@ -66,7 +87,7 @@ impl State {
         let start = last.or_else(|| starting_pose(&world));
         let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
         let obstacles = memory.obstacles.clone();
-        Ok(Now { world, map, pose, held, handed_over, aboard, obstacles, goes_on })
+        Ok(Now { known, at, world, map, pose, held, handed_over, aboard, obstacles, goes_on })
     }
 
     /// Of things that are carried, those that lie on or in others of them, each with the one that carries it and is itself
@@ -134,20 +155,6 @@ impl State {
             None => RobotMemory::default(),
         };
         Ok(self.memory.get_or_init(|| memory))
-    }
-
-    /// The free floor of the world as it is now, of the robot's map and of those to which lifts lead: that of the
-    /// survey, with what differs rebuilt.
-    pub(super) fn floors_now(&self, now: &Now) -> Result<BTreeMap<MapId, FloorPlan>, Error> {
-        let surveyed = self.world()?;
-        let leads = |map: &MapId| *map == now.map || !surveyed.domain.lifts.is_empty();
-        let mut floors = BTreeMap::new();
-        for (&map, floor) in self.floors()?.iter().filter(|(map, _)| leads(map)) {
-            let mut floor = floor.clone();
-            floor.follow(surveyed, &now.world);
-            floors.insert(map, floor);
-        }
-        Ok(floors)
     }
 }
 

@@ -105,16 +105,26 @@ impl State {
         if let Some(now) = self.now.get() {
             return Ok(now.as_ref().unwrap_or(surveyed));
         }
-        let found = self.find_now(surveyed)?.map(Arc::new);
-        Ok(self.now.get_or_init(|| found).as_ref().unwrap_or(surveyed))
-    }
-
-    fn find_now(&self, surveyed: &Arc<Known>) -> Result<Option<Known>, Error> {
         let moment = std::time::SystemTime::now().into();
         let edges = |zone: &Zone| [zone.from, zone.until];
         let coming = surveyed.world.zones.values().flat_map(edges).flatten();
         // Whoever asked at the same time may have noted it; either does.
         let _ = self.stands_until.set(coming.filter(|edge| *edge > moment).min());
+        let found = self.find_now(surveyed, moment)?.map(Arc::new);
+        Ok(self.now.get_or_init(|| found).as_ref().unwrap_or(surveyed))
+    }
+
+    /// The same, made anew for this moment.
+    ///
+    /// # Errors
+    /// As [`Self::around`].
+    pub(super) fn known_at(&self, moment: Timestamp) -> Result<Arc<Known>, Error> {
+        let surveyed = self.surveyed()?;
+        let found = self.find_now(surveyed, moment)?;
+        Ok(found.map_or_else(|| Arc::clone(surveyed), Arc::new))
+    }
+
+    fn find_now(&self, surveyed: &Arc<Known>, moment: Timestamp) -> Result<Option<Known>, Error> {
         let timed = |zone: &Zone| !zone.is_standing() && zone.is_in_force(moment);
         let in_time = surveyed.world.zones.values().any(timed);
         let memory = self.memory()?;
@@ -143,11 +153,11 @@ impl State {
         }
         let carriers = self.carriers(&world, &memory.carried)?;
         let now = Known::now(surveyed, world, holders, carriers, moment)?;
-        if asked { self.tell(now).map(Some) } else { Ok(Some(now)) }
+        if asked { self.tell(now, moment).map(Some) } else { Ok(Some(now)) }
     }
 
     /// Tells the rules what the robot knows beside the world.
-    fn tell(&self, now: Known) -> Result<Known, Error> {
+    fn tell(&self, now: Known, at: Timestamp) -> Result<Known, Error> {
         let world = now.world();
         let stands = |(map, _): &(MapId, Pose)| world.maps.contains_key(map);
         let robot = self.robot_pose().filter(stands);
@@ -160,13 +170,15 @@ impl State {
             _ => Vec::new(),
         };
         let carried = now.holders.iter().map(|(id, holder)| (*id, holder.clone())).collect();
-        now.told(&Told { robot, in_view, believed: self.whereabouts_believed()?, carried })
+        now.told(&Told { robot, in_view, believed: self.whereabouts_believed(at)?, carried })
     }
 
     /// Where what was looked at is believed to be, and how surely.
-    pub(super) fn whereabouts_believed(&self) -> Result<Vec<(ReplicaId, AreaId, f64)>, Error> {
+    pub(super) fn whereabouts_believed(
+        &self,
+        at: Timestamp,
+    ) -> Result<Vec<(ReplicaId, AreaId, f64)>, Error> {
         let Some(reader) = &self.reader else { return Ok(Vec::new()) };
-        let at = std::time::SystemTime::now().into();
         let mut believed = Vec::new();
         for id in reader.observed()? {
             let Some(surveyed) = self.world()?.replicas.get(&id) else { continue };

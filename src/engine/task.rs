@@ -132,9 +132,9 @@ pub(super) struct Errand<'r> {
 impl State {
     /// The relations of the world in which a task begins, with what the robot knows beside it.
     pub(super) fn followed_with(&self, now: &Now, belief: &Belief) -> Result<Followed, Error> {
-        let mut followed = self.followed(&now.world)?;
+        let mut followed = now.followed()?;
         if self.rules.relations.asks_the_robot() {
-            let believed = self.whereabouts_believed()?;
+            let believed = self.whereabouts_believed(now.at)?;
             let told = belief.told(followed.relations(), believed);
             followed.tell(told)?;
         }
@@ -255,7 +255,7 @@ impl State {
     /// What the robot believes when a task begins, and the place where it then stands; the operator stands there too.
     pub(super) fn belief_of(&self, now: &Now) -> Result<(Belief, String), Error> {
         let (map, start) = (now.map, now.pose);
-        let mut belief = Belief::new(now.world.clone(), self.floors_now(now)?, map, start)
+        let mut belief = Belief::new(now.world.clone(), now.floors()?, map, start)
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
         belief.handed_over.clone_from(&now.handed_over);
@@ -285,7 +285,7 @@ impl State {
             Ok(height) => height,
             Err(failure) => return Ok(begin(Err(failure))),
         };
-        let floors = self.floors_now(now)?;
+        let floors = now.floors()?;
         let ground = Ground::of(&now.world, &floors, height);
         let finders = ground.finders();
         Ok(match Pilot::new(&ground, &finders, vehicle, (now.map, now.pose)) {

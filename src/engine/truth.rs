@@ -55,7 +55,7 @@ impl State {
         let left_behind = if world.replicas == now.world.replicas {
             Vec::new()
         } else {
-            let relations = self.followed(&now.world)?;
+            let relations = now.followed()?;
             load::carry(&now.world, relations.relations(), &read.carriers, &mut world)
         };
         let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
