@@ -353,7 +353,6 @@ mod tests {
             ("Когда закончишь, вернись на зарядку", "вернись на зарядку"),
             ("Bring the cup and when you are done, go home", "Bring the cup and, go to base"),
             ("Tell me when you have found the keys", "find the keys"),
-            ("Сообщи мне, когда найдёшь лекарство", "найдёшь лекарство"),
             ("Close the door before leaving the room", "Close the door, then leave the room"),
             (
                 "Go to the hall after picking up the pen and call the operator",
@@ -382,5 +381,12 @@ mod tests {
         ] {
             assert_eq!(gathered(said), order, "{said}");
         }
+    }
+
+    /// That «найдёшь» is a form of «найти» the dictionary alone knows.
+    #[cfg(feature = "rumorph")]
+    #[test]
+    fn what_is_to_be_told_of_is_done() {
+        assert_eq!(gathered("Сообщи мне, когда найдёшь лекарство"), "найдёшь лекарство");
     }
 }

@@ -478,6 +478,8 @@ impl Asker<'_> {
                 let said = ["true that", "correct that", "the case that"];
                 said.iter().any(|words| phrase_at(&sentence.keys, at, words).is_some())
             })
+            // "Is there nothing on it?" denies all the same.
+            && !sentence.keys.iter().any(|key| key == "nothing")
             && let Query::Holds { negated, .. } | Query::Exists { negated, .. } = &mut query
         {
             *negated = false;

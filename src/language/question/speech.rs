@@ -463,8 +463,13 @@ impl Knowledge<'_> {
                 text = format!("{} {text}", self.pick("и", "and"));
             }
             if restriction.negated {
-                let but = if parts.is_empty() { "" } else { self.pick(", но ", ", but ") };
-                text = format!("{but}{} {text}", self.pick("не", "not"));
+                let not = self.pick("не", "not");
+                let joint = match parts.last() {
+                    None => "",
+                    Some(before) if before.starts_with(not) => self.pick("и ", "and "),
+                    Some(_) => self.pick(", но ", ", but "),
+                };
+                text = format!("{joint}{not} {text}");
             }
             parts.push(text);
         }
@@ -506,7 +511,15 @@ impl Knowledge<'_> {
 
     /// A place told by its kind: «на столах», "on the tables".
     fn general_place(&self, rel: Rel, anchor: &Noun) -> String {
-        let (phrase, english_name) = self.kind_phrase(anchor);
+        // «ни на чём» is on no other thing.
+        let whatever = anchor.head.anything && anchor.filters.is_empty();
+        let (phrase, english_name) = match whatever {
+            true => {
+                let other = NounPhrase::parse("другая вещь", &WordHints::default());
+                (other, "other thing".to_owned())
+            }
+            false => self.kind_phrase(anchor),
+        };
         // «в углу», "next to the wall": of these people speak as of one.
         let walls = self.is_walls(anchor);
         let number = if walls { Number::Singular } else { Number::Plural };
@@ -517,6 +530,7 @@ impl Knowledge<'_> {
             }
             let name = match walls {
                 true => format!("the {english_name}"),
+                false if whatever => english::plural(&english_name),
                 false => format!("the {}", english::plural(&english_name)),
             };
             let named = self.place(rel, &[Thing::Robot]);

@@ -33,6 +33,16 @@ fn done_to(items: &[Item], at: usize) -> bool {
     matches!(before, Some(Item::Mark(Mark::Deed(deed))) if uses::takes_object(*deed))
 }
 
+/// Whether a preposition governs no noun but whatever there is, "on anything", «ни на чём»; and whether that is denied, "on nothing".
+fn of_whatever(sentence: &Sentence<'_>, items: &[Item], at: usize) -> Option<bool> {
+    let denied = |key: &String| ["nothing", "ничто", "ничего"].contains(&key.as_str());
+    match items.get(at + 1)? {
+        Item::Mark(Mark::Anything) => Some(sentence.keys.iter().any(denied)),
+        Item::Mark(Mark::What) if at > 0 && items[at - 1] == Item::Mark(Mark::Not) => Some(false),
+        _ => None,
+    }
+}
+
 impl<'s, 't> Frame<'s, 't> {
     pub(super) fn of(
         sentence: &'s Sentence<'t>,
@@ -209,6 +219,14 @@ impl<'s, 't> Frame<'s, 't> {
                     }
                     let negated = std::mem::take(&mut not);
                     frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
+                }
+                // "not on anything", «ни на чём», "next to nothing"
+                Item::Link(rel) if let Some(none) = of_whatever(sentence, items, at) => {
+                    let head = Head { anything: true, ..Head::default() };
+                    let nouns = vec![Noun { head, indefinite: true, ..Noun::default() }];
+                    let negated = std::mem::take(&mut not) || none;
+                    frame.negated |= negated;
+                    frame.spots.push(Spot { rel: *rel, nouns, either: false, at, negated });
                 }
                 Item::Link(rel) => frame.links.push((*rel, at)),
                 // «все книги, кроме красной»

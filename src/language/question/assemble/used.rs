@@ -54,6 +54,23 @@ impl Used {
     }
 }
 
+/// «Какие вещи не рядом ни с чем?»: whether things are asked for of which nothing is denied.
+fn lost_its_denial(query: &mut Query) -> bool {
+    if !matches!(query, Query::Find(_) | Query::Count(_)) {
+        return false;
+    }
+    let mut denies = false;
+    query.each_noun(&mut |noun| {
+        denies |= !noun.except.is_empty()
+            || noun.other
+            || noun.filters.iter().any(|filter| filter.negated)
+            || noun.sizes.iter().any(|size| size.negated)
+            || noun.restrictions.iter().any(|place| place.negated)
+            || noun.head.kinds.is_empty() && noun.head.named.is_empty() && !noun.head.anything;
+    });
+    !denies
+}
+
 impl Frame<'_, '_> {
     /// A word for what is asked, or for the whole, that narrows nothing: «в какой комнате», "things", "in the house".
     fn asks_only(&self, noun: &Noun) -> bool {
@@ -110,6 +127,9 @@ impl Frame<'_, '_> {
         }
         // «Какого цвета не бывает стульев?»
         if self.negated && matches!(query, Query::Property { .. } | Query::Size { .. }) {
+            return Some(self.sentence.text.to_owned());
+        }
+        if self.negated && lost_its_denial(query) {
             return Some(self.sentence.text.to_owned());
         }
         // "Which room would you go to to cook?": no room is told by what is done there.
