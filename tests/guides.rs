@@ -76,18 +76,27 @@ fn a_relation_of_ones_own_is_asked_in_its_own_words() {
         let answer = engine.ask(question, &mut orthoframe::engine::Memory::default()).unwrap();
         answer.map(|answer| (answer.text.clone(), engine.rule_of(&answer).unwrap()))
     };
-    std::fs::write(rules.path().join("seats.dl"), pieces(guide, "datalog")[0]).unwrap();
+    let relation = pieces(guide, "datalog")[0];
+    let wordless: Vec<&str> = relation.lines().filter(|line| !line.starts_with("//")).collect();
+    std::fs::write(rules.path().join("seats.dl"), wordless.join("\n")).unwrap();
     let before = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
     assert!(ask(&before, "Что под рукой у Кровати-1?").is_err());
-    let words = rules.path().join("language/ru");
-    std::fs::create_dir_all(&words).unwrap();
-    std::fs::write(words.join("own.lang"), pieces(guide, "lang")[0]).unwrap();
+    std::fs::write(rules.path().join("seats.dl"), relation).unwrap();
     let engine = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
     let (text, rule) = ask(&engine, "Что под рукой у Кровати-1?").unwrap();
     assert!(text.contains("Лекарство"), "{text}");
     assert!(rule.contains("AT_HAND_OF(X1, \"Кровать-1\")"), "{rule}");
     assert_eq!(ask(&engine, "Лекарство под рукой у Кровати-1?").unwrap().0, "Да.");
     assert_eq!(ask(&engine, "Лекарство под рукой у Стула-3?").unwrap().0, "Нет.");
+    assert_eq!(ask(&engine, "How many things are within reach of Bed 1?").unwrap().0, "1.");
+    // A file of words adds more: to the relation, and to what the map calls a sofa.
+    let words = rules.path().join("language/ru");
+    std::fs::create_dir_all(&words).unwrap();
+    std::fs::write(words.join("own.lang"), pieces(guide, "lang")[0]).unwrap();
+    let engine = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
+    let (text, _) = ask(&engine, "Что на расстоянии руки от Кровати-1?").unwrap();
+    assert!(text.contains("Лекарство"), "{text}");
+    assert!(ask(&engine, "Тахта в Комнате-В?").unwrap().0.starts_with("Да"));
     // A fault of a grammar file is told with its place.
     std::fs::write(words.join("own.lang"), "Prep <- под рукой у[gen] = at_hand\n").unwrap();
     let fault = Rules::read(Some(rules.path())).unwrap_err();

@@ -1,13 +1,13 @@
 //! Questions in the rules' own language, about what is believed to be so now.
 //!
-//! Beside the relations of the rule text stand three that are computed when they are asked for: how far two things are
-//! from each other, what is seen from a place, and how long the way between two places is. None of them is stored for
-//! all pairs: the building has too many.
+//! Beside the relations of the rule text stand four that are computed when they are asked for: how far two things are
+//! from each other, how big one is, what is seen from a place, and how long the way between two places is. None of them
+//! is stored for all pairs: the building has too many.
 
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
 use crate::map::Entity;
-use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
+use crate::semantics::{Relations, Subject, on_demand, robot_eye, things_in_view};
 use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
 
 use super::known::Known;
@@ -59,17 +59,13 @@ impl State {
             rows,
         };
         let computed = [
-            asked(
-                "distance_between",
-                DISTANCE,
-                vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)],
-                distance,
-            ),
             asked("seen_from", SEEN, vec![(0b01, 30.0)], seen),
             asked("way_length", WAY, vec![(0b11, 1.0)], way),
         ];
+        let measured = on_demand(around.world(), relations);
+        let measured = measured.iter().map(|one| one as &dyn Computed);
         let computed: Vec<&dyn Computed> =
-            computed.iter().map(|one| one as &dyn Computed).collect();
+            measured.chain(computed.iter().map(|one| one as &dyn Computed)).collect();
         let source = Source::new("?", question);
         let ask = |error: AskError| Error::Query(Box::new(error));
         let answers = relations.derived().ask_with(&source, &computed, limits).map_err(ask)?;
@@ -91,8 +87,6 @@ impl State {
     }
 }
 
-/// In tenths of a millimetre, between the surfaces of two things of one Map.
-const DISTANCE: &str = "РАССТОЯНИЕ_МЕЖДУ(x: Thing, y: Thing, d: number) = distance_between";
 /// What the robot would see that stands at a thing, a door, in a room or place, whichever way it turns.
 const SEEN: &str = "ВИДНО_ОТ(место: symbol, x: Thing) = seen_from";
 /// In tenths of a millimetre, from where one stands at the one to the other, by doors that stand open.
@@ -141,40 +135,6 @@ impl Asked<'_> {
 
 fn length(cm: f64) -> Option<Value> {
     Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
-}
-
-fn distance(
-    asked: &Asked<'_>,
-    known: &[Option<Value>],
-    tell: &mut dyn FnMut(&[Value]),
-) -> Option<()> {
-    let thing = |n: usize| match asked.entity(known[n].as_ref()) {
-        Some(Entity::Replica(thing)) => Some(thing),
-        _ => None,
-    };
-    let mut tell_of = |a: ReplicaId, b: ReplicaId| {
-        let row = || {
-            let d = length(asked.relations.distance(a, b)?)?;
-            Some([asked.symbol(a)?, asked.symbol(b)?, d])
-        };
-        if let Some(row) = row().filter(|_| a != b) {
-            tell(&row);
-        }
-    };
-    let world = asked.around.world();
-    let all = || world.replicas.keys().copied();
-    match (&known[0], &known[1]) {
-        (Some(_), Some(_)) => tell_of(thing(0)?, thing(1)?),
-        (Some(_), None) => {
-            let a = thing(0)?;
-            all().for_each(|b| tell_of(a, b));
-        }
-        (None, _) => {
-            let b = thing(1)?;
-            all().for_each(|a| tell_of(a, b));
-        }
-    }
-    Some(())
 }
 
 fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {

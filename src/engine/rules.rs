@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::meaning::{FILES, Grammar};
+use crate::meaning::{FILES, Grammar, words_beside};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
 use crate::units::Source;
@@ -28,7 +28,8 @@ pub struct Rules {
 impl Rules {
     /// Reads `relations.dl` and `service-robot.strips` of a directory; for a file that is not there, or
     /// without a directory, the text that was built in. Every other `.dl` file of the directory adds to the relations,
-    /// in the order of their names; so do the `.lang` files of `language` and its folders to the grammar.
+    /// in the order of their names; so do the `.lang` files of `language` and its folders to the grammar, and the words
+    /// beside their declarations.
     ///
     /// # Errors
     /// There is no such directory; else all faults of the relations, or of the robot's rules.
@@ -43,8 +44,13 @@ impl Rules {
             Some(path) => Domain::read(&path)?,
             None => built_in_robot()?,
         };
-        let grammar = dir.map(|dir| dir.join("language")).filter(|base| base.is_dir());
-        let grammar = grammar.map(read_grammar).transpose()?;
+        let base = dir.map(|dir| dir.join("language")).filter(|base| base.is_dir());
+        let mut beside = Vec::new();
+        for path in file(RELATIONS).iter().chain(&more) {
+            beside.extend(words_beside(&read_source(path)?));
+        }
+        let is_own = base.is_some() || !beside.is_empty();
+        let grammar = is_own.then(|| read_grammar(base, beside)).transpose()?;
         let grammar = grammar.map_or_else(OnceLock::new, OnceLock::from);
         Ok(Self { relations, robot, grammar, warnings })
     }
@@ -62,13 +68,24 @@ impl Rules {
     }
 }
 
-/// The grammar files built in, each replaced by the folder's own of that path; others of it add to them.
-fn read_grammar(base: PathBuf) -> Result<Grammar, Error> {
+fn read_source(path: &Path) -> Result<Source, RequestError> {
+    Source::read(path).map_err(|fault| RequestError::File {
+        path: path.display().to_string(),
+        reason: fault.to_string(),
+        is_input: true,
+    })
+}
+
+/// The grammar files built in, each replaced by the folder's own of that path; others of it add to them, and so does what
+/// stands beside the declarations of rule files.
+fn read_grammar(base: Option<PathBuf>, beside: Vec<(String, Source)>) -> Result<Grammar, Error> {
     let mut files: BTreeMap<String, Source> = BTreeMap::new();
     for (name, text) in FILES {
         files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), text));
     }
-    let mut folders = vec![(String::new(), base)];
+    files.extend(beside);
+    let mut folders: Vec<(String, PathBuf)> =
+        base.into_iter().map(|base| (String::new(), base)).collect();
     while let Some((prefix, folder)) = folders.pop() {
         let entries = std::fs::read_dir(&folder).map_err(|e| unreadable(&folder, &e))?;
         for entry in entries {
@@ -77,12 +94,7 @@ fn read_grammar(base: PathBuf) -> Result<Grammar, Error> {
             if path.is_dir() && prefix.is_empty() {
                 folders.push((format!("{name}/"), path));
             } else if path.extension().is_some_and(|e| e == "lang") {
-                let text = Source::read(&path).map_err(|fault| RequestError::File {
-                    path: path.display().to_string(),
-                    reason: fault.to_string(),
-                    is_input: true,
-                })?;
-                files.insert(format!("{prefix}{name}"), text);
+                files.insert(format!("{prefix}{name}"), read_source(&path)?);
             }
         }
     }

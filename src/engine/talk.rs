@@ -102,6 +102,10 @@ impl State {
                 number = Some(tenths as f64 / 100.0);
                 Said::Found
             }
+            Ok(meaning::Found::Area(square)) => {
+                number = Some(square as f64);
+                Said::Found
+            }
             Ok(meaning::Found::Values(_)) => Said::Found,
             Ok(meaning::Found::Unknown) | Err(_) => Said::Unknown,
         };

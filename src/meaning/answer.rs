@@ -1,8 +1,8 @@
 //! What a form comes to: run on the rules, as data.
 
-use super::query::{Asking, number_of, quoted};
+use super::query::{Asking, amount, number, number_of, quoted};
 use super::read::Reading;
-use super::term::{Desc, Form, Mod, Quant, Sorts};
+use super::term::{Desc, Dimension, Form, Head, Mod, Quant, Sorts};
 use crate::facts::Value;
 use crate::language::question::{Property, ValueId};
 
@@ -18,6 +18,8 @@ pub enum Found {
     Number(usize),
     /// In tenths of a millimetre.
     Length(i64),
+    /// In cm².
+    Area(i64),
     /// As the map writes them.
     Values(Vec<String>),
     /// The map does not tell.
@@ -28,9 +30,8 @@ pub enum Found {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     pub thing: String,
-    /// What it lies on or in.
-    pub support: Option<String>,
-    pub room: Option<String>,
+    /// What it lies on or in and its room; the rooms that a door joins; the storey of a room.
+    pub at: Vec<String>,
 }
 
 /// Why a form comes to nothing.
@@ -130,9 +131,90 @@ impl Asking<'_> {
                 number_of(&rows).map(Found::Length).ok_or(NoAnswer::Unfit("such a distance"))
             }
             Form::Compare(a, b, measure) => {
+                let sorts = a.sorts & b.sorts;
                 let (a, b) = (self.one(a, true)?, self.one(b, true)?);
-                let (a, b) = (self.height(&a)?, self.height(&b)?);
+                let (a, b) = self.amounts((&a, &b), measure.of, sorts)?;
                 Ok(Found::Truth(if measure.most { a > b } else { a < b }))
+            }
+            Form::Nearer(x, a, b) => {
+                let x = quoted(&self.one(x, true)?);
+                let (a, b) = (quoted(&self.one(a, true)?), quoted(&self.one(b, true)?));
+                let rule = format!(
+                    "?- answer(A, B) :- distance_between({x}, {a}, A), distance_between({x}, {b}, B)"
+                );
+                let rows = self.rows(&rule)?;
+                let pair = rows.first().and_then(|row| Some((number(row, 0)?, number(row, 1)?)));
+                let (a, b) = pair.ok_or(NoAnswer::Unfit("such a distance"))?;
+                Ok(Found::Truth(a < b))
+            }
+            Form::Which(descs, best) => {
+                if let (Mod::Best(measure, None, 1), [a, b]) = (best, &descs[..]) {
+                    let sorts = a.sorts & b.sorts;
+                    let (x, y) = (self.one(a, true)?, self.one(b, true)?);
+                    let (a, b) = self.amounts((&x, &y), measure.of, sorts)?;
+                    return Ok(Found::Things(match (a == b, (a > b) == measure.most) {
+                        (true, _) => vec![x, y],
+                        (false, true) => vec![x],
+                        (false, false) => vec![y],
+                    }));
+                }
+                let mut entities = Vec::new();
+                let mut sorts = Sorts::ANY;
+                for desc in descs {
+                    sorts = sorts & desc.sorts;
+                    let symbol = self.one(desc, true)?;
+                    match self.constant(&symbol, desc)?.head {
+                        Head::Entities(own) => entities.extend(own),
+                        _ => return Err(NoAnswer::Unfit("what has no name")),
+                    }
+                }
+                let both = Desc { head: Head::Entities(entities), ..Desc::any(sorts) };
+                let best = std::slice::from_ref(best);
+                Ok(Found::Things(self.all_that(&both, best, true)?))
+            }
+            Form::Is(x, all) => {
+                let symbol = self.one(x, true)?;
+                Ok(Found::Truth(self.all(all, true)?.contains(&symbol)))
+            }
+            Form::Size(desc, of) => {
+                let symbol = quoted(&self.one(desc, true)?);
+                let premise = amount(*of, &symbol, desc.sorts, "V")?;
+                let rows = self.rows(&format!("?- answer(V) :- {premise}"))?;
+                let found = number_of(&rows).ok_or(NoAnswer::Unfit("such a size"))?;
+                match of {
+                    Dimension::Size if desc.sorts.meets(Sorts::THING) => {
+                        Err(NoAnswer::Unfit("a size in one number"))
+                    }
+                    Dimension::Size => Ok(Found::Area(found)),
+                    _ => Ok(Found::Length(found)),
+                }
+            }
+            Form::Number(desc, least, most) => {
+                let (all, is_known) = (self.all(desc, false)?, self.values_are_known(desc)?);
+                let so = u64::try_from(all.len()).is_ok_and(|all| (*least..=*most).contains(&all));
+                Ok(if is_known { Found::Truth(so) } else { Found::Unknown })
+            }
+            Form::More(a, b) | Form::Extra(a, b) => {
+                if !self.values_are_known(a)? || !self.values_are_known(b)? {
+                    return Ok(Found::Unknown);
+                }
+                let (a, b) = (self.all(a, false)?.len(), self.all(b, false)?.len());
+                match form {
+                    Form::More(..) => Ok(Found::Truth(a > b)),
+                    _ => {
+                        a.checked_sub(b).map(Found::Number).ok_or(NoAnswer::Unfit("less than none"))
+                    }
+                }
+            }
+            Form::Both(a, b) | Form::OneOf(a, b) => {
+                let (a, b) = (self.answer(a)?, self.answer(b)?);
+                // The truth that settles it whatever the other is.
+                let settles = Found::Truth(matches!(form, Form::OneOf(..)));
+                Ok(match (a, b) {
+                    (a, b) if a == settles || b == settles => settles,
+                    (Found::Truth(a), Found::Truth(_)) => Found::Truth(a),
+                    _ => Found::Unknown,
+                })
             }
         }
     }
@@ -157,19 +239,34 @@ impl Asking<'_> {
     }
 
     fn whether(&mut self, desc: &Desc, claims: &[Mod]) -> Result<Found, NoAnswer> {
-        let is_best = |one: &Mod| matches!(one, Mod::Best(..));
-        if claims.iter().any(is_best) {
+        if claims.iter().any(Mod::is_superlative) {
             return Err(NoAnswer::Unfit("whether it is foremost"));
         }
         if desc.is_definite() {
-            let symbol = self.one(desc, true)?;
+            let symbol = match self.one(desc, true) {
+                // Whichever is meant, where all are alike.
+                Err(NoAnswer::Ambiguous(all)) => {
+                    let so = self.all_that(desc, claims, true)?;
+                    let is_told = claims.iter().all(|one| value_in(one).is_none());
+                    if !is_told || !(so.is_empty() || so == all) {
+                        return Err(NoAnswer::Ambiguous(all));
+                    }
+                    return Ok(Found::Truth(!so.is_empty()));
+                }
+                one => one?,
+            };
             if self.holds(&symbol, desc.sorts, claims)? {
                 return Ok(Found::Truth(true));
             }
             // No value is told of what the map gives none.
             for one in claims {
-                let Some(value) = value_in(one) else { continue };
-                let known = self.property_known(value, &quoted(&symbol), desc.sorts);
+                let known = match (value_in(one), one) {
+                    (Some(value), _) => self.property_known(value, &quoted(&symbol), desc.sorts),
+                    (None, Mod::Same(property, _)) => {
+                        self.property_told(property, &quoted(&symbol), desc.sorts)
+                    }
+                    _ => continue,
+                };
                 let rule = known.map(|known| format!("?- answer() :- {known}"));
                 if rule.is_none_or(|rule| self.rows(&rule).is_ok_and(|rows| rows.is_empty())) {
                     return Ok(Found::Unknown);
@@ -212,16 +309,24 @@ impl Asking<'_> {
         if things.is_empty() {
             return Err(NoAnswer::NoneSuch);
         }
-        if !desc.sorts.meets(Sorts::THING) {
-            return Err(NoAnswer::Unfit("the place of a room or door"));
-        }
         let mut places = Vec::new();
         for thing in things {
             let symbol = quoted(&thing);
-            let support = self.symbols(&format!("?- answer(Y) :- LIES_ON_OR_IN({symbol}, Y)"))?;
-            let room = self.symbols(&format!("?- answer(R) :- in_area({symbol}, R)"))?;
-            let (support, room) = (support.into_iter().next(), room.into_iter().next());
-            places.push(Place { thing, support, room });
+            let mut at = Vec::new();
+            if desc.sorts == Sorts::THING {
+                let rule = format!("?- answer(Y) :- LIES_ON_OR_IN({symbol}, Y)");
+                at.extend(self.symbols(&rule)?.into_iter().next());
+                let rule = format!("?- answer(R) :- in_area({symbol}, R)");
+                at.extend(self.symbols(&rule)?.into_iter().next());
+            } else if desc.sorts == Sorts::OPENING {
+                let rule = format!("?- answer(R) :- (JOINS({symbol}, R, _) ; mounts({symbol}, R))");
+                at.extend(self.symbols(&rule)?);
+            } else if desc.sorts == Sorts::AREA {
+                at.extend(self.symbols(&format!("?- answer(M) :- area({symbol}, M)"))?);
+            } else {
+                return Err(NoAnswer::Unfit("such a place"));
+            }
+            places.push(Place { thing, at });
         }
         Ok(Found::Places(places))
     }
@@ -229,6 +334,10 @@ impl Asking<'_> {
     fn value_of(&mut self, desc: &Desc, property: &Property) -> Result<Found, NoAnswer> {
         if *property == Property::Kind {
             return Err(NoAnswer::Unfit("of what kind a thing is"));
+        }
+        if !desc.is_definite() {
+            let all = self.values_of(desc, property)?;
+            return Ok(if all.is_empty() { Found::Unknown } else { Found::Values(all) });
         }
         let symbol = quoted(&self.one(desc, true)?);
         let names: Vec<String> = self.names_of(property).iter().map(|name| quoted(name)).collect();

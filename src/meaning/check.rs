@@ -207,6 +207,9 @@ impl<'g> Building<'g> {
             let all = keys.iter().flat_map(|key| forms.iter().map(move |form| joined(key, form)));
             keys = all.collect();
         }
+        if let (Meaning::Known(known), Some((word, _))) = (&meaning, keys.first()) {
+            self.tongue.qualities.push((known.clone(), word.clone()));
+        }
         for (key, features) in keys.into_iter().filter(|(_, f)| !f.is_empty()) {
             self.tongue.longest = self.tongue.longest.max(key.split(' ').count());
             let entry = Entry { category, features, cost: rule.cost, meaning: meaning.clone() };
@@ -398,11 +401,27 @@ impl<'g> Building<'g> {
                 }
                 if let ("most" | "least", [Expr::Name(of)]) = (name.text.as_str(), &arguments[..]) {
                     let dimension = Dimension::named(&of.text)
-                        .ok_or_else(|| unknown("мера", of, ["height", "distance"]))?;
+                        .ok_or_else(|| unknown("мера", of, Dimension::NAMES.map(|(n, _)| n)))?;
                     return Ok((Meaning::Measure(dimension, name.text == "most"), Type::Measure));
                 }
                 if let ("property", [Expr::Name(of)]) = (name.text.as_str(), &arguments[..]) {
                     return Ok((Meaning::Property(Property::of(&of.text)), Type::Property));
+                }
+                // «kind(dining_table)»: a name within one word of the file.
+                if let ("kind" | "quality", [Expr::Name(of)]) = (name.text.as_str(), &arguments[..])
+                {
+                    let known = of.text.replace('_', " ");
+                    // A word may be one; what is made of parts has the word as a part.
+                    if !variables.is_empty() {
+                        let at = (name.at.start, name.at.len()).into();
+                        return Err(LangError::Syntax {
+                            expected: "часть, а не имя вида", at
+                        });
+                    }
+                    return Ok(match name.text.as_str() {
+                        "kind" => (Meaning::Kind(known), Type::Desc),
+                        _ => (Meaning::Known(known), Type::Mods),
+                    });
                 }
                 let mut checked = Vec::new();
                 for argument in arguments {

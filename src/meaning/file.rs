@@ -6,6 +6,7 @@
 //! say    yes "Да."                                      how an answer is told
 //! reserved Not All                                      categories whose words no frame may have as its own
 //! role   on(x: Thing, y: Thing) = ON_TOP_OF(x, y) | BORNE_BY(x, y)                   what runs, in the rules' language
+//! role   left_of(x: Thing, y: Thing) = LEFT_OF(x, y) if sector(_, y, _, _, _)         and only of what has a front
 //! Prep   <- на[loc] | сверху на[loc] = on               words of a category, with what they mean
 //! NP     <- a:Adj n:NP {agree a n} = n & a              a phrase
 //! list(x & p) <- какие x:NP[nom] pos? p:PP* {cost 1}    a frame: what a clause asks
@@ -47,6 +48,8 @@ pub(crate) enum Statement {
         name: Name,
         parameters: Vec<(Name, Vec<Name>)>,
         bodies: Vec<String>,
+        /// What must hold for the role to be told of at all: of a round table no left side is.
+        needs: Option<String>,
     },
     Rule(Rule),
 }
@@ -285,8 +288,12 @@ impl<'t> Parser<'t> {
         let body = self.rest();
         let body = body.split("//").next().unwrap_or_default().trim();
         self.at = self.end;
+        let (body, needs) = match body.split_once(" if ") {
+            Some((body, needs)) => (body, Some(needs.trim().to_owned())),
+            None => (body, None),
+        };
         let bodies = body.split('|').map(|one| one.trim().to_owned()).collect();
-        Ok(Statement::Role { name, parameters, bodies })
+        Ok(Statement::Role { name, parameters, bodies, needs })
     }
 
     fn rule(&mut self, first: Name) -> Parsed<Rule> {

@@ -32,6 +32,8 @@ pub(crate) struct Overload {
     pub(crate) sorts: Vec<Sorts>,
     /// Premises; any of them will do.
     pub(crate) bodies: Vec<String>,
+    /// What must hold for anything to be told.
+    pub(crate) needs: Option<String>,
 }
 
 /// A category of words or phrases.
@@ -59,6 +61,8 @@ pub(crate) struct Tongue {
     pub(crate) frames: Vec<Frame>,
     /// How answers are told.
     pub(crate) says: HashMap<String, String>,
+    /// The first word for each value of which the files speak: the name by which the map knows it, and the word.
+    pub(crate) qualities: Vec<(String, String)>,
 }
 
 #[derive(Debug, Clone)]
@@ -118,6 +122,9 @@ pub const FILES: &[(&str, &str)] = files![
     "en/words.lang",
     "en/phrases.lang",
     "en/frames.lang",
+    "de/words.lang",
+    "de/phrases.lang",
+    "de/frames.lang",
 ];
 
 impl Grammar {
@@ -150,8 +157,8 @@ impl Grammar {
         for (source, statement) in
             all.flat_map(|(source, all)| all.iter().map(move |s| (source, s)))
         {
-            if let Statement::Role { name, parameters, bodies } = statement
-                && let Err(error) = grammar.add_role(name, parameters, bodies)
+            if let Statement::Role { name, parameters, bodies, needs } = statement
+                && let Err(error) = grammar.add_role(name, parameters, bodies, needs.as_ref())
             {
                 faults.push(LangFault { error, file: source.clone() });
             }
@@ -164,8 +171,22 @@ impl Grammar {
         (grammar, faults)
     }
 
-    pub(crate) fn tongue(&self, language: Language) -> Option<&Tongue> {
-        self.tongues.get(language.pick("ru", "en"))
+    /// The language of a folder.
+    pub(crate) fn tongue_of(&self, folder: &str) -> Option<&Tongue> {
+        self.tongues.get(folder)
+    }
+
+    /// The languages that a text may be in, the likeliest first: that of its letters, then those which the program
+    /// itself does not speak.
+    pub(crate) fn tongues_for(&self, language: Language) -> impl Iterator<Item = (&str, &Tongue)> {
+        let own = folder(language);
+        let other = folder(match language {
+            Language::Russian => Language::English,
+            Language::English => Language::Russian,
+        });
+        let first = self.tongues.get_key_value(own);
+        let others = self.tongues.iter().filter(move |(name, _)| *name != own && *name != other);
+        first.into_iter().chain(others).map(|(name, tongue)| (name.as_str(), tongue))
     }
 
     fn add_role(
@@ -173,6 +194,7 @@ impl Grammar {
         name: &Name,
         parameters: &[(Name, Vec<Name>)],
         bodies: &[String],
+        needs: Option<&String>,
     ) -> Result<(), LangError> {
         let mut sorts = Vec::new();
         for (_, types) in parameters {
@@ -184,7 +206,8 @@ impl Grammar {
             sorts.push(of);
         }
         let variables = parameters.iter().map(|(name, _)| name.text.clone()).collect();
-        let overload = Overload { variables, sorts: sorts.clone(), bodies: bodies.to_vec() };
+        let (bodies, needs) = (bodies.to_vec(), needs.cloned());
+        let overload = Overload { variables, sorts: sorts.clone(), bodies, needs };
         match self.roles.iter().position(|role| role.name == name.text) {
             Some(at) => {
                 self.roles[at].overloads.push(overload);
@@ -197,6 +220,10 @@ impl Grammar {
         }
         Ok(())
     }
+}
+
+fn folder(language: Language) -> &'static str {
+    language.pick("ru", "en")
 }
 
 /// A name that nothing declares, with the nearest that something does.
@@ -217,9 +244,9 @@ mod tests {
     #[test]
     fn the_built_in_grammar_is_sound() {
         let grammar = Grammar::built_in();
-        let tongue = grammar.tongue(Language::Russian).expect("a folder of its own");
+        let tongue = grammar.tongue_of("ru").expect("a folder of its own");
         assert!(tongue.free && tongue.frames.len() > 30);
-        assert!(!grammar.tongue(Language::English).expect("a folder of its own").free);
+        assert!(!grammar.tongue_of("en").expect("a folder of its own").free);
     }
 
     /// The type of a category may follow from files that are read after it, in any order.
@@ -230,7 +257,7 @@ mod tests {
         files.reverse();
         let (grammar, faults) = Grammar::of(&files);
         assert!(faults.is_none(), "{faults:?}");
-        let frames = |grammar: &Grammar| grammar.tongue(Language::English).map(|t| t.frames.len());
+        let frames = |grammar: &Grammar| grammar.tongue_of("en").map(|t| t.frames.len());
         assert_eq!(frames(&grammar), frames(&Grammar::built_in()));
     }
 

@@ -23,6 +23,7 @@ mod answer;
 mod chart;
 mod check;
 mod cover;
+mod declared;
 mod fault;
 mod features;
 mod file;
@@ -35,6 +36,7 @@ mod term;
 mod words;
 
 pub use answer::{Answer, Found, NoAnswer, Outcome};
+pub use declared::words_beside;
 pub use fault::{LangError, LangFault, LangFaults};
 pub use features::Features;
 pub use grammar::{FILES, Grammar};

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use super::answer::NoAnswer;
 use super::grammar::Grammar;
 use super::read::Map;
-use super::sense::Signatures;
+use super::sense::{Signatures, taking};
 use super::term::{Desc, Dimension, Head, Measure, Mod, Quant, RoleId, Sorts};
 use crate::facts::Value;
 use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
@@ -32,7 +32,7 @@ pub(crate) struct Asking<'q> {
 }
 
 /// Premises about one thing.
-#[derive(Default)]
+#[derive(Default, Clone)]
 struct Body {
     premises: Vec<String>,
     helpers: Vec<String>,
@@ -47,6 +47,12 @@ impl Body {
         format!("X{}", self.variables)
     }
 }
+
+/// Of these the facts tell which there are.
+const HAVE_FACTS: Sorts = Sorts::THING.or(Sorts::AREA).or(Sorts::OPENING);
+
+/// The last place that is asked for: «девятый по высоте».
+const MOST_RANKS: u64 = 9;
 
 const FALSE: &str = "1 = 2";
 
@@ -63,28 +69,125 @@ impl Asking<'_> {
         claims: &[Mod],
         is_loose: bool,
     ) -> Result<Vec<String>, NoAnswer> {
+        if desc.head == Head::Any && desc.sorts.each().count() > 1 {
+            // The rules' types keep things, rooms and doors apart.
+            let said: Vec<Mod> = desc.mods.iter().chain(claims).cloned().collect();
+            if said.is_empty() || said.iter().any(Mod::is_superlative) {
+                return Err(NoAnswer::Unfit("anything at all"));
+            }
+            let mut found = Vec::new();
+            for sorts in desc.sorts.each().filter(|one| HAVE_FACTS.meets(*one)) {
+                if taking(sorts, &said, &self.grammar.signatures).is_some() {
+                    let one = Desc { sorts, ..desc.clone() };
+                    found.extend(self.all_that(&one, claims, is_loose)?);
+                }
+            }
+            return Ok(found);
+        }
         let mut body = Body { is_loose, ..Body::default() };
         let x = body.variable();
         self.describe(desc, &x, &mut body)?;
         self.said(claims, &x, desc.sorts, &mut body)?;
-        let best = desc.mods.iter().find_map(|one| match one {
-            Mod::Best(measure, to) => Some((*measure, to.as_ref())),
-            _ => None,
-        });
-        let mut rule = body.helpers.join("\n");
-        if let Some((measure, to)) = best {
-            let (premise, v) = self.measured(&x, measure, to, &mut body)?;
-            let (premises, extreme) =
-                (body.premises.join(", "), if measure.most { "max" } else { "min" });
-            let _ = write!(
-                rule,
-                "\n.decl measured(x: Any, v: number)\nmeasured({x}, {v}) :- {premises}, {premise}.\n\
-                 ?- answer({x}) :- measured({x}, {v}), {v} = {extreme} v : {{ measured(_, v) }}"
-            );
-        } else {
-            let _ = write!(rule, "\n?- answer({x}) :- {}", body.premises.join(", "));
+        let best = desc.mods.iter().chain(claims).find(|one| one.is_superlative());
+        let Some(best) = best else {
+            let premises = body.premises.join(", ");
+            let rule = format!("{}\n?- answer({x}) :- {premises}", body.helpers.join("\n"));
+            return self.symbols(rule.trim());
+        };
+        if let Mod::Best(Measure { of: Dimension::Distance, most }, Some(to), 1) = best {
+            // What is behind a wall is not near, and what is farthest of anything is asked of the room.
+            let is_any = desc.head == Head::Any;
+            if let Some(here) = self.in_room_of(&x, to)?.filter(|_| !most || is_any) {
+                let mut body = body.clone();
+                body.premises.push(here);
+                let near = self.foremost(&x, best, desc, &mut body)?;
+                if !near.is_empty() {
+                    return Ok(near);
+                }
+            }
         }
+        self.foremost(&x, best, desc, &mut body)
+    }
+
+    /// Those of what premises tell that are foremost.
+    fn foremost(
+        &mut self,
+        x: &str,
+        best: &Mod,
+        desc: &Desc,
+        body: &mut Body,
+    ) -> Result<Vec<String>, NoAnswer> {
+        if let Mod::Best(Measure { of: Dimension::Distance, most: false }, Some(to), _) = best
+            && desc.head == Head::Any
+        {
+            // "The nearest thing to the egg" is not the counter under it.
+            let to = quoted(&self.one(to, false)?);
+            body.helpers.push(
+                ".decl borne(x: Thing, y: Thing)\nborne(X, Y) :- LIES_ON_OR_IN(X, Y).\n\
+                 borne(X, Z) :- LIES_ON_OR_IN(X, Y), borne(Y, Z)."
+                    .to_owned(),
+            );
+            body.premises.push(format!("!borne({x}, {to}), !borne({to}, {x})"));
+        }
+        let (premise, v, most) = self.measured(x, best, desc.sorts, body)?;
+        let (premises, extreme) = (body.premises.join(", "), if most { "max" } else { "min" });
+        let mut rule = body.helpers.join("\n");
+        let _ = write!(
+            rule,
+            "\n.decl measured(x: Any, v: number)\nmeasured({x}, {v}) :- {premises}, {premise}."
+        );
+        let mut last = "measured".to_owned();
+        if let Mod::Best(_, _, rank) = best {
+            if *rank > MOST_RANKS {
+                return Err(NoAnswer::Unfit("so far a place"));
+            }
+            // The second biggest comes after all that are equally the biggest.
+            let sign = if most { "<" } else { ">" };
+            for n in 1..*rank {
+                let next = format!("after_{n}");
+                let _ = write!(
+                    rule,
+                    "\n.decl {next}(x: Any, v: number)\n\
+                     {next}({x}, {v}) :- {last}({x}, {v}), M = {extreme} v : {{ {last}(_, v) }}, {v} {sign} M."
+                );
+                last = next;
+            }
+        }
+        let _ = write!(
+            rule,
+            "\n?- answer({x}) :- {last}({x}, {v}), {v} = {extreme} v : {{ {last}(_, v) }}"
+        );
         self.symbols(rule.trim())
+    }
+
+    /// The values of a property that what fits a description has.
+    pub(crate) fn values_of(
+        &mut self,
+        desc: &Desc,
+        property: &Property,
+    ) -> Result<Vec<String>, NoAnswer> {
+        let mut body = Body { is_loose: true, ..Body::default() };
+        let x = body.variable();
+        self.describe(desc, &x, &mut body)?;
+        let names = self.names_of(property).into_iter().map(|name| quoted(&name));
+        let mut told: Vec<String> = names.map(|name| format!("HAS({x}, {name}, V)")).collect();
+        if *property == Property::State && !desc.sorts.meets(Sorts::THING) {
+            told.push(format!("DOOR_IS({x}, V)"));
+        }
+        if told.is_empty() {
+            return Ok(Vec::new());
+        }
+        let (premises, helpers) = (body.premises.join(", "), body.helpers.join("\n"));
+        self.symbols(format!("{helpers}\n?- answer(V) :- {premises}, {}", either(&told)).trim())
+    }
+
+    /// That `x` is in the room of another thing; none where that is in none, or is not one.
+    fn in_room_of(&mut self, x: &str, to: &Desc) -> Result<Option<String>, NoAnswer> {
+        if to.sorts != Sorts::THING {
+            return Ok(None);
+        }
+        let to = quoted(&self.one(to, false)?);
+        Ok(Some(format!("in_area({x}, Room), in_area({to}, Room), {x} != {to}")))
     }
 
     /// Those of what fits a description of which the map tells whether they have a value.
@@ -159,6 +262,7 @@ impl Asking<'_> {
                     (Sorts::THING, format!("replica({x}, _, _, _, _)")),
                     (Sorts::AREA, format!("area({x}, _)")),
                     (Sorts::OPENING, format!("opening({x}, _, _, _)")),
+                    (Sorts::STOREY, format!("area(_, {x})")),
                 ] {
                     if desc.sorts.meets(sort) {
                         choices.push(premise);
@@ -211,6 +315,7 @@ impl Asking<'_> {
                 choices.extend(own.map(|d| format!("{x} = {}", symbol(d.id))));
             }
             Extension::Doors => choices.push(format!("opening({x}, \"door\", _, _)")),
+            Extension::Storeys => choices.push(format!("area(_, {x})")),
             Extension::Passages => choices.push(format!("opening({x}, \"passage\", _, _)")),
             // Of these the facts know nothing; the kinds of a sort stand beside it.
             _ => {}
@@ -238,8 +343,9 @@ impl Asking<'_> {
             }
             Mod::Role { role, to } => {
                 let mut terms = vec![(x.to_owned(), sorts)];
-                for other in to {
-                    terms.push((self.term(other, body)?, other.sorts));
+                for (n, other) in to.iter().enumerate() {
+                    let other = self.narrowed(*role, n + 1, other);
+                    terms.push((self.term(&other, body)?, other.sorts));
                 }
                 let premise = self.role(*role, &terms, body)?;
                 body.premises.push(premise);
@@ -250,6 +356,7 @@ impl Asking<'_> {
                     let having = Mod::Having { role: *role, what: bare };
                     return self.say(&Mod::Not(Box::new(having)), x, sorts, body);
                 }
+                let what = &self.narrowed(*role, 0, what);
                 // "Rooms with a lamp" have any.
                 let is_loose = std::mem::replace(&mut body.is_loose, true);
                 let term = self.term(what, body)?;
@@ -288,7 +395,40 @@ impl Asking<'_> {
                 self.none_of(x, &y, &inner, body);
             }
             // Found after all else.
-            Mod::Best(..) => {}
+            Mod::Best(..) | Mod::MostOf { .. } => {}
+            Mod::Beyond(measure, than) => {
+                let v = body.variable();
+                let premise = amount(measure.of, x, sorts, &v)?;
+                let sign = if measure.most { ">" } else { "<" };
+                body.premises.push(format!("{premise}, {v} {sign} {than}"));
+            }
+            Mod::Exceeds(measure, than) => {
+                let y = self.term(than, body)?;
+                // "Taller than the fridge": wherever it begins.
+                let of =
+                    if measure.of == Dimension::Level { Dimension::Height } else { measure.of };
+                let (v, w) = (body.variable(), body.variable());
+                let own = amount(of, x, sorts & than.sorts, &v)?;
+                let other = amount(of, &y, sorts & than.sorts, &w)?;
+                let sign = if measure.most { ">" } else { "<" };
+                let premise = format!("{own}, {other}, {v} {sign} {w}");
+                body.premises.push(premise);
+            }
+            Mod::Within(reach, to) => {
+                let (term, v) = (self.term(to, body)?, body.variable());
+                let premise = format!("distance_between({x}, {term}, {v}), {v} <= {reach}");
+                body.premises.push(premise);
+            }
+            Mod::Same(property, other) => {
+                let (y, v) = (self.term(other, body)?, body.variable());
+                let names = self.names_of(property).into_iter().map(|name| quoted(&name));
+                let both = names.map(|n| format!("HAS({x}, {n}, {v}), HAS({y}, {n}, {v})"));
+                let both: Vec<String> = both.collect();
+                if both.is_empty() {
+                    return Err(NoAnswer::Unfit("such a property"));
+                }
+                body.premises.push(format!("{}, {x} != {y}", either(&both)));
+            }
         }
         Ok(())
     }
@@ -309,7 +449,7 @@ impl Asking<'_> {
         if desc.quant == Quant::All || desc.quant == Quant::None {
             return Err(NoAnswer::Unfit("all of several"));
         }
-        if desc.mods.iter().any(|one| matches!(one, Mod::Best(..))) {
+        if desc.mods.iter().any(Mod::is_superlative) {
             return Ok(quoted(&self.one(desc, true)?));
         }
         let y = body.variable();
@@ -317,9 +457,18 @@ impl Asking<'_> {
         Ok(y)
     }
 
+    /// Anything as far as a role takes it at a place.
+    fn narrowed(&self, role: RoleId, place: usize, desc: &Desc) -> Desc {
+        let overloads = &self.grammar.signatures[usize::from(role.0)];
+        let takes = overloads.iter().filter_map(|own| own.get(place));
+        let takes = takes.fold(Sorts::NONE, |all, one| all | *one);
+        let sorts = if desc.head == Head::Any { desc.sorts & takes } else { desc.sorts };
+        Desc { sorts, ..desc.clone() }
+    }
+
     /// The premises that a role stands for, whichever of its overloads these things fit.
     fn role(
-        &self,
+        &mut self,
         role: RoleId,
         terms: &[(String, Sorts)],
         body: &mut Body,
@@ -327,16 +476,26 @@ impl Asking<'_> {
         let at = usize::from(role.0);
         let signatures: &Signatures = &self.grammar.signatures;
         let mut choices = Vec::new();
-        for (n, overload) in self.grammar.roles[at].overloads.iter().enumerate() {
+        let grammar = self.grammar;
+        for (n, overload) in grammar.roles[at].overloads.iter().enumerate() {
             let own = &signatures[at][n];
             let fits = own.len() == terms.len()
                 && own.iter().zip(terms).all(|(sorts, (_, of))| sorts.meets(*of));
             if fits {
+                let known = overload.variables.iter().zip(terms);
+                let known: Vec<(&str, &str)> =
+                    known.map(|(name, (term, _))| (name.as_str(), term.as_str())).collect();
+                // Of what is known only by its description it follows from the role itself.
+                if let Some(needs) = &overload.needs {
+                    let needs = filled(needs, &known, 0);
+                    let is_open =
+                        terms.iter().any(|(t, _)| !t.starts_with('"') && needs.contains(t));
+                    if !is_open && self.rows(&format!("?- answer() :- {needs}"))?.is_empty() {
+                        return Err(NoAnswer::Unfit("such a relation to that"));
+                    }
+                }
                 for text in &overload.bodies {
                     body.variables += 1;
-                    let known = overload.variables.iter().zip(terms);
-                    let known: Vec<(&str, &str)> =
-                        known.map(|(name, (term, _))| (name.as_str(), term.as_str())).collect();
                     choices.push(filled(text, &known, body.variables));
                 }
             }
@@ -378,7 +537,16 @@ impl Asking<'_> {
 
     /// That a thing has some value where it might have this one; none where the property has no facts.
     pub(crate) fn property_known(&self, value: ValueId, x: &str, sorts: Sorts) -> Option<String> {
-        let property = &self.map.lexicon.values.entry(value).property;
+        self.property_told(&self.map.lexicon.values.entry(value).property, x, sorts)
+    }
+
+    /// That a thing has some value of a property; none where the property has no facts.
+    pub(crate) fn property_told(
+        &self,
+        property: &Property,
+        x: &str,
+        sorts: Sorts,
+    ) -> Option<String> {
         let mut known: Vec<String> = self
             .names_of(property)
             .into_iter()
@@ -409,42 +577,107 @@ impl Asking<'_> {
         texts.into_iter().filter(|text| fits(text)).collect()
     }
 
-    /// The premise that measures a thing, and the variable of the measure.
+    /// The premise by which a superlative measures a thing, the variable of the measure, and whether more of it wins.
     fn measured(
         &mut self,
         x: &str,
-        measure: Measure,
-        to: Option<&Desc>,
+        best: &Mod,
+        sorts: Sorts,
         body: &mut Body,
-    ) -> Result<(String, String), NoAnswer> {
+    ) -> Result<(String, String, bool), NoAnswer> {
         let v = body.variable();
-        match (measure.of, to) {
-            (Dimension::Height, None) => {
-                let premise = format!("body({x}, Low, High, _, _, _), {v} = High - Low");
-                Ok((premise, v))
-            }
-            (Dimension::Distance, Some(to)) => {
+        match best {
+            Mod::Best(Measure { of: Dimension::Distance, most }, Some(to), _) => {
                 let to = self.one(to, false)?;
-                Ok((format!("distance_between({x}, {}, {v})", quoted(&to)), v))
+                Ok((format!("distance_between({x}, {}, {v})", quoted(&to)), v, *most))
+            }
+            Mod::Best(Measure { of: Dimension::Level, most }, None, _) => {
+                let foot = amount(Dimension::Level, x, sorts, &v)?;
+                let premises = body.premises.join(", ");
+                let rule =
+                    format!("{}\n?- answer({v}) :- {premises}, {foot}", body.helpers.join("\n"));
+                let feet: Vec<i64> =
+                    self.rows(rule.trim())?.iter().filter_map(|r| number(r, 0)).collect();
+                let spread = feet.iter().max().zip(feet.iter().min()).map_or(0, |(a, b)| a - b);
+                let of =
+                    if spread > self.level_equal() { Dimension::Level } else { Dimension::Height };
+                Ok((amount(of, x, sorts, &v)?, v, *most))
+            }
+            Mod::Best(Measure { of, most }, None, _) => Ok((amount(*of, x, sorts, &v)?, v, *most)),
+            Mod::MostOf { role, what, most } => {
+                let before = std::mem::take(&mut body.premises);
+                let y = body.variable();
+                let is_loose = std::mem::replace(&mut body.is_loose, true);
+                self.describe(&Desc { quant: Quant::Some, ..what.clone() }, &y, body)?;
+                let terms = [(y.clone(), what.sorts), (x.to_owned(), sorts)];
+                let premise = self.role(*role, &terms, body)?;
+                body.is_loose = is_loose;
+                let premises = std::mem::replace(&mut body.premises, before).join(", ");
+                let name = format!("of_it_{}", body.helpers.len() + 1);
+                body.helpers.push(format!(
+                    ".decl {name}(y: Any, x: Any)\n{name}({y}, {x}) :- {premises}, {premise}."
+                ));
+                Ok((format!("{v} = count : {{ {name}(_, {x}) }}"), v, *most))
             }
             _ => Err(NoAnswer::Unfit("such a measure")),
         }
     }
 
-    /// How high a thing is, in tenths of a millimetre.
-    pub(crate) fn height(&mut self, symbol: &str) -> Result<i64, NoAnswer> {
-        let x = quoted(symbol);
-        let rows = self.rows(&format!("?- answer(H) :- body({x}, L, T, _, _, _), H = T - L"))?;
-        number_of(&rows).ok_or(NoAnswer::Unfit("the height of such a thing"))
+    /// Levels nearer to each other are one, tenths of a millimetre.
+    pub(crate) fn level_equal(&self) -> i64 {
+        (self.map.relations.thresholds().level_equal * 100.0).round() as i64
+    }
+
+    /// The measures of two things, of which the greater has more; of levels nearly equal their heights.
+    pub(crate) fn amounts(
+        &mut self,
+        (a, b): (&str, &str),
+        of: Dimension,
+        sorts: Sorts,
+    ) -> Result<(i64, i64), NoAnswer> {
+        let first = amount(of, &quoted(a), sorts, "A")?;
+        let second = amount(of, &quoted(b), sorts, "B")?;
+        let rows = self.rows(&format!("?- answer(A, B) :- {first}, {second}"))?;
+        let pair = rows.first().and_then(|row| Some((number(row, 0)?, number(row, 1)?)));
+        let (x, y) = pair.ok_or(NoAnswer::Unfit("the measures of such things"))?;
+        if of == Dimension::Level && (x - y).abs() <= self.level_equal() {
+            return self.amounts((a, b), Dimension::Height, sorts);
+        }
+        // What is told to be as much is not more: floors are told in hundredths of m², lengths in cm.
+        let told =
+            |v: i64| if of == Dimension::Size && sorts != Sorts::AREA { v } else { (v + 50) / 100 };
+        Ok((told(x), told(y)))
+    }
+}
+
+/// The premise that measures `x` as `v`.
+pub(crate) fn amount(of: Dimension, x: &str, sorts: Sorts, v: &str) -> Result<String, NoAnswer> {
+    let is_all = |of: Sorts| sorts & of == sorts;
+    let what = match of {
+        Dimension::Size if is_all(Sorts::THING) => "volume",
+        Dimension::Size if is_all(Sorts::AREA) => "base",
+        Dimension::Height => "height",
+        Dimension::Thickness => "thickness",
+        Dimension::Length | Dimension::Width if is_all(Sorts::OPENING) => "width",
+        Dimension::Length => "longest",
+        Dimension::Width => "width",
+        Dimension::Level => "foot",
+        Dimension::Size | Dimension::Distance => return Err(NoAnswer::Unfit("such a measure")),
+    };
+    Ok(format!("size_of({x}, \"{what}\", {v})"))
+}
+
+/// A number of a row.
+pub(crate) fn number(row: &[Value], column: usize) -> Option<i64> {
+    match row.get(column)? {
+        Value::Number(number) => Some(*number),
+        _ => None,
     }
 }
 
 /// The number in the first row.
 pub(crate) fn number_of(rows: &[Vec<Value>]) -> Option<i64> {
-    match rows.first()?.first()? {
-        Value::Number(number) => Some(*number),
-        _ => None,
-    }
+    number(rows.first()?, 0)
 }
 
 /// A text of the rules' language.

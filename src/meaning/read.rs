@@ -36,25 +36,35 @@ pub struct Reading {
     pub cost: u32,
     /// File and line of the frame that read it.
     pub frame: String,
+    /// The folder of the language in which it was read.
+    pub tongue: String,
 }
 
 impl Grammar {
     /// What a sentence may mean, the cheapest first; none where it is not understood.
     #[must_use]
     pub fn read(&self, map: &Map<'_>, text: &str) -> Vec<Reading> {
-        let language = Language::of(text);
-        let (Some(tongue), Some(tokens)) = (self.tongue(language), tokens(text)) else {
+        let Some(tokens) = tokens(text).filter(|all| !all.is_empty() && all.len() <= LONGEST)
+        else {
             return Vec::new();
         };
-        if tokens.is_empty() || tokens.len() > LONGEST {
-            return Vec::new();
-        }
         let Map { world, lexicon, words, .. } = *map;
+        let language = Language::of(text);
         let sentence = Sentence { text, tokens: &tokens, language, world, lexicon, words };
-        let edges = sentence.edges(tongue, &self.signatures);
-        let chart = Chart::of(&tokens, edges, tongue, &self.signatures);
-        let found = readings(&chart, tongue, &self.signatures).into_iter();
-        found.map(|f| Reading { form: f.form, cost: f.cost, frame: f.place }).collect()
+        for (name, tongue) in self.tongues_for(language) {
+            let edges = sentence.edges(tongue, &self.signatures);
+            let chart = Chart::of(&tokens, edges, tongue, &self.signatures);
+            let found = readings(&chart, tongue, &self.signatures);
+            if !found.is_empty() {
+                let tongue = name.to_owned();
+                let reading = |f: crate::cover::Found| {
+                    let tongue = tongue.clone();
+                    Reading { form: f.form, cost: f.cost, frame: f.place, tongue }
+                };
+                return found.into_iter().map(reading).collect();
+            }
+        }
+        Vec::new()
     }
 
     /// Runs what a sentence asks, by its readings as [`Grammar::read`] gives them. Of several within the [`MARGIN`] all are
@@ -81,6 +91,13 @@ impl Grammar {
             if answers.iter().all(|other| other.found != found) {
                 answers.push(Answer { reading, rules, found });
             }
+        }
+        // A reading that speaks of what is not there, or is not one, is not meant where another is as good.
+        let fails = |answer: &Answer| {
+            matches!(&answer.found, Err(NoAnswer::NoneSuch | NoAnswer::Ambiguous(_)))
+        };
+        if answers.iter().any(|answer| answer.found.is_ok()) {
+            answers.retain(|answer| !fails(answer));
         }
         match answers.len() {
             1 => match answers.swap_remove(0) {

@@ -3,7 +3,9 @@
 //! ```text
 //! n & a       a description with more said of it          r(n)  on(n)   in a role to something
 //! not(m)      either(m, m)  some(n)  all(n)  none(n)  exactly(k, n)  except(n)  having(r, n)  any(Thing)
-//! most(height)  least(distance, n)                        list(x) count(x) whether(x, m) …: the forms
+//! most(height)  least(distance, n)  having_most(r, n)     list(x) count(x) whether(x, m) both(f, f) …: the forms
+//! beyond(most(height), k)  exceeds(most(height), n)  ranked(k, m)  within(k, n)  same(p, n)
+//! of(n, x): n, whatever x is                                 kind(sofa)  quality(red): what the map knows by a name
 //! ```
 //!
 //! Invariant: what is untyped does not come about: `&` gives nothing where a role does not take such a thing.
@@ -66,7 +68,16 @@ pub(crate) enum Function {
     Exactly,
     Except,
     Having,
+    HavingMost,
+    HavingLeast,
     Best,
+    Ranked,
+    Exceeds,
+    Of,
+    Beyond,
+    Within,
+    Same,
+    Times,
     List,
     Count,
     AskSome,
@@ -80,10 +91,21 @@ pub(crate) enum Function {
     Joins,
     Distance,
     Compare,
+    Nearer,
+    Which,
+    Is,
+    Size,
+    Number,
+    Over,
+    Under,
+    More,
+    Extra,
+    Both,
+    OneOf,
 }
 
 impl Function {
-    pub(crate) const NAMES: [(&'static str, Self); 22] = [
+    pub(crate) const NAMES: [(&'static str, Self); 42] = [
         ("not", Self::Not),
         ("either", Self::Either),
         ("some", Self::Some),
@@ -92,7 +114,16 @@ impl Function {
         ("exactly", Self::Exactly),
         ("except", Self::Except),
         ("having", Self::Having),
+        ("having_most", Self::HavingMost),
+        ("having_least", Self::HavingLeast),
         ("best", Self::Best),
+        ("ranked", Self::Ranked),
+        ("exceeds", Self::Exceeds),
+        ("of", Self::Of),
+        ("beyond", Self::Beyond),
+        ("within", Self::Within),
+        ("same", Self::Same),
+        ("times", Self::Times),
         ("list", Self::List),
         ("count", Self::Count),
         ("exists", Self::AskSome),
@@ -106,6 +137,17 @@ impl Function {
         ("joins", Self::Joins),
         ("distance", Self::Distance),
         ("compare", Self::Compare),
+        ("nearer", Self::Nearer),
+        ("which", Self::Which),
+        ("is", Self::Is),
+        ("size", Self::Size),
+        ("number", Self::Number),
+        ("number_over", Self::Over),
+        ("number_under", Self::Under),
+        ("more", Self::More),
+        ("extra", Self::Extra),
+        ("both", Self::Both),
+        ("oneof", Self::OneOf),
     ];
 
     /// What it takes, the last ones optional after `.1` of them, and what it gives.
@@ -117,8 +159,15 @@ impl Function {
             Self::Some | Self::All | Self::None => (&[D], D),
             Self::Exactly => (&[Number, D], D),
             Self::Except => (&[D], M),
-            Self::Having => (&[R, D], M),
+            Self::Having | Self::HavingMost | Self::HavingLeast => (&[R, D], M),
             Self::Best => (&[Me, D], M),
+            Self::Ranked => (&[Number, Me], M),
+            Self::Exceeds => (&[Me, D], M),
+            Self::Of => (&[D, D], D),
+            Self::Beyond => (&[Me, Number], M),
+            Self::Within => (&[Number, D], M),
+            Self::Same => (&[Property, D], M),
+            Self::Times => (&[Number, Number], Number),
             Self::List | Self::Count | Self::AskSome | Self::AskNone => (&[D], F),
             Self::Place | Self::Room | Self::Joins => (&[D], F),
             Self::Whether => (&[D, M], F),
@@ -127,6 +176,12 @@ impl Function {
             Self::Value => (&[D, Property], F),
             Self::Distance => (&[D, D], F),
             Self::Compare => (&[D, D, Me], F),
+            Self::Nearer => (&[D, D, D], F),
+            Self::Which => (&[D, D, M], F),
+            Self::Is | Self::More | Self::Extra => (&[D, D], F),
+            Self::Size => (&[D, Me], F),
+            Self::Number | Self::Over | Self::Under => (&[D, Number], F),
+            Self::Both | Self::OneOf => (&[F, F], F),
         }
     }
 
@@ -150,6 +205,10 @@ pub(crate) enum Meaning {
     Measure(Dimension, bool),
     Property(Property),
     Number(u64),
+    /// A kind that the map's own lexicon knows by this name: how a file gives it words.
+    Kind(String),
+    /// A value likewise.
+    Known(String),
     Nothing,
 }
 
@@ -168,6 +227,8 @@ impl Meaning {
     pub(crate) fn value(&self, bound: &[Option<Bound>], roles: &Signatures) -> Option<Sense> {
         match self {
             Self::Nothing => Some(Sense::Nothing),
+            // The map tells.
+            Self::Kind(_) | Self::Known(_) => None,
             Self::Number(number) => Some(Sense::Number(*number)),
             Self::Role(role) => Some(Sense::Role(*role)),
             Self::Property(property) => Some(Sense::Property(property.clone())),
@@ -231,8 +292,11 @@ fn and(a: Sense, b: Sense, roles: &Signatures) -> Option<Sense> {
     }
 }
 
+/// To what a thing has a distance.
+const MEASURED_TO: Sorts = Sorts::THING.or(Sorts::OPENING);
+
 /// The sorts of which all of this may be said; none for no sort.
-fn taking(mut sorts: Sorts, mods: &[Mod], roles: &Signatures) -> Option<Sorts> {
+pub(crate) fn taking(mut sorts: Sorts, mods: &[Mod], roles: &Signatures) -> Option<Sorts> {
     for one in mods {
         sorts = match one {
             Mod::Role { role, to } => {
@@ -257,7 +321,16 @@ fn taking(mut sorts: Sorts, mods: &[Mod], roles: &Signatures) -> Option<Sorts> {
             // Of a room that is locked its door is meant.
             Mod::Value(_) => sorts & (Sorts::THING | Sorts::OPENING),
             Mod::Except(_) => sorts,
-            Mod::Best(..) => sorts & Sorts::THING,
+            Mod::Best(measure, ..) | Mod::Beyond(measure, _) => sorts & measure.of.sorts(),
+            Mod::Exceeds(measure, than) => sorts & than.sorts & measure.of.sorts(),
+            Mod::MostOf { role, what, .. } => {
+                let own = roles[usize::from(role.0)].iter();
+                let own = own.filter(|o| o.len() == 2 && o[0].meets(what.sorts));
+                sorts & own.fold(Sorts::NONE, |all, overload| all | overload[1])
+            }
+            Mod::Within(_, to) if !to.sorts.meets(MEASURED_TO) => Sorts::NONE,
+            Mod::Within(..) => sorts & Sorts::THING,
+            Mod::Same(_, other) => sorts & other.sorts & (Sorts::THING | Sorts::OPENING),
         };
         if sorts.is_empty() {
             return None;
@@ -289,10 +362,37 @@ fn call(function: Function, values: Vec<Sense>, roles: &Signatures) -> Option<Se
             Some(M(vec![Mod::Having { role, what }]))
         }
         (Function::Best, Me(measure), None | Some(Sense::Nothing), _) => {
-            Some(M(vec![Mod::Best(measure, None)]))
+            Some(M(vec![Mod::Best(measure, None, 1)]))
         }
-        (Function::Best, Me(measure), Some(D(to)), _) if to.sorts.meets(Sorts::THING) => {
-            Some(M(vec![Mod::Best(measure, Some(to))]))
+        (Function::Best, Me(measure), Some(D(to)), _) if to.sorts.meets(MEASURED_TO) => {
+            Some(M(vec![Mod::Best(measure, Some(to), 1)]))
+        }
+        (
+            own @ (Function::HavingMost | Function::HavingLeast),
+            Sense::Role(role),
+            Some(D(what)),
+            _,
+        ) => {
+            let most = own == Function::HavingMost;
+            Some(M(vec![Mod::MostOf { role, what, most }]))
+        }
+        (Function::Ranked, Sense::Number(n), Some(Me(measure)), _) => {
+            Some(M(vec![Mod::Best(measure, None, n)]))
+        }
+        (Function::Exceeds, Me(measure), Some(D(than)), _) => {
+            Some(M(vec![Mod::Exceeds(measure, than)]))
+        }
+        // What serves for a deed, whatever it is done to.
+        (Function::Of, D(desc), Some(D(_)), _) => Some(D(desc)),
+        (Function::Beyond, Me(measure), Some(Sense::Number(n)), _) => {
+            Some(M(vec![Mod::Beyond(measure, n)]))
+        }
+        (Function::Within, Sense::Number(n), Some(D(to)), _) => Some(M(vec![Mod::Within(n, to)])),
+        (Function::Same, Sense::Property(property), Some(D(other)), _) => {
+            Some(M(vec![Mod::Same(property, other)]))
+        }
+        (Function::Times, Sense::Number(a), Some(Sense::Number(b)), _) => {
+            a.checked_mul(b).map(Sense::Number)
         }
         (Function::List, D(desc), ..) => form(Form::List(desc)),
         (Function::Count, D(desc), ..) => form(Form::Count(desc)),
@@ -323,9 +423,32 @@ fn call(function: Function, values: Vec<Sense>, roles: &Signatures) -> Option<Se
             form(Form::Value(desc, property))
         }
         (Function::Distance, D(a), Some(D(b)), _) => form(Form::Distance(a, b)),
-        (Function::Compare, D(a), Some(D(b)), Some(Me(measure))) => {
+        (Function::Compare, D(a), Some(D(b)), Some(Me(measure)))
+            if measure.of.sorts().meets(a.sorts & b.sorts) =>
+        {
             form(Form::Compare(a, b, measure))
         }
+        (Function::Nearer, D(a), Some(D(b)), Some(D(c))) => form(Form::Nearer(a, b, c)),
+        (Function::Which, D(a), Some(D(b)), Some(M(mut mods))) => {
+            let best = mods.pop().filter(|one| mods.is_empty() && one.is_superlative())?;
+            taking(a.sorts & b.sorts, std::slice::from_ref(&best), roles)?;
+            form(Form::Which(vec![a, b], best))
+        }
+        (Function::Is, D(a), Some(D(b)), _) if a.sorts.meets(b.sorts) => form(Form::Is(a, b)),
+        (Function::More, D(a), Some(D(b)), _) => form(Form::More(a, b)),
+        (Function::Extra, D(a), Some(D(b)), _) => form(Form::Extra(a, b)),
+        (Function::Size, D(desc), Some(Me(measure)), _) if measure.of.sorts().meets(desc.sorts) => {
+            form(Form::Size(desc, measure.of))
+        }
+        (Function::Number, D(desc), Some(Sense::Number(n)), _) => form(Form::Number(desc, n, n)),
+        (Function::Over, D(desc), Some(Sense::Number(n)), _) => {
+            form(Form::Number(desc, n.checked_add(1)?, u64::MAX))
+        }
+        (Function::Under, D(desc), Some(Sense::Number(n)), _) => {
+            form(Form::Number(desc, 0, n.checked_sub(1)?))
+        }
+        (Function::Both, Sense::Form(a), Some(Sense::Form(b)), _) => form(Form::Both(a, b)),
+        (Function::OneOf, Sense::Form(a), Some(Sense::Form(b)), _) => form(Form::OneOf(a, b)),
         _ => None,
     }
 }

@@ -21,6 +21,12 @@ impl Sorts {
     pub const STOREY: Self = Self(16);
     pub const ANY: Self = Self(31);
 
+    /// Each of them by itself.
+    pub(crate) fn each(self) -> impl Iterator<Item = Self> {
+        let all = [Self::THING, Self::AREA, Self::OPENING, Self::POINT, Self::STOREY];
+        all.into_iter().filter(move |one| self.meets(*one))
+    }
+
     /// By the name that the grammar files give it.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
@@ -37,6 +43,10 @@ impl Sorts {
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.0 == 0
+    }
+
+    pub(crate) const fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
     }
 
     #[must_use]
@@ -113,8 +123,29 @@ pub enum Mod {
     /// One of these at least.
     Either(Vec<Vec<Self>>),
     Except(Desc),
-    /// Foremost by a measure.
-    Best(Measure, Option<Desc>),
+    /// Foremost by a measure, or so many places after that.
+    Best(Measure, Option<Desc>, u64),
+    /// The most of the others stand in the role to it, or the fewest.
+    MostOf {
+        role: RoleId,
+        what: Desc,
+        most: bool,
+    },
+    /// More of a measure than so much, or less: tenths of a millimetre; cm² of an Area's size.
+    Beyond(Measure, u64),
+    /// More of a measure than another has, or less.
+    Exceeds(Measure, Desc),
+    /// Not farther from another than so many tenths of a millimetre.
+    Within(u64, Desc),
+    /// With the same value of a property as another thing.
+    Same(Property, Desc),
+}
+
+impl Mod {
+    /// Whether it tells foremost ones of what all else leaves.
+    pub(crate) fn is_superlative(&self) -> bool {
+        matches!(self, Self::Best(..) | Self::MostOf { .. })
+    }
 }
 
 /// By what things are compared.
@@ -131,14 +162,39 @@ pub enum Dimension {
     Height,
     /// To another thing.
     Distance,
+    /// The volume of a thing, the floor of an Area, the width of an opening.
+    Size,
+    /// The least of the three sizes.
+    Thickness,
+    /// The longer side in the plan.
+    Length,
+    /// From left to right.
+    Width,
+    /// How high it begins; of what begins equally high, its height.
+    Level,
 }
 
 impl Dimension {
+    pub(crate) const NAMES: [(&'static str, Self); 7] = [
+        ("height", Self::Height),
+        ("distance", Self::Distance),
+        ("size", Self::Size),
+        ("thickness", Self::Thickness),
+        ("length", Self::Length),
+        ("width", Self::Width),
+        ("level", Self::Level),
+    ];
+
     pub(crate) fn named(name: &str) -> Option<Self> {
-        match name {
-            "height" => Some(Self::Height),
-            "distance" => Some(Self::Distance),
-            _ => None,
+        Self::NAMES.iter().find(|(own, _)| *own == name).map(|(_, of)| *of)
+    }
+
+    /// Of what it is a measure.
+    pub(crate) fn sorts(self) -> Sorts {
+        match self {
+            Self::Height | Self::Distance | Self::Thickness | Self::Level => Sorts::THING,
+            Self::Size => Sorts::THING | Sorts::AREA,
+            Self::Length | Self::Width => Sorts::THING | Sorts::OPENING,
         }
     }
 }
@@ -166,6 +222,24 @@ pub enum Form {
     Distance(Desc, Desc),
     /// Whether the first has more of it than the second.
     Compare(Desc, Desc, Measure),
+    /// Whether the first is nearer to the second than to the third.
+    Nearer(Desc, Desc, Desc),
+    /// Which of these is foremost.
+    Which(Vec<Desc>, Mod),
+    /// Whether the first is one of the second.
+    Is(Desc, Desc),
+    /// How much of a measure it has.
+    Size(Desc, Dimension),
+    /// Whether there are so many; at least so many, and not more than so many.
+    Number(Desc, u64, u64),
+    /// Whether there are more of the first than of the second.
+    More(Desc, Desc),
+    /// By how many there are more of the first.
+    Extra(Desc, Desc),
+    /// Whether both are so.
+    Both(Box<Self>, Box<Self>),
+    /// Whether one of them is so.
+    OneOf(Box<Self>, Box<Self>),
 }
 
 impl Form {
@@ -176,10 +250,12 @@ impl Form {
             Self::List(_) => "list",
             Self::Count(_) => "count",
             Self::Some(_) | Self::None(_) | Self::Whether(..) | Self::Choice(..) => "whether",
+            Self::Is(..) | Self::Number(..) | Self::Both(..) | Self::OneOf(..) => "whether",
             Self::Place(_) | Self::Room(_) | Self::By(..) => "place",
             Self::Joins(_) => "joins",
-            Self::Value(..) | Self::Distance(..) => "value",
-            Self::Compare(..) => "compare",
+            Self::Value(..) | Self::Distance(..) | Self::Size(..) => "value",
+            Self::Compare(..) | Self::Nearer(..) | Self::Which(..) => "compare",
+            Self::More(..) | Self::Extra(..) => "compare",
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::features::Features;
 use super::grammar::{NOUN, NUMBER, PROPERTY, Tongue, VALUE};
-use super::sense::{Sense, Signatures};
+use super::sense::{Meaning as Meant, Sense, Signatures};
 use super::term::{Desc, Head, Mod, Quant, Sorts};
 use crate::language::names::hints;
 use crate::language::question::{Extension, KindId, Lexicon, Meaning, ValueId};
@@ -171,8 +171,25 @@ impl Sentence<'_> {
                     edges.push(Edge { category, from, to: from + n + 1, features, cost, sense });
                 };
                 for entry in tongue.words.get(&key).into_iter().flatten() {
-                    if let Some(sense) = entry.meaning.value(&[], roles) {
-                        add(entry.category, entry.features, entry.cost, sense);
+                    match &entry.meaning {
+                        Meant::Kind(name) => {
+                            for (_, desc) in self.descriptions(name) {
+                                let plural = entry.features.is_plural();
+                                let sense = Sense::Desc(Desc { plural, ..desc });
+                                add(entry.category, entry.features, entry.cost, sense);
+                            }
+                        }
+                        Meant::Known(name) => {
+                            if let Some(id) = self.lexicon.values.meaning(name) {
+                                let sense = Sense::Mods(vec![Mod::Value(id)]);
+                                add(entry.category, entry.features, entry.cost, sense);
+                            }
+                        }
+                        meaning => {
+                            if let Some(sense) = meaning.value(&[], roles) {
+                                add(entry.category, entry.features, entry.cost, sense);
+                            }
+                        }
                     }
                 }
                 if let Some((id, features)) = self.words.values.get(&key) {

@@ -1,0 +1,185 @@
+//! Relations that are computed when a question of the rules' language asks for them: how far two things are from each
+//! other, and how big one is. None of them is stored for all: the building has too many pairs.
+//!
+//! Lengths are tenths of a millimetre, areas cm², volumes cm³, as integers.
+
+use crate::facts::{Computed, Value};
+use crate::map::{Entity, World};
+use crate::units::{Cm, OpeningId, ReplicaId, Source};
+
+use super::names::Subject;
+use super::relations::Relations;
+
+/// Between the surfaces of two things of one Map, or from a thing to a door or an Area in the plan.
+const DISTANCE: &str = "РАССТОЯНИЕ_МЕЖДУ(x: Any, y: Any, d: number) = distance_between";
+/// `what` is height, width, depth, longest, narrowest (in the plan), thickness (the least of the three), foot (above
+/// the zero of its Map), base or volume; of an Area all but foot and thickness; of a door width.
+const SIZE: &str = "РАЗМЕР(x: Any, what: symbol, v: number) = size_of";
+
+/// A relation that geometry computes.
+pub struct OnDemand<'w> {
+    declaration: Source,
+    ways: Vec<(u32, f64)>,
+    world: &'w World,
+    relations: &'w Relations,
+    rows: Rows,
+}
+
+type Rows = fn(&OnDemand<'_>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option<()>;
+
+/// The relations of this file, over a world: `distance_between(+x, y, d)` or `(x, +y, d)`, and `size_of(+x, what, v)`.
+#[must_use]
+pub fn on_demand<'w>(world: &'w World, relations: &'w Relations) -> [OnDemand<'w>; 2] {
+    let one = |name, columns, ways, rows| OnDemand {
+        declaration: Source::new(name, format!(".decl {columns}")),
+        ways,
+        world,
+        relations,
+        rows,
+    };
+    let pairs = vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)];
+    [
+        one("distance_between", DISTANCE, pairs, distances),
+        one("size_of", SIZE, vec![(0b11, 1.0), (0b01, 9.0)], sizes),
+    ]
+}
+
+impl Computed for OnDemand<'_> {
+    fn declaration(&self) -> &Source {
+        &self.declaration
+    }
+
+    fn ways(&self) -> &[(u32, f64)] {
+        &self.ways
+    }
+
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
+        // Of what has no place nothing is computed.
+        let _ = (self.rows)(self, known, tell);
+    }
+}
+
+/// What has a place of its own.
+#[derive(Clone, Copy, PartialEq)]
+enum Placed {
+    Thing(ReplicaId),
+    Area(crate::units::AreaId),
+    Opening(OpeningId),
+}
+
+impl OnDemand<'_> {
+    fn placed(&self, value: Option<&Value>) -> Option<Placed> {
+        let Some(Value::Symbol(symbol)) = value else { return None };
+        match self.relations.symbols().subject(symbol) {
+            Some(Subject::Entity(Entity::Replica(id))) => Some(Placed::Thing(id)),
+            Some(Subject::Entity(Entity::Area(id))) => Some(Placed::Area(id)),
+            Some(Subject::Entity(Entity::Door(_))) | None => {
+                let mut all = self.relations.openings().iter();
+                all.find(|opening| opening.name == **symbol).map(|o| Placed::Opening(o.id))
+            }
+            Some(_) => None,
+        }
+    }
+
+    fn symbol(&self, thing: ReplicaId) -> Option<Value> {
+        let symbol = self.relations.symbols().known(Subject::Entity(Entity::Replica(thing)))?;
+        Some(Value::Symbol(symbol.clone()))
+    }
+
+    /// cm
+    fn between(&self, thing: ReplicaId, other: Placed) -> Option<f64> {
+        match other {
+            Placed::Thing(other) => {
+                (thing != other).then(|| self.relations.distance(thing, other)).flatten()
+            }
+            Placed::Area(area) => self.relations.distance_to_area(thing, area),
+            Placed::Opening(id) => {
+                let opening = self.relations.openings().opening(id)?;
+                let (map, _) = self.relations.centre(thing)?;
+                let side = opening.sides.iter().min_by_key(|side| side.area)?;
+                (map == opening.map)
+                    .then(|| self.relations.distance_to_segment(thing, side.ends))
+                    .flatten()
+            }
+        }
+    }
+}
+
+fn length(cm: f64) -> Option<Value> {
+    Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
+}
+
+fn distances(
+    asked: &OnDemand<'_>,
+    known: &[Option<Value>],
+    tell: &mut dyn FnMut(&[Value]),
+) -> Option<()> {
+    let ends = [asked.placed(known[0].as_ref()), asked.placed(known[1].as_ref())];
+    let mut tell_of = |thing: ReplicaId, other: Placed, others: Value, is_first: bool| {
+        let row = || {
+            let d = length(asked.between(thing, other)?)?;
+            let thing = asked.symbol(thing)?;
+            Some(if is_first { [thing, others.clone(), d] } else { [others.clone(), thing, d] })
+        };
+        if let Some(row) = row() {
+            tell(&row);
+        }
+    };
+    match (&known[0], &known[1]) {
+        (Some(_), Some(second)) => match (ends[0]?, ends[1]?) {
+            (Placed::Thing(thing), other) => tell_of(thing, other, second.clone(), true),
+            (other, Placed::Thing(thing)) => tell_of(thing, other, known[0].clone()?, false),
+            _ => return None,
+        },
+        (Some(first), None) => {
+            let other = ends[0]?;
+            let all = asked.world.replicas.keys();
+            all.for_each(|thing| tell_of(*thing, other, first.clone(), false));
+        }
+        (None, Some(second)) => {
+            let other = ends[1]?;
+            let all = asked.world.replicas.keys();
+            all.for_each(|thing| tell_of(*thing, other, second.clone(), true));
+        }
+        (None, None) => return None,
+    }
+    Some(())
+}
+
+fn sizes(
+    asked: &OnDemand<'_>,
+    known: &[Option<Value>],
+    tell: &mut dyn FnMut(&[Value]),
+) -> Option<()> {
+    let x = known[0].clone()?;
+    let wanted = known[1].as_ref().map(ToString::to_string);
+    let mut one = |what: &str, v: Option<Value>| {
+        if let Some(v) = v.filter(|_| wanted.as_ref().is_none_or(|wanted| wanted == what)) {
+            tell(&[x.clone(), Value::Symbol(what.into()), v]);
+        }
+    };
+    let whole = |v: f64| Some(Value::Number(v.round() as i64));
+    let (extent, is_thing) = match asked.placed(Some(&x))? {
+        Placed::Thing(id) => (asked.relations.extent(id)?, true),
+        Placed::Area(id) => (asked.relations.area_extent(id)?, false),
+        Placed::Opening(id) => {
+            let opening = asked.relations.openings().opening(id)?;
+            let side = opening.sides.iter().min_by_key(|side| side.area)?;
+            one("width", length((side.ends.1 - side.ends.0).norm()));
+            return Some(());
+        }
+    };
+    let (width, depth, height) = (extent.width, extent.depth, extent.height);
+    one("height", length(height));
+    one("width", length(width));
+    one("depth", length(depth));
+    one("longest", length(width.max(depth)));
+    one("narrowest", length(width.min(depth)));
+    if is_thing {
+        one("thickness", length(width.min(depth).min(height)));
+        one("foot", length(extent.bottom));
+    }
+    one("base", whole(extent.base));
+    one("volume", whole(extent.base * height));
+    Some(())
+}
