@@ -3,17 +3,19 @@
 //! The older lines tell no angles: where no parameter gives the resolution, the field is half a turn, to which an odd
 //! number of beams includes both borders (361 beams are 0.5° apart, as 360 are); a number of beams that would be no
 //! quarters of a degree apart then has another field (541 and 1081 mostly three quarters of a turn), which is not guessed.
-//! `ROBOTLASER1` and `RAWLASER1` tell all
-//! of their sensor. Other lines are passed over.
+//! `ROBOTLASER1` and `RAWLASER1` tell all of their sensor. Other messages are passed over; what is the end or the beginning
+//! of a line that was cut is told.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::words::{Word, lines, words};
 use super::{Book, LogFault, Scan, pose};
-use crate::scan::{Noise, Sensor};
+use crate::scan::Noise;
 
 /// Farthest range where no parameter tells it, in m.
 const FARTHEST: f64 = 50.0;
+/// The messages that are read.
+const SCANS: [&str; 3] = ["FLASER", "ROBOTLASER1", "RAWLASER1"];
 /// Quarters of a degree in half a turn.
 const QUARTERS: usize = 720;
 
@@ -29,7 +31,17 @@ pub(crate) fn is_head(line: &str) -> bool {
         "ROBOTLASER",
         "RAWLASER",
     ];
+    let line = line.trim_start();
     HEADS.iter().any(|head| line.starts_with(head)) || line.starts_with("TRUEPOS")
+}
+
+/// What is left of a line that was cut before or after this word: a number or the end of one, or a piece of a message's name.
+fn is_torn(head: &Word<'_>) -> bool {
+    let is_end = |number: &str| number.ends_with(&head.text.to_ascii_lowercase());
+    let exponent = head.text.strip_prefix(['e', 'E']).and_then(|rest| rest.parse::<i32>().ok());
+    head.number().or(exponent.map(f64::from)).is_some()
+        || ["nan", "inf", "infinity"].into_iter().any(is_end)
+        || SCANS.iter().any(|name| name.starts_with(head.text) || name.ends_with(head.text))
 }
 
 pub(crate) fn read(text: &str, book: &mut Book) {
@@ -56,6 +68,9 @@ pub(crate) fn read(text: &str, book: &mut Book) {
             "ROBOTLASER1" | "RAWLASER1" => {
                 let all: Vec<Word<'_>> = rest.collect();
                 whole(&all, (at, line.len()), head.text == "ROBOTLASER1", book)
+            }
+            _ if is_torn(&head) => {
+                Err(LogFault::NoMessage { found: head.shown(), at: head.span() })
             }
             _ => continue,
         };
@@ -111,9 +126,17 @@ fn sensor(
     book: &mut Book,
 ) -> Result<usize, LogFault> {
     let reach = (1.0, (farthest * 100.0).min(100_000.0));
-    let sensor = Sensor::new(first, step, count, reach, Noise::default())
-        .map_err(|fault| LogFault::Sensor { fault, at: place.into() })?;
-    Ok(book.log.sensor_like(sensor))
+    book.sensor((first, step, count), reach, Noise::default(), place.into())
+}
+
+/// The times of a message, `time host time`: numbers, unless there are more ranges before them than were counted.
+fn time(words: &[Word<'_>]) -> Result<Option<f64>, LogFault> {
+    let number = |word: &Word<'_>| {
+        word.number().ok_or_else(|| LogFault::NotNumber { found: word.shown(), at: word.span() })
+    };
+    let time = number(&words[0])?;
+    number(&words[2])?;
+    Ok(Some(time).filter(|time| time.is_finite()))
 }
 
 fn front(
@@ -138,12 +161,13 @@ fn front(
     let rest = &all[count + 1..];
     let seen = pose([&rest[0], &rest[1], &rest[2]])?;
     let wheels = pose([&rest[3], &rest[4], &rest[5]])?;
-    let time = rest[6].number().filter(|time| time.is_finite());
+    let time = time(&rest[6..])?;
     let sensor = sensor(first, step, count, farthest, place, book)?;
     Ok(Scan { sensor, ranges, pose: Some(seen), odometry: Some(wheels), time, line: 0 })
 }
 
-/// `type start field resolution farthest accuracy remission n r1 … rn m …`, then the poses of laser and robot.
+/// `type start field resolution farthest accuracy remission n r1 … rn m …`, then, of `ROBOTLASER1`, the poses of laser and
+/// robot and five more numbers, then the times.
 fn whole(all: &[Word<'_>], place: Place, posed: bool, book: &mut Book) -> Result<Scan, LogFault> {
     let ranges = ranges(all, place, 7, 1)?;
     let number = |word: &Word<'_>| {
@@ -156,7 +180,7 @@ fn whole(all: &[Word<'_>], place: Place, posed: bool, book: &mut Book) -> Result
         at: remissions.span(),
     })?;
     let rest = all.get(9 + ranges.len()..).and_then(|rest| rest.get(count..)).unwrap_or_default();
-    let needed = if posed { 6 } else { 1 };
+    let needed = if posed { 14 } else { 3 };
     if rest.len() < needed {
         let needed = ranges.len().saturating_add(count).saturating_add(10 + needed);
         let at = (place.0 + place.1, 0).into();
@@ -164,10 +188,11 @@ fn whole(all: &[Word<'_>], place: Place, posed: bool, book: &mut Book) -> Result
     }
     let sensor = sensor(first, step, ranges.len(), farthest, place, book)?;
     if !posed {
-        let time = rest[0].number().filter(|time| time.is_finite());
+        let time = time(rest)?;
         return Ok(Scan { sensor, ranges, pose: None, odometry: None, time, line: 0 });
     }
     let (seen, robot) =
         (pose([&rest[0], &rest[1], &rest[2]])?, pose([&rest[3], &rest[4], &rest[5]])?);
-    Ok(Scan { sensor, ranges, pose: Some(seen), odometry: Some(robot), time: None, line: 0 })
+    let time = time(&rest[11..])?;
+    Ok(Scan { sensor, ranges, pose: Some(seen), odometry: Some(robot), time, line: 0 })
 }

@@ -37,7 +37,9 @@ pub enum LogFault {
     #[error("«{found}» – не число")]
     #[diagnostic(
         code(vectors::log_not_number),
-        help("здесь стоит число, дробная часть – после точки")
+        help(
+            "здесь стоит число, дробная часть – после точки; между «;» и табуляциями годится и запятая"
+        )
     )]
     NotNumber {
         found: String,
@@ -84,6 +86,48 @@ pub enum LogFault {
         at: SourceSpan,
     },
 
+    #[error("в строке слов {found}, а должно быть {needed}")]
+    #[diagnostic(
+        code(vectors::log_too_long),
+        help("лишнее удалите; слились две строки – разделите их")
+    )]
+    TooLong {
+        found: usize,
+        needed: usize,
+        #[label("отсюда лишнее")]
+        at: SourceSpan,
+    },
+
+    #[error("«{found}» – не сообщение журнала")]
+    #[diagnostic(
+        code(vectors::log_no_message),
+        help("строка журнала CARMEN начинается именем сообщения; обрывок строки удалите")
+    )]
+    NoMessage {
+        found: String,
+        #[label("начало строки")]
+        at: SourceSpan,
+    },
+
+    #[error("столбец «{column}» назван дважды")]
+    #[diagnostic(code(vectors::log_column_twice), help("оставьте один из двух"))]
+    Twice {
+        column: String,
+        #[label("второй раз")]
+        at: SourceSpan,
+    },
+
+    #[error("единица столбца «{found}» не узнана")]
+    #[diagnostic(
+        code(vectors::log_unit),
+        help("длины – m, cm или mm, углы – rad или deg, время – s, ms, us или ns")
+    )]
+    Unit {
+        found: String,
+        #[label("этот столбец")]
+        at: SourceSpan,
+    },
+
     #[error("в заголовке нет столбца «{column}»")]
     #[diagnostic(
         code(vectors::log_heading),
@@ -92,7 +136,7 @@ pub enum LogFault {
         )
     )]
     NoColumn {
-        column: &'static str,
+        column: String,
         #[label("заголовок")]
         at: SourceSpan,
     },

@@ -6,8 +6,10 @@ mod breezy;
 mod carmen;
 mod csv;
 mod fault;
+mod noise;
 mod words;
 
+use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -18,7 +20,7 @@ use orthoframe_units::{FileFault, Source, read_file};
 
 pub use fault::{LogError, LogFault};
 
-use crate::scan::Sensor;
+use crate::scan::{Noise, Sensor};
 use words::Word;
 
 /// Longest log, packed or not, in bytes.
@@ -59,13 +61,6 @@ impl Log {
     pub fn sensor(&self, scan: &Scan) -> &Sensor {
         &self.sensors[scan.sensor]
     }
-
-    fn sensor_like(&mut self, sensor: Sensor) -> usize {
-        self.sensors.iter().position(|known| *known == sensor).unwrap_or_else(|| {
-            self.sensors.push(sensor);
-            self.sensors.len() - 1
-        })
-    }
 }
 
 /// A log as far as it could be read, and what was wrong with the rest.
@@ -99,21 +94,31 @@ pub fn unpacked(name: &str, mut bytes: Vec<u8>) -> Result<Source, FileFault> {
         }
         bytes = unpacked;
     }
+    // A stray byte is told where it stands; what has zeros is no text at all.
+    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+        return Err(FileFault::NotText { at });
+    }
     let text = String::from_utf8(bytes)
-        .map_err(|error| FileFault::NotText { at: error.utf8_error().valid_up_to() })?;
-    Ok(Source::new(name, text))
+        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
+    Ok(Source::new(name, text.trim_start_matches('\u{feff}')))
 }
 
-/// The scans of a log; its format is seen from its first line that says something.
+/// The scans of a log; its format is seen from its first line that says something, or where that may be the end
+/// of one, from any.
 #[must_use]
 pub fn read_log(source: &Source) -> Reading {
-    let mut book = Book { log: Log::default(), faults: Vec::new(), more: 0 };
+    let mut book = Book::default();
     let text = source.text();
-    match Format::of(text) {
+    let format = Format::of(text);
+    match format {
         Some(Format::Carmen) => carmen::read(text, &mut book),
         Some(Format::Breezy) => breezy::read(text, &mut book),
         Some(Format::Rows) => csv::read(text, &mut book),
         None => book.fault(LogFault::Unknown { at: first_line(text) }),
+    }
+    // The sensor of Breezy's logs is known.
+    if !matches!(format, Some(Format::Breezy)) {
+        noise::measure(&mut book.log);
     }
     if book.faults.is_empty() && book.log.scans.is_empty() {
         book.fault(LogFault::Empty { at: first_line(text) });
@@ -139,28 +144,50 @@ enum Format {
 
 impl Format {
     fn of(text: &str) -> Option<Self> {
-        let mut lines = text.lines().filter(|line| !line.trim().is_empty());
-        let first = lines.find(|line| !line.starts_with('#') || carmen::is_head(line))?;
-        if carmen::is_head(first) {
+        let mut lines = words::lines(text).map(|(.., line)| line);
+        if text.lines().any(carmen::is_head) {
             return Some(Self::Carmen);
         }
-        if first.contains([',', ';']) {
+        let first = lines.find(|line| !line.trim().is_empty() && !csv::is_remark(line))?;
+        if csv::is_heading(first) || first.contains([',', ';']) {
             return Some(Self::Rows);
         }
-        let numbers = words::words(first, 0).filter(|word| word.number().is_some()).count();
-        (numbers > breezy::BEFORE && words::words(first, 0).count() == numbers)
-            .then_some(Self::Breezy)
+        text.lines().any(breezy::is_row).then_some(Self::Breezy)
     }
 }
 
 /// A log while it is being read.
+#[derive(Default)]
 struct Book {
     log: Log,
+    /// By what the sensors were made of.
+    sensors: HashMap<[u64; 8], usize>,
     faults: Vec<LogFault>,
     more: usize,
 }
 
 impl Book {
+    /// The place of a sensor among those of the log.
+    fn sensor(
+        &mut self,
+        (first, step, count): (f64, f64, usize),
+        reach: (f64, f64),
+        noise: Noise,
+        line: SourceSpan,
+    ) -> Result<usize, LogFault> {
+        let bits = [first, step, reach.0, reach.1, noise.range, noise.share, noise.bearing];
+        let mut key = [count as u64; 8];
+        key[1..].copy_from_slice(&bits.map(f64::to_bits));
+        if let Some(known) = self.sensors.get(&key) {
+            return Ok(*known);
+        }
+        let sensor = Sensor::new(first, step, count, reach, noise)
+            .map_err(|fault| LogFault::Sensor { fault, at: line })?;
+        self.log.sensors.push(sensor);
+        self.sensors.insert(key, self.log.sensors.len() - 1);
+        Ok(self.log.sensors.len() - 1)
+    }
+
     fn fault(&mut self, fault: LogFault) {
         if self.faults.len() < MOST_FAULTS {
             self.faults.push(fault);
@@ -172,11 +199,20 @@ impl Book {
 
 /// A pose of metres and radians, in cm; a fault where it is none.
 fn pose(words: [&Word<'_>; 3]) -> Result<Isometry2<f64>, LogFault> {
-    let number = |word: &Word<'_>| match word.number() {
-        Some(value) if value.abs() < 1e7 => Ok(value),
-        Some(_) => Err(LogFault::NoPlace { found: word.shown(), at: word.span() }),
-        None => Err(LogFault::NotNumber { found: word.shown(), at: word.span() }),
+    let number = |word: &Word<'_>| {
+        word.number().ok_or_else(|| LogFault::NotNumber { found: word.shown(), at: word.span() })
     };
     let [x, y, heading] = words;
-    Ok(Isometry2::new(Vector2::new(number(x)? * 100.0, number(y)? * 100.0), number(heading)?))
+    place(words, [number(x)? * 100.0, number(y)? * 100.0, number(heading)?])
+}
+
+/// The pose of which the words tell x, y and heading, in cm and rad; a fault where it is no place.
+fn place(words: [&Word<'_>; 3], pose: [f64; 3]) -> Result<Isometry2<f64>, LogFault> {
+    for (word, (value, most)) in words.into_iter().zip(pose.into_iter().zip([1e9, 1e9, 1e7])) {
+        if value.is_nan() || value.abs() >= most {
+            return Err(LogFault::NoPlace { found: word.shown(), at: word.span() });
+        }
+    }
+    let [x, y, heading] = pose;
+    Ok(Isometry2::new(Vector2::new(x, y), heading))
 }

@@ -16,6 +16,11 @@ impl Word<'_> {
         self.text.parse().ok()
     }
 
+    /// As a number whose fraction may stand after a comma.
+    pub(crate) fn number_with_comma(&self) -> Option<f64> {
+        self.number().or_else(|| self.text.replacen(',', ".", 1).parse().ok())
+    }
+
     pub(crate) fn span(&self) -> SourceSpan {
         (self.at, self.text.len()).into()
     }
@@ -37,9 +42,13 @@ pub(crate) fn words(line: &str, at: usize) -> impl Iterator<Item = Word<'_>> + C
 }
 
 /// The cells of a row that begins at `at`, without the white space around them.
-pub(crate) fn cells(line: &str, at: usize) -> impl Iterator<Item = Word<'_>> + Clone {
+pub(crate) fn cells(
+    line: &str,
+    at: usize,
+    separator: char,
+) -> impl Iterator<Item = Word<'_>> + Clone {
     let place = move |word: &str| word.as_ptr() as usize - line.as_ptr() as usize;
-    line.split([',', ';']).map(move |cell| {
+    line.split(separator).map(move |cell| {
         let text = cell.trim().trim_matches('"');
         Word { text, at: at + place(text) }
     })

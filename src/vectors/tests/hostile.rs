@@ -6,7 +6,8 @@ use orthoframe_vectors::picture::Picture;
 use orthoframe_vectors::read::{LogFault, Reading, read_log, unpacked};
 use orthoframe_vectors::scan::{Extractor, Noise, Sensor};
 use orthoframe_vectors::{
-    Course, Equality, Model, Odometry, PoseNoise, Scene, Segment, difference, polyline, survey,
+    Course, Equality, Index, Model, Odometry, Options, PoseNoise, Scene, Segment, difference,
+    polyline, survey,
 };
 use proptest::prelude::*;
 
@@ -163,6 +164,30 @@ fn a_room_seen_from_three_places_is_one_thing() {
         let counts = room.membership(k);
         assert_eq!((counts.seen, counts.expected), (3, 3));
     }
+}
+
+/// Ends known to half a metre and worse reach through cells without number: it takes no longer to look at all there is.
+#[test]
+fn what_is_hardly_known_is_compared_as_fast() {
+    let ring = |sigma: f64, size: f64| {
+        let corner = |k: usize| {
+            let angle = k as f64 / 20.0 * std::f64::consts::TAU;
+            Vector2::new(angle.cos(), angle.sin()) * (size * (1.0 + 0.3 * (k % 3) as f64))
+        };
+        // Every other side, so that links go over gaps.
+        let sides = (0..20).step_by(2).map(|k| Segment::given(corner(k), corner(k + 1), sigma));
+        Model::of_contour(sides.collect())
+    };
+    let before = std::time::Instant::now();
+    for (sigma, size) in [(50.0, 3e3), (1e3, 1e6), (1e5, 1e9)] {
+        let (a, b) = (ring(sigma, size), ring(sigma, 1.1 * size));
+        let found = difference(&a, &b, None, &Equality::at(0.999));
+        assert_eq!(found.pairs.len() + found.vanished.len(), a.len());
+        let index = Index::of(std::slice::from_ref(&a), Options::default());
+        let looked = index.identify(std::slice::from_ref(&a), &b).counters.lookups;
+        assert!(looked <= 100 * index.links() as u64, "{looked} of {}", index.links());
+    }
+    assert!(before.elapsed().as_secs() < 20, "{:?}", before.elapsed());
 }
 
 fn odd_number() -> impl Strategy<Value = f64> {
