@@ -250,20 +250,20 @@ fn a_scenario_leads_to_the_rules_that_it_includes() {
     }
     assert!(asked > 20, "{asked}");
 
-    // Types and actions too; what the scenario declares itself stays there. The rules may be open and changed.
+    // Types too; what the scenario declares itself stays there. The rules may be open and changed.
     let scenario = format!("file://{}", project("rules/scenarios/unwritten.strips").display());
-    let text = "Включить: ../service-robot.strips\nПредикаты:\nСВОЁ_(место)\nИсходная позиция:\nСВОЁ_(Точка-А место)\n";
+    let text = "Включить: ../service-robot.strips\nПредикаты:\nСВОЁ_(место)\nИсходная позиция:\nСВОЁ_(место Точка-А)\n";
     client.open(&scenario, text);
     let place = client.at("textDocument/definition", &scenario, 2, 6);
     assert_eq!(place["uri"], rules, "{place}");
-    let place = client.at("textDocument/definition", &scenario, 4, 15);
+    let place = client.at("textDocument/definition", &scenario, 4, 7);
     assert_eq!(place["uri"], rules, "{place}");
     let own = client.at("textDocument/definition", &scenario, 4, 1);
     assert_eq!((&own["uri"], &own["range"]["start"]["line"]), (&json!(scenario), &json!(2)));
     let line = place["range"]["start"]["line"].as_u64().unwrap();
     let text = std::fs::read_to_string(project("rules/service-robot.strips")).unwrap();
     client.open(&rules, &format!("\n\n{text}"));
-    let moved = client.at("textDocument/definition", &scenario, 4, 15);
+    let moved = client.at("textDocument/definition", &scenario, 4, 7);
     assert_eq!(moved["range"]["start"]["line"], line + 2, "{moved}");
     client.end();
 }
