@@ -426,18 +426,33 @@ pub(super) fn datalog(
     let report =
         run(program, facts, output, limits).map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
-        note(drawn(warning).trim_end());
+        let told = match common.lang {
+            Lang::Ru => drawn(warning),
+            Lang::En => drawn(&crate::facts::EnglishWarnings::from(warning)),
+        };
+        note(told.trim_end());
     }
     for line in &report.traced {
-        note(line.to_string().trim_end());
+        note(&line.say(common.lang.language()));
     }
     if common.json {
         let sizes: Vec<_> =
             report.sizes.iter().map(|(name, n)| json!({"relation": name, "tuples": n})).collect();
-        return say(&json!({
+        let mut view = json!({
             "outcome": "done", "sizes": sizes, "written": report.written, "printed": report.printed,
-        })
-        .to_string());
+        });
+        if explain {
+            let language = common.lang.language();
+            let rule = |line: &crate::facts::RuleTrace| {
+                let joins: Vec<_> = line.joins.iter().map(|join| join.say(language)).collect();
+                json!({
+                    "place": line.place, "relation": line.relation, "joins": joins,
+                    "runs": line.runs, "found": line.found, "ms": line.time.as_secs_f64() * 1000.0,
+                })
+            };
+            view["rules"] = report.traced.iter().map(rule).collect();
+        }
+        return say(&view.to_string());
     }
     let printed = report.printed.trim_end();
     let lines: Vec<String> = (!printed.is_empty())

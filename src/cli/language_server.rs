@@ -40,6 +40,8 @@ struct Mark {
     /// As names are compared, with what the name is one of.
     key: (String, u8),
     declared: Option<String>,
+    /// Nothing declares it here; what is said of it is what its first place says.
+    is_first_mention: bool,
 }
 
 /// Where a name is declared.
@@ -48,6 +50,14 @@ struct Declared {
     place: String,
     text: String,
     mark: Mark,
+}
+
+/// A text in which a name is looked for.
+struct Text {
+    place: String,
+    text: String,
+    /// Of texts that name a thing and do not declare it, one that is included says most, then the document itself.
+    rank: u8,
 }
 
 #[derive(Debug, Default)]
@@ -146,54 +156,70 @@ impl Server {
         }
     }
 
-    /// The name at a position, and where it is declared: in this document, in another, in a file beside it or that it
-    /// includes, or in the program itself.
+    /// The name at a position, and where it is declared: in this document, in a file that it includes, in another open
+    /// document, in a file beside it, or in the program itself. What nothing declares is what its first place says.
     fn named(&self, uri: &str, position: &Value) -> Option<(Mark, Option<Declared>)> {
         let text = self.documents.get(uri)?;
         let offset = offset_of(text, position)?;
-        let marks = marks(uri, text);
         let within = |mark: &Mark| mark.range.start <= offset && offset <= mark.range.end;
         // The innermost of several.
-        let at = marks.into_iter().filter(within).min_by_key(|mark| mark.range.len())?;
+        let at = marks(uri, text).into_iter().filter(within).min_by_key(|mark| mark.range.len())?;
         let is_it = |mark: &Mark| mark.key == at.key && mark.declared.is_some();
-        let others = self.documents.iter().filter(|(other, _)| *other != uri);
-        let mut places: Vec<(String, String)> = vec![(uri.to_owned(), text.clone())];
-        places.extend(others.map(|(other, text)| (other.clone(), text.clone())));
-        let find = |(place, text): (String, String)| {
-            let mark = marks_of_kind(uri, &place, &text).into_iter().find(is_it)?;
-            Some(Declared { place, text, mark })
-        };
-        let declared = places.into_iter().find_map(find).or_else(|| {
-            let standard = (!is_robot_rules(uri)).then(|| (String::new(), STANDARD.to_owned()));
-            self.on_disk(uri, text).into_iter().chain(standard).find_map(find)
-        });
-        Some((at, declared))
+        let mut mentioned: Option<(u8, Declared)> = None;
+        for Text { place, text, rank } in self.around(uri, text) {
+            let Some(mark) = marks_of_kind(uri, &place, &text).into_iter().find(is_it) else {
+                continue;
+            };
+            let is_first_mention = mark.is_first_mention;
+            let found = Declared { place, text, mark };
+            if !is_first_mention {
+                return Some((at, Some(found)));
+            }
+            if mentioned.as_ref().is_none_or(|(known, _)| rank < *known) {
+                mentioned = Some((rank, found));
+            }
+        }
+        Some((at, mentioned.map(|(_, found)| found)))
     }
 
-    /// The rule files that are not open and that a document includes, or that lie beside it.
-    fn on_disk(&self, uri: &str, text: &str) -> Vec<(String, String)> {
+    /// The texts in which a document's names are looked for, in their order.
+    fn around(&self, uri: &str, text: &str) -> Vec<Text> {
         const MOST: usize = 64;
-        if !uri.starts_with("file://") {
-            return Vec::new();
-        }
+        let mut found = vec![Text { place: uri.to_owned(), text: text.to_owned(), rank: 1 }];
         let path = path_of(uri);
-        let mut known: Vec<PathBuf> = self.documents.keys().map(|uri| path_of(uri)).collect();
-        let mut open: VecDeque<PathBuf> = included(&path, text).into();
-        let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
-        let mut beside: Vec<PathBuf> =
-            beside.into_iter().flatten().flatten().map(|entry| entry.path()).collect();
-        beside.retain(|other| other.extension() == path.extension());
-        beside.sort();
-        open.extend(beside);
-        let mut found = Vec::new();
-        while let Some(path) = open.pop_front().filter(|_| found.len() < MOST) {
-            if known.contains(&path) {
-                continue;
+        let is_file = uri.starts_with("file://");
+        let mut known = vec![path.clone()];
+        let mut take = |mut open: VecDeque<PathBuf>, rank: u8, found: &mut Vec<Text>| {
+            while let Some(path) = open.pop_front().filter(|_| found.len() < MOST) {
+                if known.contains(&path) {
+                    continue;
+                }
+                known.push(path.clone());
+                let opened = self.documents.iter().find(|(uri, _)| path_of(uri) == path);
+                let text = opened.map(|(_, text)| text.clone()).or_else(|| {
+                    let source = Source::read_within(&path, MAX_FILE).ok()?;
+                    Some(source.text().to_owned())
+                });
+                let Some(text) = text else { continue };
+                open.extend(included(&path, &text));
+                let place = opened.map_or_else(|| uri_of(&path), |(uri, _)| uri.clone());
+                found.push(Text { place, text, rank });
             }
-            known.push(path.clone());
-            let Ok(source) = Source::read_within(&path, MAX_FILE) else { continue };
-            open.extend(included(&path, source.text()));
-            found.push((uri_of(&path), source.text().to_owned()));
+        };
+        if is_file {
+            take(included(&path, text).into(), 0, &mut found);
+        }
+        take(self.documents.keys().map(|uri| path_of(uri)).collect(), 2, &mut found);
+        if is_file {
+            let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
+            let mut beside: Vec<PathBuf> =
+                beside.into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+            beside.retain(|other| other.extension() == path.extension());
+            beside.sort();
+            take(beside.into(), 2, &mut found);
+        }
+        if !is_robot_rules(uri) {
+            found.push(Text { place: String::new(), text: STANDARD.to_owned(), rank: 2 });
         }
         found
     }
@@ -238,11 +264,9 @@ impl Server {
                 }
             }
         };
-        for (other, text) in &self.documents {
-            take(marks_of_kind(uri, other, text));
-        }
-        if !is_robot_rules(uri) {
-            take(marks(uri, STANDARD));
+        let Some(text) = self.documents.get(uri) else { return json!([]) };
+        for Text { place, text, .. } in self.around(uri, text) {
+            take(marks_of_kind(uri, &place, &text));
         }
         names.into_iter().map(|(name, told)| json!({ "label": name, "detail": told })).collect()
     }
@@ -272,6 +296,7 @@ fn marks(uri: &str, text: &str) -> Vec<Mark> {
             name: mark.name,
             key: (mark.key, 4 + mark.means as u8),
             declared: mark.declared,
+            is_first_mention: mark.is_first_mention,
         });
         return marks.collect();
     }
@@ -283,6 +308,7 @@ fn marks(uri: &str, text: &str) -> Vec<Mark> {
             key: (name_key(own), mark.means as u8),
             name: mark.name,
             declared: mark.declared,
+            is_first_mention: false,
         }
     });
     marks.collect()

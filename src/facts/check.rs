@@ -11,7 +11,7 @@ use super::program::{Clause, Fact, Found, Program, RelationId, Subsumption};
 use super::strata::{reads, strata};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
-use super::{idle, misuse, subsume, unify, witness};
+use super::{idle, misuse, product, subsume, unify, witness};
 use crate::units::Source;
 
 pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {
@@ -63,7 +63,8 @@ pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) ->
     let hidden = gone.iter().copied().chain(dominated.into_keys()).collect();
     unused(&declared, &clauses, &subsumptions, &facts, &hidden, faults);
     hints(items, faults);
-    idle::warn(&declared, &clauses, &facts, faults);
+    idle::warn(&declared, &clauses, &facts, &words, faults);
+    product::warn(&declared, &clauses, &facts, faults);
     declared.unfolded = gone;
     Program {
         sources: sources.into(),
@@ -183,15 +184,24 @@ fn unused(
         });
     }
     facts.iter().for_each(|fact| filled[fact.relation.index()] = true);
+    let is_seen = |n: usize| {
+        let info = &declared.relations[n];
+        read[n] || !info.outputs.is_empty() || info.print_size
+    };
+    // What a component declares is used where one of its instances is asked for it.
+    let key = |at: Span| (at.file, at.start, at.end);
+    let mut used: BTreeMap<(u32, u32, u32), bool> = BTreeMap::new();
+    for (n, at) in declared.places.iter().enumerate() {
+        *used.entry(key(*at)).or_insert(false) |= is_seen(n);
+    }
     for (n, info) in declared.relations.iter().enumerate() {
         let (name, at) = (info.name.clone(), declared.places[n]);
         if unfolded.contains(&RelationId(n as u32)) {
             continue;
         }
-        let is_seen = !info.outputs.is_empty() || info.print_size;
         if read[n] && !filled[n] && info.inputs.is_empty() {
             faults.push(at, RuleError::NeverDerived { name, at: at.into() });
-        } else if !read[n] && !is_seen {
+        } else if used.insert(key(at), true) == Some(false) {
             faults.push(at, RuleError::NeverUsed { name, at: at.into() });
         }
     }

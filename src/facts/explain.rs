@@ -1,26 +1,21 @@
 //! What an evaluation did: for each rule the joins that were chosen, with the sizes met, how often it ran, what it found
 //! and how long that took.
 
-use std::fmt::Write as _;
 use std::time::Duration;
 
 use super::evaluate::Evaluation;
-use super::plan::{Plan, Request};
+use super::plan::{Plan, Request, Version};
 use super::program::{Clause, Expr, Program, RelationId};
 use super::run::Step;
-use super::trace::{RuleTrace, sorted};
+use super::trace::{Join, RuleTrace, sorted};
+use crate::units::{Bilingual, Language};
 
 impl Evaluation<'_> {
     /// Notes a run of a clause.
     pub(super) fn trace(&mut self, clause: &Clause, plan: &Plan, found: usize, time: Duration) {
         let Some(mut all) = self.traced.take() else { return };
         let joins = self.joins(plan);
-        let names = |joins: &[String]| {
-            joins.iter().map(|join| join.split(':').next().map(str::to_owned)).collect::<Vec<_>>()
-        };
-        let same =
-            |line: &&mut RuleTrace| line.at == clause.at && names(&line.joins) == names(&joins);
-        match all.iter_mut().find(same) {
+        match all.iter_mut().find(|line| line.is_of(clause.at, &joins)) {
             Some(line) => {
                 line.runs += 1;
                 line.found += found;
@@ -39,83 +34,84 @@ impl Evaluation<'_> {
         self.traced = Some(all);
     }
 
-    fn joins(&self, plan: &Plan) -> Vec<String> {
+    fn joins(&self, plan: &Plan) -> Vec<Join> {
         let mut joins = Vec::new();
-        let mut depth = 0;
         let mut ends = Vec::new();
         for (n, step) in plan.steps.iter().enumerate() {
             while ends.last() == Some(&n) {
                 ends.pop();
-                depth -= 1;
             }
-            let told = match step {
+            let depth = ends.len();
+            let mut is_filtered = false;
+            let (what, size) = match step {
                 Step::Scan(scan) => {
-                    let mut told = self.request(&plan.requests[scan.source], scan.key.len());
-                    if !scan.filters.is_empty() {
-                        let _ = write!(told, ", отбор сравнением");
-                    }
-                    told
+                    is_filtered = !scan.filters.is_empty();
+                    self.request(&plan.requests[scan.source], scan.key.len())
                 }
                 Step::Absent { source, key } => {
-                    format!("нет {}", self.request(&plan.requests[*source], key.len()))
+                    let (what, size) = self.request(&plan.requests[*source], key.len());
+                    (prefixed(("нет", "no"), &what), size)
                 }
-                Step::Filter(_) => "сравнение".to_owned(),
-                Step::Each { .. } => "числа по порядку".to_owned(),
+                Step::Filter(_) => (("сравнение", "comparison").into(), None),
+                Step::Each { .. } => (("числа по порядку", "numbers in order").into(), None),
                 Step::Aggregate { function, end, .. } => {
-                    let told = format!("счёт {}", function.word());
-                    joins.push(format!("{}{told}", "  ".repeat(depth)));
                     ends.push(*end);
-                    depth += 1;
-                    continue;
+                    (prefixed(("счёт", "aggregate"), &function.word().into()), None)
                 }
                 Step::Let { .. } | Step::Reached => continue,
             };
-            joins.push(format!("{}{told}", "  ".repeat(depth)));
+            joins.push(Join { depth, what, size, is_filtered });
         }
         joins
     }
 
-    fn request(&self, request: &Request, keys: usize) -> String {
-        let size = |relation: RelationId| match self.finished.rows[relation.index()].as_ref() {
-            Some(rows) => format!("{} строк", rows.len()),
-            None => "растёт".to_owned(),
-        };
+    /// What is read and by which columns; of what is finished, how much.
+    fn request(&self, request: &Request, keys: usize) -> (Bilingual, Option<Bilingual>) {
         let column = |relation: RelationId, n: usize| {
             self.program.info(relation).columns.get(n).map_or("…", |column| column.name.as_str())
         };
-        let (relation, key): (RelationId, Vec<&str>) = match request {
+        let (relation, key, part): (RelationId, Vec<&str>, _) = match request {
             Request::Whole(relation) => {
-                (*relation, (0..keys).map(|n| column(*relation, n)).collect())
+                (*relation, (0..keys).map(|n| column(*relation, n)).collect(), None)
             }
             Request::Index { relation, key, .. } => {
                 let name = |expr: &Expr| match expr {
                     Expr::Variable(n) => column(*relation, *n as usize),
                     _ => "…",
                 };
-                (*relation, key.iter().map(name).collect())
+                (*relation, key.iter().map(name).collect(), None)
             }
             Request::Growing { relation, first, version } => {
-                let all: Vec<&str> = first.iter().map(|n| column(*relation, *n)).collect();
-                let by = if all.is_empty() {
-                    String::new()
-                } else {
-                    format!(" по {}", all.join(", "))
-                };
-                let name = &self.program.info(*relation).name;
                 let part = match version {
-                    super::plan::Version::Recent => "новые строки",
-                    super::plan::Version::Stable => "прежние строки",
-                    _ => "все строки",
+                    Version::Recent => ("новые строки", "new rows"),
+                    Version::Stable => ("прежние строки", "earlier rows"),
+                    Version::All | Version::Finished => ("все строки", "all rows"),
                 };
-                return format!("{name}{by}: {part}");
+                (*relation, first.iter().map(|n| column(*relation, *n)).collect(), Some(part))
             }
         };
         let name = &self.program.info(relation).name;
-        match key.is_empty() {
-            true => format!("{name}: все, {}", size(relation)),
-            false => format!("{name} по {}: {}", key.join(", "), size(relation)),
+        let (mut russian, mut english) = (name.clone(), name.clone());
+        if !key.is_empty() {
+            let key = key.join(", ");
+            (russian, english) = (format!("{name} по {key}"), format!("{name} by {key}"));
         }
+        if let Some((in_russian, in_english)) = part {
+            let (russian, english) =
+                (format!("{russian}: {in_russian}"), format!("{english}: {in_english}"));
+            return (Bilingual::new(russian, english), None);
+        }
+        let size = self.finished.rows[relation.index()].as_ref().map(|rows| match rows.len() {
+            1 => ("строк 1", "1 row").into(),
+            len => Bilingual::new(format!("строк {len}"), format!("{len} rows")),
+        });
+        (Bilingual::new(russian, english), size)
     }
+}
+
+fn prefixed((russian, english): (&str, &str), what: &Bilingual) -> Bilingual {
+    let said = |word, language| format!("{word} {}", what.say(language));
+    Bilingual::new(said(russian, Language::Russian), said(english, Language::English))
 }
 
 impl Program {

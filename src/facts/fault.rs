@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::syntax::Span;
 use super::value::MAX_TEXT;
 use super::word::Note;
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
@@ -262,7 +262,7 @@ pub enum RuleError {
     #[error("правило никогда не сработает: {why}")]
     #[diagnostic(code(facts::never_fires), severity(Warning), help("проверьте эту посылку"))]
     NeverFires {
-        why: String,
+        why: Bilingual,
         #[label("эта посылка не выполняется")]
         at: SourceSpan,
     },

@@ -27,6 +27,8 @@ pub struct Mark {
     pub means: Meaning,
     /// Where it is declared: what is said of it, in both languages. None where the name is only used.
     pub declared: Option<String>,
+    /// No section declares it: this is where it is first named.
+    pub is_first_mention: bool,
 }
 
 /// Every place of a rule file or scenario that names a type, a predicate, an action or an object, in the order of the
@@ -120,6 +122,7 @@ fn declare_first(found: &mut [Mark], english: &HashMap<String, String>) {
     for mark in found.iter_mut().filter(|mark| mark.means == Meaning::Predicate) {
         if !known.contains(&mark.key) {
             known.push(mark.key.clone());
+            mark.is_first_mention = true;
             mark.declared = Some(match english.get(&mark.key) {
                 Some(english) => format!("{}\n«{english}»", mark.name),
                 None => mark.name.clone(),
@@ -144,7 +147,8 @@ impl Marks<'_> {
             && self.source.text().get(range.clone()).is_some()
         {
             let (key, name) = (name.key(), name.text.clone());
-            self.found.push(Mark { range, key, name, means, declared });
+            let is_first_mention = false;
+            self.found.push(Mark { range, key, name, means, declared, is_first_mention });
         }
     }
 

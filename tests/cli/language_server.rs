@@ -220,3 +220,50 @@ fn declarations_are_found_in_files_that_are_not_open() {
     assert!(value.contains("НИЖЕ") && value.contains("под всем"), "{value}");
     client.end();
 }
+
+/// A scenario names what the robot's rules declare: every name of every scenario leads there, and tells what is said there.
+#[test]
+fn a_scenario_leads_to_the_rules_that_it_includes() {
+    let mut client = Client::start();
+    let rules = format!("file://{}", project("rules/service-robot.strips").display());
+    let mut asked = 0;
+    for entry in std::fs::read_dir(project("rules/scenarios")).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let uri = format!("file://{}", path.display());
+        client.open(&uri, &text);
+        for (n, line) in text.lines().enumerate() {
+            let code = line.split(';').next().unwrap_or_default();
+            let Some((name, _)) = code.split_once('(').filter(|(name, _)| !name.contains(':'))
+            else {
+                continue;
+            };
+            let name = name.trim().trim_start_matches("НЕ ").trim_end_matches('_');
+            let column = code[..code.find(name).unwrap()].chars().count() as u64;
+            let place = client.at("textDocument/definition", &uri, n as u64, column + 1);
+            assert_eq!(place["uri"], rules, "{uri}: {line}");
+            let hover = client.at("textDocument/hover", &uri, n as u64, column + 1);
+            let value = hover["contents"]["value"].as_str().unwrap();
+            assert!(value.contains(name), "{line}: {value}");
+            asked += 1;
+        }
+    }
+    assert!(asked > 20, "{asked}");
+
+    // Types too; what the scenario declares itself stays there. The rules may be open and changed.
+    let scenario = format!("file://{}", project("rules/scenarios/unwritten.strips").display());
+    let text = "Включить: ../service-robot.strips\nПредикаты:\nСВОЁ_(место)\nИсходная позиция:\nСВОЁ_(место Точка-А)\n";
+    client.open(&scenario, text);
+    let place = client.at("textDocument/definition", &scenario, 2, 6);
+    assert_eq!(place["uri"], rules, "{place}");
+    let place = client.at("textDocument/definition", &scenario, 4, 7);
+    assert_eq!(place["uri"], rules, "{place}");
+    let own = client.at("textDocument/definition", &scenario, 4, 1);
+    assert_eq!((&own["uri"], &own["range"]["start"]["line"]), (&json!(scenario), &json!(2)));
+    let line = place["range"]["start"]["line"].as_u64().unwrap();
+    let text = std::fs::read_to_string(project("rules/service-robot.strips")).unwrap();
+    client.open(&rules, &format!("\n\n{text}"));
+    let moved = client.at("textDocument/definition", &scenario, 4, 7);
+    assert_eq!(moved["range"]["start"]["line"], line + 2, "{moved}");
+    client.end();
+}
