@@ -79,7 +79,7 @@ fn read_grammar(base: PathBuf) -> Result<Grammar, Error> {
             } else if path.extension().is_some_and(|e| e == "lang") {
                 let text = Source::read(&path).map_err(|fault| RequestError::File {
                     path: path.display().to_string(),
-                    reason: fault.to_string(),
+                    reason: (&fault).into(),
                     is_input: true,
                 })?;
                 files.insert(format!("{prefix}{name}"), text);
@@ -96,7 +96,7 @@ fn read_grammar(base: PathBuf) -> Result<Grammar, Error> {
 fn unreadable(path: &Path, error: &std::io::Error) -> RequestError {
     RequestError::File {
         path: path.display().to_string(),
-        reason: error.to_string(),
+        reason: error.to_string().into(),
         is_input: crate::units::is_input(error.kind()),
     }
 }

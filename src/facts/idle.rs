@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::declare::Declared;
-use super::fault::RuleError;
+use super::fault::{RuleError, Told};
 use super::ground::used_variables;
 use super::program::{Clause, Expr, Fact, Found, Literal, Term};
 use super::syntax::{Comparison, Span};
+use crate::units::bilingual;
 
 pub(super) fn warn(
     declared: &Declared,
@@ -49,7 +50,7 @@ fn may_hold(declared: &Declared, clauses: &[Arc<Clause>], facts: &[Fact]) -> Vec
 }
 
 /// Why a comparison never holds.
-fn never(literal: &Literal) -> Option<(&'static str, Span)> {
+fn never(literal: &Literal) -> Option<(Told, Span)> {
     let Literal::Compare(compare) = literal else { return None };
     use Comparison::{Equal, Greater, Less, NotEqual};
     let is_same =
@@ -63,7 +64,7 @@ fn never(literal: &Literal) -> Option<(&'static str, Span)> {
         NotEqual | Less | Greater => is_same || differ == Some(false),
         _ => false,
     };
-    never.then_some(("сравнение всегда ложно", compare.at))
+    never.then_some((("сравнение всегда ложно", "the comparison is always false"), compare.at))
 }
 
 fn never_fires(clause: &Clause, declared: &Declared, may_hold: &[bool], faults: &mut Found) {
@@ -71,9 +72,9 @@ fn never_fires(clause: &Clause, declared: &Declared, may_hold: &[bool], faults: 
         let found = match literal {
             Literal::Atom(atom) if !may_hold[atom.relation.index()] => {
                 let name = &declared.relations[atom.relation.index()].name;
-                Some((format!("«{name}» всегда пусто"), atom.at))
+                Some((bilingual!("«{name}» всегда пусто", "“{name}” is always empty"), atom.at))
             }
-            other => never(other).map(|(why, at)| (why.to_owned(), at)),
+            other => never(other).map(|(why, at)| (why.into(), at)),
         };
         if let Some((why, at)) = found {
             faults.push(at, RuleError::NeverFires { why, at: at.into() });

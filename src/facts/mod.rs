@@ -70,6 +70,7 @@ mod declare;
 mod delta;
 mod demand;
 mod derived;
+mod english;
 mod evaluate;
 mod explain;
 mod expression;

@@ -23,6 +23,7 @@ mod answer;
 mod chart;
 mod check;
 mod cover;
+mod english;
 mod fault;
 mod features;
 mod file;

@@ -60,6 +60,7 @@ mod ask;
 mod body;
 mod cargo;
 mod claim;
+mod english;
 mod feed;
 mod grid;
 mod lifts;
