@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use orthoframe::Engine;
 use orthoframe::engine::{Dialogue, Event, Heard, Mode, Outcome, change_now, json};
@@ -95,7 +95,7 @@ fn every_sort_of_line_is_heard_alike_everywhere() {
         assert_eq!((heard.ended(), heard.text().is_empty()), (line == "Выход", line == "Выход"));
     }
     drop(store("terminal"));
-    let mut talk = Command::new(env!("CARGO_BIN_EXE_ortho"))
+    let mut talk = crate::ortho()
         .args(["talk", "--json", "--store"])
         .arg(dir.path().join("terminal"))
         .env_remove("ORTHO_RULES")

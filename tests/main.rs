@@ -74,3 +74,10 @@ mod ways;
 mod words;
 mod worlds;
 mod zones;
+
+/// The program, in Russian unless its arguments say otherwise: what it prints here does not hang on the locale.
+fn ortho() -> std::process::Command {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ortho"));
+    command.env("ORTHO_LANG", "ru");
+    command
+}

@@ -74,7 +74,7 @@ fn what_the_drawing_leaves_out_is_no_floor() {
             "{floors}"
         );
         assert_eq!(world.areas.len(), 2);
-        let told: Vec<&str> = survey.notes.iter().map(|n| n.text.as_str()).collect();
+        let told: Vec<String> = survey.notes.iter().map(|n| n.text.to_string()).collect();
         assert_eq!(told, ["по рисунку здесь нет пола: 9.0 м² у (24.50; 35.50) м"], "{floors}");
         // A way from one side of the well to the other leads round it.
         let engine = Engine::in_memory(world, None).expect("rules are sound");
@@ -97,7 +97,7 @@ fn a_doorway_that_nobody_drew_is_told_with_its_place() {
     let floors = "    floors:\n      - vertices: [0, 1, 2, 3]";
     let (world, survey) = world_of(&storey(floors, "      - [4, 5, {}]\n      - [6, 7, {}]"));
     assert_eq!(world.areas.len(), 1);
-    let told: Vec<&str> = survey.notes.iter().map(|n| n.text.as_str()).collect();
+    let told: Vec<String> = survey.notes.iter().map(|n| n.text.to_string()).collect();
     let place = "90 см у (24.45; 32.00) м";
     assert_eq!(
         told,
@@ -106,5 +106,9 @@ fn a_doorway_that_nobody_drew_is_told_with_its_place() {
     // The right half of the wall is missing.
     let (world, survey) = world_of(&storey(floors, "      - [4, 5, {}]"));
     assert_eq!(world.areas.len(), 1);
-    assert!(survey.notes.iter().any(|n| n.text.contains("600 см")), "{:?}", survey.notes);
+    assert!(
+        survey.notes.iter().any(|n| n.text.to_string().contains("600 см")),
+        "{:?}",
+        survey.notes
+    );
 }

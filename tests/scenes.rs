@@ -90,7 +90,7 @@ fn every_room_door_and_thing_of_the_virtualhome_flats_is_read() {
             let survey = read_virtualhome(&text).unwrap();
             check_invariants(&survey);
             // Curtains are listed twice, as the whole and as its part.
-            assert!(survey.remarks.iter().all(|r| r.text.contains("на том же месте")));
+            assert!(survey.remarks.iter().all(|r| r.text.to_string().contains("на том же месте")));
             assert!(survey == read_virtualhome(&text).unwrap(), "scene {n} read twice");
             (counts(&survey), survey.remarks.len())
         })

@@ -41,9 +41,16 @@ impl Answer {
     }
 }
 
+/// The program, in Russian unless its arguments say otherwise.
+fn ortho() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+    command.env("ORTHO_LANG", "ru");
+    command
+}
+
 impl Console {
     fn start(more: &[&str]) -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+        let mut command = ortho();
         let port = if more.contains(&"--port") { &[][..] } else { &["--port", "0"] };
         command.arg("serve").args(port).args(more).env_remove("ORTHO_STORE");
         let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
@@ -479,7 +486,6 @@ fn what_is_too_large_is_not_read() {
 
 #[test]
 fn a_console_for_others_needs_a_token() {
-    let ortho = || Command::new(env!("CARGO_BIN_EXE_ortho"));
     for more in [&["--listen", "0.0.0.0"][..], &["--listen", "0.0.0.0", "--token", "short"]] {
         let mut command = ortho();
         command.args(["serve", "--demo", "--port", "0"]).args(more).env_remove("ORTHO_TOKEN");
@@ -574,7 +580,7 @@ fn judged(program: &str, arguments: &[String]) {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut command = Command::new(program);
     command.args(arguments).current_dir(root).env("PYTHONPATH", root.join("target/judges"));
-    let Ok(done) = command.env_remove("ORTHO_STORE").output() else {
+    let Ok(done) = command.env_remove("ORTHO_STORE").env("ORTHO_LANG", "ru").output() else {
         assert!(std::env::var_os("CI").is_none(), "{program} is missing");
         return println!("skipped: there is no {program}");
     };

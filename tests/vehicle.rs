@@ -563,7 +563,7 @@ fn the_python_vehicle_carries_out_the_demo() {
 }
 
 fn ortho(dir: &TempDir, args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+    let mut command = crate::ortho();
     command.current_dir(dir.path()).args(args).stdin(Stdio::null());
     for name in ["ORTHO_STORE", "ORTHO_RULES", "ORTHO_USER"] {
         command.env_remove(name);

@@ -10,6 +10,7 @@ use crate::engine::{ImportFormat, Sighted, When};
 use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
+use crate::units::{Bilingual, Language};
 
 use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
@@ -46,14 +47,21 @@ pub(super) struct Common {
     /// Print the value behind the words as JSON (see docs/cli.md)
     #[arg(long, global = true)]
     pub json: bool,
-    /// Language of reports and headings
-    #[arg(long, global = true, value_enum, default_value_t = Lang::Ru)]
+    /// Language of all that is told; that of the locale when left out, Russian where it names neither
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        env = "ORTHO_LANG",
+        default_value_t = Lang::of_locale(),
+        hide_default_value = true
+    )]
     pub lang: Lang,
     /// Open the store for reading only, without touching it; another program may be writing it
     #[arg(long, global = true)]
     pub read_only: bool,
     /// Answer from the map as it stood then: a revision or a moment (3, 2026-11-21, 2026-11-21T09:30)
-    #[arg(long, global = true, value_name = "WHEN")]
+    #[arg(long, global = true, value_name = "WHEN", value_parser = when)]
     pub as_of: Option<When>,
     /// Who makes the change, for the history
     #[arg(
@@ -83,6 +91,27 @@ pub(super) struct LogOnMap {
 pub(super) enum Lang {
     Ru,
     En,
+}
+
+impl Lang {
+    /// By the first of `LC_ALL`, `LC_MESSAGES` and `LANG` that is set, as POSIX has it. `C` names no language.
+    fn of_locale() -> Self {
+        let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+        let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set);
+        Self::of(locale.as_deref().unwrap_or_default())
+    }
+
+    fn of(locale: &str) -> Self {
+        match locale.split(['_', '.', '@', '-']).next() {
+            Some("en") => Self::En,
+            _ => Self::Ru,
+        }
+    }
+}
+
+/// A point of the history.
+pub(super) fn when(text: &str) -> Result<When, String> {
+    text.parse().map_err(|why: Bilingual| why.say(Language::English).to_owned())
 }
 
 #[derive(Debug, Subcommand)]

@@ -97,7 +97,7 @@ pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
         (shut, &opened.not_writable),
     ] {
         if let Some(why) = why {
-            note(&format!("{store}: {what}: {why}."));
+            note(&format!("{store}: {what}: {}.", why.say(lang.language())));
         }
     }
     for name in &opened.marks_renewed {
@@ -163,7 +163,10 @@ fn guessed(uncertain: &[NounPhrase], lang: Lang) -> String {
     let shown: Vec<String> = uncertain
         .iter()
         .take(UNCERTAIN_SHOWN)
-        .map(|phrase| format!("{} (нет {})", phrase.name(), phrase.case(Case::Genitive)))
+        .map(|phrase| {
+            let of = lang.pick("нет", "genitive");
+            format!("{} ({of} {})", phrase.name(), phrase.case(Case::Genitive))
+        })
         .collect();
     let more = match uncertain.len().saturating_sub(UNCERTAIN_SHOWN) {
         0 => String::new(),
@@ -251,10 +254,10 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
         None => open(common)?,
     };
     if args.reset {
-        engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
+        engine.reset_robot(&change_now(&common.user, "do --reset"))?;
     }
     if let Some(from) = &args.from {
-        engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
+        engine.place_robot(from, &change_now(&common.user, "do --from"))?;
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
     if let Some(scenario) = &scenario {
@@ -426,11 +429,13 @@ pub(super) fn datalog(
     let report =
         run(program, facts, output, limits).map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
-        let told = match common.lang {
-            Lang::Ru => drawn(warning),
-            Lang::En => drawn(&crate::facts::EnglishWarnings::from(warning)),
-        };
-        note(told.trim_end());
+        note(
+            match common.lang {
+                Lang::Ru => drawn(warning),
+                Lang::En => drawn(&warning.in_english()),
+            }
+            .trim_end(),
+        );
     }
     for line in &report.traced {
         note(&line.say(common.lang.language()));

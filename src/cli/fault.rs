@@ -58,7 +58,7 @@ impl Failure {
     pub(super) fn file(path: &std::path::Path, error: &std::io::Error) -> Self {
         RequestError::File {
             path: path.display().to_string(),
-            reason: error.to_string(),
+            reason: error.to_string().into(),
             is_input: crate::units::is_input(error.kind()),
         }
         .into()
@@ -69,29 +69,21 @@ impl Failure {
     pub(super) fn show(&self, as_json: bool, lang: Lang) -> ExitCode {
         match self {
             Self::Output(reason) => {
-                eprintln!("ortho: вывод прерван: {reason}");
+                eprintln!("ortho: {}: {reason}", lang.pick("вывод прерван", "output broke off"));
                 ExitCode::from(3)
             }
             Self::Engine(error) => {
-                let english = Some(error).filter(|_| lang == Lang::En).and_then(|e| e.in_english());
+                let english = (lang == Lang::En).then(|| error.in_english());
                 let shown: &dyn Diagnostic = english.as_deref().unwrap_or(error.as_ref());
-                let told = error.english().filter(|_| lang == Lang::En);
                 if as_json {
                     let mut leaves = Vec::new();
                     gather(shown, None, &mut leaves);
-                    let mut faults: Vec<FaultView> = leaves.iter().map(view).collect();
-                    // What is told in one piece holds its remedy.
-                    if let (Some(text), [only]) = (told, &mut faults[..]) {
-                        (only.message, only.help) = (text, None);
-                    }
+                    let faults: Vec<FaultView> = leaves.iter().map(view).collect();
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
                     // Who reads no further has read enough.
                     let _ = writeln!(std::io::stdout(), "{view}");
                 } else {
-                    match told {
-                        Some(text) => eprintln!("  × {text}"),
-                        None => eprint!("{}", drawn(shown)),
-                    }
+                    eprint!("{}", drawn(shown));
                 }
                 ExitCode::from(if error.is_input() { 2 } else { 3 })
             }

@@ -30,7 +30,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     let read = read_building(&args.file, &options)?;
     let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
     note_repairs(&engine, common.lang);
-    let reason = format!("импорт {}", args.file.display());
+    let reason = args.file.display().to_string();
     let imported = engine.keep(read, &change_now(&common.user, &reason))?;
     warn(&imported.warnings, common.lang);
     let world = engine.world()?;
@@ -45,12 +45,12 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
             "warnings": imported.warnings.faults.len(),
             "profile": world.domain.profile.name(),
             "world": size(world),
-            "report": imported.reading.to_json(),
+            "report": imported.reading.to_json(common.lang.language()),
         })
         .to_string());
     }
     if !imported.reading.notes.is_empty() {
-        note(&imported.reading.to_string());
+        note(&imported.reading.say(common.lang.language()));
     }
     let (lang, revision) = (common.lang, imported.report.revision);
     let [created, changed, deleted] = [counts.created, counts.changed, counts.deleted];
@@ -85,7 +85,7 @@ fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
     let rules = rules_dir(common);
     let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
     note_repairs(&engine, common.lang);
-    let reason = format!("импорт {}", file.display());
+    let reason = file.display().to_string();
     let report = engine.import_sqlite(file, &change_now(&common.user, &reason))?;
     let (world, counts) = (engine.world()?, report.counts);
     if common.json {

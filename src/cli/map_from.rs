@@ -28,7 +28,7 @@ pub(super) struct MapFromArgs {
 
 fn cell(text: &str) -> Result<f64, String> {
     let size: f64 = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
-    if (1.0..=100.0).contains(&size) { Ok(size) } else { Err("от 1 до 100 см".to_owned()) }
+    if (1.0..=100.0).contains(&size) { Ok(size) } else { Err("from 1 to 100 cm".to_owned()) }
 }
 
 pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure> {

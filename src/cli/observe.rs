@@ -101,7 +101,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
         ObserveCommand::Observe(args) => observe(common, args),
         ObserveCommand::Proposals => proposals(common),
         ObserveCommand::Confirm { name, reason } => {
-            let change = change_now(&common.user, reason.as_deref().unwrap_or("подтверждено"));
+            let change = change_now(&common.user, reason.as_deref().unwrap_or("confirm"));
             let mut engine = open_to_write(common)?;
             let report = engine.confirm(name, &change)?;
             if common.json {
@@ -113,7 +113,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             say(&format!("{written} {}.", report.revision))
         }
         ObserveCommand::Reject { name, reason } => {
-            let change = change_now(&common.user, reason.as_deref().unwrap_or("отклонено"));
+            let change = change_now(&common.user, reason.as_deref().unwrap_or("reject"));
             let mut engine = open_to_write(common)?;
             engine.reject(name, &change)?;
             if common.json {

@@ -6,12 +6,12 @@ use clap::Subcommand;
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Difference, Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
+    Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
 };
 use crate::store::{Forgotten, ImportReport};
 use crate::units::write_file;
 
-use super::args::{Common, Lang};
+use super::args::{Common, Lang, when};
 use super::commands::{note, open, open_to_write, store_dir};
 use super::edit::differences;
 use super::fault::Failure;
@@ -28,8 +28,10 @@ pub(super) enum StoreCommand {
     /// What changed between two revisions, in words
     Diff {
         /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
+        #[arg(value_parser = when)]
         from: When,
         /// The last revision when left out
+        #[arg(value_parser = when)]
         to: Option<When>,
     },
     /// Take back the last change, or a certain one
@@ -47,6 +49,7 @@ pub(super) enum StoreCommand {
     /// The map as it stood then, as a map file; or make it so again
     AsOf {
         /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
+        #[arg(value_parser = when)]
         when: When,
         /// Make the map what it was then; a change that can be undone
         #[arg(long)]
@@ -64,7 +67,7 @@ pub(super) enum StoreCommand {
     /// Forget what only changes before this one can see
     Gc {
         /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
-        #[arg(long, value_name = "WHEN")]
+        #[arg(long, value_name = "WHEN", value_parser = when)]
         before: When,
     },
 }
@@ -97,7 +100,7 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
         }
         StoreCommand::Restore { file } => restore(common, file),
         StoreCommand::Gc { before } => {
-            let change = change_now(&common.user, "сборка мусора");
+            let change = change_now(&common.user, "gc");
             let Forgotten { versions, not_freed } =
                 open_to_write(common)?.forget_before(*before, &change)?;
             if common.json {
@@ -175,13 +178,14 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
     let (first, last) = (engine.revision_of(from)?, engine.revision_of(to)?);
     let all = engine.diff(from, to)?;
     if common.json {
-        let view = json!({"from": first, "to": last, "differences": differences(&all)});
+        let view =
+            json!({"from": first, "to": last, "differences": differences(&all, common.lang)});
         return say(&view.to_string());
     }
     if all.is_empty() {
         return say(common.lang.pick("Различий нет.", "There are no differences."));
     }
-    say(&all.iter().map(Difference::to_string).collect::<Vec<_>>().join("\n"))
+    say(&all.iter().map(|d| d.say(common.lang.language())).collect::<Vec<_>>().join("\n"))
 }
 
 fn done(common: &Common, outcome: &str, report: &ImportReport) -> Result<Answer, Failure> {
@@ -220,7 +224,7 @@ fn as_of(
     if restore {
         let mut engine = open_to_write(common)?;
         let revision = engine.revision_of(when)?;
-        let change = change_now(&common.user, &format!("возврат к правке {revision}"));
+        let change = change_now(&common.user, &format!("as-of {revision}"));
         let report = engine.return_to(when, &change)?;
         return done(common, "restored", &report);
     }
@@ -243,10 +247,11 @@ fn fsck(common: &Common) -> Result<Answer, Failure> {
         Severity::Mendable => ("mendable", common.lang.pick("исправимо", "mendable")),
         Severity::Broken => ("broken", common.lang.pick("ПОВРЕЖДЕНО", "BROKEN")),
     };
+    let told = |f: &crate::store::Finding| f.text.say(common.lang.language()).to_owned();
     let answer = if report.is_sound() { Answer::Yes } else { Answer::No };
     if common.json {
         let one =
-            |f: &crate::store::Finding| json!({"severity": word(f.severity).0, "text": f.text});
+            |f: &crate::store::Finding| json!({"severity": word(f.severity).0, "text": told(f)});
         let findings: Vec<Value> = report.findings.iter().map(one).collect();
         say(&json!({
             "outcome": if report.is_sound() { "sound" } else { "faulty" },
@@ -260,7 +265,7 @@ fn fsck(common: &Common) -> Result<Answer, Failure> {
         return Ok(answer);
     }
     for finding in &report.findings {
-        note(&format!("{}: {}", word(finding.severity).1, finding.text));
+        note(&format!("{}: {}", word(finding.severity).1, told(finding)));
     }
     let verdict = if report.is_sound() {
         common.lang.pick("Хранилище исправно", "The store is sound")

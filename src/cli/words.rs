@@ -15,7 +15,13 @@ use super::{Answer, say};
 /// A store is not needed; where there is one with a map, its forms of the name come first.
 pub(super) fn run(common: &Common, name: &str) -> Result<Answer, Failure> {
     if !name.contains(char::is_alphanumeric) {
-        let help = Some("нужно имя или слово: ortho words \"Письменный стол\"".to_owned());
+        let help = Some(
+            (
+                "нужно имя или слово: ortho words \"Письменный стол\"",
+                "a name or a word is needed: ortho words \"Desk\"",
+            )
+                .into(),
+        );
         let name = name.chars().take(40).collect();
         return Err(RequestError::UnknownName { name, help }.into());
     }

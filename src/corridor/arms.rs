@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use miette::SourceSpan;
 
-use crate::units::Deg;
+use crate::units::{Bilingual, Deg};
 
 use super::fault::CorridorFault;
 use super::file::{Declared, kind_word, turn_word};
@@ -229,8 +229,8 @@ impl Settling<'_> {
                 self.faults.push(CorridorFault::WayDisagrees {
                     vertex: self.number,
                     way: turn_word(turn),
-                    said: wanted.map_or_else(|| "тупик".to_owned(), |n| n.to_string()),
-                    seen: seen.map_or_else(|| "тупик".to_owned(), |n| n.to_string()),
+                    said: wanted.map_or_else(dead_end, |n| n.to_string().into()),
+                    seen: seen.map_or_else(dead_end, |n| n.to_string().into()),
                     at,
                 });
             }
@@ -241,4 +241,8 @@ impl Settling<'_> {
         let numbers: Vec<_> = ends.iter().map(|e| (self.neighbour)(e).to_string()).collect();
         if numbers.is_empty() { "нет".to_owned() } else { numbers.join(", ") }
     }
+}
+
+fn dead_end() -> Bilingual {
+    ("тупик", "a dead end").into()
 }

@@ -1,6 +1,6 @@
 //! Directions from where the robot stands to the entrance of a room.
 
-use crate::units::{Language, nearest_name};
+use crate::units::{Bilingual, Language, nearest_name};
 
 use super::CorridorError;
 use super::command::Command;
@@ -221,9 +221,16 @@ fn named(system: &CorridorSystem, name: &str) -> Result<Vec<VertexIx>, CorridorE
         .map(|entrance| entrance.room.as_str())
         .collect();
     let hint = match nearest_name(name, rooms.iter().copied()) {
-        Some(near) => format!("может быть, «{near}»?"),
-        None if rooms.is_empty() => "в описании нет ни одного входа".to_owned(),
-        None => format!("есть входы: {}", list(rooms.into_iter())),
+        Some(near) => {
+            Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+        }
+        None if rooms.is_empty() => {
+            ("в описании нет ни одного входа", "the description has no entrance").into()
+        }
+        None => {
+            let known = list(rooms.into_iter());
+            Bilingual::new(format!("есть входы: {known}"), format!("there are entrances: {known}"))
+        }
     };
     Err(CorridorError::UnknownRoom { room: name.to_owned(), hint })
 }
@@ -248,8 +255,11 @@ fn why_none(
     let floor = &system.vertex(position.vertex).floor;
     let other = goals.iter().map(|&g| &system.vertex(g).floor).find(|f| *f != floor);
     let hint = match other {
-        Some(other) => format!("«{from}» – на «{floor}», «{to}» – на «{other}»: нужен лифт"),
-        None => "их коридоры не соединены".to_owned(),
+        Some(other) => Bilingual::new(
+            format!("«{from}» – на «{floor}», «{to}» – на «{other}»: нужен лифт"),
+            format!("“{from}” is on “{floor}”, “{to}” on “{other}”: a lift is needed"),
+        ),
+        None => ("их коридоры не соединены", "their corridors are not joined").into(),
     };
     CorridorError::Unreachable { from: from.to_owned(), to: to.to_owned(), hint }
 }

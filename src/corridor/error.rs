@@ -3,13 +3,15 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::units::Bilingual;
+
 /// Why there are no directions.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum CorridorError {
     #[error("неизвестное помещение «{room}»: в коридоры не выходит вход с таким именем")]
     #[diagnostic(code(corridor::unknown_room), help("{hint}"))]
-    UnknownRoom { room: String, hint: String },
+    UnknownRoom { room: String, hint: Bilingual },
 
     #[error("вершины {vertex} в системе коридоров нет")]
     #[diagnostic(code(corridor::unknown_vertex), help("вершины нумеруются так: {known}"))]
@@ -42,7 +44,7 @@ pub enum CorridorError {
 
     #[error("из «{from}» нельзя проехать по коридорам в «{to}»")]
     #[diagnostic(code(corridor::unreachable), help("{hint}"))]
-    Unreachable { from: String, to: String, hint: String },
+    Unreachable { from: String, to: String, hint: Bilingual },
 
     #[error("вершина {vertex} – соединение коридоров: во втором варианте графа такой вершины нет")]
     #[diagnostic(code(corridor::at_junction), help("начните от входа или возьмите первый вариант"))]

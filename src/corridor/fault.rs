@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// One fault of a corridor file.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
@@ -33,7 +33,7 @@ pub enum CorridorFault {
     #[diagnostic(code(corridor::unknown_field), help("{hint}"))]
     UnknownField {
         field: String,
-        hint: String,
+        hint: Bilingual,
         #[label("это поле")]
         at: SourceSpan,
     },
@@ -42,7 +42,7 @@ pub enum CorridorFault {
     #[diagnostic(code(corridor::missing_field), help("{hint}"))]
     MissingField {
         field: &'static str,
-        hint: &'static str,
+        hint: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -51,7 +51,7 @@ pub enum CorridorFault {
     #[diagnostic(code(corridor::wrong_value), help("исправьте значение"))]
     WrongValue {
         field: String,
-        expected: String,
+        expected: Bilingual,
         #[label("это значение")]
         at: SourceSpan,
     },
@@ -221,8 +221,8 @@ pub enum CorridorFault {
     WayDisagrees {
         vertex: u32,
         way: &'static str,
-        said: String,
-        seen: String,
+        said: Bilingual,
+        seen: Bilingual,
         #[label("этот путь")]
         at: SourceSpan,
     },

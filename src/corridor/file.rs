@@ -25,7 +25,7 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::units::{Cm, Source, nearest_name};
+use crate::units::{Bilingual, Cm, Source, nearest_name};
 
 use super::arms;
 use super::fault::{CorridorFault, CorridorFileError};
@@ -166,7 +166,7 @@ impl Reader {
     }
 
     fn check_format(&mut self, table: Table<'_, '_>) {
-        let hint = "первой строкой: format = 1";
+        let hint = ("первой строкой: format = 1", "in the first line: format = 1").into();
         match table.get("format") {
             None => {
                 let at = (0..0).into();
@@ -193,7 +193,11 @@ impl Reader {
         if let Some(value) = table.get("u_turn") {
             match number(value.get_ref()) {
                 Some(u_turn) if (0.0..=1e6).contains(&u_turn) => weights.u_turn = u_turn,
-                _ => self.wrong("u_turn", "число от 0 до 1000000", value),
+                _ => self.wrong(
+                    "u_turn",
+                    ("число от 0 до 1000000", "a number from 0 to 1000000"),
+                    value,
+                ),
             }
         }
         weights
@@ -201,7 +205,7 @@ impl Reader {
 
     fn corridor(&mut self, value: Value<'_, '_>) -> Option<Corridor> {
         let Some(table) = value.get_ref().as_table() else {
-            self.wrong("corridor", "таблицы [[corridor]]", value);
+            self.wrong("corridor", ("таблицы [[corridor]]", "tables [[corridor]]"), value);
             return None;
         };
         self.check_fields(table, CORRIDOR_FIELDS);
@@ -209,12 +213,12 @@ impl Reader {
         let closed = match table.get("closed") {
             None => false,
             Some(value) => value.get_ref().as_bool().unwrap_or_else(|| {
-                self.wrong("closed", "true или false", value);
+                self.wrong("closed", ("true или false", "true or false"), value);
                 false
             }),
         };
         if table.get("along").is_none() {
-            let hint = "along = [ { vertex = 0, room = \"201\", side = \"right\" } ]";
+            let hint = "along = [ { vertex = 0, room = \"201\", side = \"right\" } ]".into();
             let at = span(value);
             self.faults.push(CorridorFault::MissingField { field: "along", hint, at });
         }
@@ -225,7 +229,11 @@ impl Reader {
 
     fn stop(&mut self, value: Value<'_, '_>) -> Option<Stop> {
         let Some(table) = value.get_ref().as_table() else {
-            self.wrong("along", "запись вида { vertex = 0, … }", value);
+            self.wrong(
+                "along",
+                ("запись вида { vertex = 0, … }", "an entry like { vertex = 0, … }"),
+                value,
+            );
             return None;
         };
         self.check_fields(table, STOP_FIELDS);
@@ -235,17 +243,27 @@ impl Reader {
         let metres = table.get("metres").and_then(|value| match number(value.get_ref()) {
             Some(m) if m > 0.0 && m <= Cm::LIMIT / 100.0 => Some(Cm::of(m * 100.0)),
             _ => {
-                self.wrong("metres", "положительное число метров", value);
+                self.wrong(
+                    "metres",
+                    ("положительное число метров", "a positive number of metres"),
+                    value,
+                );
                 None
             }
         });
         let Some(vertex) = table.get("vertex") else {
-            let hint = "номер вершины, например vertex = 7";
+            let hint =
+                ("номер вершины, например vertex = 7", "the vertex’s number, such as vertex = 7")
+                    .into();
             self.faults.push(CorridorFault::MissingField { field: "vertex", hint, at });
             return None;
         };
         let Some(number) = vertex_number(vertex.get_ref()) else {
-            self.wrong("vertex", "целое число от 0 до 4294967295", vertex);
+            self.wrong(
+                "vertex",
+                ("целое число от 0 до 4294967295", "an integer from 0 to 4294967295"),
+                vertex,
+            );
             return None;
         };
         if entrance.is_some() && junction.is_some() {
@@ -266,10 +284,22 @@ impl Reader {
             (None, None) => None,
             (room, _) => {
                 let (field, hint) = match room {
-                    Some(_) => ("side", "с какой стороны дверь: side = \"right\" или \"left\""),
-                    None => ("room", "какое помещение за дверью: room = \"201\""),
+                    Some(_) => (
+                        "side",
+                        (
+                            "с какой стороны дверь: side = \"right\" или \"left\"",
+                            "on which side the door is: side = \"right\" or \"left\"",
+                        ),
+                    ),
+                    None => (
+                        "room",
+                        (
+                            "какое помещение за дверью: room = \"201\"",
+                            "which room is behind the door: room = \"201\"",
+                        ),
+                    ),
                 };
-                self.faults.push(CorridorFault::MissingField { field, hint, at });
+                self.faults.push(CorridorFault::MissingField { field, hint: hint.into(), at });
                 None
             }
         }
@@ -292,9 +322,16 @@ impl Reader {
         }
         let Some(value) = table.get("junction") else {
             if !neighbours.is_empty() || !blind.is_empty() {
-                let hint = "вид соединения: junction = \"branch-right\"";
+                let hint = (
+                    "вид соединения: junction = \"branch-right\"",
+                    "the kind of the junction: junction = \"branch-right\"",
+                );
                 let at = stop;
-                self.faults.push(CorridorFault::MissingField { field: "junction", hint, at });
+                self.faults.push(CorridorFault::MissingField {
+                    field: "junction",
+                    hint: hint.into(),
+                    at,
+                });
             }
             return None;
         };
@@ -443,8 +480,16 @@ impl Reader {
         for (key, _) in table.iter().filter(|(key, _)| !known.contains(&key.get_ref().as_ref())) {
             let field = key.get_ref().to_string();
             let hint = match nearest_name(&field, known.iter().copied()) {
-                Some(near) => format!("может быть, «{near}»?"),
-                None => format!("здесь бывают: {}", known.join(", ")),
+                Some(near) => {
+                    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+                }
+                None => {
+                    let known = known.join(", ");
+                    Bilingual::new(
+                        format!("здесь бывают: {known}"),
+                        format!("here there may be: {known}"),
+                    )
+                }
             };
             self.faults.push(CorridorFault::UnknownField { field, hint, at: key.span().into() });
         }
@@ -456,9 +501,9 @@ impl Reader {
             return items.iter().collect();
         }
         let expected = if field == "corridor" {
-            "таблицы [[corridor]]"
+            ("таблицы [[corridor]]", "tables [[corridor]]")
         } else {
-            "список [ … ]"
+            ("список [ … ]", "a list [ … ]")
         };
         self.wrong(field, expected, value);
         Vec::new()
@@ -472,7 +517,11 @@ impl Reader {
                 Some(text.trim().to_owned())
             }
             _ => {
-                self.wrong(field, "непустая строка в кавычках", value);
+                self.wrong(
+                    field,
+                    ("непустая строка в кавычках", "a text in quotation marks, not empty"),
+                    value,
+                );
                 None
             }
         }
@@ -481,7 +530,7 @@ impl Reader {
     fn integer(&mut self, field: &str, value: Value<'_, '_>) -> Option<i64> {
         let found = integer(value.get_ref());
         if found.is_none() {
-            self.wrong(field, "целое число", value);
+            self.wrong(field, ("целое число", "an integer"), value);
         }
         found
     }
@@ -494,15 +543,18 @@ impl Reader {
         if found.is_none() {
             let all: Vec<&str> =
                 words.iter().flat_map(|(spellings, _)| *spellings).copied().collect();
-            self.wrong(field, &format!("одно из слов: {}", all.join(", ")), value);
+            let all = all.join(", ");
+            let expected =
+                Bilingual::new(format!("одно из слов: {all}"), format!("one of the words: {all}"));
+            self.wrong(field, expected, value);
         }
         found
     }
 
-    fn wrong(&mut self, field: &str, expected: &str, value: Value<'_, '_>) {
+    fn wrong(&mut self, field: &str, expected: impl Into<Bilingual>, value: Value<'_, '_>) {
         self.faults.push(CorridorFault::WrongValue {
             field: field.to_owned(),
-            expected: expected.to_owned(),
+            expected: expected.into(),
             at: span(value),
         });
     }

@@ -29,6 +29,7 @@ mod arms;
 mod command;
 mod directions;
 mod double;
+mod english;
 mod error;
 mod fault;
 mod figure;

@@ -8,6 +8,7 @@ use resvg::usvg::{Options, Tree, fontdb::Database};
 use thiserror::Error;
 
 use super::font;
+use crate::units::InEnglish;
 
 /// A drawing that cannot become a picture.
 #[derive(Debug, Error, Diagnostic)]
@@ -21,6 +22,25 @@ pub enum PngError {
     #[error("картинка {width}×{height} точек не помещается в память")]
     #[diagnostic(code(draw::size), help("уменьшите ширину: --width 2000"))]
     Size { width: u32, height: u32 },
+}
+
+impl InEnglish for PngError {
+    fn english(&self) -> String {
+        match self {
+            Self::Svg { message } => format!("the drawing cannot be read as SVG: {message}"),
+            Self::Size { width, height } => {
+                format!("a picture of {width}×{height} points does not fit into memory")
+            }
+        }
+    }
+
+    fn english_help(&self) -> Option<String> {
+        let help = match self {
+            Self::Svg { .. } => "give an SVG that this program made",
+            Self::Size { .. } => "take a smaller width: --width 2000",
+        };
+        Some(help.to_owned())
+    }
 }
 
 /// More than a wall poster needs.

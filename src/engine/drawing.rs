@@ -7,7 +7,9 @@ use crate::draw::{
 use crate::geometry::{Bounds, FloorPlan, Opening, PlacedZone, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
-use crate::units::{AreaId, Language, MapId, PlaceId, Point, Pose, Vector, nearest_name};
+use crate::units::{
+    AreaId, Language, MapId, PlaceId, Point, Pose, Vector, bilingual, nearest_name,
+};
 
 use super::{Error, RequestError, State};
 
@@ -152,7 +154,8 @@ impl State {
             Ok(Entity::Replica(id)) => Ok(&world.objects[&world.replicas[&id].object]),
             Ok(_) => {
                 let names = world.objects.values().map(|o| o.name.as_str());
-                let help = nearest_name(name, names).map(|near| format!("может быть, «{near}»?"));
+                let help = nearest_name(name, names)
+                    .map(|near| bilingual!("может быть, «{near}»?", "perhaps “{near}”?"));
                 Err(RequestError::UnknownName { name: name.to_owned(), help }.into())
             }
             Err(error) => Err(error),

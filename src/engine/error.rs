@@ -9,13 +9,13 @@ use crate::facts::{AskError, FilesError};
 use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
-use crate::map::{EnglishMapErrors, MapErrors, World};
+use crate::map::{MapErrors, World};
 use crate::meaning::LangFaults;
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::{EnglishFaults, RuleFaults};
-use crate::units::{capitalized, is_input};
+use crate::units::{Bilingual, English, capitalized, is_input};
 use crate::vectors::picture::PictureError;
 use crate::vectors::read::LogError;
 
@@ -182,7 +182,7 @@ pub enum RequestError {
     UnknownName {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
     },
 
     /// A name that several things bear, or that could be read in several ways.
@@ -196,7 +196,7 @@ pub enum RequestError {
     UnknownRelation {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
     },
 
     /// A thing is not where an order says that it is.
@@ -225,7 +225,7 @@ pub enum RequestError {
     /// Coordinates that are none.
     #[error("«{text}» – не поза: {reason}")]
     #[diagnostic(code(engine::bad_pose), help("напишите X,Y или X,Y,КУРС, например 250,380,90"))]
-    BadPose { text: String, reason: String },
+    BadPose { text: String, reason: Bilingual },
 
     /// A text that is no report of a position.
     #[error("«{text}» не читается как доклад о положении, начиная с «{word}»")]
@@ -238,7 +238,7 @@ pub enum RequestError {
     /// A report of a position that the map does not bear out.
     #[error("такого места на карте нет: {reason}")]
     #[diagnostic(code(engine::no_such_place), help("слова понятны: сверьте имена с картой"))]
-    NoSuchPlace { reason: String },
+    NoSuchPlace { reason: Bilingual },
 
     /// Which of several maps is meant.
     #[error("в домейне несколько карт: {candidates}")]
@@ -431,36 +431,40 @@ pub enum RequestError {
     #[diagnostic(code(engine::file), help("проверьте путь и права доступа"))]
     File {
         path: String,
-        reason: String,
+        reason: Bilingual,
         /// What was named is at fault, not the disk.
         is_input: bool,
     },
 }
 
 impl Error {
-    /// The fault in English; None for the many whose texts are Russian only. What a task in English may meet has one.
+    /// The fault as English tells it, with its places and remedies.
     #[must_use]
-    pub fn english(&self) -> Option<String> {
+    pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
         match self {
-            Self::Misheard(misheard) => Some(misheard.say(Language::English)),
-            Self::Request(request) => request.english(&str::to_owned),
-            Self::Vehicle(failure) => Some(failure.say(Language::English)),
-            _ => None,
-        }
-    }
-
-    /// Faults of a map, a rule file or a plan as English tells them, each with its place and remedy.
-    #[must_use]
-    pub fn in_english(&self) -> Option<Box<dyn Diagnostic + '_>> {
-        let of_map = |faults| Some(Box::new(EnglishMapErrors::from(faults)) as Box<dyn Diagnostic>);
-        match self {
-            Self::Rules(faults) => Some(Box::new(EnglishFaults::from(faults))),
-            Self::Map(faults) => of_map(faults),
+            Self::Map(faults) => Box::new(faults.in_english()),
             Self::Import(error) => match error.as_ref() {
-                ImportError::Map(faults) => of_map(faults),
-                _ => None,
+                ImportError::Map(faults) => Box::new(faults.in_english()),
+                error => Box::new(English(error)),
             },
-            _ => None,
+            Self::Rules(faults) => Box::new(EnglishFaults::from(faults)),
+            Self::Relations(error) => error.in_english(),
+            Self::Language(faults) => Box::new(faults.in_english()),
+            Self::Store(error) => Box::new(English(error)),
+            Self::Misheard(error) => Box::new(English(error)),
+            Self::Corridor(error) => Box::new(English(error)),
+            Self::CorridorFile(error) => Box::new(error.in_english()),
+            Self::Datalog(error) => error.in_english(),
+            Self::Query(error) => error.in_english(),
+            Self::Log(error) => Box::new(error.in_english()),
+            Self::Picture(error) => Box::new(English(error)),
+            #[cfg(feature = "pictures")]
+            Self::Png(error) => Box::new(English(error)),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(error) => Box::new(English(error)),
+            Self::Vehicle(error) => Box::new(English(error.as_ref())),
+            Self::Mission(error) => error.in_english(),
+            Self::Request(error) => Box::new(English(error)),
         }
     }
 
@@ -471,13 +475,12 @@ impl Error {
             Some(entity) => named(world, *entity).english(),
             None => name.to_owned(),
         };
-        let english = match (language, self) {
-            (Language::Russian, Self::Misheard(misheard)) => Some(misheard.say(language)),
-            (Language::Russian, _) => None,
-            (Language::English, Self::Request(request)) => request.english(&called),
-            (Language::English, _) => self.english(),
-        };
-        english.unwrap_or_else(|| capitalized(&self.to_string()))
+        match (language, self) {
+            (_, Self::Misheard(misheard)) => misheard.say(language),
+            (Language::Russian, _) => capitalized(&self.to_string()),
+            (Language::English, Self::Request(request)) => sentence(&request.told(&called)),
+            (Language::English, _) => sentence(&self.in_english().to_string()),
+        }
     }
 
     /// The input is at fault, not the program or the disk.
@@ -512,74 +515,7 @@ impl Error {
     }
 }
 
-impl RequestError {
-    /// `called` gives the English name of what the map calls so.
-    fn english(&self, called: &dyn Fn(&str) -> String) -> Option<String> {
-        Some(match self {
-            Self::NotPutThere { name } => format!(
-                "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
-                called(name)
-            ),
-            Self::NotThere { thing, place } => {
-                format!("{} is not where you say: {}.", capitalized(&called(thing)), called(place))
-            }
-            Self::NoCharger => "The map has no place to charge.".to_owned(),
-            Self::NoStart => "The map does not tell where the robot belongs.".to_owned(),
-            Self::NoLift => "There is no lift on this floor.".to_owned(),
-            Self::NotPortable { name } => format!("The robot does not carry {}.", called(name)),
-            Self::NotHollow { name } => {
-                format!("Nothing can be put into {}: it has no inside.", called(name))
-            }
-            Self::Shut { name } => {
-                let name = capitalized(&called(name));
-                format!("{name} is shut, and the robot does not open doors of furniture.")
-            }
-            Self::ShutIn { thing, container } => format!(
-                "{} is in {}, which is shut, and the robot does not open doors of furniture.",
-                capitalized(&called(thing)),
-                called(container)
-            ),
-            Self::NoSpace { thing, area } => {
-                let (thing, area) = (called(thing), called(area));
-                format!("In {area} there is nothing that {thing} could be put on.")
-            }
-            Self::NotADoor { name } => format!(
-                "{} is no door between rooms, and the robot opens and shuts no others.",
-                capitalized(&called(name))
-            ),
-            Self::LeadsOutside { name } => format!(
-                "{} leads outside, and the robot uses only doors between rooms.",
-                capitalized(&called(name))
-            ),
-            Self::NotCleaned { name } => format!(
-                "The robot tidies up, and does not wash or wipe: {} stays as it is.",
-                called(name)
-            ),
-            Self::NotADevice { name } => {
-                format!("{} can be switched neither on nor off.", capitalized(&called(name)))
-            }
-            Self::NoFloorThere { name } => {
-                format!("There is no floor for the robot on that side of {}.", called(name))
-            }
-            Self::NotAPlace { name } => format!("The robot cannot stand at {}.", called(name)),
-            Self::Homeless { thing } => format!("It is not known where {} belongs.", called(thing)),
-            Self::NoHome { thing, home } => {
-                format!(
-                    "{} is kept on \"{home}\", and the map has no such thing.",
-                    capitalized(&called(thing))
-                )
-            }
-            Self::RulesThere { files } => format!(
-                "There are rule files already: {files}. Name another directory, or overwrite them: --force."
-            ),
-            Self::TruthOnRobot { thing } => format!(
-                "In truth {} is where the robot stands; move it in the file of --truth, or the robot: --from PLACE.",
-                called(thing)
-            ),
-            Self::RobotNowhere => {
-                "It is not known where the robot is; tell it: ortho do … --from PLACE.".to_owned()
-            }
-            _ => return None,
-        })
-    }
+fn sentence(told: &str) -> String {
+    let stop = if told.ends_with(['.', '?', '!']) { "" } else { "." };
+    format!("{}{stop}", capitalized(told))
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::store::{
     Change, Difference, Forgotten, ImportReport, Revision, Store, StoreError, Timestamp,
 };
+use crate::units::Bilingual;
 
 use super::edit::Spares;
 use super::{Engine, Error, State};
@@ -17,15 +18,20 @@ pub enum When {
 }
 
 impl std::str::FromStr for When {
-    type Err = String;
+    type Err = Bilingual;
 
     /// `17`, `2026-11-21`, `2026-11-21T09:30:00Z`.
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Bilingual> {
         if let Ok(number) = text.parse() {
             return Ok(Self::Revision(number));
         }
         let moment = text.parse::<Timestamp>().map(Self::Moment);
-        moment.map_err(|e| format!("«{text}» – не номер правки и не время; {e}"))
+        moment.map_err(|e| {
+            Bilingual::new(
+                format!("«{text}» – не номер правки и не время; {e}"),
+                format!("“{text}” is neither the number of a revision nor a time, such as 2026-11-21T09:30:00.000Z"),
+            )
+        })
     }
 }
 
@@ -139,7 +145,11 @@ impl Engine {
 
 pub(super) fn in_memory() -> StoreError {
     StoreError::ReadOnly {
-        reason: "карта держится в памяти, без хранилища".to_owned(),
+        reason: (
+            "карта держится в памяти, без хранилища",
+            "the map is held in memory, without a store",
+        )
+            .into(),
         by_choice: true,
     }
 }

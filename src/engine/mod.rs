@@ -38,6 +38,7 @@ mod doubtful;
 mod doubts;
 mod drawing;
 mod edit;
+mod english;
 mod error;
 mod events;
 mod export;

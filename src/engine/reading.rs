@@ -44,14 +44,19 @@ impl State {
             RequestError::NoReport { text: shown(text), word: shown(&text[unread.at]) }
         })?;
         if said.is_off_the_map() {
-            let reason = "сказано, что робот вне карты".to_owned();
+            let reason =
+                ("сказано, что робот вне карты", "it is said that the robot is off the map").into();
             return Err(RequestError::NoSuchPlace { reason }.into());
         }
         let mut regions = regions(self.relations()?, &said)?;
         match (regions.pop(), regions.is_empty()) {
             (Some(only), true) => Ok(only),
             (None, _) => {
-                let reason = "помещения, двери и вещи доклада не стоят так".to_owned();
+                let reason = (
+                    "помещения, двери и вещи доклада не стоят так",
+                    "the rooms, doors and things of the report do not stand so",
+                )
+                    .into();
                 Err(RequestError::NoSuchPlace { reason }.into())
             }
             (Some(last), false) => {
@@ -228,7 +233,11 @@ fn claims(
             return Ok(things.map(claim).collect());
         }
         Some(SaidSpot::Object(..)) => {
-            let reason = "стороны вещи не измерены как области; бывает «рядом с …»".to_owned();
+            let reason = (
+                "стороны вещи не измерены как области; бывает «рядом с …»",
+                "the sides of a thing are not measured as regions; there is “next to …”",
+            )
+                .into();
             return Err(RequestError::NoSuchPlace { reason }.into());
         }
         Some(SaidSpot::InCorner(_)) => Claim::InCorner,

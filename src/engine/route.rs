@@ -2,7 +2,7 @@
 
 use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route, Target};
 use crate::map::Entity;
-use crate::units::{AreaId, Deg, MapId, Point, Pose};
+use crate::units::{AreaId, Bilingual, Deg, MapId, Point, Pose, bilingual};
 
 use super::{Error, RequestError, State};
 
@@ -131,22 +131,26 @@ fn is_pair(text: &str) -> bool {
 /// # Errors
 /// [`RequestError::BadPose`].
 pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
-    let bad =
-        |reason: &str| RequestError::BadPose { text: text.to_owned(), reason: reason.to_owned() };
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f64>())
-        .collect::<Result<_, _>>()
-        .map_err(|e| bad(&format!("нужны числа через запятую ({e})")))?;
+    let bad = |reason: Bilingual| RequestError::BadPose { text: text.to_owned(), reason };
+    let numbers: Vec<f64> =
+        text.split(',').map(|part| part.trim().parse::<f64>()).collect::<Result<_, _>>().map_err(
+            |e| {
+                bad(bilingual!(
+                    "нужны числа через запятую ({e})",
+                    "numbers divided by commas are needed ({e})"
+                ))
+            },
+        )?;
     let (x, y, heading) = match numbers[..] {
         [x, y] => (x, y, 0.0),
         [x, y, heading] => (x, y, heading),
-        _ => return Err(bad("нужны два или три числа")),
+        _ => {
+            return Err(bad(("нужны два или три числа", "two or three numbers are needed").into()));
+        }
     };
-    let length =
-        |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(&e.to_string()));
+    let length = |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(e.into()));
     Ok(Pose {
         at: Point::new(length(x)?, length(y)?),
-        heading: Deg::new(heading).map_err(|e| bad(&e.to_string()))?,
+        heading: Deg::new(heading).map_err(|e| bad(e.into()))?,
     })
 }

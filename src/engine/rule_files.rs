@@ -54,7 +54,7 @@ pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> 
     }
     let refused = |path: &Path, error: &std::io::Error| RequestError::File {
         path: path.display().to_string(),
-        reason: error.to_string(),
+        reason: error.to_string().into(),
         is_input: is_input(error.kind()),
     };
     let mut written = Vec::new();

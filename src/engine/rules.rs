@@ -71,7 +71,7 @@ impl Rules {
 fn read_source(path: &Path) -> Result<Source, RequestError> {
     Source::read(path).map_err(|fault| RequestError::File {
         path: path.display().to_string(),
-        reason: fault.to_string(),
+        reason: (&fault).into(),
         is_input: true,
     })
 }
@@ -108,7 +108,7 @@ fn read_grammar(base: Option<PathBuf>, beside: Vec<(String, Source)>) -> Result<
 fn unreadable(path: &Path, error: &std::io::Error) -> RequestError {
     RequestError::File {
         path: path.display().to_string(),
-        reason: error.to_string(),
+        reason: error.to_string().into(),
         is_input: crate::units::is_input(error.kind()),
     }
 }

@@ -90,8 +90,8 @@ impl Sighted {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         let wrong = |fault: FileFault| {
-            let error = fault.into_io();
-            let (reason, is_input) = (error.to_string(), is_input(error.kind()));
+            let reason = (&fault).into();
+            let is_input = is_input(fault.into_io().kind());
             RequestError::File { path: name.clone(), reason, is_input }
         };
         let bytes = read_file(path, LONGEST).map_err(&wrong)?;

@@ -12,7 +12,7 @@ use crate::language::FormIndex;
 use crate::map::{Entity, World, Zone};
 use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
-use crate::units::{AreaId, MapId, Pose, ReplicaId, Timestamp, nearest_name};
+use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId, Timestamp, bilingual, nearest_name};
 
 use super::changes::Changes;
 use super::known::Known;
@@ -357,21 +357,24 @@ impl State {
 const NEAR_MISSES: usize = 3;
 
 /// «может быть, «Точка-А» или «Точка-К»?»
-fn offer(names: &[String]) -> Option<String> {
-    let quoted: Vec<String> = names.iter().map(|name| format!("«{name}»")).collect();
-    let names = "имена: ortho relations --name СОДЕРЖИТ";
-    Some(if quoted.is_empty() {
-        names.to_owned()
-    } else {
-        format!("может быть, {}?", quoted.join(" или "))
-    })
+fn offer(names: &[String]) -> Option<Bilingual> {
+    if names.is_empty() {
+        let known = "имена: ortho relations --name СОДЕРЖИТ";
+        return Some((known, "names: ortho relations --name CONTAINS").into());
+    }
+    Some(Bilingual::both(|language| {
+        let quoted = names.iter().map(|name| Bilingual::quoted(name).say(language).to_owned());
+        let quoted: Vec<String> = quoted.collect();
+        let (perhaps, or) = language.pick(("может быть,", " или "), ("perhaps", " or "));
+        format!("{perhaps} {}?", quoted.join(or))
+    }))
 }
 
 fn unknown_name<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> RequestError {
     let names: Vec<&str> = names.collect();
     let help = match nearest_name(name, names.iter().copied()) {
-        Some(near) => format!("может быть, «{near}»?"),
-        None => format!("есть имена: {}", names.join(", ")),
+        Some(near) => bilingual!("может быть, «{near}»?", "perhaps “{near}”?"),
+        None => bilingual!("есть имена: {}", "there are names: {}", names.join(", ")),
     };
     let help = Some(help);
     RequestError::UnknownName { name: name.to_owned(), help }

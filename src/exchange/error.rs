@@ -3,7 +3,7 @@
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// A foreign file that cannot be read. What can be mended or left out is no error but a [`Remark`](super::Remark).
 #[derive(Debug, Error, Diagnostic)]
@@ -12,7 +12,7 @@ pub enum ReadError {
     /// The file system refused.
     #[error("«{path}» не читается: {reason}")]
     #[diagnostic(code(exchange::unreadable), help("проверьте путь и права доступа"))]
-    Unreadable { path: String, reason: String },
+    Unreadable { path: String, reason: Bilingual },
 
     /// More bytes than any building takes.
     #[error("файл занимает {bytes} байт, предел – {limit}")]
@@ -40,7 +40,7 @@ pub enum ReadError {
     #[diagnostic(code(exchange::syntax), help("исправьте файл в указанном месте"))]
     Syntax {
         format: &'static str,
-        what: String,
+        what: Bilingual,
         #[source_code]
         text: Source,
         #[label("здесь")]
@@ -53,12 +53,12 @@ pub enum ReadError {
         code(exchange::bytes),
         help("сохраните файл заново той программой, что его создала")
     )]
-    Bytes { format: &'static str, what: String, at: usize },
+    Bytes { format: &'static str, what: Bilingual, at: usize },
 
     /// More parts than any building has.
     #[error("{format}: {what} больше {limit}")]
     #[diagnostic(code(exchange::too_many), help("разделите здание на несколько файлов"))]
-    TooMany { format: &'static str, what: &'static str, limit: usize },
+    TooMany { format: &'static str, what: Bilingual, limit: usize },
 
     /// Things whose sizes stand in a second file, which is not there or is of other things.
     #[error("{format}: размеров нет ни у одной вещи из {count}: {what}")]
@@ -66,7 +66,7 @@ pub enum ReadError {
         code(exchange::no_sizes),
         help("положите asset-database.json рядом с файлом дома или назовите её: --assets ФАЙЛ")
     )]
-    NoSizes { format: &'static str, what: &'static str, count: usize },
+    NoSizes { format: &'static str, what: Bilingual, count: usize },
 
     /// It reads well, but there is no building in it.
     #[error("{format}: {what}")]
@@ -74,13 +74,18 @@ pub enum ReadError {
         code(exchange::no_building),
         help("нужен файл, в котором есть хотя бы одно помещение")
     )]
-    NoBuilding { format: &'static str, what: String },
+    NoBuilding { format: &'static str, what: Bilingual },
 }
 
 impl ReadError {
     /// [`ReadError::Syntax`] at a byte of a text.
     #[must_use]
-    pub fn syntax(format: &'static str, what: impl Into<String>, text: &Source, at: usize) -> Self {
+    pub fn syntax(
+        format: &'static str,
+        what: impl Into<Bilingual>,
+        text: &Source,
+        at: usize,
+    ) -> Self {
         let mut at = at.min(text.text().len());
         while !text.text().is_char_boundary(at) {
             at -= 1;
@@ -92,6 +97,6 @@ impl ReadError {
     /// [`ReadError::Unreadable`] of what the file system said.
     pub fn unreadable(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self + use<> {
         let path = path.display().to_string();
-        move |e| Self::Unreadable { path, reason: e.to_string() }
+        move |e| Self::Unreadable { path, reason: e.to_string().into() }
     }
 }

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::{ReadError, Report};
 use crate::map::MapErrors;
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// A foreign file of which nothing can be made. What can be mended or left out is in the [`Report`] instead.
 #[derive(Debug, Error, Diagnostic)]
@@ -18,7 +18,7 @@ pub enum ImportError {
     /// More of something than any building needs.
     #[error("{what}: {count} при пределе {limit}")]
     #[diagnostic(code(import::limit), help("разделите здание на несколько файлов"))]
-    Limit { what: &'static str, count: usize, limit: usize },
+    Limit { what: Bilingual, count: usize, limit: usize },
     /// None of the formats.
     #[error("формат файла «{path}» не распознан")]
     #[diagnostic(
@@ -29,7 +29,7 @@ pub enum ImportError {
     /// The notation is sound, but this is no building.
     #[error("{format}: {message}")]
     #[diagnostic(code(import::content), help("{help}"))]
-    Content { format: &'static str, message: String, help: String },
+    Content { format: &'static str, message: Bilingual, help: Bilingual },
     /// A second file is needed.
     #[error("не найден файл размеров: {wanted}")]
     #[diagnostic(code(import::no_assets), help("назовите его: --assets ФАЙЛ"))]
@@ -38,7 +38,7 @@ pub enum ImportError {
     #[error("таблица синонимов: {message}")]
     #[diagnostic(code(import::synonyms), help("образец - rules/import-synonyms.toml"))]
     Synonyms {
-        message: String,
+        message: Bilingual,
         #[source_code]
         text: Source,
         #[label("здесь")]
@@ -72,8 +72,8 @@ impl ImportError {
     #[must_use]
     pub fn content(
         format: &'static str,
-        message: impl Into<String>,
-        help: impl Into<String>,
+        message: impl Into<Bilingual>,
+        help: impl Into<Bilingual>,
     ) -> Self {
         Self::Content { format, message: message.into(), help: help.into() }
     }

@@ -19,6 +19,7 @@ use orthoframe_store as store;
 use orthoframe_units as units;
 
 mod assemble;
+mod english;
 mod error;
 mod export;
 mod fault;

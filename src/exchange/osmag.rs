@@ -17,7 +17,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use crate::geometry::convex_hull;
 use crate::map::Properties;
 use crate::map::plane::{bounds, doubled_area};
-use crate::units::{Cm, Point, Source, Vector};
+use crate::units::{Bilingual, Cm, Point, Source, Vector, bilingual};
 
 use super::assemble::ring::{self, LEAST_AREA, Ring};
 use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey, zero_of};
@@ -58,13 +58,22 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
         let rest = source.text().get(start..).unwrap_or_default();
         let within: usize =
             rest.chars().take((pos.col as usize).saturating_sub(1)).map(char::len_utf8).sum();
-        ReadError::syntax(FORMAT, format!("это не XML: {e}"), source, start + within)
+        ReadError::syntax(
+            FORMAT,
+            bilingual!("это не XML: {e}", "this is no XML: {e}"),
+            source,
+            start + within,
+        )
     })?;
     let mut reader = Reader { ways: ways(document.root_element()), ..Reader::default() };
     reader.nodes(document.root_element());
     reader.areas();
     if reader.areas.is_empty() {
-        let what = "нет ни одного пути с osmAG:type=area или indoor=room".to_owned();
+        let what = (
+            "нет ни одного пути с osmAG:type=area или indoor=room",
+            "there is no way with osmAG:type=area or indoor=room",
+        )
+            .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     reader.thin_areas();
@@ -119,7 +128,7 @@ fn ways<'x>(root: Node<'x, '_>) -> Vec<Way<'x>> {
 }
 
 impl<'x> Reader<'x> {
-    fn remark(&mut self, source: &str, text: impl Into<String>) {
+    fn remark(&mut self, source: &str, text: impl Into<Bilingual>) {
         self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
     }
 
@@ -137,7 +146,13 @@ impl<'x> Reader<'x> {
                         || tags(node).get("name") == Some(&"root");
                     places.push((id, lat, lon, is_root));
                 }
-                _ => self.remark(id, "узел пропущен: негодные широта и долгота"),
+                _ => self.remark(
+                    id,
+                    (
+                        "узел пропущен: негодные широта и долгота",
+                        "a node is left out: bad latitude and longitude",
+                    ),
+                ),
             }
         }
         let Some(&(_, lat0, lon0, _)) = places.iter().find(|p| p.3).or(places.first()) else {
@@ -165,7 +180,13 @@ impl<'x> Reader<'x> {
         }
         if missing > 0 {
             let id = self.ways[way].id;
-            self.remark(id, format!("нет узлов контура: {missing}"));
+            self.remark(
+                id,
+                bilingual!(
+                    "нет узлов контура: {missing}",
+                    "nodes of the outline are missing: {missing}"
+                ),
+            );
         }
         outline
     }
@@ -265,13 +286,24 @@ impl<'x> Reader<'x> {
                 .collect();
             let jambs = lines.remove(&area).unwrap_or_default();
             let (outline, text) = match enclosed(&line, &jambs, &others) {
-                Some(outline) => {
-                    (outline, "контура нет: взято то, что лежит между его проходами".to_owned())
-                }
+                Some(outline) => (
+                    outline,
+                    (
+                        "контура нет: взято то, что лежит между его проходами",
+                        "there is no outline: what lies between its passages is taken",
+                    )
+                        .into(),
+                ),
                 None => match strip(&line, &others) {
                     Some(outline) => {
                         let width = strip_width(&line).round();
-                        (outline, format!("контур – линия: взята полоса вдоль неё, {width} см"))
+                        (
+                            outline,
+                            bilingual!(
+                                "контур – линия: взята полоса вдоль неё, {width} см",
+                                "the outline is a line: a strip along it is taken, {width} cm"
+                            ),
+                        )
                     }
                     None => continue,
                 },
@@ -309,18 +341,25 @@ impl<'x> Reader<'x> {
             let Way { id, tags, .. } = &self.ways[way];
             let (id, tags) = (*id, tags.clone());
             let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
-                self.remark(id, "проход пропущен: нет узлов");
+                self.remark(
+                    id,
+                    ("проход пропущен: нет узлов", "the passage is left out: it has no nodes"),
+                );
                 continue;
             };
             let wanted = tags.get("level").map(|_| level(&tags));
             let mut ends = Vec::new();
             for key in ["osmAG:from", "osmAG:to"] {
                 match tags.get(key) {
-                    None => self.remark(id, format!("у прохода нет {key}")),
+                    None => self
+                        .remark(id, bilingual!("у прохода нет {key}", "the passage has no {key}")),
                     Some(&word) => match self.nearest(word, wanted, first) {
                         Some(found) => ends.push(found),
                         None => {
-                            let text = format!("проход ссылается на «{word}», чего в файле нет");
+                            let text = bilingual!(
+                                "проход ссылается на «{word}», чего в файле нет",
+                                "the passage refers to “{word}”, which the file does not have"
+                            );
                             self.remark(id, text);
                         }
                     },
@@ -346,7 +385,13 @@ impl<'x> Reader<'x> {
                 self.survey.levels.iter().position(|l| l.source == number.to_string())
             });
             let Some(at) = at.or_else(|| ends.first().map(|&e| self.areas[e].level)) else {
-                self.remark(id, "проход пропущен: этаж неизвестен");
+                self.remark(
+                    id,
+                    (
+                        "проход пропущен: этаж неизвестен",
+                        "the passage is left out: its storey is not known",
+                    ),
+                );
                 continue;
             };
             self.survey.levels[at].openings.push(Opening {

@@ -108,7 +108,7 @@ const READERS: &[Reader] = &[
     Reader {
         format: Format::Ros,
         key: "ros",
-        title: "карты ROS map_server",
+        title: "ROS map_server",
         recognises: |input| ros::recognises(input.text()),
         read: |input| ros::read(input.path),
     },
@@ -157,7 +157,7 @@ impl Input<'_> {
     pub(super) fn source(&self) -> Result<&Source, ReadError> {
         self.text.as_ref().ok_or_else(|| ReadError::Unreadable {
             path: self.path.display().to_string(),
-            reason: "это папка, а не файл".to_owned(),
+            reason: ("это папка, а не файл", "this is a folder, and no file").into(),
         })
     }
 

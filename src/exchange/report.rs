@@ -10,6 +10,8 @@ use miette::Diagnostic;
 use serde::Serialize;
 use thiserror::Error;
 
+use crate::units::{Bilingual, InEnglish, Language};
+
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -46,43 +48,43 @@ pub enum What {
 }
 
 impl What {
-    /// The plural genitive: «помещений 4».
+    /// How many of these are counted, in Russian in the plural genitive: «помещений 4», "rooms: 4".
     #[must_use]
-    pub fn counted(self) -> &'static str {
+    pub fn counted(self) -> (&'static str, &'static str) {
         match self {
-            Self::Building => "зданий",
-            Self::Level => "этажей",
-            Self::Room => "помещений",
-            Self::Door => "дверей",
-            Self::Passage => "проходов",
-            Self::Window => "окон",
-            Self::Lift => "лифтов и лестниц",
-            Self::Kind => "видов вещей",
-            Self::Thing => "вещей",
-            Self::Place => "точек",
-            Self::Wall => "стен",
-            Self::Lane => "полос движения",
-            Self::Relation => "связей",
-            Self::Record => "записей",
+            Self::Building => ("зданий", "buildings"),
+            Self::Level => ("этажей", "storeys"),
+            Self::Room => ("помещений", "rooms"),
+            Self::Door => ("дверей", "doors"),
+            Self::Passage => ("проходов", "passages"),
+            Self::Window => ("окон", "windows"),
+            Self::Lift => ("лифтов и лестниц", "lifts and stairs"),
+            Self::Kind => ("видов вещей", "kinds of things"),
+            Self::Thing => ("вещей", "things"),
+            Self::Place => ("точек", "places"),
+            Self::Wall => ("стен", "walls"),
+            Self::Lane => ("полос движения", "lanes"),
+            Self::Relation => ("связей", "relations"),
+            Self::Record => ("записей", "records"),
         }
     }
 
-    fn one(self) -> &'static str {
+    fn one(self) -> (&'static str, &'static str) {
         match self {
-            Self::Building => "здание",
-            Self::Level => "этаж",
-            Self::Room => "помещение",
-            Self::Door => "дверь",
-            Self::Passage => "проход",
-            Self::Window => "окно",
-            Self::Lift => "лифт",
-            Self::Kind => "вид вещей",
-            Self::Thing => "вещь",
-            Self::Place => "точка",
-            Self::Wall => "стена",
-            Self::Lane => "полоса движения",
-            Self::Relation => "связь",
-            Self::Record => "запись",
+            Self::Building => ("здание", "building"),
+            Self::Level => ("этаж", "storey"),
+            Self::Room => ("помещение", "room"),
+            Self::Door => ("дверь", "door"),
+            Self::Passage => ("проход", "passage"),
+            Self::Window => ("окно", "window"),
+            Self::Lift => ("лифт", "lift"),
+            Self::Kind => ("вид вещей", "kind of things"),
+            Self::Thing => ("вещь", "thing"),
+            Self::Place => ("точка", "place"),
+            Self::Wall => ("стена", "wall"),
+            Self::Lane => ("полоса движения", "lane"),
+            Self::Relation => ("связь", "relation"),
+            Self::Record => ("запись", "record"),
         }
     }
 }
@@ -162,7 +164,7 @@ pub enum Why {
     /// A value out of its range.
     #[error("{what}: негодное значение {value}")]
     #[diagnostic(code(import::bad_value))]
-    BadValue { what: &'static str, value: String },
+    BadValue { what: Bilingual, value: Bilingual },
     /// A field that should be there.
     #[error("нет поля «{field}»")]
     #[diagnostic(code(import::missing_field))]
@@ -225,7 +227,7 @@ pub enum Why {
     /// What a reader has to tell beyond these.
     #[error("{text}")]
     #[diagnostic(code(import::other))]
-    Other { text: String },
+    Other { text: Bilingual },
 }
 
 impl Why {
@@ -233,6 +235,15 @@ impl Why {
     #[must_use]
     pub fn code(&self) -> String {
         Diagnostic::code(self).map_or_else(String::new, |code| code.to_string())
+    }
+
+    /// The text in a language.
+    #[must_use]
+    pub fn say(&self, language: Language) -> String {
+        match language {
+            Language::Russian => self.to_string(),
+            Language::English => self.english(),
+        }
     }
 }
 
@@ -313,7 +324,7 @@ impl Report {
 
     /// The report as data: counts by sort, notes with stable codes.
     #[must_use]
-    pub fn to_json(&self) -> serde_json::Value {
+    pub fn to_json(&self, language: Language) -> serde_json::Value {
         let counts: Vec<_> = self
             .counts
             .iter()
@@ -330,7 +341,7 @@ impl Report {
                     "what": n.what,
                     "source": n.source,
                     "code": n.why.code(),
-                    "why": n.why.to_string(),
+                    "why": n.why.say(language),
                 })
             })
             .collect();
@@ -345,26 +356,39 @@ impl Report {
     }
 }
 
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Импорт «{}», формат {}.", self.file, self.format)?;
-        let counts: Vec<String> = self
-            .counts
-            .iter()
-            .map(|(what, c)| {
-                if c.found == c.taken {
-                    format!("{} {}", what.counted(), c.taken)
-                } else {
-                    format!("{} {} из {}", what.counted(), c.taken, c.found)
-                }
-            })
-            .collect();
+impl Report {
+    /// The report for a person.
+    #[must_use]
+    pub fn say(&self, language: Language) -> String {
+        let one = |what: What| language.pick(what.one().0, what.one().1);
+        let counted = |what: What, count: usize| {
+            let (russian, english) = what.counted();
+            match language {
+                Language::Russian => format!("{russian} {count}"),
+                Language::English => format!("{english}: {count}"),
+            }
+        };
+        let quoted = |text: &str| Bilingual::quoted(text).say(language).to_owned();
+        let (file, format) = (quoted(&self.file), &self.format);
+        let mut told = match language {
+            Language::Russian => format!("Импорт {file}, формат {format}."),
+            Language::English => format!("Import of {file}, format {format}."),
+        };
+        let of = language.pick("из", "of");
+        let count = |(what, c): (&What, &Count)| match c.found == c.taken {
+            true => counted(*what, c.taken),
+            false => format!("{} {of} {}", counted(*what, c.taken), c.found),
+        };
+        let counts: Vec<String> = self.counts.iter().map(count).collect();
         if !counts.is_empty() {
-            write!(f, "\nПрочитано: {}.", counts.join(", "))?;
+            let read = language.pick("Прочитано", "Read");
+            told.push_str(&format!("\n{read}: {}.", counts.join(", ")));
         }
-        for (deed, title) in
-            [(Deed::Mended, "Исправлено"), (Deed::Skipped, "Пропущено"), (Deed::Noted, "Замечено")]
-        {
+        for (deed, title) in [
+            (Deed::Mended, language.pick("Исправлено", "Mended")),
+            (Deed::Skipped, language.pick("Пропущено", "Left out")),
+            (Deed::Noted, language.pick("Замечено", "Noted")),
+        ] {
             let mut groups: BTreeMap<(String, What), Vec<&Note>> = BTreeMap::new();
             for note in self.notes.iter().filter(|n| n.deed == deed) {
                 groups.entry((note.why.code(), note.what)).or_default().push(note);
@@ -372,22 +396,33 @@ impl fmt::Display for Report {
             if groups.is_empty() {
                 continue;
             }
-            write!(f, "\n{title}: {}.", self.count(deed))?;
+            told.push_str(&format!("\n{title}: {}.", self.count(deed)));
+            let line =
+                |note: &Note| format!("{}: {}", quoted(&note.source), note.why.say(language));
             for ((code, what), notes) in groups {
                 if let [only] = notes[..] {
-                    write!(f, "\n  {} «{}»: {}", what.one(), only.source, only.why)?;
+                    told.push_str(&format!("\n  {} {}", one(what), line(only)));
                     continue;
                 }
-                write!(f, "\n  {}: {} ({code})", what.counted(), notes.len())?;
+                let (russian, english) = what.counted();
+                let of_these = language.pick(russian, english);
+                told.push_str(&format!("\n  {of_these}: {} ({code})", notes.len()));
                 for note in notes.iter().take(SHOWN) {
-                    write!(f, "\n    «{}»: {}", note.source, note.why)?;
+                    told.push_str(&format!("\n    {}", line(note)));
                 }
                 if notes.len() > SHOWN {
-                    write!(f, "\n    и ещё {}", notes.len() - SHOWN)?;
+                    let more = language.pick("и ещё", "and more:");
+                    told.push_str(&format!("\n    {more} {}", notes.len() - SHOWN));
                 }
             }
         }
-        Ok(())
+        told
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.say(Language::Russian))
     }
 }
 
@@ -413,7 +448,7 @@ mod tests {
                 «17»: рядом нет ни одного помещения
                 «18»: рядом нет ни одного помещения"#]]
         .assert_eq(&report.to_string());
-        assert_eq!(report.to_json()["notes"][0]["code"], "import::no_room");
+        assert_eq!(report.to_json(Language::Russian)["notes"][0]["code"], "import::no_room");
         assert!(!report.is_clean());
     }
 }

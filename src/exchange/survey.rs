@@ -10,7 +10,7 @@
 //! that two readings of one file give the same ids.
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, OpensTo, Permeability, Properties};
-use crate::units::{Cm, Deg, Point};
+use crate::units::{Bilingual, Cm, Deg, Point};
 
 use super::report::{Count, Deed, What};
 
@@ -43,8 +43,8 @@ pub struct Told {
     pub what: What,
     /// The file's id of the record, or the name of a whole class of records.
     pub source: String,
-    /// For the person who imports, in Russian.
-    pub text: String,
+    /// For the person who imports.
+    pub text: Bilingual,
     /// Records that the lists of the survey do not hold; none where they do.
     pub count: Count,
 }
@@ -78,8 +78,8 @@ impl Feet {
 pub struct Remark {
     /// The file's id of the record that it is about; empty when it is about the whole file.
     pub source: String,
-    /// For the person who imports, in Russian.
-    pub text: String,
+    /// For the person who imports.
+    pub text: Bilingual,
 }
 
 /// One storey: it becomes a Map.

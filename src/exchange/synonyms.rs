@@ -16,7 +16,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::map::Gender;
-use crate::units::{Cm, Source, name_key};
+use crate::units::{Bilingual, Cm, Source, bilingual, name_key};
 
 use super::ImportError;
 
@@ -171,13 +171,11 @@ impl Synonyms {
     }
 
     fn lay_over(&mut self, text: &Source) -> Result<(), ImportError> {
-        let fault = |message: String, at: Option<std::ops::Range<usize>>| ImportError::Synonyms {
-            message,
-            text: text.clone(),
-            at: at.map(Into::into),
+        let fault = |message: Bilingual, at: Option<std::ops::Range<usize>>| {
+            ImportError::Synonyms { message, text: text.clone(), at: at.map(Into::into) }
         };
-        let file: TableFile =
-            toml::from_str(text.text()).map_err(|e| fault(e.message().to_owned(), e.span()))?;
+        let file: TableFile = toml::from_str(text.text())
+            .map_err(|e| fault(e.message().to_owned().into(), e.span()))?;
         for (vocabulary, records) in [
             (Vocabulary::Area, file.area),
             (Vocabulary::Object, file.object),
@@ -189,10 +187,13 @@ impl Synonyms {
             let list = self.lists.entry(vocabulary).or_default();
             for record in records {
                 if record.name.trim().is_empty() {
-                    return Err(fault("пустое имя (name)".to_owned(), None));
+                    return Err(fault(("пустое имя (name)", "empty name").into(), None));
                 }
                 if !is_good_size(record.size) {
-                    return Err(fault(format!("«{}»: негодные размеры (size)", record.name), None));
+                    return Err(fault(
+                        bilingual!("«{}»: негодные размеры (size)", "“{}”: bad size", record.name),
+                        None,
+                    ));
                 }
                 list.add(record);
             }
@@ -201,17 +202,36 @@ impl Synonyms {
         let objects = self.lists.entry(Vocabulary::Object).or_default();
         for model in file.model {
             let Some(&meaning) = objects.by_name.get(&name_key(&model.object)) else {
-                return Err(fault(format!("«{}»: нет типа «{}»", model.word, model.object), None));
+                return Err(fault(
+                    bilingual!(
+                        "«{}»: нет типа «{}»",
+                        "“{}”: there is no type “{}”",
+                        model.word,
+                        model.object
+                    ),
+                    None,
+                ));
             };
             if !is_good_size(model.size) {
-                return Err(fault(format!("«{}»: негодные размеры (size)", model.word), None));
+                return Err(fault(
+                    bilingual!("«{}»: негодные размеры (size)", "“{}”: bad size", model.word),
+                    None,
+                ));
             }
             objects.add_phrase(&model.word, meaning, model.size);
         }
         let areas = self.lists.entry(Vocabulary::Area).or_default();
         for code in file.code {
             if !areas.by_name.contains_key(&name_key(&code.area)) {
-                return Err(fault(format!("«{}»: нет типа «{}»", code.word, code.area), None));
+                return Err(fault(
+                    bilingual!(
+                        "«{}»: нет типа «{}»",
+                        "“{}”: there is no type “{}”",
+                        code.word,
+                        code.area
+                    ),
+                    None,
+                ));
             }
             self.codes.push(code);
         }

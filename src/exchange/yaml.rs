@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 use super::ReadError;
 
@@ -12,7 +12,11 @@ use super::ReadError;
 ///
 /// # Errors
 /// [`ReadError::Syntax`], also where the text goes beyond the limits.
-pub(super) fn parse(source: &Source, format: &'static str, what: &str) -> Result<Value, ReadError> {
+pub(super) fn parse(
+    source: &Source,
+    format: &'static str,
+    what: (&str, &str),
+) -> Result<Value, ReadError> {
     let options = serde_saphyr::options! {
         strict_booleans: true,
         budget: serde_saphyr::budget! {
@@ -32,6 +36,14 @@ pub(super) fn parse(source: &Source, format: &'static str, what: &str) -> Result
                 lines.take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
             before + (at.column() as usize).saturating_sub(1)
         });
-        ReadError::syntax(format, format!("это не YAML {what}: {e}"), source, at)
+        ReadError::syntax(
+            format,
+            Bilingual::new(
+                format!("это не YAML {}: {e}", what.0),
+                format!("this is no YAML {}: {e}", what.1),
+            ),
+            source,
+            at,
+        )
     })
 }

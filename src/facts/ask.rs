@@ -38,7 +38,7 @@ use super::question::Question;
 use super::rows::heap;
 use super::stored::Stored;
 use super::word::{Value, Word, Words};
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// Why a question has no answers.
 #[derive(Debug, Clone, Error, Diagnostic)]
@@ -58,7 +58,7 @@ pub enum AskError {
         code(facts::not_known),
         help("свяжите эти столбцы другими посылками или назовите их значения")
     )]
-    Blocked { relation: String, needs: String, place: String },
+    Blocked { relation: String, needs: Bilingual, place: String },
     /// Rules that need rules that need rules …
     #[error("«{relation}» зависит от слишком длинной цепочки отношений")]
     #[diagnostic(code(facts::too_deep), help("выведите часть цепочки заранее"))]

@@ -129,8 +129,14 @@ fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
         limits.on_demand |= name == "magic-transform";
         let Ok(number) = value.trim().parse::<u64>() else {
             if is_limit(name) {
-                let (expected, found) = ("целое число в кавычках".to_owned(), format!("«{value}»"));
-                faults.push(*at, RuleError::Syntax { expected, found, at: (*at).into() });
+                let (expected, found) = (
+                    ("целое число в кавычках", "an integer in quotation marks").into(),
+                    format!("«{value}»"),
+                );
+                faults.push(
+                    *at,
+                    RuleError::Syntax { expected, found: found.into(), at: (*at).into() },
+                );
             }
             continue;
         };

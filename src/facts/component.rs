@@ -12,7 +12,7 @@ use std::collections::{HashMap, HashSet};
 use super::fault::RuleError;
 use super::program::Found;
 use super::syntax::{Atom, Body, Branch, Component, Expr, Item, Name, Role, Rule, Span, Type};
-use crate::units::nearest_name;
+use crate::units::{bilingual, nearest_name};
 
 /// Components that make components: more is one that makes itself.
 const MAX_DEPTH: usize = 32;
@@ -106,9 +106,15 @@ impl Making<'_> {
                     self.faults.push(at, RuleError::Arity { name, expected, found, at: at.into() });
                 }
                 if returns(other, component, &scope, &mut Vec::new()) {
-                    let what =
-                        format!("компонент «{}» внутри самого себя", component.head.name.text);
-                    let help = "разорвите круг: компонент не наследует себя и не создаёт себя";
+                    let what = bilingual!(
+                        "компонент «{}» внутри самого себя",
+                        "the component “{}” within itself",
+                        component.head.name.text
+                    );
+                    let help = (
+                        "разорвите круг: компонент не наследует себя и не создаёт себя",
+                        "break the circle: a component neither inherits from itself nor makes itself",
+                    );
                     let at = of.name.at;
                     self.faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -141,7 +147,8 @@ impl Making<'_> {
         depth: usize,
     ) -> Vec<Item> {
         if depth > MAX_DEPTH || self.items > MAX_ITEMS {
-            let (what, limit) = ("компонентов друг в друге", MAX_DEPTH);
+            let (what, limit) =
+                (("компонентов друг в друге", "components within one another"), MAX_DEPTH);
             self.faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             return Vec::new();
         }
@@ -195,7 +202,8 @@ impl Making<'_> {
             return;
         };
         if depth > MAX_DEPTH {
-            let (what, limit) = ("компонентов друг в друге", MAX_DEPTH);
+            let (what, limit) =
+                (("компонентов друг в друге", "components within one another"), MAX_DEPTH);
             self.faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             return;
         }
@@ -256,13 +264,21 @@ impl Making<'_> {
         });
         if declared != Some(true) {
             let what = match declared {
-                None => format!(
+                None => bilingual!(
                     ".override {}: у наследуемых компонентов нет такого отношения",
+                    ".override {}: the components inherited from have no such relation",
                     name.text
                 ),
-                Some(_) => format!(".override {}: отношение не объявлено overridable", name.text),
+                Some(_) => bilingual!(
+                    ".override {}: отношение не объявлено overridable",
+                    ".override {}: the relation is not declared overridable",
+                    name.text
+                ),
             };
-            let help = "заменяют отношения наследуемых компонентов, объявленные overridable";
+            let help = (
+                "заменяют отношения наследуемых компонентов, объявленные overridable",
+                "relations of the components inherited from are replaced, where they are declared overridable",
+            );
             self.faults.push(name.at, RuleError::Unsupported { what, help, at: name.at.into() });
         }
     }

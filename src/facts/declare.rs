@@ -7,7 +7,7 @@ use super::program::{Column, Found, Kind, Names, RelationId, RelationInfo};
 use super::record::{self, Shape};
 use super::syntax::{Item, Name, Role, Span};
 use super::word::NO_WORD;
-use crate::units::nearest_name;
+use crate::units::{bilingual, nearest_name};
 
 /// Tuples are kept in rows of at most so many words.
 pub(super) const MAX_COLUMNS: usize = 32;
@@ -212,7 +212,8 @@ fn declare_fields(items: &[Item], declared: &mut Declared, faults: &mut Found) {
             let types: Vec<usize> =
                 types.map(|(_, field)| type_named(field, declared, faults).unwrap_or(0)).collect();
             if types.len() >= MAX_COLUMNS {
-                let (what, limit, at) = ("полей записи", MAX_COLUMNS, branch.name.at);
+                let (what, limit, at) =
+                    (("полей записи", "fields of a record"), MAX_COLUMNS, branch.name.at);
                 faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             }
             let is_new =
@@ -236,8 +237,13 @@ fn choose(name: &Name, domains: &[Vec<Name>], declared: &mut Declared, faults: &
             match info.columns.iter().position(|known| known.name == column.text) {
                 Some(at) => columns.push(at),
                 None => {
-                    let what = format!("choice-domain «{}» без такого столбца", column.text);
-                    let help = "назовите столбцы этого отношения";
+                    let what = bilingual!(
+                        "choice-domain «{}» без такого столбца",
+                        "choice-domain “{}” without such a column",
+                        column.text
+                    );
+                    let help =
+                        ("назовите столбцы этого отношения", "name columns of this relation");
                     let at = column.at;
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -308,9 +314,16 @@ fn declare_type(
     let kind = declared.types[first].kind;
     let is_closed = matches!(kind, Kind::Record(_)) || declared.types[first].parts.len() > 1;
     if !is_union && is_closed {
-        let what = format!("подтип «{}» записи или объединения «{}»", name.text, bases[0].text);
-        let help =
-            "подтип бывает у symbol, number, unsigned, float и их подтипов; второе имя даёт «=»";
+        let what = bilingual!(
+            "подтип «{}» записи или объединения «{}»",
+            "a subtype “{}” of the record or union “{}”",
+            name.text,
+            bases[0].text
+        );
+        let help = (
+            "подтип бывает у symbol, number, unsigned, float и их подтипов; второе имя даёт «=»",
+            "symbol, number, unsigned, float and their subtypes have subtypes; “=” gives a second name",
+        );
         faults.push(name.at, RuleError::Misuse { what, help, at: name.at.into() });
     }
     let parts = if is_union { known.clone() } else { Vec::new() };
@@ -326,7 +339,7 @@ fn declare_type(
                 let fault = RuleError::Types {
                     what: base.text.clone(),
                     expected,
-                    found,
+                    found: found.into(),
                     at: base.at.into(),
                 };
                 faults.push(base.at, fault);
@@ -386,7 +399,7 @@ fn declare_relation(
     faults: &mut Found,
 ) {
     if columns.len() > MAX_COLUMNS {
-        let (what, limit) = ("столбцов отношения", MAX_COLUMNS);
+        let (what, limit) = (("столбцов отношения", "columns of a relation"), MAX_COLUMNS);
         faults.push(name.at, RuleError::TooLarge { what, limit, at: name.at.into() });
         return;
     }

@@ -35,6 +35,7 @@ use super::run::{Goal, Source, run};
 use super::strata::reads;
 use super::syntax::Span;
 use super::word::{NO_WORD, Word, Words};
+use crate::units::Bilingual;
 
 /// Calls within calls at most: each takes its part of the stack.
 const MAX_DEPTH: usize = 48;
@@ -383,17 +384,19 @@ impl<'a> Demand<'a> {
         let info = self.program.info(relation);
         let way = |mask: &Mask| {
             let names = columns_of(*mask).filter_map(|column| info.columns.get(column));
-            let names: Vec<&str> = names.map(|column| column.name.as_str()).collect();
-            names.join(" и ")
+            names.map(|column| column.name.as_str()).collect()
         };
         let ways = by.ways();
         let is_least =
             |mask: &Mask| ways.iter().all(|(other, _)| other == mask || other & mask != *other);
         let least = ways.iter().map(|(mask, _)| mask).filter(|mask| is_least(mask));
-        let needs: Vec<String> = least.map(way).collect();
+        let least: Vec<Vec<&str>> = least.map(way).collect();
+        let needs = |and: &str, or: &str| {
+            least.iter().map(|names| names.join(and)).collect::<Vec<_>>().join(or)
+        };
         AskError::Blocked {
             relation: info.name.clone(),
-            needs: needs.join(" или "),
+            needs: Bilingual::new(needs(" и ", " или "), needs(" and ", " or ")),
             place: at.map(|at| self.program.place(at) + ": ").unwrap_or_default(),
         }
     }

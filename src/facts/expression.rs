@@ -10,6 +10,7 @@ use super::lex::{Token, Word};
 use super::parse::{atom, disjunction};
 use super::read::{Input, Read, decimal, list, long_name, name, number, sign, text, unsigned};
 use super::syntax::{Aggregation, Body, Expr, Functor, Span};
+use crate::units::bilingual;
 
 /// Longer chains of operators are refused: their trees are walked by recursion.
 const MAX_CHAIN: usize = 128;
@@ -22,7 +23,7 @@ pub(super) fn expression(input: Input<'_>) -> Read<'_, Expr> {
     if depth(&value) > MAX_CHAIN {
         let at = value.at().into();
         return input.refuse(RuleError::TooLarge {
-            what: "глубина выражения",
+            what: ("глубина выражения", "levels of an expression"),
             limit: MAX_CHAIN,
             at,
         });
@@ -65,7 +66,7 @@ fn bits(input: Input<'_>, first: Expr) -> Read<'_, Expr> {
         if waiting.len() > MAX_CHAIN {
             let at = rest.at().into();
             return rest.refuse(RuleError::TooLarge {
-                what: "действий подряд",
+                what: ("действий подряд", "operations in a row"),
                 limit: MAX_CHAIN,
                 at,
             });
@@ -117,8 +118,11 @@ fn chain<'a>(
         input = rest;
     }
     let at = input.at().into();
-    input
-        .refuse(RuleError::TooLarge { what: "действий подряд", limit: MAX_CHAIN, at })
+    input.refuse(RuleError::TooLarge {
+        what: ("действий подряд", "operations in a row"),
+        limit: MAX_CHAIN,
+        at,
+    })
 }
 
 /// What stands behind an operator: a sign, or a word between two operands.
@@ -152,7 +156,8 @@ fn prefixes(input: Input<'_>) -> Read<'_, Vec<(Functor, Span)>> {
         if is_second {
             all.pop();
         } else if all.len() == MAX_CHAIN {
-            let (what, limit, at) = ("действий подряд", MAX_CHAIN, at.into());
+            let (what, limit, at) =
+                (("действий подряд", "operations in a row"), MAX_CHAIN, at.into());
             return input.refuse(RuleError::TooLarge { what, limit, at });
         } else {
             all.push((functor, at));
@@ -179,7 +184,7 @@ fn power(input: Input<'_>) -> Read<'_, Expr> {
         if operands.len() > MAX_CHAIN {
             let at = input.at().into();
             return input.refuse(RuleError::TooLarge {
-                what: "действий подряд",
+                what: ("действий подряд", "operations in a row"),
                 limit: MAX_CHAIN,
                 at,
             });
@@ -281,8 +286,11 @@ fn foreign(input: Input<'_>) -> Option<RuleError> {
     let token = input.rest.first()?;
     let (what, help) = match &token.word {
         Word::Sign("@") => (
-            "функция из .functor",
-            "чужой код здесь не выполняется: посчитайте её заранее и дайте таблицей фактов",
+            ("функция из .functor", "a function of .functor"),
+            (
+                "чужой код здесь не выполняется: посчитайте её заранее и дайте таблицей фактов",
+                "foreign code is not run here: compute it beforehand, and give it as a table of facts",
+            ),
         ),
         _ => return None,
     };
@@ -293,7 +301,7 @@ fn foreign(input: Input<'_>) -> Option<RuleError> {
 fn cast(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, word) = name(input)?;
     if word.text != "as" {
-        return input.fail("значение");
+        return input.fail(("значение", "a value"));
     }
     let both = separated_pair(expression, sign(","), long_name);
     let (rest, (value, type_name)) = delimited(sign("("), both, sign(")")).parse(rest)?;
@@ -305,13 +313,16 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     match rest.rest.first() {
         Some(Token { word: Word::Sign("("), at }) => {
-            let what = format!("функция «{}»", name.text);
-            let help = "есть арифметика, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
+            let what = bilingual!("функция «{}»", "the function “{}”", name.text);
+            let help = (
+                "есть арифметика, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия",
+                "there are arithmetic, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, operations on bits and truth",
+            );
             rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
         }
         _ if name.text == "__ITERATION__" => input.refuse(RuleError::Unsupported {
             what: "__ITERATION__".into(),
-            help: "заведите столбец, который считает шаги",
+            help: ("заведите столбец, который считает шаги", "make a column that counts steps"),
             at: name.at.into(),
         }),
         _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
@@ -323,7 +334,9 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
 // strlen(X), cat(X, Y, Z), range(0, N)
 fn call(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
-    let Some(functor) = functor(&name.text) else { return input.fail("значение") };
+    let Some(functor) = functor(&name.text) else {
+        return input.fail(("значение", "a value"));
+    };
     let (rest, args) =
         delimited(sign("("), opt(list(expression, sign(","))), sign(")")).parse(rest)?;
     let args = args.unwrap_or_default();
@@ -355,12 +368,14 @@ fn call(input: Input<'_>) -> Read<'_, Expr> {
 // count : { body }     sum X : { body }     min X : above(X, _)
 fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
-    let Some(function) = aggregation(&name.text) else { return input.fail("значение") };
+    let Some(function) = aggregation(&name.text) else {
+        return input.fail(("значение", "a value"));
+    };
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign("("), .. }))
         && functor(&name.text).is_some()
         && !is_counted(rest)
     {
-        return input.fail("значение");
+        return input.fail(("значение", "a value"));
     }
     let (rest, value) = match function {
         Aggregation::Count => (rest, None),

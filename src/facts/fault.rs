@@ -10,6 +10,9 @@ use super::value::MAX_TEXT;
 use super::word::Note;
 use crate::units::{Bilingual, Source};
 
+/// Words of a message, in Russian and in English.
+pub(super) type Told = (&'static str, &'static str);
+
 /// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 #[non_exhaustive]
@@ -18,8 +21,8 @@ pub enum RuleError {
     #[error("здесь ожидается {expected}, а стоит {found}")]
     #[diagnostic(code(facts::syntax))]
     Syntax {
-        expected: String,
-        found: String,
+        expected: Bilingual,
+        found: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -32,11 +35,11 @@ pub enum RuleError {
         at: SourceSpan,
     },
     /// A text or a comment that is opened and never closed.
-    #[error("{what} не закрыт")]
-    #[diagnostic(code(facts::unclosed), help("поставьте {closing}"))]
+    #[error("{} не закрыт", .what.0)]
+    #[diagnostic(code(facts::unclosed), help("поставьте {}", closing.0))]
     Unclosed {
-        what: &'static str,
-        closing: &'static str,
+        what: Told,
+        closing: Told,
         #[label("открыт здесь")]
         at: SourceSpan,
     },
@@ -50,27 +53,27 @@ pub enum RuleError {
     },
     /// A part of Soufflé's language that this engine does not have.
     #[error("не поддерживается: {what}")]
-    #[diagnostic(code(facts::unsupported), help("{help}"))]
+    #[diagnostic(code(facts::unsupported), help("{}", help.0))]
     Unsupported {
-        what: String,
-        help: &'static str,
+        what: Bilingual,
+        help: Told,
         #[label("здесь")]
         at: SourceSpan,
     },
     /// What reads well and cannot be meant.
     #[error("{what}")]
-    #[diagnostic(code(facts::misuse), help("{help}"))]
+    #[diagnostic(code(facts::misuse), help("{}", help.0))]
     Misuse {
-        what: String,
-        help: &'static str,
+        what: Bilingual,
+        help: Told,
         #[label("здесь")]
         at: SourceSpan,
     },
     /// The text exceeds one of the limits that keep its reading bounded.
-    #[error("{what}: больше {limit}")]
+    #[error("{}: больше {limit}", .what.0)]
     #[diagnostic(code(facts::too_large), help("разбейте на несколько правил или отношений"))]
     TooLarge {
-        what: &'static str,
+        what: Told,
         limit: usize,
         #[label("здесь")]
         at: SourceSpan,
@@ -201,7 +204,7 @@ pub enum RuleError {
     Types {
         what: String,
         expected: String,
-        found: String,
+        found: Bilingual,
         #[label("тип {found}")]
         at: SourceSpan,
     },
@@ -230,7 +233,7 @@ pub enum RuleError {
         help("разорвите круг: отрицать и считать можно только выведенное раньше")
     )]
     Cycle {
-        cycle: String,
+        cycle: Bilingual,
         #[label("эта посылка замыкает круг")]
         at: SourceSpan,
     },

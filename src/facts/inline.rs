@@ -14,6 +14,7 @@ use super::fault::RuleError;
 use super::program::{Found, RelationId};
 use super::syntax::{Atom, Body, Comparison, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
+use crate::units::bilingual;
 
 /// Rules put into rules put into rules: more is a relation that reads itself.
 const MAX_DEPTH: usize = 16;
@@ -157,8 +158,14 @@ impl Unfolding<'_> {
     ) -> Body {
         let name = &atom.relation.text;
         if depth >= MAX_DEPTH {
-            let what = format!("inline-отношение «{name}», которое читает само себя");
-            let help = "уберите inline и свяжите переменные его правил";
+            let what = bilingual!(
+                "inline-отношение «{name}», которое читает само себя",
+                "the inline relation “{name}” that reads itself"
+            );
+            let help = (
+                "уберите inline и свяжите переменные его правил",
+                "remove inline, and bind the variables of its rules",
+            );
             self.faults.push((atom.at, RuleError::Unsupported { what, help, at: atom.at.into() }));
             return Body::Any(Vec::new());
         }
@@ -187,10 +194,14 @@ impl Unfolding<'_> {
             parts.push(copy.body(body));
             // Not for any value of z: that is no conjunction of premises.
             if is_negated && copy.has_own {
-                let what = format!(
-                    "отрицание inline-отношения «{name}» с переменными, которых нет в голове"
+                let what = bilingual!(
+                    "отрицание inline-отношения «{name}» с переменными, которых нет в голове",
+                    "the negation of the inline relation “{name}” with variables that its head lacks"
                 );
-                let help = "уберите inline и свяжите переменные его правил";
+                let help = (
+                    "уберите inline и свяжите переменные его правил",
+                    "remove inline, and bind the variables of its rules",
+                );
                 self.faults
                     .push((atom.at, RuleError::Unsupported { what, help, at: atom.at.into() }));
             }

@@ -283,7 +283,10 @@ impl Builder<'_> {
                 || self.declared.kind_text(known.kind.unwrap_or(Kind::Symbol)),
                 |before| self.declared.types[before].name.clone(),
             );
-            self.fault(at, RuleError::Types { what: name, expected, found, at: at.into() });
+            self.fault(
+                at,
+                RuleError::Types { what: name, expected, found: found.into(), at: at.into() },
+            );
             return;
         }
         known.kind = Some(kind);
@@ -326,8 +329,11 @@ impl Builder<'_> {
             syntax::Expr::Any(_) => "_".into(),
         };
         let found = match expr {
-            syntax::Expr::Nil(_) => "запись".to_owned(),
-            _ => self.declared.kind_text(self.kind_of(expr, scope).unwrap_or(Kind::Symbol)),
+            syntax::Expr::Nil(_) => ("запись", "a record").into(),
+            _ => {
+                let kind = self.kind_of(expr, scope).unwrap_or(Kind::Symbol);
+                self.declared.kind_text(kind).into()
+            }
         };
         let expected = self.declared.kind_text(expected);
         self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
@@ -367,7 +373,10 @@ impl Builder<'_> {
                 };
                 let (what, at) = (variable.name.clone(), arg.at());
                 let expected = column.type_name.clone();
-                self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
+                self.fault(
+                    at,
+                    RuleError::Types { what, expected, found: found.into(), at: at.into() },
+                );
             }
             self.variables[id as usize].kind.get_or_insert(column.kind);
         }

@@ -11,6 +11,7 @@ use nom::{IResult, Parser};
 use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::syntax::Span;
+use crate::units::bilingual;
 
 /// Deeper brackets are refused, so that reading them needs bounded stack.
 const MAX_DEPTH: usize = 64;
@@ -87,7 +88,7 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
         rest = match blank(rest) {
             Ok((after, _)) => after,
             Err(_) => {
-                let (what, closing) = ("комментарий", "«*/»");
+                let (what, closing) = (("комментарий", "the comment"), ("«*/»", "“*/”"));
                 faults.push(RuleError::Unclosed { what, closing, at: place(rest, rest).into() });
                 return tokens;
             }
@@ -131,8 +132,14 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                 Some((value, after, unknown)) => {
                     let at = Span { end: place(rest, after).end, ..at };
                     if let Some(letter) = unknown {
-                        let what = format!("«\\{letter}» в тексте ничего не значит");
-                        let help = r#"есть \" \' \\ \n \t \r \a \b \f \v; сама обратная черта пишется дважды"#;
+                        let what = bilingual!(
+                            "«\\{letter}» в тексте ничего не значит",
+                            "“\\{letter}” means nothing in a text"
+                        );
+                        let help = (
+                            r#"есть \" \' \\ \n \t \r \a \b \f \v; сама обратная черта пишется дважды"#,
+                            r#"there are \" \' \\ \n \t \r \a \b \f \v; a backslash itself is written twice"#,
+                        );
                         faults.push(RuleError::Misuse { what, help, at: at.into() });
                     }
                     rest = after;
@@ -140,8 +147,13 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                     continue;
                 }
                 None => {
-                    let (what, closing) =
-                        ("текст в кавычках", "закрывающую кавычку в той же строке");
+                    let (what, closing) = (
+                        ("текст в кавычках", "a text in quotation marks"),
+                        (
+                            "закрывающую кавычку в той же строке",
+                            "the closing quotation mark on the same line",
+                        ),
+                    );
                     faults.push(RuleError::Unclosed { what, closing, at: at.into() });
                     rest = &rest[rest.find('\n').unwrap_or(rest.len())..];
                     Word::Text(String::new())
@@ -154,7 +166,7 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                     _ => {}
                 }
                 if depth > MAX_DEPTH {
-                    let (what, limit) = ("вложенность скобок", MAX_DEPTH);
+                    let (what, limit) = (("вложенность скобок", "levels of brackets"), MAX_DEPTH);
                     faults.push(RuleError::TooLarge { what, limit, at: at.into() });
                     return tokens;
                 }

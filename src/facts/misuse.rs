@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::declare::Declared;
-use super::fault::RuleError;
+use super::fault::{RuleError, Told};
 use super::program::{Found, RelationId, Stratum};
 use super::syntax::{Atom, Body, Expr, Functor, Item, Name, Role, Rule, Span};
 use super::unify::{names_of_body, names_of_expr};
+use crate::units::{Bilingual, bilingual};
 
-fn misuse(what: String, help: &'static str, at: Span, faults: &mut Found) {
+fn misuse(what: Bilingual, help: Told, at: Span, faults: &mut Found) {
     faults.push(at, RuleError::Misuse { what, help, at: at.into() });
 }
 
@@ -44,8 +45,8 @@ pub(super) fn counting_fact(rule: &Rule, faults: &mut Found) {
         return;
     }
     for at in rule.heads.iter().flat_map(|head| &head.args).filter_map(counter) {
-        let help = "считать можно то, что выводит правило";
-        misuse("autoinc() в факте".into(), help, at, faults);
+        let help = ("считать можно то, что выводит правило", "what a rule derives can be counted");
+        misuse(("autoinc() в факте", "autoinc() in a fact").into(), help, at, faults);
     }
 }
 
@@ -74,14 +75,30 @@ pub(super) fn plans(items: &[Item], declared: &Declared, strata: &[Stratum], fau
                 let mut sorted = order.clone();
                 sorted.sort_unstable();
                 if sorted != all {
-                    let what =
-                        format!(".plan {version}: порядок называет не все посылки правила по разу");
-                    misuse(what, "перечислите номера всех отношений тела, с 1", *at, faults);
-                } else if *version >= versions {
-                    let what = format!(".plan {version}: у правила рекурсивных посылок {versions}");
+                    let what = bilingual!(
+                        ".plan {version}: порядок называет не все посылки правила по разу",
+                        ".plan {version}: the order does not name every premise of the rule once"
+                    );
                     misuse(
                         what,
-                        "версии нумеруются с 0, по одной на рекурсивную посылку",
+                        (
+                            "перечислите номера всех отношений тела, с 1",
+                            "list the numbers of all relations of the body, from 1",
+                        ),
+                        *at,
+                        faults,
+                    );
+                } else if *version >= versions {
+                    let what = bilingual!(
+                        ".plan {version}: у правила рекурсивных посылок {versions}",
+                        ".plan {version}: the rule has {versions} recursive premises"
+                    );
+                    misuse(
+                        what,
+                        (
+                            "версии нумеруются с 0, по одной на рекурсивную посылку",
+                            "versions are numbered from 0, one a recursive premise",
+                        ),
                         *at,
                         faults,
                     );
@@ -142,7 +159,10 @@ struct Inline<'a> {
     faults: &'a mut Found,
 }
 
-const EVALUATED: &str = "уберите inline: отношение будет выведено как все";
+const EVALUATED: Told = (
+    "уберите inline: отношение будет выведено как все",
+    "remove inline: the relation will be derived as all are",
+);
 
 impl Inline<'_> {
     fn inlined(&self, atom: &Atom) -> Option<RelationId> {
@@ -154,8 +174,11 @@ impl Inline<'_> {
         for (relation, name) in self.own {
             let info = &self.declared.relations[relation.index()];
             if !info.inputs.is_empty() || !info.outputs.is_empty() || info.print_size {
-                let what =
-                    format!("inline-отношение «{}» читается из файла или выводится", name.text);
+                let what = bilingual!(
+                    "inline-отношение «{}» читается из файла или выводится",
+                    "the inline relation “{}” is read from a file, or is an output",
+                    name.text
+                );
                 misuse(what, EVALUATED, name.at, self.faults);
             }
         }
@@ -178,7 +201,11 @@ impl Inline<'_> {
         }
         for (relation, name) in self.own {
             if self.leads_back(*relation) {
-                let what = format!("inline-отношение «{}» читает само себя", name.text);
+                let what = bilingual!(
+                    "inline-отношение «{}» читает само себя",
+                    "the inline relation “{}” reads itself",
+                    name.text
+                );
                 misuse(what, EVALUATED, name.at, self.faults);
             }
         }
@@ -202,32 +229,52 @@ impl Inline<'_> {
 
     fn rule(&mut self, rule: &Rule) {
         let is_inline = rule.heads.iter().any(|head| self.inlined(head).is_some());
-        let mut found: Vec<(String, Span)> = Vec::new();
+        let mut found: Vec<(Bilingual, Span)> = Vec::new();
         let mut counted = Vec::new();
         rule.heads.iter().flat_map(|head| &head.args).for_each(|arg| counted.extend(counter(arg)));
         each_compare(&rule.body, &mut |expr| counted.extend(counter(expr)));
         if is_inline {
-            found.extend(counted.iter().map(|at| ("autoinc() в inline-отношении".into(), *at)));
+            found.extend(counted.iter().map(|at| {
+                (("autoinc() в inline-отношении", "autoinc() in an inline relation").into(), *at)
+            }));
         }
         let mut visit = |atom: &Atom, is_negated: bool, is_counted: bool| {
             let Some(relation) = self.inlined(atom) else { return };
             let name = &atom.relation.text;
             if is_counted {
-                found.push((format!("счёт по inline-отношению «{name}»"), atom.at));
+                found.push((
+                    bilingual!(
+                        "счёт по inline-отношению «{name}»",
+                        "an aggregate over the inline relation “{name}”"
+                    ),
+                    atom.at,
+                ));
             }
             if let Some(at) = atom.args.iter().find_map(counter) {
-                found.push((format!("autoinc() среди аргументов inline-отношения «{name}»"), at));
+                found.push((
+                    bilingual!(
+                        "autoinc() среди аргументов inline-отношения «{name}»",
+                        "autoinc() among the arguments of the inline relation “{name}”"
+                    ),
+                    at,
+                ));
             }
             if is_negated && self.newly.contains(&relation) {
                 found.push((
-                    format!(
-                        "отрицание inline-отношения «{name}» с переменными, которых нет в голове"
+                    bilingual!(
+                        "отрицание inline-отношения «{name}» с переменными, которых нет в голове", "the negation of the inline relation “{name}” with variables that its head lacks"
                     ),
                     atom.at,
                 ));
             }
             if is_negated && atom.args.iter().any(has_any) {
-                found.push((format!("«_» в отрицании inline-отношения «{name}»"), atom.at));
+                found.push((
+                    bilingual!(
+                        "«_» в отрицании inline-отношения «{name}»",
+                        "“_” in the negation of the inline relation “{name}”"
+                    ),
+                    atom.at,
+                ));
             }
         };
         each_atom(&rule.body, &mut visit);

@@ -131,7 +131,6 @@ pub use ask::{Answers, AskError, Computed};
 pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
 pub use derived::{Derived, Tuple, Tuples};
-pub use english::EnglishWarnings;
 pub use evaluate::EvaluateError;
 pub use fault::{Faults, FileFaults, RuleError};
 pub use files::{FilesError, FilesReport, run_files, run_files_traced};

@@ -9,7 +9,7 @@ use super::program::{Bounds, Compare, Expr, Kind, Literal, NumberRange};
 use super::record::NIL;
 use super::regular::{self, NoPattern};
 use super::syntax::{self, Comparison, Functor, Span};
-use crate::units::nearest_name;
+use crate::units::{bilingual, nearest_name};
 
 impl Builder<'_> {
     /// Says what a pattern that stands in the text cannot do.
@@ -18,8 +18,14 @@ impl Builder<'_> {
         match regular::compile(pattern) {
             Ok(_) => {}
             Err(NoPattern::Backtracking) => {
-                let what = format!("«{pattern}»: поиск с возвратами");
-                let help = "обойдитесь без \\1 и (?=…): они не решаются за линейное время";
+                let what = bilingual!(
+                    "«{pattern}»: поиск с возвратами",
+                    "“{pattern}”: a search that goes back"
+                );
+                let help = (
+                    "обойдитесь без \\1 и (?=…): они не решаются за линейное время",
+                    "do without \\1 and (?=…): they cannot be decided in linear time",
+                );
                 self.fault(*at, RuleError::Unsupported { what, help, at: (*at).into() });
             }
             Err(NoPattern::Broken(why)) => {
@@ -125,8 +131,11 @@ impl Builder<'_> {
             }
             (Some(from), to) if from != to => {
                 let (from, to) = (self.declared.kind_text(from), self.declared.kind_text(to));
-                let what = format!("as из {from} в {to}");
-                let help = "есть to_number, to_float и to_string";
+                let what = bilingual!("as из {from} в {to}", "as from {from} to {to}");
+                let help = (
+                    "есть to_number, to_float и to_string",
+                    "there are to_number, to_float and to_string",
+                );
                 self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
                 None
             }

@@ -12,17 +12,19 @@ use nom::combinator::opt;
 use nom::sequence::{delimited, preceded, separated_pair};
 
 use super::expression::{aggregation, expression, functor};
-use super::fault::RuleError;
+use super::fault::{RuleError, Told};
 use super::lex::{self, Token, Word};
 use super::preprocess;
 use super::read::{Furthest, Input, Read, list, long_name, many, name, number, sign, text_word};
 use super::syntax::{
     Atom, Body, Branch, Comparison, Component, Expr, Item, Name, Role, Rule, Span, Type,
 };
-use crate::units::Source;
+use crate::units::{Source, bilingual};
 
-const FOREIGN: &str =
-    "чужой код здесь не выполняется: посчитайте значения заранее и дайте их таблицей фактов";
+const FOREIGN: Told = (
+    "чужой код здесь не выполняется: посчитайте значения заранее и дайте их таблицей фактов",
+    "foreign code is not run here: compute the values beforehand, and give them as a table of facts",
+);
 
 /// Components within components.
 const MAX_NESTED: usize = 16;
@@ -139,7 +141,7 @@ fn behind_braces(rest: &[Token]) -> Option<&[Token]> {
 }
 
 fn item(input: Input<'_>) -> Read<'_, Item> {
-    let Some(token) = input.rest.first() else { return input.fail("правило") };
+    let Some(token) = input.rest.first() else { return input.fail(("правило", "a rule")) };
     let behind = Input { rest: &input.rest[1..], ..input };
     match token.word {
         Word::Directive("decl") => relation(behind),
@@ -169,14 +171,20 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         Word::Directive("comp") => component(behind, 0),
         Word::Directive("init") => instance(behind),
         Word::Directive("override") => input.refuse(RuleError::Unsupported {
-            what: ".override вне компонента".into(),
-            help: "замените правила внутри .comp, который наследует другой",
+            what: (".override вне компонента", ".override outside of a component").into(),
+            help: (
+                "замените правила внутри .comp, который наследует другой",
+                "replace rules within a .comp that inherits from another",
+            ),
             at: token.at.into(),
         }),
         Word::Directive(word) => input.refuse(RuleError::Unsupported {
-            what: format!(".{word}"),
+            what: format!(".{word}").into(),
             help: match word {
-                "debug_delta" => "витки вычисления не хранятся: уберите эту строку",
+                "debug_delta" => (
+                    "витки вычисления не хранятся: уберите эту строку",
+                    "the rounds of evaluation are not kept: remove this line",
+                ),
                 _ => FOREIGN,
             },
             at: token.at.into(),
@@ -203,16 +211,30 @@ fn relation(input: Input<'_>) -> Read<'_, Item> {
             .iter()
             .any(|known| *known == word.text || is_storage(known) && is_storage(&word.text))
         {
-            let what = format!("свойство {} при том, что уже сказано", word.text);
+            let what = bilingual!(
+                "свойство {} при том, что уже сказано",
+                "the property {} beside what is said already",
+                word.text
+            );
             return input.refuse(RuleError::Misuse {
                 what,
-                help: "одно слово из btree, brie, eqrel, btree_delete и каждое другое по разу",
+                help: (
+                    "одно слово из btree, brie, eqrel, btree_delete и каждое другое по разу",
+                    "one word of btree, brie, eqrel, btree_delete, and each other once",
+                ),
                 at,
             });
         }
         if word.text == "btree_delete" && columns.is_empty() {
-            let what = "btree_delete у отношения без столбцов".into();
-            let help = "в нём нет двух строк, чтобы одна вытеснила другую";
+            let what = (
+                "btree_delete у отношения без столбцов",
+                "btree_delete of a relation without columns",
+            )
+                .into();
+            let help = (
+                "в нём нет двух строк, чтобы одна вытеснила другую",
+                "it has no two rows of which one could displace the other",
+            );
             return input.refuse(RuleError::Misuse { what, help, at });
         }
         said.push(word.text);
@@ -243,7 +265,11 @@ fn domains(input: Input<'_>) -> Read<'_, Vec<Vec<Name>>> {
 // .comp Graph<N, M> : Base<N>, Other { … }
 fn component(input: Input<'_>, depth: usize) -> Read<'_, Item> {
     if depth > MAX_NESTED {
-        let (what, limit, at) = ("компонентов друг в друге", MAX_NESTED, input.at().into());
+        let (what, limit, at) = (
+            ("компонентов друг в друге", "components within one another"),
+            MAX_NESTED,
+            input.at().into(),
+        );
         return input.refuse(RuleError::TooLarge { what, limit, at });
     }
     let (input, head) = component_type(input)?;
@@ -254,7 +280,7 @@ fn component(input: Input<'_>, depth: usize) -> Read<'_, Item> {
     let (mut input, _) = sign("{")(input)?;
     let mut items = Vec::new();
     loop {
-        let Some(token) = input.rest.first() else { return input.fail("«}»") };
+        let Some(token) = input.rest.first() else { return input.fail(("«}»", "“}”")) };
         let behind = Input { rest: &input.rest[1..], ..input };
         let next;
         (input, next) = match token.word {
@@ -306,7 +332,7 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
     }
     // A qualifier is a bare word; a word with a bracket is the next fact.
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign(_), .. })) {
-        return input.fail("объявление или правило");
+        return input.fail(("объявление или правило", "a declaration or a rule"));
     }
     let qualifier = match name.text.as_str() {
         "input" => Qualifier::Role(Role::Input),
@@ -320,13 +346,17 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
         }
         word => {
             let help = match word {
-                "btree_max" | "btree_min" | "btree_sum" | "btree_lattice" | "lattice" => {
-                    "оставить наибольшее можно вытеснением: r(x, a) <= r(x, b) :- a < b."
-                }
-                _ => "уберите это слово: отношения хранятся одинаково",
+                "btree_max" | "btree_min" | "btree_sum" | "btree_lattice" | "lattice" => (
+                    "оставить наибольшее можно вытеснением: r(x, a) <= r(x, b) :- a < b.",
+                    "the greatest can be kept by subsumption: r(x, a) <= r(x, b) :- a < b.",
+                ),
+                _ => (
+                    "уберите это слово: отношения хранятся одинаково",
+                    "remove this word: relations are all kept alike",
+                ),
             };
             return input.refuse(RuleError::Unsupported {
-                what: format!("свойство {word}"),
+                what: bilingual!("свойство {word}", "the property {word}"),
                 help,
                 at: name.at.into(),
             });
@@ -368,7 +398,7 @@ fn type_item(input: Input<'_>) -> Read<'_, Item> {
     }
     let (rest, bases) = list(long_name, sign("|")).parse(rest)?;
     if bases.len() > 1 && sign_word == "<:" {
-        return rest.fail("«=»");
+        return rest.fail(("«=»", "“=”"));
     }
     Ok((rest, Item::Type { name: type_name, bases, is_union: sign_word == "=" }))
 }
@@ -460,11 +490,11 @@ fn truth(input: Input<'_>) -> Read<'_, Body> {
     let (rest, name) = name(input)?;
     match (name.text.as_str(), rest.rest.first().map(|token| &token.word)) {
         ("true" | "false", Some(Word::Sign("(" | "=" | "!=" | "<" | ">" | "<=" | ">="))) => {
-            input.fail("посылка")
+            input.fail(("посылка", "a premise"))
         }
         ("true", _) => Ok((rest, Body::All(Vec::new()))),
         ("false", _) => Ok((rest, Body::Any(Vec::new()))),
-        _ => input.fail("посылка"),
+        _ => input.fail(("посылка", "a premise")),
     }
 }
 
@@ -474,7 +504,7 @@ fn matching(input: Input<'_>) -> Read<'_, Body> {
     let op = match name.text.as_str() {
         "match" => Comparison::Matches,
         "contains" => Comparison::Contains,
-        _ => return input.fail("посылка"),
+        _ => return input.fail(("посылка", "a premise")),
     };
     let (rest, _) = sign("(")(rest)?;
     let (rest, (left, right)) = separated_pair(expression, sign(","), expression).parse(rest)?;
@@ -486,7 +516,7 @@ fn matching(input: Input<'_>) -> Read<'_, Body> {
 pub(super) fn atom(input: Input<'_>) -> Read<'_, Atom> {
     let (rest, relation) = long_name(input)?;
     if functor(&relation.text).is_some() || aggregation(&relation.text).is_some() {
-        return input.fail("отношение");
+        return input.fail(("отношение", "a relation"));
     }
     let (rest, _) = sign("(")(rest)?;
     let (rest, args) = opt(list(expression, sign(","))).parse(rest)?;

@@ -45,7 +45,10 @@ impl Builder<'_> {
         let Some((tag, fields)) = declared.fields(shape, record.branch) else {
             let (expected, found) = (declared.kind_text(Kind::Record(shape)), "[…]".to_owned());
             let what = record.branch.map_or("[…]".into(), |name| format!("${}", name.text));
-            self.fault(record.at, RuleError::Types { what, expected, found, at: record.at.into() });
+            self.fault(
+                record.at,
+                RuleError::Types { what, expected, found: found.into(), at: record.at.into() },
+            );
             return None;
         };
         if fields.len() != record.args.len() {

@@ -32,7 +32,7 @@ use super::read::{Furthest, Input, Read, list, name, number, sign};
 use super::strata::strata;
 use super::syntax::{self, Item, Rule, Span};
 use super::word::Words;
-use crate::units::Source;
+use crate::units::{Source, bilingual};
 
 /// A question about a program, checked.
 #[derive(Debug, Clone)]
@@ -103,8 +103,14 @@ impl Program {
             super::strata::reads(&clause.body, false, &mut |of, _, at| {
                 if declared.unfolded.contains(&of) {
                     let name = &declared.relations[of.index()].name;
-                    let what = format!("вопрос об inline-отношении «{name}»");
-                    let help = "уберите inline: у такого отношения нет своих строк";
+                    let what = bilingual!(
+                        "вопрос об inline-отношении «{name}»",
+                        "a question of the inline relation “{name}”"
+                    );
+                    let help = (
+                        "уберите inline: у такого отношения нет своих строк",
+                        "remove inline: such a relation has no rows of its own",
+                    );
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                     all = false;
                 }
@@ -131,8 +137,15 @@ impl Program {
         let depends = clauses.iter().any(|clause| clause.counts_on())
             || infos.iter().any(|info| !info.choices.is_empty() || info.limit_size.is_some());
         if depends {
-            let what = "choice-domain, autoinc или limitsize в вопросе".to_owned();
-            let help = "поставьте такое отношение в программу: там оно выводится целиком";
+            let what = (
+                "choice-domain, autoinc или limitsize в вопросе",
+                "choice-domain, autoinc or limitsize in a question",
+            )
+                .into();
+            let help = (
+                "поставьте такое отношение в программу: там оно выводится целиком",
+                "put such a relation into the program: there it is derived whole",
+            );
             let at = asked.at;
             faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
             return None;
@@ -161,8 +174,12 @@ impl Program {
                 Item::Plan { .. } | Item::Pragma { .. } => {}
                 other => {
                     let at = other.at();
-                    let what = "такая директива в вопросе".to_owned();
-                    let help = "в вопросе годятся .decl, .type, правила и факты";
+                    let what =
+                        ("такая директива в вопросе", "such a directive in a question").into();
+                    let help = (
+                        "в вопросе годятся .decl, .type, правила и факты",
+                        ".decl, .type, rules and facts serve in a question",
+                    );
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
             }
@@ -174,9 +191,15 @@ impl Program {
             for head in &rule.heads {
                 let of = declared.names.find(&head.relation.text);
                 if of.is_some_and(|of| of.index() < known) {
-                    let what =
-                        format!("правило вопроса для отношения программы «{}»", head.relation.text);
-                    let help = "объявите в вопросе своё отношение: .decl";
+                    let what = bilingual!(
+                        "правило вопроса для отношения программы «{}»",
+                        "a rule of the question for the program’s relation “{}”",
+                        head.relation.text
+                    );
+                    let help = (
+                        "объявите в вопросе своё отношение: .decl",
+                        "declare a relation of its own in the question: .decl",
+                    );
                     let at = head.at;
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -298,7 +321,7 @@ fn question<'a>(input: Input<'a>, text: &str) -> Read<'a, syntax::Question> {
     let (rest, limit) = opt(preceded(clause_word("limit"), number)).parse(rest)?;
     let (rest, _) = opt(sign(".")).parse(rest)?;
     if !rest.rest.is_empty() {
-        return rest.fail("конец вопроса");
+        return rest.fail(("конец вопроса", "the end of the question"));
     }
     let limit = match limit {
         None => None,
@@ -336,8 +359,8 @@ fn clause_word<'a>(word: &'static str) -> impl Fn(Input<'a>) -> Read<'a, ()> {
             Ok((Input { rest, ..input }, ()))
         }
         _ => input.fail(match word {
-            "order" => "«.order»",
-            _ => "«.limit»",
+            "order" => ("«.order»", "“.order”"),
+            _ => ("«.limit»", "“.limit”"),
         }),
     }
 }

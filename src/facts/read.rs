@@ -6,9 +6,10 @@ use nom::error::{ErrorKind, ParseError};
 use nom::{Err, IResult, Parser};
 
 use super::decimal::Decimal;
-use super::fault::RuleError;
+use super::fault::{RuleError, Told};
 use super::lex::{Token, Word};
 use super::syntax::{Expr, Name, Span};
+use crate::units::{Bilingual, bilingual};
 
 /// Failed attempts allowed for one item; brackets within brackets could otherwise be tried without end.
 const MAX_ATTEMPTS: usize = 1_000_000;
@@ -19,7 +20,7 @@ const ATTEMPTS_PER_WORD: usize = 100;
 pub(super) struct Furthest {
     /// Words left to read where it happened; none before the first failure.
     pub(super) left: Option<usize>,
-    expected: Vec<&'static str>,
+    expected: Vec<Told>,
     fault: Option<RuleError>,
     attempts: usize,
 }
@@ -31,18 +32,29 @@ impl Furthest {
         }
         let end = Span { file, start: end as u32, end: end as u32 };
         let token = self.left.and_then(|left| words.get(words.len() - left));
-        let found = token.map_or("конец текста".into(), |token| match &token.word {
-            Word::Name(name) => format!("«{name}»"),
-            Word::Number(number) | Word::Unsigned(number) => format!("число {number}"),
-            Word::Line(line) => format!("«#{}»", line.trim_end()),
-            Word::Decimal(number) => format!("число {}", Decimal::from_millionths(*number)),
-            Word::Text(_) => "текст в кавычках".into(),
-            Word::Directive(word) => format!("«.{word}»"),
-            Word::Sign(sign) => format!("«{sign}»"),
-        });
+        let found =
+            token.map_or(("конец текста", "the end of the text").into(), |token| {
+                match &token.word {
+                    Word::Name(name) => Bilingual::quoted(name),
+                    Word::Number(number) | Word::Unsigned(number) => {
+                        bilingual!("число {number}", "the number {number}")
+                    }
+                    Word::Line(line) => Bilingual::quoted(&format!("#{}", line.trim_end())),
+                    Word::Decimal(number) => {
+                        bilingual!("число {}", "the number {}", Decimal::from_millionths(*number))
+                    }
+                    Word::Text(_) => ("текст в кавычках", "a text in quotation marks").into(),
+                    Word::Directive(word) => Bilingual::quoted(&format!(".{word}")),
+                    Word::Sign(sign) => Bilingual::quoted(sign),
+                }
+            });
         let expected = match self.expected.as_slice() {
-            [] => "правило, факт или объявление".into(),
-            all => all.join(" или "),
+            [] => ("правило, факт или объявление", "a rule, a fact or a declaration").into(),
+            all => {
+                let joined =
+                    |of: fn(&Told) -> &str, or| all.iter().map(of).collect::<Vec<_>>().join(or);
+                Bilingual::new(joined(|words| words.0, " или "), joined(|words| words.1, " or "))
+            }
         };
         RuleError::Syntax { expected, found, at: token.map_or(end, |token| token.at).into() }
     }
@@ -58,7 +70,7 @@ pub(super) struct Input<'a> {
 }
 
 impl Input<'_> {
-    pub(super) fn fail<T>(self, expected: &'static str) -> Result<T, Err<Failure>> {
+    pub(super) fn fail<T>(self, expected: Told) -> Result<T, Err<Failure>> {
         let mut furthest = self.furthest.borrow_mut();
         let left = self.rest.len();
         furthest.attempts += 1;
@@ -73,7 +85,8 @@ impl Input<'_> {
         let limit = MAX_ATTEMPTS + self.length * ATTEMPTS_PER_WORD;
         if furthest.attempts > limit {
             drop(furthest);
-            let (what, at) = ("попыток прочесть одно правило", self.at().into());
+            let (what, at) =
+                (("попыток прочесть одно правило", "attempts to read one rule"), self.at().into());
             return self.refuse(RuleError::TooLarge { what, limit, at });
         }
         Err(Err::Error(Failure))
@@ -81,7 +94,7 @@ impl Input<'_> {
 
     /// A fault, unless another reading gets further.
     pub(super) fn doubt<T>(self, fault: RuleError) -> Result<T, Err<Failure>> {
-        let failure = self.fail("значение");
+        let failure = self.fail(("значение", "a value"));
         let mut furthest = self.furthest.borrow_mut();
         if furthest.left == Some(self.rest.len()) {
             furthest.fault = Some(fault);
@@ -122,7 +135,7 @@ pub(super) fn name(input: Input<'_>) -> Read<'_, Name> {
         [Token { word: Word::Name(text), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, Name { text: text.clone(), at: *at }))
         }
-        _ => input.fail("имя"),
+        _ => input.fail(("имя", "a name")),
     }
 }
 
@@ -131,7 +144,7 @@ pub(super) fn number(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Number(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail("число"),
+        _ => input.fail(("число", "a number")),
     }
 }
 
@@ -140,7 +153,7 @@ pub(super) fn unsigned(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Unsigned(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail("число"),
+        _ => input.fail(("число", "a number")),
     }
 }
 
@@ -163,7 +176,7 @@ pub(super) fn decimal(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Decimal(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail("число"),
+        _ => input.fail(("число", "a number")),
     }
 }
 
@@ -177,7 +190,7 @@ pub(super) fn text_word(input: Input<'_>) -> Read<'_, String> {
         [Token { word: Word::Text(text), .. }, rest @ ..] => {
             Ok((Input { rest, ..input }, text.clone()))
         }
-        _ => input.fail("текст в кавычках"),
+        _ => input.fail(("текст в кавычках", "a text in quotation marks")),
     }
 }
 
@@ -193,21 +206,21 @@ pub(super) fn sign<'a>(
 }
 
 /// The sign as a message names it.
-pub(super) fn quoted_sign(sign: &'static str) -> &'static str {
+pub(super) fn quoted_sign(sign: &'static str) -> Told {
     match sign {
-        "(" => "«(»",
-        ")" => "«)»",
-        "," => "«,»",
-        "." => "«.»",
-        ":" => "«:»",
-        ":-" => "«:-»",
-        ";" => "«;»",
-        "=" | "!=" | "<" | "<=" | ">" | ">=" => "сравнение",
-        "+" | "-" | "*" | "/" | "%" | "^" => "действие",
-        "{" => "«{»",
-        "}" => "«}»",
-        "!" => "«!»",
-        other => other,
+        "(" => ("«(»", "“(”"),
+        ")" => ("«)»", "“)”"),
+        "," => ("«,»", "“,”"),
+        "." => ("«.»", "“.”"),
+        ":" => ("«:»", "“:”"),
+        ":-" => ("«:-»", "“:-”"),
+        ";" => ("«;»", "“;”"),
+        "=" | "!=" | "<" | "<=" | ">" | ">=" => ("сравнение", "a comparison"),
+        "+" | "-" | "*" | "/" | "%" | "^" => ("действие", "an operation"),
+        "{" => ("«{»", "“{”"),
+        "}" => ("«}»", "“}”"),
+        "!" => ("«!»", "“!”"),
+        other => (other, other),
     }
 }
 

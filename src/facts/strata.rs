@@ -10,6 +10,7 @@ use super::declare::Declared;
 use super::fault::RuleError;
 use super::program::{Clause, Found, Literal, RelationId, Stratum, Subsumption};
 use super::syntax::Span;
+use crate::units::Bilingual;
 
 /// Relations in groups that depend on each other, each group after those it reads.
 pub(super) fn strata(
@@ -56,8 +57,11 @@ pub(super) fn strata(
             is_recursive |= group_of[relation.index()] == group_of[clause.head.index()];
         });
         if is_recursive && clause.counts_on() {
-            let what = "autoinc() в рекурсивном правиле".to_owned();
-            let help = "пронумеруйте готовое отношение отдельным правилом";
+            let what = ("autoinc() в рекурсивном правиле", "autoinc() in a recursive rule").into();
+            let help = (
+                "пронумеруйте готовое отношение отдельным правилом",
+                "number the finished relation in a rule of its own",
+            );
             let at = clause.at;
             faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
         }
@@ -101,7 +105,7 @@ fn cycle_text(
     read: usize,
     edges: &BTreeMap<(usize, usize), Option<Span>>,
     declared: &Declared,
-) -> String {
+) -> Bilingual {
     let mut came_from = HashMap::from([(read, read)]);
     let mut queue = std::collections::VecDeque::from([read]);
     while let Some(at) = queue.pop_front() {
@@ -116,12 +120,15 @@ fn cycle_text(
     while *way.last().expect("the way starts with its end") != read {
         way.push(came_from[way.last().expect("the way starts with its end")]);
     }
-    let mut text = declared.relations[head].name.clone();
-    let mut from = head;
-    for &to in way.iter().rev() {
-        let not = if edges.get(&(from, to)).is_some_and(Option::is_some) { "не " } else { "" };
-        text += &format!(" → {not}{}", declared.relations[to].name);
-        from = to;
-    }
-    text
+    Bilingual::both(|language| {
+        let mut text = declared.relations[head].name.clone();
+        let mut from = head;
+        for &to in way.iter().rev() {
+            let is_negated = edges.get(&(from, to)).is_some_and(Option::is_some);
+            let not = if is_negated { language.pick("не ", "not ") } else { "" };
+            text += &format!(" → {not}{}", declared.relations[to].name);
+            from = to;
+        }
+        text
+    })
 }

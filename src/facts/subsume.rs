@@ -30,8 +30,11 @@ pub(super) fn rule(
     let relation = declared.relation(&goes.relation, faults)?;
     if declared.relation(&stays.relation, faults)? != relation {
         let what = format!("«{}» <= «{}»", goes.relation.text, stays.relation.text);
-        let help = "поглощают друг друга строки одного отношения";
-        faults.push(*at, RuleError::Unsupported { what, help, at: (*at).into() });
+        let help = (
+            "поглощают друг друга строки одного отношения",
+            "rows of one relation subsume each other",
+        );
+        faults.push(*at, RuleError::Unsupported { what: what.into(), help, at: (*at).into() });
         return None;
     }
     let columns = declared.relations[relation.index()].columns.len();
@@ -44,7 +47,10 @@ pub(super) fn rule(
         }
     }
     if 2 * columns > MAX_COLUMNS {
-        let (what, limit) = ("столбцов отношения с поглощением", MAX_COLUMNS / 2);
+        let (what, limit) = (
+            ("столбцов отношения с поглощением", "columns of a relation with subsumption"),
+            MAX_COLUMNS / 2,
+        );
         faults.push(*at, RuleError::TooLarge { what, limit, at: (*at).into() });
         return None;
     }

@@ -6,7 +6,7 @@ use super::fault::{Faults, RuleError};
 use super::program::{Clause, Found, Program, RelationId, by_file};
 use super::syntax::Item;
 use super::{check, component, misuse, parse, strata};
-use crate::units::Source;
+use crate::units::{Source, bilingual};
 
 impl Program {
     /// Reads one rule text.
@@ -26,8 +26,14 @@ impl Program {
         let items = all_items(sources, &mut faults);
         for item in &items {
             if let Item::Include { path, at } = item {
-                let what = format!(".include \"{path}\" в тексте, у которого нет папки");
-                let help = "дайте тексты правил вместе, одной программой";
+                let what = bilingual!(
+                    ".include \"{path}\" в тексте, у которого нет папки",
+                    ".include \"{path}\" in a text that has no folder"
+                );
+                let help = (
+                    "дайте тексты правил вместе, одной программой",
+                    "give the rule texts together, as one program",
+                );
                 faults.push(*at, RuleError::Unsupported { what, help, at: (*at).into() });
             }
         }

@@ -126,7 +126,9 @@ impl<'g> Building<'g> {
 
     fn category_of(&self, name: &Name) -> Checked<(Category, Type)> {
         let names = self.categories.iter().map(|(known, _)| known.as_str());
-        let at = self.category(&name.text).ok_or_else(|| unknown("категория", name, names))?;
+        let at = self
+            .category(&name.text)
+            .ok_or_else(|| unknown(("категория", "category"), name, names))?;
         let of = self.categories[usize::from(at)].1;
         // A category whose only rule is at fault is told of there.
         Ok((at, of.unwrap_or(Type::Nothing)))
@@ -149,7 +151,7 @@ impl<'g> Building<'g> {
             Statement::Order { free } => self.tongue.free = *free,
             Statement::Say { name, text } => {
                 if !SENTENCES.contains(&name.text.as_str()) {
-                    return Err(unknown("ответ", name, SENTENCES));
+                    return Err(unknown(("ответ", "answer"), name, SENTENCES));
                 }
                 self.tongue.says.insert(name.text.clone(), text.clone());
             }
@@ -230,7 +232,11 @@ impl<'g> Building<'g> {
         {
             let at = place_of(&pattern[at]);
             return Err(LangError::Syntax {
-                expected: "часть без «*»: повторы – дело оборотов",
+                expected: (
+                    "часть без «*»: повторы – дело оборотов",
+                    "a part without “*”: repetitions belong into phrases",
+                )
+                    .into(),
                 at: at.into(),
             });
         }
@@ -244,7 +250,10 @@ impl<'g> Building<'g> {
         let mut agree = Vec::new();
         for name in &rule.agree {
             let names = variables.iter().map(|(name, _)| name.as_str());
-            agree.push(slot_of(&name.text).ok_or_else(|| unknown("переменная", name, names))?);
+            agree.push(
+                slot_of(&name.text)
+                    .ok_or_else(|| unknown(("переменная", "variable"), name, names))?,
+            );
         }
         let head = head.and_then(slot_of);
         // With and without each of what may be left out.
@@ -339,13 +348,22 @@ impl<'g> Building<'g> {
                         None => None,
                         Some(name) => {
                             let at = (name.at.start, name.at.len()).into();
-                            let other = "имя, которого в образце ещё нет";
-                            let few = "не больше 255 имён в образце";
+                            let other = (
+                                "имя, которого в образце ещё нет",
+                                "a name that the pattern does not have yet",
+                            );
+                            let few = (
+                                "не больше 255 имён в образце",
+                                "no more than 255 names in a pattern",
+                            );
                             let is_new = !variables.contains(&name.text.as_str());
                             let number = u8::try_from(variables.len()).ok().filter(|_| is_new);
                             let expected = if is_new { few } else { other };
                             variables.push(&name.text);
-                            Some(number.ok_or(LangError::Syntax { expected, at })?)
+                            Some(
+                                number
+                                    .ok_or(LangError::Syntax { expected: expected.into(), at })?,
+                            )
                         }
                     };
                     Slot::Part { category: at, features: *features, variable: number }
@@ -372,7 +390,7 @@ impl<'g> Building<'g> {
                     return Ok(found);
                 }
                 let names = self.roles.iter().map(|role| role.name.as_str());
-                let (id, role) = role(name).ok_or_else(|| unknown("имя", name, names))?;
+                let (id, role) = role(name).ok_or_else(|| unknown(("имя", "name"), name, names))?;
                 Ok(match role.overloads.iter().all(|o| o.sorts.len() == 1) {
                     true => (Meaning::Said(id), Type::Mods),
                     false => (Meaning::Role(id), Type::Role),
@@ -395,13 +413,14 @@ impl<'g> Building<'g> {
             Expr::Call(name, arguments) => {
                 if let ("any", [Expr::Name(sort)]) = (name.text.as_str(), &arguments[..]) {
                     let names = ["Thing", "Area", "Opening", "Point", "Storey", "Any"];
-                    let sorts =
-                        Sorts::named(&sort.text).ok_or_else(|| unknown("тип", sort, names))?;
+                    let sorts = Sorts::named(&sort.text)
+                        .ok_or_else(|| unknown(("тип", "type"), sort, names))?;
                     return Ok((Meaning::Any(sorts), Type::Desc));
                 }
                 if let ("most" | "least", [Expr::Name(of)]) = (name.text.as_str(), &arguments[..]) {
-                    let dimension = Dimension::named(&of.text)
-                        .ok_or_else(|| unknown("мера", of, Dimension::NAMES.map(|(n, _)| n)))?;
+                    let dimension = Dimension::named(&of.text).ok_or_else(|| {
+                        unknown(("мера", "measure"), of, Dimension::NAMES.map(|(n, _)| n))
+                    })?;
                     return Ok((Meaning::Measure(dimension, name.text == "most"), Type::Measure));
                 }
                 if let ("property", [Expr::Name(of)]) = (name.text.as_str(), &arguments[..]) {
@@ -415,7 +434,9 @@ impl<'g> Building<'g> {
                     if !variables.is_empty() {
                         let at = (name.at.start, name.at.len()).into();
                         return Err(LangError::Syntax {
-                            expected: "часть, а не имя вида", at
+                            expected: ("часть, а не имя вида", "a part, and no name of a form")
+                                .into(),
+                            at,
                         });
                     }
                     return Ok(match name.text.as_str() {
@@ -445,13 +466,15 @@ impl<'g> Building<'g> {
                 }
                 let known = Function::NAMES.iter().find(|(own, _)| *own == name.text);
                 let names = Function::NAMES.iter().map(|(own, _)| *own);
-                let (_, function) = known.ok_or_else(|| unknown("функция", name, names))?;
+                let (_, function) =
+                    known.ok_or_else(|| unknown(("функция", "function"), name, names))?;
                 let (takes, gives) = function.signature();
                 let least = takes.len() - function.optional();
                 if checked.len() < least || checked.len() > takes.len() {
                     let at = (name.at.start, name.at.len()).into();
                     return Err(LangError::Syntax {
-                        expected: "другое число аргументов", at
+                        expected: ("другое число аргументов", "another number of arguments").into(),
+                        at,
                     });
                 }
                 takes.iter().enumerate().try_for_each(|(n, of)| wanted(n, *of))?;
@@ -465,8 +488,8 @@ impl<'g> Building<'g> {
 fn mismatch(name: &Name, found: Type, wanted: Type) -> LangError {
     LangError::Type {
         name: name.text.clone(),
-        found: found.word(),
-        wanted: wanted.word(),
+        found: found.word().into(),
+        wanted: wanted.word().into(),
         at: (name.at.start, name.at.len()).into(),
     }
 }

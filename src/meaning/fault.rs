@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// One fault of a grammar file. The line in which it stands is left out; the rest works.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
@@ -14,7 +14,7 @@ pub enum LangError {
     #[error("здесь ожидается {expected}")]
     #[diagnostic(code(language::syntax), help("образцы строк стоят в rules/language"))]
     Syntax {
-        expected: &'static str,
+        expected: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -22,7 +22,7 @@ pub enum LangError {
     #[diagnostic(code(language::unknown), help("{}", nearest.as_ref().map_or_else(
         || "исправьте имя или опишите его строкой".to_owned(), |n| format!("может быть, «{n}»?"))))]
     Unknown {
-        what: &'static str,
+        what: Bilingual,
         name: String,
         nearest: Option<String>,
         #[label("здесь")]
@@ -35,8 +35,8 @@ pub enum LangError {
     )]
     Type {
         name: String,
-        found: &'static str,
-        wanted: &'static str,
+        found: Bilingual,
+        wanted: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },

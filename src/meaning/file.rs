@@ -184,15 +184,15 @@ impl<'t> Parser<'t> {
         is_there
     }
 
-    fn wants<T>(&mut self, expected: &'static str) -> Parsed<T> {
+    fn wants<T>(&mut self, expected: (&'static str, &'static str)) -> Parsed<T> {
         let rest = self.rest();
         let length = rest.chars().next().map_or(0, char::len_utf8);
         // What lacks at the end lacks behind the last word.
         let at = if length == 0 { self.text[..self.end].trim_end().len() } else { self.at };
-        Err(LangError::Syntax { expected, at: (at, length).into() })
+        Err(LangError::Syntax { expected: expected.into(), at: (at, length).into() })
     }
 
-    fn needs(&mut self, mark: &str, expected: &'static str) -> Parsed<()> {
+    fn needs(&mut self, mark: &str, expected: (&'static str, &'static str)) -> Parsed<()> {
         if self.takes(mark) { Ok(()) } else { self.wants(expected) }
     }
 
@@ -209,7 +209,7 @@ impl<'t> Parser<'t> {
         Some(Name { text: rest[..length].to_owned(), at })
     }
 
-    fn named(&mut self, expected: &'static str) -> Parsed<Name> {
+    fn named(&mut self, expected: (&'static str, &'static str)) -> Parsed<Name> {
         match self.name() {
             Some(name) => Ok(name),
             None => self.wants(expected),
@@ -217,11 +217,18 @@ impl<'t> Parser<'t> {
     }
 
     fn ends(&mut self) -> Parsed<()> {
-        if self.rest().is_empty() { Ok(()) } else { self.wants("конец строки") }
+        if self.rest().is_empty() {
+            Ok(())
+        } else {
+            self.wants(("конец строки", "the end of the line"))
+        }
     }
 
     fn statement(&mut self) -> Parsed<Statement> {
-        let first = self.named("void, loose, order, role, категория или форма")?;
+        let first = self.named((
+            "void, loose, order, role, категория или форма",
+            "void, loose, order, role, a category or a form",
+        ))?;
         let is_rule = self.rest().starts_with(['<', '(']);
         let statement = match first.text.as_str() {
             "void" | "loose" => {
@@ -231,17 +238,17 @@ impl<'t> Parser<'t> {
                 }
                 Statement::Skip { loose: first.text == "loose", words }
             }
-            "order" => match self.named("free или fixed")?.text.as_str() {
+            "order" => match self.named(("free или fixed", "free or fixed"))?.text.as_str() {
                 "free" => Statement::Order { free: true },
                 "fixed" => Statement::Order { free: false },
-                _ => return self.wants("free или fixed"),
+                _ => return self.wants(("free или fixed", "free or fixed")),
             },
             "reserved" => Statement::Reserved(self.run_of_names()?),
             "say" if !is_rule => {
-                let name = self.named("имя ответа")?;
-                self.needs("\"", "текст в кавычках")?;
+                let name = self.named(("имя ответа", "the name of an answer"))?;
+                self.needs("\"", ("текст в кавычках", "a text in quotation marks"))?;
                 let Some(length) = self.text[self.at..self.end].find('"') else {
-                    return self.wants("закрывающая кавычка");
+                    return self.wants(("закрывающая кавычка", "a closing quotation mark"));
                 };
                 let text = self.text[self.at..self.at + length].to_owned();
                 self.at += length + 1;
@@ -255,7 +262,7 @@ impl<'t> Parser<'t> {
     }
 
     fn run_of_names(&mut self) -> Parsed<Vec<Name>> {
-        let mut names = vec![self.named("слово")?];
+        let mut names = vec![self.named(("слово", "a word"))?];
         loop {
             if self.takes(",") {
                 names.push(Name { text: ",".to_owned(), at: self.at - 1..self.at });
@@ -268,23 +275,23 @@ impl<'t> Parser<'t> {
     }
 
     fn role(&mut self) -> Parsed<Statement> {
-        let name = self.named("имя отношения")?;
+        let name = self.named(("имя отношения", "the name of a relation"))?;
         let mut parameters = Vec::new();
-        self.needs("(", "«(»")?;
+        self.needs("(", ("«(»", "“(”"))?;
         loop {
-            let variable = self.named("имя аргумента")?;
-            self.needs(":", "«:»")?;
-            let mut types = vec![self.named("тип")?];
+            let variable = self.named(("имя аргумента", "the name of an argument"))?;
+            self.needs(":", ("«:»", "“:”"))?;
+            let mut types = vec![self.named(("тип", "a type"))?];
             while self.takes("|") {
-                types.push(self.named("тип")?);
+                types.push(self.named(("тип", "a type"))?);
             }
             parameters.push((variable, types));
             if !self.takes(",") {
                 break;
             }
         }
-        self.needs(")", "«)» или «,»")?;
-        self.needs("=", "«=»")?;
+        self.needs(")", ("«)» или «,»", "“)” or “,”"))?;
+        self.needs("=", ("«=»", "“=”"))?;
         let body = self.rest();
         let body = body.split("//").next().unwrap_or_default().trim();
         self.at = self.end;
@@ -305,7 +312,7 @@ impl<'t> Parser<'t> {
                 (Left::Form(name), Some(self.call(first)?))
             }
         };
-        self.needs("<-", "«<-»")?;
+        self.needs("<-", ("«<-»", "“<-”"))?;
         let mut patterns = vec![self.pattern()?];
         while self.takes("|") {
             patterns.push(self.pattern()?);
@@ -313,23 +320,23 @@ impl<'t> Parser<'t> {
         let (mut agree, mut cost) = (Vec::new(), 0);
         if self.takes("{") {
             loop {
-                match self.named("agree или cost")?.text.as_str() {
+                match self.named(("agree или cost", "agree or cost"))?.text.as_str() {
                     "agree" => {
                         while let Some(name) = self.name() {
                             agree.push(name);
                         }
                     }
-                    "cost" => match self.named("число")?.text.parse() {
+                    "cost" => match self.named(("число", "a number"))?.text.parse() {
                         Ok(number) => cost = number,
-                        Err(_) => return self.wants("число"),
+                        Err(_) => return self.wants(("число", "a number")),
                     },
-                    _ => return self.wants("agree или cost"),
+                    _ => return self.wants(("agree или cost", "agree or cost")),
                 }
                 if !self.takes(",") {
                     break;
                 }
             }
-            self.needs("}", "«}»")?;
+            self.needs("}", ("«}»", "“}”"))?;
         }
         if is_category && self.takes("=") {
             meaning = Some(self.expression()?);
@@ -351,7 +358,7 @@ impl<'t> Parser<'t> {
                 while self.takes("|") {
                     choices.push(self.words()?);
                 }
-                self.needs(")", "«)» или «|»")?;
+                self.needs(")", ("«)» или «|»", "“)” or “|”"))?;
                 let repeat = self.repeat();
                 elements.push(Element { kind: ElementKind::Words(choices), repeat });
                 is_run = false;
@@ -359,7 +366,7 @@ impl<'t> Parser<'t> {
             }
             let is_word = rest.starts_with(['~', ',', ':']) || {
                 let ahead = self.at;
-                let name = self.named("слово или категория")?;
+                let name = self.named(("слово или категория", "a word or a category"))?;
                 let named = self.rest().starts_with(':') && !self.rest().starts_with(": ");
                 self.at = ahead;
                 !named && !name.text.starts_with(|c: char| c.is_ascii_uppercase())
@@ -382,7 +389,7 @@ impl<'t> Parser<'t> {
             is_run = repeat == Repeat::Once;
         }
         if elements.is_empty() {
-            self.wants("слово или категория")
+            self.wants(("слово или категория", "a word or a category"))
         } else {
             Ok(elements)
         }
@@ -404,16 +411,16 @@ impl<'t> Parser<'t> {
             }
         }
         let declines = self.takes("~");
-        let mut name = self.named("слово")?;
+        let mut name = self.named(("слово", "a word"))?;
         name.text = name_key(&name.text);
         let features = self.features()?;
         Ok(Word { name, declines, features })
     }
 
     fn part(&mut self) -> Parsed<Element> {
-        let first = self.named("категория")?;
+        let first = self.named(("категория", "a category"))?;
         let (variable, category) = match self.takes(":") {
-            true => (Some(first), self.named("категория")?),
+            true => (Some(first), self.named(("категория", "a category"))?),
             false => (None, first),
         };
         let features = self.features()?;
@@ -438,21 +445,29 @@ impl<'t> Parser<'t> {
         }
         let found = Features::named(&names.iter().map(String::as_str).collect::<Vec<_>>());
         let at = (start, self.at - start).into();
-        self.needs("]", "«]»")?;
-        found.map_err(|name| LangError::Unknown { what: "признак", name, nearest: None, at })
+        self.needs("]", ("«]»", "“]”"))?;
+        found.map_err(|name| LangError::Unknown {
+            what: ("признак", "feature").into(),
+            name,
+            nearest: None,
+            at,
+        })
     }
 
     fn call(&mut self, name: Name) -> Parsed<Expr> {
-        self.needs("(", "«(»")?;
+        self.needs("(", ("«(»", "“(”"))?;
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            return self.wants("не больше 64 скобок друг в друге");
+            return self.wants((
+                "не больше 64 скобок друг в друге",
+                "no more than 64 brackets within one another",
+            ));
         }
         let mut arguments = Vec::new();
         while !self.takes(")") {
             arguments.push(self.expression()?);
             if !self.takes(",") && !self.rest().starts_with(')') {
-                return self.wants("«)» или «,»");
+                return self.wants(("«)» или «,»", "“)” or “,”"));
             }
         }
         self.depth -= 1;
@@ -468,7 +483,7 @@ impl<'t> Parser<'t> {
     }
 
     fn atom(&mut self) -> Parsed<Expr> {
-        let name = self.named("имя или число")?;
+        let name = self.named(("имя или число", "a name or a number"))?;
         if let Ok(number) = name.text.parse() {
             return Ok(Expr::Number(number));
         }

@@ -201,7 +201,9 @@ impl Grammar {
             let mut of = Sorts::NONE;
             for one in types {
                 let names = ["Thing", "Area", "Opening", "Point", "Storey", "Any"];
-                of = of | Sorts::named(&one.text).ok_or_else(|| unknown("тип", one, names))?;
+                of = of
+                    | Sorts::named(&one.text)
+                        .ok_or_else(|| unknown(("тип", "type"), one, names))?;
             }
             sorts.push(of);
         }
@@ -228,12 +230,17 @@ fn folder(language: Language) -> &'static str {
 
 /// A name that nothing declares, with the nearest that something does.
 pub(super) fn unknown<'n>(
-    what: &'static str,
+    what: (&'static str, &'static str),
     name: &Name,
     known: impl IntoIterator<Item = &'n str>,
 ) -> LangError {
     let nearest = nearest_name(&name.text, known).map(str::to_owned);
-    LangError::Unknown { what, name: name.text.clone(), nearest, at: name.at.clone().into() }
+    LangError::Unknown {
+        what: what.into(),
+        name: name.text.clone(),
+        nearest,
+        at: name.at.clone().into(),
+    }
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ mod chart;
 mod check;
 mod cover;
 mod declared;
+mod english;
 mod fault;
 mod features;
 mod file;

@@ -43,16 +43,16 @@ pub(crate) enum Type {
 
 impl Type {
     /// As faults call it.
-    pub(crate) fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> (&'static str, &'static str) {
         match self {
-            Self::Nothing => "ничего",
-            Self::Desc => "описание вещи",
-            Self::Mods => "то, что о вещи сказано",
-            Self::Role => "отношение",
-            Self::Number => "число",
-            Self::Property => "свойство",
-            Self::Measure => "мера",
-            Self::Form => "вопрос",
+            Self::Nothing => ("ничего", "nothing"),
+            Self::Desc => ("описание вещи", "a description of a thing"),
+            Self::Mods => ("то, что о вещи сказано", "what is said of a thing"),
+            Self::Role => ("отношение", "a relation"),
+            Self::Number => ("число", "a number"),
+            Self::Property => ("свойство", "a property"),
+            Self::Measure => ("мера", "a measure"),
+            Self::Form => ("вопрос", "a question"),
         }
     }
 }

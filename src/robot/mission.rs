@@ -5,7 +5,7 @@ use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{Entity, World};
 use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
 use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts};
-use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
+use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId, Stop};
 
 use std::collections::BTreeMap;
@@ -156,6 +156,17 @@ pub enum MissionError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Relations(#[from] RelationError),
+}
+
+impl MissionError {
+    /// The faults as English tells them.
+    #[must_use]
+    pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
+        match self {
+            Self::Rules(faults) => Box::new(EnglishFaults::from(faults)),
+            Self::Relations(error) => error.in_english(),
+        }
+    }
 }
 
 /// Plans and carries out goals on a belief of its own.

@@ -61,6 +61,7 @@ mod asked;
 mod body;
 mod cargo;
 mod claim;
+mod english;
 mod feed;
 mod grid;
 mod lifts;

@@ -11,7 +11,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::facts::{Program, Value};
-use crate::units::Source;
+use crate::units::{Bilingual, Source, bilingual};
 
 /// What a number of the rule text counts, and what it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,13 +45,26 @@ impl Unit {
         }
     }
 
-    fn words(self) -> &'static str {
+    fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Length => "длина в десятых долях миллиметра, от 0 до 1000000 (100 м)",
-            Self::Angle => "угол в сотых долях градуса, от 0 до 18000",
-            Self::Share => "доля в тысячных, от 0 до 1000",
-            Self::Times => "число раз, от 1 до 1000",
+            Self::Length => (
+                "длина в десятых долях миллиметра, от 0 до 1000000 (100 м)",
+                "a length in tenths of a millimetre, from 0 to 1000000 (100 m)",
+            ),
+            Self::Angle => (
+                "угол в сотых долях градуса, от 0 до 18000",
+                "an angle in hundredths of a degree, from 0 to 18000",
+            ),
+            Self::Share => {
+                ("доля в тысячных, от 0 до 1000", "a share in thousandths, from 0 to 1000")
+            }
+            Self::Times => ("число раз, от 1 до 1000", "a number of times, from 1 to 1000"),
         }
+    }
+
+    fn told(self) -> Bilingual {
+        let (russian, english) = self.words();
+        Bilingual::new(format!("это {russian}"), format!("it is {english}"))
     }
 }
 
@@ -213,8 +226,8 @@ thresholds! {
 #[error("{message}")]
 #[diagnostic(code(semantics::threshold), help("{help}"))]
 pub struct ThresholdFault {
-    message: String,
-    help: String,
+    pub(super) message: Bilingual,
+    pub(super) help: Bilingual,
     #[source_code]
     text: Source,
     #[label("здесь")]
@@ -260,21 +273,33 @@ pub(super) fn faults(program: &Program) -> Vec<ThresholdFault> {
             faults.push(ThresholdFault { message, help, text: (*source).clone(), at: *at });
         };
         if !["common", "surveyed", "detected"].contains(&profile.as_str()) {
-            let message = format!("нет профиля «{profile}»");
-            fault(message, "бывают common, surveyed и detected".to_owned());
+            let message = bilingual!("нет профиля «{profile}»", "there is no profile “{profile}”");
+            let help =
+                ("бывают common, surveyed и detected", "there are common, surveyed and detected");
+            fault(message, help.into());
         }
         let Some(known) = KNOWN.iter().find(|known| known.name == name) else { continue };
         let (least, most) = known.unit.range();
         if !(least..=most).contains(value) {
-            let message = format!("порог «{name}» не может быть {value}");
-            fault(message, format!("это {}", known.unit.words()));
+            let message = bilingual!(
+                "порог «{name}» не может быть {value}",
+                "the threshold “{name}” cannot be {value}"
+            );
+            fault(message, known.unit.told());
         }
         let same = |other: &&Limit<'_>| other.profile == *profile && other.name == *name;
         if let Some(first) = limits[..n].iter().find(same).filter(|first| first.value != *value) {
             let (line, _) = first.source.position(first.at.offset());
             let place = format!("{}:{line}", first.source.name());
-            let message = format!("порог «{name}» назван дважды: {} и {value}", first.value);
-            fault(message, format!("оставьте один: здесь или {place}"));
+            let message = bilingual!(
+                "порог «{name}» назван дважды: {} и {value}",
+                "the threshold “{name}” is given twice: {} and {value}",
+                first.value
+            );
+            fault(
+                message,
+                bilingual!("оставьте один: здесь или {place}", "keep one: here or {place}"),
+            );
         }
     }
     let reaches = program.relation("reach").map(|relation| program.written(relation));
@@ -282,8 +307,11 @@ pub(super) fn faults(program: &Program) -> Vec<ThresholdFault> {
         let [Value::Symbol(name), Value::Number(value)] = &values[..] else { continue };
         let (least, most) = Unit::Length.range();
         if !(least..=most).contains(value) {
-            let message = format!("предел измерения «{name}» не может быть {value}");
-            let help = format!("это {}", Unit::Length.words());
+            let message = bilingual!(
+                "предел измерения «{name}» не может быть {value}",
+                "the limit of measuring “{name}” cannot be {value}"
+            );
+            let help = Unit::Length.told();
             faults.push(ThresholdFault { message, help, text: source.clone(), at });
         }
     }

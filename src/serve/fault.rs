@@ -65,12 +65,9 @@ impl Fault {
         let world = world.unwrap_or(&nothing);
         let text = |found: Option<Box<dyn std::fmt::Display + '_>>| found.map(|t| t.to_string());
         let mut faults = leaves(error, None);
-        if let Some(english) = error.in_english() {
-            let told = leaves(&*english, None);
-            for (fault, english) in faults.iter_mut().zip(told) {
-                fault["message_en"] = english["message"].clone();
-                fault["help_en"] = english["help"].clone();
-            }
+        for (fault, english) in faults.iter_mut().zip(leaves(&*error.in_english(), None)) {
+            fault["message_en"] = english["message"].clone();
+            fault["help_en"] = english["help"].clone();
         }
         let one = |field: &str| match &faults[..] {
             [only] => only[field].as_str().map(str::to_owned),
@@ -80,7 +77,11 @@ impl Fault {
             "outcome": "refused",
             "code": text(error.code()).or(one("code")),
             "message": one("message").unwrap_or_else(|| error.say(world, Language::Russian)),
-            "message_en": one("message_en").unwrap_or_else(|| error.say(world, Language::English)),
+            // What is said of a request names things as English does.
+            "message_en": match error {
+                Error::Request(_) | Error::Misheard(_) => error.say(world, Language::English),
+                _ => one("message_en").unwrap_or_else(|| error.say(world, Language::English)),
+            },
             "help": text(error.help()).or(one("help")),
             "help_en": one("help_en"),
             "faults": faults,

@@ -442,7 +442,8 @@ pub(super) fn differences(all: &[Difference]) -> Vec<Value> {
                 Fate::Changed => "changed",
                 Fate::Deleted => "deleted",
             },
-            "subject": d.subject, "ru": d.to_string(), "fields": fields.collect::<Vec<_>>(),
+            "subject": d.subject.to_string(),
+            "ru": d.say(Language::Russian), "en": d.say(Language::English), "fields": fields.collect::<Vec<_>>(),
         })
     };
     all.iter().map(one).collect()

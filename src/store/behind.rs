@@ -16,6 +16,7 @@ use super::frame::Op;
 use super::head::Head;
 use super::memory::MemoryTrees;
 use super::trees::{State, Trees};
+use crate::units::Bilingual;
 
 /// Operations that sled takes though more are being written: replaying them takes less than a second.
 const TURN: usize = 512 << 10;
@@ -32,7 +33,7 @@ struct Queue {
     /// Someone waits for sled to be in step.
     is_wanted: bool,
     ends: bool,
-    failed: Option<String>,
+    failed: Option<Bilingual>,
 }
 
 struct Shared {
@@ -73,7 +74,7 @@ impl Shared {
         queue.is_busy = false;
         if let Err(error) = done {
             tracing::warn!(%error, "sled is not followed any more");
-            queue.failed.get_or_insert(error.to_string());
+            queue.failed.get_or_insert(Bilingual::of(&error));
         }
         self.news.notify_all();
         queue
@@ -110,7 +111,7 @@ impl Behind {
     /// [`StoreError::Tables`] when the system has no thread to give.
     pub(crate) fn new(
         memory: Arc<MemoryTrees>,
-        trees: std::result::Result<Arc<dyn Trees>, String>,
+        trees: std::result::Result<Arc<dyn Trees>, Bilingual>,
         head: Option<Head>,
         dirty: Vec<(u8, Vec<u8>)>,
         has_thread: bool,
@@ -127,7 +128,7 @@ impl Behind {
             let spawned = std::thread::Builder::new()
                 .name("orthoframe-store".to_owned())
                 .spawn(move || shared.work());
-            Some(spawned.map_err(|e| StoreError::Tables { what: e.to_string() })?)
+            Some(spawned.map_err(|e| StoreError::Tables { what: e.to_string().into() })?)
         } else {
             None
         };

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::derived::broken_derived;
 use super::disk::{Disk, RealDisk};
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{FILE_HEADER, format_stated};
 use super::journal::{numbered, snapshot_dir, snapshot_files};
 use super::keep::Store;
@@ -21,6 +21,7 @@ use super::tables::Table;
 use super::trees::{HISTORY, REPLICAS, RUNS, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
+use crate::units::{Bilingual, InEnglish};
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,7 +38,7 @@ pub enum Severity {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
     pub severity: Severity,
-    pub text: String,
+    pub text: Bilingual,
 }
 
 /// What a deep check of a store found.
@@ -58,7 +59,7 @@ impl FsckReport {
         self.findings.iter().all(|f| f.severity == Severity::Note)
     }
 
-    fn find(&mut self, severity: Severity, text: impl Into<String>) {
+    fn find(&mut self, severity: Severity, text: impl Into<Bilingual>) {
         self.findings.push(Finding { severity, text: text.into() });
     }
 }
@@ -77,7 +78,10 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     }
     let mut report = FsckReport::default();
     if place == Place::Unmarked {
-        report.find(Severity::Mendable, "файл FORMAT утрачен или испорчен");
+        report.find(
+            Severity::Mendable,
+            ("файл FORMAT утрачен или испорчен", "the file FORMAT is lost or broken"),
+        );
     }
     check_snapshots(&*disk, dir, &mut report)?;
     let lock = lock(dir);
@@ -86,41 +90,72 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     let looked = match &lock {
         Ok(_) => Vault::look(Arc::clone(&disk), dir, had_trees, || match had_trees {
             true => shelf.open(),
-            false => Err(StoreError::Tables { what: "таблиц sled нет".to_owned() }),
+            false => Err(StoreError::Tables {
+                what: ("таблиц sled нет", "there are no tables of sled").into(),
+            }),
         }),
         Err(why) => {
-            report.find(Severity::Note, format!("{why}: таблицы sled не проверены"));
+            report.find(
+                Severity::Note,
+                Bilingual::new(
+                    format!("{why}: таблицы sled не проверены"),
+                    format!("{}: the tables of sled are not checked", why.english()),
+                ),
+            );
             Vault::open_read_only(Arc::clone(&disk), dir, &shelf)
         }
     };
     match looked {
         Err(error @ StoreError::UnknownFormat { .. }) => return Err(error),
-        Err(error) => report.find(Severity::Broken, error.to_string()),
+        Err(error) => report.find(Severity::Broken, Bilingual::of(&error)),
         Ok((vault, opened)) => {
             report.lsn = opened.lsn;
             report.records = opened.records;
             if opened.torn_bytes > 0 {
-                let text = format!("журнал обрывается: {} байт не дописано", opened.torn_bytes);
+                let bytes = opened.torn_bytes;
+                let text = Bilingual::new(
+                    format!("журнал обрывается: {bytes} байт не дописано"),
+                    format!(
+                        "the journal is cut off: {bytes} bytes of a record that was not finished"
+                    ),
+                );
                 report.find(Severity::Mendable, text);
             }
             let faults =
                 [&opened.journal_renewed, &opened.tables_rebuilt, &opened.read_from_tables];
             for fault in faults.into_iter().flatten() {
-                report.find(Severity::Mendable, fault);
+                report.find(Severity::Mendable, fault.clone());
             }
             for name in &opened.marks_renewed {
-                report.find(Severity::Mendable, format!("файл {name} испорчен"));
+                report.find(
+                    Severity::Mendable,
+                    Bilingual::new(
+                        format!("файл {name} испорчен"),
+                        format!("the file {name} is broken"),
+                    ),
+                );
             }
             if lock.is_ok() && opened.replayed > 0 && opened.tables_rebuilt.is_none() {
-                report.find(Severity::Note, "таблицы sled отстали от журнала");
+                report.find(
+                    Severity::Note,
+                    (
+                        "таблицы sled отстали от журнала",
+                        "the tables of sled are behind the journal",
+                    ),
+                );
             }
             check_past(vault.past(), &mut report);
             if let Err(error) = check_records(&**vault.trees(), &mut report) {
-                report.find(Severity::Broken, error.to_string());
+                report.find(Severity::Broken, Bilingual::of(&error));
             }
             check_map(Store::over(vault, dir, None), &mut report);
             for kind in broken_derived(&*disk, dir)? {
-                let text = format!("выведенное из карты ({kind}) испорчено, будет выведено заново");
+                let text = Bilingual::new(
+                    format!("выведенное из карты ({kind}) испорчено, будет выведено заново"),
+                    format!(
+                        "what was derived from the map ({kind}) is broken, and will be derived anew"
+                    ),
+                );
                 report.find(Severity::Mendable, text);
             }
         }
@@ -132,7 +167,7 @@ fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Resu
     for (_, path) in snapshot_files(disk, dir)? {
         report.snapshots += 1;
         if let Err(error) = check_snapshot(disk, &path) {
-            report.find(Severity::Mendable, error.to_string());
+            report.find(Severity::Mendable, Bilingual::of(&error));
         }
     }
     Ok(())
@@ -142,11 +177,11 @@ fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Resu
 fn check_past(past: &Past, report: &mut FsckReport) {
     for run in past.runs().iter().map(|named| &named.run) {
         match run {
-            Err(error) => report.find(Severity::Broken, error.to_string()),
+            Err(error) => report.find(Severity::Broken, Bilingual::of(error)),
             Ok(run) => {
                 report.records += run.records;
                 for error in run.check() {
-                    report.find(Severity::Mendable, error.to_string());
+                    report.find(Severity::Mendable, Bilingual::of(&error));
                 }
             }
         }
@@ -158,10 +193,13 @@ fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
     let mut astray = 0;
     let mut check = |table: Table, key: &[u8], bytes: &[u8]| {
         let fault = match Version::decode(table, key, bytes) {
-            Err(error) => error.to_string(),
+            Err(error) => Bilingual::of(&error),
             Ok(version) => match key_of(table.columns(), &version.row) {
                 Some(own) if own.as_bytes() == key && table.fits(&version.row) => return,
-                _ => format!("таблица {}: запись стоит не под своим ключом", table.name()),
+                _ => Bilingual::new(
+                    format!("таблица {}: запись стоит не под своим ключом", table.name()),
+                    format!("table {}: a record does not stand under its key", table.name()),
+                ),
             },
         };
         report.find(Severity::Broken, fault);
@@ -184,7 +222,13 @@ fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
         Ok(true)
     })?;
     if astray > 0 {
-        report.find(Severity::Broken, format!("в указателе нет экземпляров: {astray}"));
+        report.find(
+            Severity::Broken,
+            Bilingual::new(
+                format!("в указателе нет экземпляров: {astray}"),
+                format!("the index lacks replicas: {astray}"),
+            ),
+        );
     }
     Ok(())
 }
@@ -196,17 +240,28 @@ fn check_map(store: Result<Store>, report: &mut FsckReport) {
         if let (Some(first), Some(last)) = (numbers.first(), numbers.last())
             && last - first + 1 != numbers.len() as u64
         {
-            report.find(Severity::Broken, "в списке правок есть пропуски");
+            report.find(
+                Severity::Broken,
+                ("в списке правок есть пропуски", "revisions are missing in the list"),
+            );
         }
         store.world()
     });
     match found {
-        Err(error) => report.find(Severity::Broken, error.to_string()),
-        Ok(None) => report.find(Severity::Note, "карты в хранилище ещё нет"),
+        Err(error) => report.find(Severity::Broken, Bilingual::of(&error)),
+        Ok(None) => {
+            report.find(Severity::Note, ("карты в хранилище ещё нет", "the store holds no map yet"))
+        }
         // The store kept faithfully what it was given: such a fault is the map's, not the store's.
         Ok(Some(world)) => {
             for fault in crate::map::check(&world).iter().filter(|f| !f.is_warning()) {
-                report.find(Severity::Note, format!("карта: {}", fault.error));
+                report.find(
+                    Severity::Note,
+                    Bilingual::new(
+                        format!("карта: {}", fault.error),
+                        format!("the map: {}", fault.error.english()),
+                    ),
+                );
             }
         }
     }
@@ -217,24 +272,24 @@ const LARGEST_BACKUP: u64 = 4 << 30;
 
 /// A backup says in its first bytes that it is one: what says something else is not read.
 fn check_size(backup: &Path) -> Result<()> {
-    let bad = |what: &str| {
-        Err(StoreError::BadFile { path: backup.display().to_string(), what: what.to_owned() })
+    let bad = |what: (&'static str, &'static str)| {
+        Err(StoreError::BadFile { path: backup.display().to_string(), what: what.into() })
     };
-    let about = std::fs::metadata(backup).map_err(StoreError::io("прочитать", backup))?;
+    let about = std::fs::metadata(backup).map_err(StoreError::io(doing::READ, backup))?;
     if !about.is_file() {
-        return bad("это не файл");
+        return bad(("это не файл", "it is no file"));
     }
     if about.len() > LARGEST_BACKUP {
-        return bad("больше 4 ГиБ");
+        return bad(("больше 4 ГиБ", "it is larger than 4 GiB"));
     }
     let mut head = Vec::new();
     File::open(backup)
         .and_then(|file| file.take(FILE_HEADER as u64).read_to_end(&mut head))
-        .map_err(StoreError::io("прочитать", backup))?;
+        .map_err(StoreError::io(doing::READ, backup))?;
     if format_stated(&head).is_some() {
         Ok(())
     } else {
-        bad("начало файла испорчено")
+        bad(("начало файла испорчено", "the beginning of the file is broken"))
     }
 }
 
@@ -250,10 +305,10 @@ fn write_backup(path: &Path, trees: &dyn Trees) -> Result<()> {
 /// Makes of a backup the least that is a store.
 fn fill(backup: &Path, dir: &Path, lsn: u64) -> Result<()> {
     let snapshots = snapshot_dir(dir);
-    RealDisk.create_dir(&snapshots).map_err(StoreError::io("создать каталог", &snapshots))?;
-    let bytes = RealDisk.read(backup).map_err(StoreError::io("прочитать", backup))?;
+    RealDisk.create_dir(&snapshots).map_err(StoreError::io(doing::MAKE_DIR, &snapshots))?;
+    let bytes = RealDisk.read(backup).map_err(StoreError::io(doing::READ, backup))?;
     let path = numbered(&snapshots, lsn, "snapshot");
-    RealDisk.replace(&path, &[bytes]).map_err(StoreError::io("записать", &path))?;
+    RealDisk.replace(&path, &[bytes]).map_err(StoreError::io(doing::WRITE, &path))?;
     // Last, so that a half-restored directory is no store.
     write_format(&RealDisk, dir)
 }
@@ -279,7 +334,7 @@ impl Store {
         let (backup, dir) = (backup.as_ref(), dir.as_ref());
         check_size(backup)?;
         let state = check_snapshot(&RealDisk, backup)?;
-        let names = RealDisk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
+        let names = RealDisk.list(dir).map_err(StoreError::io(doing::LIST, dir))?;
         if !names.is_empty() {
             return Err(StoreError::NotEmpty { dir: dir.display().to_string() });
         }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use super::Store;
 use super::disk::Disk;
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::FORMAT;
 
 const MAGIC: &[u8; 8] = b"ORTHODRV";
@@ -61,13 +61,13 @@ impl Derived {
             return Ok(());
         }
         let path = self.path(kind);
-        self.disk.create_dir(&self.dir).map_err(StoreError::io("создать каталог", &self.dir))?;
+        self.disk.create_dir(&self.dir).map_err(StoreError::io(doing::MAKE_DIR, &self.dir))?;
         let mut head = MAGIC.to_vec();
         head.extend(FORMAT.to_be_bytes());
         head.extend(self.revision.to_be_bytes());
         head.extend(checksum(&head, bytes).to_be_bytes());
         let parts = [head, bytes.to_vec()];
-        self.disk.replace(&path, &parts).map_err(StoreError::io("записать", &path))
+        self.disk.replace(&path, &parts).map_err(StoreError::io(doing::WRITE, &path))
     }
 
     /// What was computed from the map of this revision; none when it is stale, broken, or was never kept.
@@ -115,7 +115,7 @@ fn whole_of(file: &[u8]) -> Option<u64> {
 /// [`StoreError::Io`].
 pub(crate) fn broken_derived(disk: &dyn Disk, dir: &Path) -> Result<Vec<String>> {
     let dir = dir.join("derived");
-    let mut kinds = disk.list(&dir).map_err(StoreError::io("прочитать каталог", &dir))?;
+    let mut kinds = disk.list(&dir).map_err(StoreError::io(doing::LIST, &dir))?;
     kinds.retain(|kind| {
         let is_whole = |file: Vec<u8>| whole_of(&file).is_some();
         // What a killed program left unfinished is no file of the store.

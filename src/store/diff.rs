@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::map::World;
-use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId};
+use crate::units::{
+    AreaId, Bilingual, DoorId, Language, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
+    ZoneId,
+};
 
 use super::cell::{Cell, Key, Row};
 use super::edits::Edits;
@@ -31,113 +34,132 @@ pub struct FieldChange {
     pub new: Cell,
 }
 
-/// One record that two revisions do not share. Its `Display` says it in a Russian sentence.
+/// One record that two revisions do not share. Its `Display` is what it [says](Self::say) in Russian.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     pub table: Table,
     pub fate: Fate,
     /// What the record speaks of: «стул «Стул-1»».
-    pub subject: String,
+    pub subject: Bilingual,
     /// The columns that differ; all of them for what was created or deleted.
     pub fields: Vec<FieldChange>,
     /// The same in words, where there are better ones than the columns' names.
-    words: Option<String>,
+    words: Option<Bilingual>,
+}
+
+impl Difference {
+    /// The difference in a sentence.
+    #[must_use]
+    pub fn say(&self, language: Language) -> String {
+        let subject = self.subject.say(language);
+        let told = match (&self.words, self.fate) {
+            (Some(words), _) => words.say(language).to_owned(),
+            (None, Fate::Created) => language.pick("добавлено", "added").to_owned(),
+            (None, Fate::Deleted) => language.pick("удалено", "removed").to_owned(),
+            (None, Fate::Changed) => {
+                let change = |field: &FieldChange| {
+                    let (russian, english) = word(field.column);
+                    format!("{} {} → {}", language.pick(russian, english), field.old, field.new)
+                };
+                self.fields.iter().map(change).collect::<Vec<_>>().join(", ")
+            }
+        };
+        format!("{subject}: {told}")
+    }
 }
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(words) = &self.words {
-            return write!(f, "{}: {words}", self.subject);
-        }
-        match self.fate {
-            Fate::Created => write!(f, "{}: добавлено", self.subject),
-            Fate::Deleted => write!(f, "{}: удалено", self.subject),
-            Fate::Changed => {
-                write!(f, "{}: ", self.subject)?;
-                for (n, field) in self.fields.iter().enumerate() {
-                    let comma = if n == 0 { "" } else { ", " };
-                    write!(f, "{comma}{} {} → {}", word(field.column), field.old, field.new)?;
-                }
-                Ok(())
-            }
-        }
+        f.write_str(&self.say(Language::Russian))
     }
 }
 
 /// How people call a column.
-fn word(column: &'static str) -> &'static str {
+fn word(column: &'static str) -> (&'static str, &'static str) {
     match column {
-        "Name" => "имя",
-        "NameEn" => "английское имя",
-        "Desc" => "описание",
-        "X" => "x",
-        "Y" => "y",
-        "PosX" => "сдвиг x",
-        "PosY" => "сдвиг y",
-        "PosZ" => "сдвиг z",
-        "PosA" => "поворот",
-        "Ang" => "курс",
-        "Kind" => "вид",
-        "Measure" => "скорость или направление",
-        "Points" => "углы",
-        "Reason" => "причина",
-        "ReasonEn" => "английская причина",
-        "StartsAt" => "начало",
-        "EndsAt" => "конец",
-        "Width" => "ширина",
-        "Height" | "Hieght" | "Roof" => "высота",
-        "SizeX" => "размер x",
-        "SizeY" => "размер y",
-        "SidePntr" | "BasePntr" | "RoofPntr" => "проницаемость",
-        other => other,
+        "Name" => ("имя", "name"),
+        "NameEn" => ("английское имя", "English name"),
+        "Desc" => ("описание", "description"),
+        "X" => ("x", "x"),
+        "Y" => ("y", "y"),
+        "PosX" => ("сдвиг x", "shift x"),
+        "PosY" => ("сдвиг y", "shift y"),
+        "PosZ" => ("сдвиг z", "shift z"),
+        "PosA" => ("поворот", "turn"),
+        "Ang" => ("курс", "heading"),
+        "Kind" => ("вид", "kind"),
+        "Measure" => ("скорость или направление", "speed or direction"),
+        "Points" => ("углы", "corners"),
+        "Reason" => ("причина", "reason"),
+        "ReasonEn" => ("английская причина", "English reason"),
+        "StartsAt" => ("начало", "beginning"),
+        "EndsAt" => ("конец", "end"),
+        "Width" => ("ширина", "width"),
+        "Height" | "Hieght" | "Roof" => ("высота", "height"),
+        "SizeX" => ("размер x", "size x"),
+        "SizeY" => ("размер y", "size y"),
+        "SidePntr" | "BasePntr" | "RoofPntr" => ("проницаемость", "permeability"),
+        other => (other, other),
     }
 }
 
 /// How people call a record of a table, and the column by which its owner is found: none for what has a name
 /// of its own.
-fn noun(table: Table) -> (&'static str, Option<Table>) {
+fn noun(table: Table) -> ((&'static str, &'static str), Option<Table>) {
     use Table as T;
     match table {
-        T::OrFr => ("ортофрейм", None),
-        T::Object => ("объект", None),
-        T::Area => ("помещение", None),
-        T::AreaObjects => ("экземпляр", None),
-        T::Map => ("карта", None),
-        T::Domain => ("домейн", None),
-        T::Door => ("дверь", None),
-        T::Places => ("место", None),
-        T::Zones => ("зона", None),
-        T::ZoneAreas => ("помещение зоны", Some(T::Zones)),
-        T::OrtFrmSides | T::SideNames => ("грань ортофрейма", Some(T::OrFr)),
-        T::OrtFrmProperties => ("свойство ортофрейма", Some(T::OrFr)),
-        T::OrtFrmSideProperties => ("свойство грани ортофрейма", Some(T::OrFr)),
-        T::ObjectItems => ("часть объекта", Some(T::Object)),
-        T::ObjectItemLinks => ("связь частей объекта", Some(T::Object)),
-        T::ObjectDoors => ("дверь объекта", Some(T::Object)),
-        T::ObjectProperties => ("свойство объекта", Some(T::Object)),
-        T::AreaItems => ("часть помещения", Some(T::Area)),
-        T::AreaItemLinks => ("связь частей помещения", Some(T::Area)),
-        T::AreaDoors => ("дверь помещения", Some(T::Area)),
-        T::AreaProperties => ("свойство помещения", Some(T::Area)),
-        T::ReplicaProperties => ("свойство экземпляра", Some(T::AreaObjects)),
-        T::ReplicaDoors => ("дверца экземпляра", Some(T::AreaObjects)),
-        T::DoorSides => ("створка двери", Some(T::Door)),
-        T::DoorProperties => ("свойство двери", Some(T::Door)),
-        T::MapItems => ("помещение карты", Some(T::Map)),
-        T::MapItemLinks => ("связь помещений карты", Some(T::Map)),
-        T::DomainMaps => ("карта домейна", Some(T::Domain)),
-        T::Lifts | T::LiftStops => ("лифт домейна", Some(T::Domain)),
-        T::Robot => ("робот домейна", Some(T::Domain)),
-        T::OrtFrmTypeList => ("тип ортофреймов", None),
-        T::OrtFrmShapeList => ("форма ортофреймов", None),
-        T::OrtFrmSideTypeList => ("тип граней", None),
-        T::ObjectTypeList => ("тип объектов", None),
-        T::AreaTypeList => ("тип помещений", None),
-        T::MapTypeList => ("тип карт", None),
-        T::DoorTypeList => ("тип дверей", None),
-        T::TypeWords => ("слово типа", None),
-        T::NameForms => ("словоформа имени", None),
-        other => (other.name(), None),
+        T::OrFr => (("ортофрейм", "orthoframe"), None),
+        T::Object => (("объект", "object"), None),
+        T::Area => (("помещение", "room"), None),
+        T::AreaObjects => (("экземпляр", "replica"), None),
+        T::Map => (("карта", "map"), None),
+        T::Domain => (("домейн", "domain"), None),
+        T::Door => (("дверь", "door"), None),
+        T::Places => (("место", "place"), None),
+        T::Zones => (("зона", "zone"), None),
+        T::ZoneAreas => (("помещение зоны", "room of the zone"), Some(T::Zones)),
+        T::OrtFrmSides | T::SideNames => {
+            (("грань ортофрейма", "side of the orthoframe"), Some(T::OrFr))
+        }
+        T::OrtFrmProperties => {
+            (("свойство ортофрейма", "property of the orthoframe"), Some(T::OrFr))
+        }
+        T::OrtFrmSideProperties => {
+            (("свойство грани ортофрейма", "property of a side of the orthoframe"), Some(T::OrFr))
+        }
+        T::ObjectItems => (("часть объекта", "part of the object"), Some(T::Object)),
+        T::ObjectItemLinks => {
+            (("связь частей объекта", "link of parts of the object"), Some(T::Object))
+        }
+        T::ObjectDoors => (("дверь объекта", "door of the object"), Some(T::Object)),
+        T::ObjectProperties => (("свойство объекта", "property of the object"), Some(T::Object)),
+        T::AreaItems => (("часть помещения", "part of the room"), Some(T::Area)),
+        T::AreaItemLinks => {
+            (("связь частей помещения", "link of parts of the room"), Some(T::Area))
+        }
+        T::AreaDoors => (("дверь помещения", "door of the room"), Some(T::Area)),
+        T::AreaProperties => (("свойство помещения", "property of the room"), Some(T::Area)),
+        T::ReplicaProperties => {
+            (("свойство экземпляра", "property of the replica"), Some(T::AreaObjects))
+        }
+        T::ReplicaDoors => (("дверца экземпляра", "door of the replica"), Some(T::AreaObjects)),
+        T::DoorSides => (("створка двери", "side of the door"), Some(T::Door)),
+        T::DoorProperties => (("свойство двери", "property of the door"), Some(T::Door)),
+        T::MapItems => (("помещение карты", "room of the map"), Some(T::Map)),
+        T::MapItemLinks => (("связь помещений карты", "link of rooms of the map"), Some(T::Map)),
+        T::DomainMaps => (("карта домейна", "map of the domain"), Some(T::Domain)),
+        T::Lifts | T::LiftStops => (("лифт домейна", "lift of the domain"), Some(T::Domain)),
+        T::Robot => (("робот домейна", "robot of the domain"), Some(T::Domain)),
+        T::OrtFrmTypeList => (("тип ортофреймов", "type of orthoframes"), None),
+        T::OrtFrmShapeList => (("форма ортофреймов", "shape of orthoframes"), None),
+        T::OrtFrmSideTypeList => (("тип граней", "type of sides"), None),
+        T::ObjectTypeList => (("тип объектов", "type of objects"), None),
+        T::AreaTypeList => (("тип помещений", "type of rooms"), None),
+        T::MapTypeList => (("тип карт", "type of maps"), None),
+        T::DoorTypeList => (("тип дверей", "type of doors"), None),
+        T::TypeWords => (("слово типа", "word of the type"), None),
+        T::NameForms => (("словоформа имени", "form of the name"), None),
+        other => ((other.name(), other.name()), None),
     }
 }
 
@@ -163,7 +185,7 @@ impl Names<'_> {
         Ok(Self::Read(names))
     }
 
-    fn get(&self, table: Table, id: u32) -> String {
+    fn get(&self, table: Table, id: u32) -> Bilingual {
         let name = match self {
             Self::Read(names) => names.get(&(table, id)).map(String::as_str),
             Self::Of([before, after]) => {
@@ -171,8 +193,8 @@ impl Names<'_> {
             }
         };
         match name {
-            Some(name) => format!("«{name}»"),
-            None => format!("№ {id}"),
+            Some(name) => Bilingual::quoted(name),
+            None => Bilingual::new(format!("№ {id}"), format!("no. {id}")),
         }
     }
 }
@@ -321,7 +343,7 @@ fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names<'_>) -> Diffe
     }
 }
 
-fn subject(table: Table, row: &Row, names: &Names<'_>) -> String {
+fn subject(table: Table, row: &Row, names: &Names<'_>) -> Bilingual {
     let (noun, owner) = noun(table);
     let id = |cell: Option<&Cell>| match cell {
         Some(Cell::Int(id)) => u32::try_from(*id).unwrap_or(0),
@@ -337,16 +359,25 @@ fn subject(table: Table, row: &Row, names: &Names<'_>) -> String {
             .map(|(_, cell)| cell.to_string())
             .collect();
         let owner = names.get(owner, id(row.first()));
-        return format!("{noun} {owner} {}", rest.join(" ")).trim_end().to_owned();
+        return Bilingual::both(|language| {
+            let (noun, owner) = (language.pick(noun.0, noun.1), owner.say(language));
+            format!("{noun} {owner} {}", rest.join(" ")).trim_end().to_owned()
+        });
     }
-    match super::ids::identity(table, row) {
-        Some((id, _)) => format!("{noun} {}", names.get(table, id)),
-        None => format!("{noun} {}", super::sheet::describe_key(table, row)),
-    }
+    let named = match super::ids::identity(table, row) {
+        Some((id, _)) => names.get(table, id),
+        None => super::sheet::describe_key(table, row).into(),
+    };
+    Bilingual::both(|language| format!("{} {}", language.pick(noun.0, noun.1), named.say(language)))
 }
 
 /// Movements and door states have words of their own.
-fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names<'_>) -> Option<String> {
+fn words(
+    table: Table,
+    was: Option<&Row>,
+    is: Option<&Row>,
+    names: &Names<'_>,
+) -> Option<Bilingual> {
     match table {
         Table::AreaObjects => {
             let old = was.and_then(|row| t::AreaObjects::from_row(row));
@@ -357,7 +388,7 @@ fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names<'_>) -
             let (old, new) = (t::Door::from_row(was?)?, t::Door::from_row(is?)?);
             let only_state =
                 t::Door { status: new.status.clone(), opening: new.opening, ..old.clone() };
-            (only_state == new).then(|| format!("{} → {}", door_words(&old), door_words(&new)))
+            (only_state == new).then(|| change(&door_words(&old), &door_words(&new)))
         }
         Table::ReplicaDoors => {
             let state = |row: &Row| t::ReplicaDoors::from_row(row);
@@ -367,7 +398,7 @@ fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names<'_>) -
                 opening: r.opening,
                 ..t::Door::default()
             };
-            Some(format!("{} → {}", door_words(&door(&old)), door_words(&door(&new))))
+            Some(change(&door_words(&door(&old)), &door_words(&door(&new))))
         }
         Table::ObjectProperties
         | Table::AreaProperties
@@ -375,65 +406,95 @@ fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names<'_>) -
         | Table::ReplicaProperties
         | Table::OrtFrmProperties
         | Table::OrtFrmSideProperties => match (was.and_then(|r| r.last()), is?.last()?) {
-            (None, new) => Some(new.to_string()),
-            (Some(old), new) => Some(format!("{old} → {new}")),
+            (None, new) => Some(new.to_string().into()),
+            (Some(old), new) => Some(format!("{old} → {new}").into()),
         },
         _ => None,
     }
 }
 
-fn door_words(door: &t::Door) -> String {
+fn door_words(door: &t::Door) -> Bilingual {
     match door.status.as_str() {
-        "open" if door.opening < 100.0 => format!("открыта на {} %", door.opening),
-        "open" => "открыта".into(),
-        "closed" => "закрыта".into(),
-        "locked" => "заперта".into(),
-        other => other.into(),
+        "open" if door.opening < 100.0 => Bilingual::new(
+            format!("открыта на {} %", door.opening),
+            format!("open by {} %", door.opening),
+        ),
+        "open" => ("открыта", "open").into(),
+        "closed" => ("закрыта", "closed").into(),
+        "locked" => ("заперта", "locked").into(),
+        other => other.to_owned().into(),
     }
+}
+
+fn change(old: &Bilingual, new: &Bilingual) -> Bilingual {
+    Bilingual::both(|language| format!("{} → {}", old.say(language), new.say(language)))
 }
 
 fn replica_words(
     old: Option<&t::AreaObjects>,
     new: Option<&t::AreaObjects>,
     names: &Names<'_>,
-) -> Option<String> {
+) -> Option<Bilingual> {
     let area = |r: &t::AreaObjects| names.get(Table::Area, r.area_id);
+    let of_area = |words: (&str, &str), area: &Bilingual| {
+        Bilingual::both(|language| {
+            let (words, room) =
+                (language.pick(words.0, words.1), language.pick("помещение", "room"));
+            format!("{words} ({room} {})", area.say(language))
+        })
+    };
     let (old, new) = match (old, new) {
         (Some(old), Some(new)) => (old, new),
-        (None, Some(new)) => return Some(format!("появился (помещение {})", area(new))),
-        (Some(old), None) => return Some(format!("удалён (помещение {})", area(old))),
+        (None, Some(new)) => return Some(of_area(("появился", "added"), &area(new))),
+        (Some(old), None) => return Some(of_area(("удалён", "removed"), &area(old))),
         (None, None) => return None,
+    };
+    let from_to = |russian: &str, english: &str, old: &Bilingual, new: &Bilingual| {
+        Bilingual::both(|language| {
+            let what = language.pick(russian, english);
+            format!("{what} {} → {}", old.say(language), new.say(language))
+        })
     };
     let mut said = Vec::new();
     if old.area_id != new.area_id {
-        said.push(format!("помещение {} → {}", area(old), area(new)));
+        said.push(from_to("помещение", "room", &area(old), &area(new)));
     } else {
         let moved = (new.x - old.x).hypot(new.y - old.y).hypot(new.z - old.z);
         if moved > 0.0 {
-            said.push(format!("передвинут на {} см", hundredths(moved)));
+            let moved = hundredths(moved);
+            said.push(Bilingual::new(
+                format!("передвинут на {moved} см"),
+                format!("moved by {moved} cm"),
+            ));
         }
     }
     let turn = (new.ang - old.ang).rem_euclid(360.0);
     let turn = if turn > 180.0 { turn - 360.0 } else { turn };
     if turn.abs() > 0.0 {
-        let way = if turn > 0.0 {
-            "против часовой стрелки"
+        let (russian, english) = if turn > 0.0 {
+            ("против часовой стрелки", "counter-clockwise")
         } else {
-            "по часовой стрелке"
+            ("по часовой стрелке", "clockwise")
         };
-        said.push(format!("повёрнут на {}° {way}", hundredths(turn.abs())));
+        let by = hundredths(turn.abs());
+        said.push(Bilingual::new(
+            format!("повёрнут на {by}° {russian}"),
+            format!("turned by {by}° {english}"),
+        ));
     }
     if old.object_id != new.object_id {
         let object = |r: &t::AreaObjects| names.get(Table::Object, r.object_id);
-        said.push(format!("объект {} → {}", object(old), object(new)));
+        said.push(from_to("объект", "object", &object(old), &object(new)));
     }
     if old.move_prob != new.move_prob {
-        said.push(format!("подвижность {} → {}", old.move_prob, new.move_prob));
+        let [old, new] = [old, new].map(|r| r.move_prob.to_string().into());
+        said.push(from_to("подвижность", "mobility", &old, &new));
     }
     if (&old.name, &old.name_en) != (&new.name, &new.name_en) {
-        said.push(format!("имя «{}» → «{}»", old.name, new.name));
+        let [old, new] = [old, new].map(|r| Bilingual::quoted(&r.name));
+        said.push(from_to("имя", "name", &old, &new));
     }
-    Some(said.join(", "))
+    Some(Bilingual::list(&said))
 }
 
 fn hundredths(value: f64) -> f64 {

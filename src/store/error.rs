@@ -5,7 +5,26 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::units::is_input;
+use crate::units::{Bilingual, is_input};
+
+/// What was to be done with a file.
+pub(crate) mod doing {
+    type Words = (&'static str, &'static str);
+
+    pub(crate) const OPEN: Words = ("открыть", "open");
+    pub(crate) const LOCK: Words = ("запереть", "lock");
+    pub(crate) const LIST: Words = ("прочитать каталог", "read the directory");
+    pub(crate) const READ: Words = ("прочитать", "read");
+    pub(crate) const WRITE: Words = ("записать", "write");
+    pub(crate) const WRITE_DIR: Words = ("записать каталог", "write the directory");
+    pub(crate) const WRITE_SNAPSHOT: Words = ("записать снимок", "write the snapshot");
+    pub(crate) const FIND_ROOM: Words = ("найти место для", "find room for");
+    pub(crate) const REMOVE: Words = ("удалить", "remove");
+    pub(crate) const MAKE: Words = ("создать", "make");
+    pub(crate) const MAKE_DIR: Words = ("создать каталог", "make the directory");
+    pub(crate) const RENAME: Words = ("переименовать", "rename");
+    pub(crate) const CUT: Words = ("укоротить", "cut short");
+}
 
 /// A store that cannot be opened, read or written, or that refuses what it was asked to keep.
 #[derive(Debug, Error, Diagnostic)]
@@ -17,7 +36,7 @@ pub enum StoreError {
         code(store::io),
         help("проверьте, что каталог доступен для записи и на диске есть место")
     )]
-    Io { what: &'static str, path: String, source: std::io::Error },
+    Io { what: Bilingual, path: String, source: std::io::Error },
 
     /// A directory with something else in it.
     #[error("«{dir}» — не хранилище: в каталоге есть файлы, но нет файла FORMAT")]
@@ -72,7 +91,7 @@ pub enum StoreError {
         code(store::both_corrupt),
         help("проверьте диск и восстановите хранилище из резервной копии: ortho restore КОПИЯ")
     )]
-    BothCorrupt { dir: String, journal: String, tables: String },
+    BothCorrupt { dir: String, journal: Bilingual, tables: Bilingual },
 
     /// A record's bytes do not match their checksum, or its cells do not fit.
     #[error("таблица {table}: запись {key} испорчена")]
@@ -85,7 +104,7 @@ pub enum StoreError {
     /// A record of the map names one that is not there.
     #[error("таблица {table}: {what}")]
     #[diagnostic(code(store::broken_reference), help("проверьте хранилище: ortho fsck"))]
-    BrokenReference { table: &'static str, what: String },
+    BrokenReference { table: &'static str, what: Bilingual },
 
     /// Two records with one key.
     #[error("таблица {table}: ключ {key} встречается дважды")]
@@ -121,7 +140,7 @@ pub enum StoreError {
     #[error("хранилище открыто только для чтения: {reason}")]
     #[diagnostic(code(store::read_only), help("устраните причину и откройте хранилище снова"))]
     ReadOnly {
-        reason: String,
+        reason: Bilingual,
         /// It was opened so; else the disk is at fault.
         by_choice: bool,
     },
@@ -147,12 +166,12 @@ pub enum StoreError {
         code(store::undo_breaks),
         help("сначала отмените правки, которые на неё опираются: ortho history")
     )]
-    UndoBreaks { revision: u64, what: String },
+    UndoBreaks { revision: u64, what: Bilingual },
 
     /// Nothing is left to undo or redo.
     #[error("нечего {what}")]
     #[diagnostic(code(store::nothing_to_undo), help("список правок: ortho history"))]
-    NothingToUndo { what: &'static str },
+    NothingToUndo { what: Bilingual },
 
     /// sled failed, or panicked.
     #[error("таблицы хранилища: {what}")]
@@ -160,12 +179,12 @@ pub enum StoreError {
         code(store::tables),
         help("закройте хранилище и откройте снова: таблицы восстановятся по журналу")
     )]
-    Tables { what: String },
+    Tables { what: Bilingual },
 
     /// A backup or snapshot whose bytes are not what was written.
     #[error("«{path}» — испорченный или чужой файл: {what}")]
     #[diagnostic(code(store::bad_file), help("возьмите другую резервную копию"))]
-    BadFile { path: String, what: String },
+    BadFile { path: String, what: Bilingual },
 }
 
 impl StoreError {
@@ -185,11 +204,11 @@ impl StoreError {
     }
 
     pub(crate) fn io(
-        what: &'static str,
+        what: (&'static str, &'static str),
         path: &Path,
     ) -> impl FnOnce(std::io::Error) -> Self + use<> {
         let path: PathBuf = path.to_owned();
-        move |source| Self::Io { what, path: path.display().to_string(), source }
+        move |source| Self::Io { what: what.into(), path: path.display().to_string(), source }
     }
 }
 

@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::disk::{Disk, Placed};
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::FORMAT;
 use super::trees::{State, encode_state};
 
@@ -120,7 +120,7 @@ pub(super) fn read_head(disk: &dyn Disk, dir: &Path) -> Result<Known> {
     let path = path_of(dir);
     let bytes = match disk.read(&path) {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Known::Absent),
-        bytes => bytes.map_err(StoreError::io("прочитать", &path))?,
+        bytes => bytes.map_err(StoreError::io(doing::READ, &path))?,
     };
     let newest = slots(&bytes).max_by_key(|(_, mark)| mark.lsn);
     Ok(match newest {
@@ -144,7 +144,7 @@ impl Head {
     /// [`StoreError::Io`].
     pub(super) fn open(disk: &dyn Disk, dir: &Path, known: &Known, mark: &Mark) -> Result<Self> {
         let path = path_of(dir);
-        let failed = || StoreError::io("записать", &path);
+        let failed = || StoreError::io(doing::WRITE, &path);
         if !matches!(known, Known::Mark(_)) {
             let mut file = vec![0; 2 * SECTOR];
             file[mark.place()..mark.place() + SLOT].copy_from_slice(&mark.encode());

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::disk::{Appender, Disk};
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{
     FILE_HEADER, FORMAT, HeadError, JOURNAL, Payload, Scan, Tail, file_header, scan,
 };
@@ -35,7 +35,7 @@ pub(super) fn numbered_files(
     dir: &Path,
     extension: &str,
 ) -> Result<Vec<(u64, PathBuf)>> {
-    let names = disk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
+    let names = disk.list(dir).map_err(StoreError::io(doing::LIST, dir))?;
     let number = |name: &String| {
         let (stem, end) = name.split_once('.')?;
         (end == extension && stem.len() == 20).then(|| stem.parse().ok()).flatten()
@@ -65,7 +65,7 @@ impl Log {
         let mut log = Self::default();
         let mut torn_files = Vec::new();
         for (first, path) in numbered_files(disk, &journal_dir(dir), "journal")? {
-            let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
+            let bytes = disk.read(&path).map_err(StoreError::io(doing::READ, &path))?;
             let index = log.files.len();
             let corrupt = |offset: usize| StoreError::JournalCorrupt {
                 path: path.display().to_string(),
@@ -181,9 +181,9 @@ pub(super) fn begin_journal(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Jou
     let dir = journal_dir(dir);
     let path = numbered(&dir, lsn, "journal");
     let head = file_header(JOURNAL, lsn);
-    let mut file = disk.appender(&path).map_err(StoreError::io("создать", &path))?;
+    let mut file = disk.appender(&path).map_err(StoreError::io(doing::MAKE, &path))?;
     let written = file.append(&head).and_then(|()| file.sync());
-    written.map_err(StoreError::io("записать", &path))?;
-    disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
+    written.map_err(StoreError::io(doing::WRITE, &path))?;
+    disk.sync_dir(&dir).map_err(StoreError::io(doing::WRITE_DIR, &dir))?;
     Ok(Journal { file, path, length: head.len() as u64 })
 }

@@ -14,7 +14,7 @@ use super::edits::{
     Change, Draft, Edits, ImportReport, Revision, RevisionKind, check_id, check_numbers,
     note_revision,
 };
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::ids::{self, Known};
 use super::open::{Lock, Place, SledShelf, check_format, lock, write_format};
 use super::reader::{Reader, history_key, key_of_record, replica_index};
@@ -24,7 +24,7 @@ use super::tables::{self as t, Table};
 use super::trees::{HISTORY, REPLICAS};
 use super::vault::{OpenReport, Vault};
 use super::version::{Stamp, Version};
-use crate::units::Timestamp;
+use crate::units::{Bilingual, Timestamp};
 
 /// A store open for writing (or, with [`Store::open_read_only`], for reading).
 pub struct Store {
@@ -54,14 +54,14 @@ impl Store {
         let dir = dir.as_ref();
         let disk: Arc<dyn Disk> = Arc::new(RealDisk);
         let place = check_format(&*disk, dir)?;
-        disk.create_dir(dir).map_err(StoreError::io("создать каталог", dir))?;
+        disk.create_dir(dir).map_err(StoreError::io(doing::MAKE_DIR, dir))?;
         let lock = lock(dir)?;
         let mut marked = Ok(());
         if place != Place::Store {
             marked = write_format(&*disk, dir);
             let parent = dir.parent().filter(|p| !p.as_os_str().is_empty());
             let parent = parent.unwrap_or_else(|| Path::new("."));
-            disk.sync_dir(parent).map_err(StoreError::io("записать каталог", parent))?;
+            disk.sync_dir(parent).map_err(StoreError::io(doing::WRITE_DIR, parent))?;
         }
         // A store that is there is told by its other files as well.
         if place == Place::New {
@@ -117,7 +117,7 @@ impl Store {
 
     /// Why nothing can be written, if so.
     #[must_use]
-    pub fn read_only(&self) -> Option<&str> {
+    pub fn read_only(&self) -> Option<&Bilingual> {
         self.vault.read_only()
     }
 
@@ -239,7 +239,7 @@ impl Store {
     /// no world.
     pub fn import_sheet(&mut self, sheet: &Sheet, change: &Change) -> Result<ImportReport> {
         if sheet.world()?.is_none() {
-            let what = "в записях нет ни одного Домейна".to_owned();
+            let what = ("в записях нет ни одного Домейна", "the records hold no Domain").into();
             return Err(StoreError::BrokenReference { table: Table::Domain.name(), what });
         }
         let edits = Edits::between(&self.reader().sheet()?, sheet);

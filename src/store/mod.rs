@@ -41,6 +41,7 @@ mod derived;
 mod diff;
 mod disk;
 mod edits;
+mod english;
 mod error;
 mod frame;
 mod gc;

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::disk::{Disk, RealDisk};
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{FORMAT, format_stated};
 use super::head::format_told;
 use super::journal::{journal_dir, numbered_files, snapshot_files};
@@ -46,11 +46,11 @@ pub(crate) fn lock(dir: &Path) -> Result<Lock> {
         .truncate(false)
         .write(true)
         .open(&path)
-        .map_err(StoreError::io("открыть", &path))?;
+        .map_err(StoreError::io(doing::OPEN, &path))?;
     match file.try_lock() {
         Ok(()) => Ok(Lock(file)),
         Err(TryLockError::WouldBlock) => Err(StoreError::Locked { dir: dir.display().to_string() }),
-        Err(TryLockError::Error(error)) => Err(StoreError::io("запереть", &path)(error)),
+        Err(TryLockError::Error(error)) => Err(StoreError::io(doing::LOCK, &path)(error)),
     }
 }
 
@@ -67,7 +67,7 @@ pub(crate) enum Place {
 
 /// Whether a directory is a store of a format that this program knows, or may become one.
 pub(crate) fn check_format(disk: &dyn Disk, dir: &Path) -> Result<Place> {
-    let names = disk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
+    let names = disk.list(dir).map_err(StoreError::io(doing::LIST, dir))?;
     let has = |name: &str| names.iter().any(|n| n == name);
     let name = dir.display().to_string();
     let of = |format: u32, place: Place| match format {
@@ -80,7 +80,7 @@ pub(crate) fn check_format(disk: &dyn Disk, dir: &Path) -> Result<Place> {
     };
     if has(FORMAT_FILE) {
         let path = dir.join(FORMAT_FILE);
-        let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
+        let bytes = disk.read(&path).map_err(StoreError::io(doing::READ, &path))?;
         if let Some(format) = format_of(&bytes) {
             return of(format, Place::Store);
         }
@@ -105,7 +105,7 @@ fn told_elsewhere(disk: &dyn Disk, dir: &Path) -> Result<Option<u32>> {
     }
     let journals = numbered_files(disk, &journal_dir(dir), "journal")?;
     for (_, path) in journals.into_iter().chain(snapshot_files(disk, dir)?) {
-        let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
+        let bytes = disk.read(&path).map_err(StoreError::io(doing::READ, &path))?;
         if let Some(format) = format_stated(&bytes) {
             return Ok(Some(format));
         }
@@ -124,7 +124,7 @@ fn format_of(bytes: &[u8]) -> Option<u32> {
 pub(crate) fn write_format(disk: &dyn Disk, dir: &Path) -> Result<()> {
     let path = dir.join(FORMAT_FILE);
     let text = format!("{FORMAT_LINE}{FORMAT}\n").repeat(2).into_bytes();
-    disk.replace(&path, &[text]).map_err(StoreError::io("записать", &path))
+    disk.replace(&path, &[text]).map_err(StoreError::io(doing::WRITE, &path))
 }
 
 /// sled in a directory of the store.
@@ -150,7 +150,7 @@ impl SledShelf {
             (0..ROOM >> 16).try_for_each(|_| file.append(&[0x5A; 1 << 16]))
         });
         let removed = RealDisk.remove_if_there(&probe);
-        asked.and(removed).map_err(StoreError::io("найти место для", &self.dir.join("sled")))
+        asked.and(removed).map_err(StoreError::io(doing::FIND_ROOM, &self.dir.join("sled")))
     }
 }
 
@@ -180,7 +180,8 @@ impl Shelf for SledShelf {
 
     fn set_aside(&mut self) -> Result<()> {
         if self.is_held {
-            let what = "sled ещё занят другой программой".to_owned();
+            let what =
+                ("sled ещё занят другой программой", "another program still holds sled").into();
             return Err(StoreError::Tables { what });
         }
         let (from, aside) = (self.dir.join("sled"), self.dir.join("aside"));
@@ -190,16 +191,18 @@ impl Shelf for SledShelf {
         // One broken set is kept, the latest: they could fill the disk.
         let to = aside.join("sled");
         if to.exists() {
-            std::fs::remove_dir_all(&to).map_err(StoreError::io("удалить", &to))?;
+            std::fs::remove_dir_all(&to).map_err(StoreError::io(doing::REMOVE, &to))?;
         }
-        std::fs::create_dir_all(&aside).map_err(StoreError::io("создать каталог", &aside))?;
-        std::fs::rename(&from, &to).map_err(StoreError::io("переименовать", &from))
+        std::fs::create_dir_all(&aside).map_err(StoreError::io(doing::MAKE_DIR, &aside))?;
+        std::fs::rename(&from, &to).map_err(StoreError::io(doing::RENAME, &from))
     }
 
     fn look(&self) -> Result<Arc<dyn Trees>> {
         match self.exists() {
             true => Ok(Arc::new(SledTrees::open_copy(&self.dir.join("sled"))?)),
-            false => Err(StoreError::Tables { what: "таблиц sled нет".to_owned() }),
+            false => Err(StoreError::Tables {
+                what: ("таблиц sled нет", "there are no tables of sled").into(),
+            }),
         }
     }
 }

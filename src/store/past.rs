@@ -20,6 +20,7 @@ use super::memory::MemoryTrees;
 use super::run::{self, Cursor, Run};
 use super::tables::Table;
 use super::trees::{CHANGES, HISTORY, Pair, RUNS, State, Trees, Visit};
+use crate::units::Bilingual;
 
 /// So many runs of like size are made one.
 const MOST_ALIKE: usize = if cfg!(test) { 3 } else { 8 };
@@ -149,7 +150,7 @@ fn told(error: &StoreError) -> StoreError {
         StoreError::BadFile { path, what } => {
             StoreError::BadFile { path: path.clone(), what: what.clone() }
         }
-        other => StoreError::Tables { what: other.to_string() },
+        other => StoreError::Tables { what: Bilingual::of(other) },
     }
 }
 

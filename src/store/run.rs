@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cell::{Bytes, put_bytes, put_varint};
 use super::disk::{Appender, Disk, Reading};
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{FILE_HEADER, RUN, file_header};
 use super::journal::numbered;
 
@@ -122,7 +122,7 @@ fn write_one(disk: &dyn Disk, path: &Path, file: u64, records: &Giving<'_>) -> R
         let (block, index) = (Vec::new(), Vec::new());
         let mut writing = Writing { out, block, first: None, index, place, records: 0 };
         let taken = records(&mut |key, value| {
-            writing.put(key, value).map_err(StoreError::io("записать", path))
+            writing.put(key, value).map_err(StoreError::io(doing::WRITE, path))
         });
         if let Err(error) = taken {
             met = Some(error);
@@ -132,36 +132,36 @@ fn write_one(disk: &dyn Disk, path: &Path, file: u64, records: &Giving<'_>) -> R
     });
     match met {
         Some(error) => Err(error),
-        None => written.map_err(StoreError::io("записать", path)),
+        None => written.map_err(StoreError::io(doing::WRITE, path)),
     }
 }
 
-fn bad(path: &Path, what: &str) -> StoreError {
-    StoreError::BadFile { path: path.display().to_string(), what: what.to_owned() }
+fn bad(path: &Path, what: (&'static str, &'static str)) -> StoreError {
+    StoreError::BadFile { path: path.display().to_string(), what: what.into() }
 }
 
 /// Index and number of records of one copy.
 fn read_index(copy: &dyn Reading, path: &Path, file: u64) -> Result<(Vec<Block>, u64, u64)> {
-    let io = || StoreError::io("прочитать", path);
+    let io = || StoreError::io(doing::READ, path);
     let length = copy.length().map_err(io())?;
-    let short = || bad(path, "файл записан не до конца");
+    let short = || bad(path, ("файл записан не до конца", "the file was not written to its end"));
     let foot_at = length.checked_sub(FOOT as u64).ok_or_else(short)?;
     if copy.read_at(0, FILE_HEADER).map_err(io())? != file_header(RUN, file) {
-        return Err(bad(path, "начало файла испорчено"));
+        return Err(bad(path, ("начало файла испорчено", "the beginning of the file is broken")));
     }
     let foot = copy.read_at(foot_at, FOOT).map_err(io())?;
     let eight = |at: usize| u64::from_be_bytes(foot[at..at + 8].try_into().expect("eight bytes"));
     let four = |at: usize| u32::from_be_bytes(foot[at..at + 4].try_into().expect("four bytes"));
     if &foot[32..] != FOOT_MAGIC || crc32fast::hash(&foot[..28]) != four(28) {
-        return Err(bad(path, "конец файла испорчен"));
+        return Err(bad(path, ("конец файла испорчен", "the end of the file is broken")));
     }
     let (place, size, records) = (eight(0), eight(8), eight(20));
     if place.checked_add(size) != Some(foot_at) {
-        return Err(bad(path, "конец файла испорчен"));
+        return Err(bad(path, ("конец файла испорчен", "the end of the file is broken")));
     }
     let bytes = copy.read_at(place, size as usize).map_err(io())?;
     if crc32fast::hash(&bytes) != four(16) {
-        return Err(bad(path, "указатель испорчен"));
+        return Err(bad(path, ("указатель испорчен", "the index is broken")));
     }
     let mut rest = Bytes(&bytes);
     let mut index = Vec::new();
@@ -173,7 +173,7 @@ fn read_index(copy: &dyn Reading, path: &Path, file: u64) -> Result<(Vec<Block>,
         }
         Some(())
     };
-    read().ok_or_else(|| bad(path, "указатель испорчен"))?;
+    read().ok_or_else(|| bad(path, ("указатель испорчен", "the index is broken")))?;
     Ok((index, records, length))
 }
 
@@ -188,7 +188,7 @@ impl Run {
         let mut found = None;
         let copies = [0, 1].map(|n| {
             let path: &PathBuf = &paths[n];
-            let opened = disk.reading(path).map_err(StoreError::io("прочитать", path));
+            let opened = disk.reading(path).map_err(StoreError::io(doing::READ, path));
             let read = opened.and_then(|copy| Ok((read_index(&*copy, path, file)?, copy)));
             match read {
                 Ok((index, copy)) => {
@@ -239,11 +239,20 @@ impl Run {
         let mut found = Vec::new();
         for (path, copy) in self.paths.iter().zip(&self.copies) {
             let Some(copy) = copy else {
-                found.push(bad(path, "начало, конец или указатель испорчены"));
+                found.push(bad(
+                    path,
+                    ("начало, конец или указатель испорчены", "beginning, end or index are broken"),
+                ));
                 continue;
             };
             if !(0..self.index.len()).all(|n| self.read(&**copy, n).is_some()) {
-                found.push(bad(path, "записи не совпадают с контрольной суммой"));
+                found.push(bad(
+                    path,
+                    (
+                        "записи не совпадают с контрольной суммой",
+                        "the records do not match their checksum",
+                    ),
+                ));
             }
         }
         found
@@ -268,7 +277,15 @@ impl Run {
             }
             read
         });
-        let broken = || bad(&self.paths[0], "записи не совпадают с контрольной суммой");
+        let broken = || {
+            bad(
+                &self.paths[0],
+                (
+                    "записи не совпадают с контрольной суммой",
+                    "the records do not match their checksum",
+                ),
+            )
+        };
         let bytes = bytes.ok_or_else(broken)?;
         let mut rest = Bytes(&bytes);
         let mut entries = Vec::new();

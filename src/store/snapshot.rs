@@ -8,7 +8,7 @@
 use std::path::Path;
 
 use super::disk::Disk;
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{
     Digests, HeadError, Op, Payload, SNAPSHOT, Tail, encode_frame, file_header, scan,
 };
@@ -19,22 +19,28 @@ const CHUNK_BYTES: usize = 1 << 20;
 
 /// Puts a snapshot's records into empty trees.
 pub(super) fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> {
-    let bad = |what: &str| StoreError::BadFile {
+    let bad = |what: (&'static str, &'static str)| StoreError::BadFile {
         path: path.display().to_string(),
-        what: what.to_owned(),
+        what: what.into(),
     };
-    let bytes = disk.read(path).map_err(StoreError::io("прочитать", path))?;
-    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| bad("начало файла испорчено"))?;
+    let bytes = disk.read(path).map_err(StoreError::io(doing::READ, path))?;
+    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| {
+        bad(("начало файла испорчено", "the beginning of the file is broken"))
+    })?;
     let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
-        return Err(bad("файл испорчен или записан не до конца"));
+        return Err(bad((
+            "файл испорчен или записан не до конца",
+            "the file is broken, or was not written to its end",
+        )));
     };
     let payload = |(_, range): &(u64, std::ops::Range<usize>)| {
-        Payload::decode(&bytes[range.clone()]).ok_or_else(|| bad("кадр не читается"))
+        Payload::decode(&bytes[range.clone()])
+            .ok_or_else(|| bad(("кадр не читается", "a frame cannot be read")))
     };
     // The last frame holds the digests alone: without it the snapshot is not whole.
     let end = payload(last)?;
     if last.0 != found.lsn || !end.ops.is_empty() {
-        return Err(bad("файл записан не до конца"));
+        return Err(bad(("файл записан не до конца", "the file was not written to its end")));
     }
     for chunk in chunks {
         trees.apply(payload(chunk)?.ops, &State::default())?;
@@ -52,7 +58,11 @@ pub(super) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
     } else {
         Err(StoreError::BadFile {
             path: path.display().to_string(),
-            what: "записи не совпадают с контрольной суммой".into(),
+            what: (
+                "записи не совпадают с контрольной суммой",
+                "the records do not match their checksum",
+            )
+                .into(),
         })
     }
 }
@@ -91,6 +101,6 @@ pub(super) fn write_snapshot_of(
     chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
     chunks.push(encode_frame(state.lsn, &[], &state.digests));
     let total = chunks.iter().map(|c| c.len() as u64).sum();
-    disk.replace(path, &chunks).map_err(StoreError::io("записать снимок", path))?;
+    disk.replace(path, &chunks).map_err(StoreError::io(doing::WRITE_SNAPSHOT, path))?;
     Ok(total)
 }

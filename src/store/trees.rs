@@ -20,6 +20,7 @@ use super::error::{Result, StoreError};
 use super::frame::{Digest, Digests, Op, decode_digests, encode_digests};
 use super::tables::Table;
 use super::wall::{Fault, Pulse, Wall};
+use crate::units::Bilingual;
 
 /// Old versions of records, by table, key and revision.
 pub(crate) const HISTORY: u8 = 200;
@@ -129,7 +130,7 @@ impl From<sled::Error> for Fault {
     fn from(error: sled::Error) -> Self {
         // After a failed write sled's closing waits for a flush that never comes.
         let is_final = matches!(error, sled::Error::Io(_));
-        Self { what: error.to_string(), is_final }
+        Self { what: error.to_string().into(), is_final }
     }
 }
 
@@ -168,7 +169,7 @@ impl SledTrees {
     /// # Errors
     /// As [`SledTrees::open`]; when there are no trees, or no room for the copy.
     pub(crate) fn open_copy(dir: &Path) -> Result<Self> {
-        let failed = |e: io::Error| StoreError::Tables { what: e.to_string() };
+        let failed = |e: io::Error| StoreError::Tables { what: e.to_string().into() };
         let scratch = Scratch::of(dir).map_err(failed)?;
         let copied = scratch.0.clone();
         Self::open_with(&copied, Some(scratch))
@@ -180,7 +181,11 @@ impl SledTrees {
         let name = dir.canonicalize().unwrap_or_else(|_| dir.to_owned());
         if left_behind().contains(&name) {
             return Err(StoreError::Tables {
-                what: "sled оставлен до конца программы".into()
+                what: (
+                    "sled оставлен до конца программы",
+                    "sled is left alone until the program ends",
+                )
+                    .into(),
             });
         }
         let path = dir.to_owned();
@@ -256,7 +261,12 @@ fn copy_dir(from: &Path, to: &Path) -> io::Result<()> {
 
 impl Open {
     fn tree(&self, tree: u8) -> std::result::Result<&sled::Tree, Fault> {
-        self.trees.get(&tree).ok_or_else(|| Fault::new(format!("нет таблицы с номером {tree}")))
+        self.trees.get(&tree).ok_or_else(|| {
+            Fault::new(Bilingual::new(
+                format!("нет таблицы с номером {tree}"),
+                format!("there is no table of the number {tree}"),
+            ))
+        })
     }
 
     /// Many operations one after the other, the history first and the state last.
@@ -389,7 +399,7 @@ impl Trees for SledTrees {
         match self.wall.ask(|open, _| Ok(open.state.get(STATE_KEY)?))? {
             None => Ok(State::default()),
             Some(bytes) => decode_state(&bytes).ok_or_else(|| StoreError::Tables {
-                what: "испорчена отметка о состоянии".into(),
+                what: ("испорчена отметка о состоянии", "the mark of the state is broken").into(),
             }),
         }
     }

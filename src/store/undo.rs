@@ -10,6 +10,7 @@ use super::keep::Store;
 use super::reader::Reader;
 use super::sheet::describe_key;
 use super::tables::Table;
+use crate::units::Bilingual;
 
 impl Store {
     /// Takes back the last change that is not taken back yet.
@@ -18,7 +19,8 @@ impl Store {
     /// [`StoreError::NothingToUndo`]; else as [`Store::apply`].
     pub fn undo(&mut self, change: &Change) -> Result<ImportReport> {
         let target = undoable(&self.revisions()?).last().copied();
-        let target = target.ok_or(StoreError::NothingToUndo { what: "отменять" })?;
+        let target = target
+            .ok_or(StoreError::NothingToUndo { what: ("отменять", "undo").into() })?;
         self.revert(target, change, RevisionKind::Undo)
     }
 
@@ -28,7 +30,8 @@ impl Store {
     /// [`StoreError::NothingToUndo`] when the last change is no undo; else as [`Store::apply`].
     pub fn redo(&mut self, change: &Change) -> Result<ImportReport> {
         let target = redoable(&self.revisions()?).last().copied();
-        let target = target.ok_or(StoreError::NothingToUndo { what: "возвращать" })?;
+        let target = target
+            .ok_or(StoreError::NothingToUndo { what: ("возвращать", "redo").into() })?;
         self.revert(target, change, RevisionKind::Redo)
     }
 
@@ -86,9 +89,9 @@ fn check_outcome(now: &Reader, target: u64, edits: &Edits) -> Result<()> {
             let known = now.world()?.map_or_else(Vec::new, |world| crate::map::check(&world));
             let is_news = |f: &crate::map::Fault| !known.iter().any(|k| k.error == f.error);
             let faults = crate::map::check(&world);
-            faults.into_iter().find(|f| !f.is_warning() && is_news(f)).map(|f| f.to_string())
+            faults.into_iter().find(|f| !f.is_warning() && is_news(f)).map(|f| Bilingual::of(&f))
         }
-        Err(error) => Some(error.to_string()),
+        Err(error) => Some(Bilingual::of(&error)),
     };
     fault.map_or(Ok(()), |what| Err(StoreError::UndoBreaks { revision: target, what }))
 }

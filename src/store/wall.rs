@@ -12,16 +12,18 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, s
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use crate::units::Bilingual;
+
 /// Why what is behind the wall did not do what it was asked.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Fault {
-    pub(super) what: String,
+    pub(super) what: Bilingual,
     /// It must not be touched again, not even to be closed.
     pub(super) is_final: bool,
 }
 
 impl Fault {
-    pub(super) fn new(what: impl Into<String>) -> Self {
+    pub(super) fn new(what: impl Into<Bilingual>) -> Self {
         Self { what: what.into(), is_final: false }
     }
 }
@@ -179,10 +181,10 @@ impl<S: 'static> Wall<S> {
         let job: Job<S> = Box::new(move |service| match service {
             Some(service) => job(service, &pulse, &answer),
             None => {
-                let _ = answer.send(Err(Fault::new("закрыто")));
+                let _ = answer.send(Err(Fault::new(("закрыто", "it is closed"))));
             }
         });
-        self.jobs.send(job).map_err(|_ended| Fault::new("остановилось"))
+        self.jobs.send(job).map_err(|_ended| Fault::new(("остановилось", "it has stopped")))
     }
 
     /// Waits for an answer as long as there is progress.
@@ -194,12 +196,17 @@ impl<S: 'static> Wall<S> {
                 Err(RecvTimeoutError::Timeout) if self.pulse.count() != before => {}
                 Err(RecvTimeoutError::Timeout) => {
                     let seconds = self.patience.as_secs_f64();
-                    let what = format!("нет ответа {seconds} с");
+                    let what = Bilingual::new(
+                        format!("нет ответа {seconds} с"),
+                        format!("no answer for {seconds} s"),
+                    );
                     let fault = Fault { what, is_final: true };
                     self.fail(&fault);
                     return Err(fault);
                 }
-                Err(RecvTimeoutError::Disconnected) => return Err(Fault::new("остановилось")),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Fault::new(("остановилось", "it has stopped")));
+                }
             }
         }
     }
@@ -219,9 +226,9 @@ impl<S: 'static> Wall<S> {
 /// Runs a call, turning a panic into a fault.
 fn guarded<T>(call: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        Err(Fault::new(text.unwrap_or("сбой")))
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()));
+        Err(Fault::new(text.map_or(("сбой", "it failed").into(), Bilingual::from)))
     })
 }
 
@@ -270,8 +277,9 @@ mod tests {
         }
         let hung = Wall::<Service>::raise(PATIENCE, |_| forever()).err().expect("it never opens");
         assert!(hung.is_final);
-        let refused = Wall::<Service>::raise(PATIENCE, |_| Err(Fault::new("нет места"))).err();
-        assert_eq!(refused, Some(Fault::new("нет места")));
+        let refused =
+            Wall::<Service>::raise(PATIENCE, |_| Err(Fault::new(("нет места", "no room")))).err();
+        assert_eq!(refused, Some(Fault::new(("нет места", "no room"))));
 
         let service = wall(End::Hangs);
         assert_eq!(service.ask(|_, _| Ok(7)), Ok(7));

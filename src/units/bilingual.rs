@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use super::Language;
+use super::{FileFault, InEnglish, Language};
 
 /// Words of a message in both languages. Displayed in Russian, in which faults are told unless English is asked for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Bilingual {
     russian: Cow<'static, str>,
     english: Cow<'static, str>,
@@ -18,6 +18,18 @@ impl Bilingual {
         english: impl Into<Cow<'static, str>>,
     ) -> Self {
         Self { russian: russian.into(), english: english.into() }
+    }
+
+    /// What is told in a language, in both.
+    #[must_use]
+    pub fn both(told: impl Fn(Language) -> String) -> Self {
+        Self::new(told(Language::Russian), told(Language::English))
+    }
+
+    /// What a fault says, for another that tells of it.
+    #[must_use]
+    pub fn of(fault: &impl InEnglish) -> Self {
+        Self::new(fault.to_string(), fault.english())
     }
 
     /// What stands in a text, in the quotation marks of each language.
@@ -59,8 +71,29 @@ impl From<&'static str> for Bilingual {
     }
 }
 
+/// What is the same in both: what another program said.
+impl From<String> for Bilingual {
+    fn from(text: String) -> Self {
+        Self::new(text.clone(), text)
+    }
+}
+
+impl From<&FileFault> for Bilingual {
+    fn from(fault: &FileFault) -> Self {
+        Self::new(fault.to_string(), fault.english())
+    }
+}
+
 impl From<(&'static str, &'static str)> for Bilingual {
     fn from((russian, english): (&'static str, &'static str)) -> Self {
         Self::new(russian, english)
     }
+}
+
+/// Words with values in them, in both languages: two patterns of `format!`, and what stands in both.
+#[macro_export]
+macro_rules! bilingual {
+    ($russian:literal, $english:literal $(, $value:expr)* $(,)?) => {
+        $crate::Bilingual::new(format!($russian $(, $value)*), format!($english $(, $value)*))
+    };
 }

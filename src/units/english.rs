@@ -10,7 +10,9 @@ pub trait InEnglish: Diagnostic {
     /// The remedy.
     fn english_help(&self) -> Option<String>;
     /// What its first label says, and what the others do.
-    fn english_labels(&self) -> [&'static str; 2];
+    fn english_labels(&self) -> [&'static str; 2] {
+        ["here", "and here"]
+    }
 }
 
 /// A fault as English tells it.
@@ -45,5 +47,41 @@ impl<F: InEnglish> Diagnostic for English<'_, F> {
             LabeledSpan::new_with_span(Some(told.to_owned()), *label.inner())
         };
         Some(Box::new(self.0.labels()?.zip(told).map(label)))
+    }
+}
+
+/// Faults that stand together, as English tells them.
+#[derive(Debug)]
+pub struct EnglishGroup<'f, F> {
+    pub all: &'f dyn Diagnostic,
+    /// What is told of all of them in a line.
+    pub title: String,
+    pub help: Option<String>,
+    pub faults: Vec<English<'f, F>>,
+}
+
+impl<F: InEnglish> fmt::Display for EnglishGroup<'_, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.title)
+    }
+}
+
+impl<F: InEnglish> std::error::Error for EnglishGroup<'_, F> {}
+
+impl<F: InEnglish> Diagnostic for EnglishGroup<'_, F> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.all.code()
+    }
+    fn severity(&self) -> Option<Severity> {
+        self.all.severity()
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.help.as_ref()?))
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.all.source_code()
+    }
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.faults.iter().map(|fault| fault as _)))
     }
 }

@@ -28,7 +28,7 @@ mod stop;
 mod time;
 
 pub use bilingual::Bilingual;
-pub use english::{English, InEnglish};
+pub use english::{English, EnglishGroup, InEnglish};
 pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file_with};
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::Language;
+use super::{Bilingual, Language};
 
 /// Why a number from outside is no length or no angle.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -18,6 +18,18 @@ pub enum QuantityError {
     /// Beyond [`Cm::LIMIT`], where hundredths of a millimetre would be lost in an `f64` sum.
     #[error("длина {0} см больше предела ±{limit} см", limit = Cm::LIMIT)]
     TooLarge(f64),
+}
+
+impl From<QuantityError> for Bilingual {
+    fn from(error: QuantityError) -> Self {
+        let english = match error {
+            QuantityError::NotFinite(value) => format!("a number must be finite, not {value}"),
+            QuantityError::TooLarge(value) => {
+                format!("a length of {value} cm is beyond the limit of ±{} cm", Cm::LIMIT)
+            }
+        };
+        Self::new(error.to_string(), english)
+    }
 }
 
 /// A length in centimetres: finite, at most [`Cm::LIMIT`] either way.

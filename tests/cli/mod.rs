@@ -61,7 +61,7 @@ impl Place {
     }
 
     fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+        let mut command = crate::ortho();
         command.current_dir(self.dir.path()).args(args).stdin(Stdio::null());
         for name in ["ORTHO_STORE", "ORTHO_RULES", "ORTHO_USER"] {
             command.env_remove(name);

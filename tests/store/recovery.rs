@@ -188,7 +188,7 @@ fn a_deep_check_says_what_the_next_opening_will_mend() {
         .findings
         .iter()
         .filter(|f| f.severity > Severity::Note)
-        .map(|f| (f.severity, f.text.as_str()))
+        .map(|f| (f.severity, f.text.to_string()))
         .collect();
     assert!(texts.iter().all(|(severity, _)| *severity == Severity::Mendable), "{texts:#?}");
     assert_eq!((report.revision, texts.len()), (3, 2), "{texts:#?}");

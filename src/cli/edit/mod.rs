@@ -13,7 +13,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::engine::{Difference, Edited, Format, Mode, change_now};
-use crate::units::Source;
+use crate::units::{Language, Source};
 
 use super::args::{Common, Lang};
 use super::commands::{open_to_write, warn};
@@ -41,23 +41,29 @@ pub(super) struct EditArgs {
 
 pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
     let (source, format) = match (&args.step, &args.file) {
-        (Some(step), _) => (Source::new("аргументы", step.text()), Format::Toml),
+        (Some(step), _) => {
+            (Source::new(common.lang.pick("аргументы", "arguments"), step.text()), Format::Toml)
+        }
         (None, Some(file)) => (read(file)?, Format::of(file)),
-        (None, None) => (Source::new("аргументы", ""), Format::Toml),
+        (None, None) => (Source::new(common.lang.pick("аргументы", "arguments"), ""), Format::Toml),
     };
     let mut engine = open_to_write(common)?;
     let mode = if args.dry_run { Mode::DryRun } else { Mode::Commit };
     let change = change_now(&common.user, args.reason.as_deref().unwrap_or_default());
     let edited = engine.edit(&source, format, &change, mode)?;
     warn(&edited.warnings, common.lang);
-    if common.json { say(&view(&edited).to_string()) } else { say(&told(&edited, common.lang)) }
+    if common.json {
+        say(&view(&edited, common.lang).to_string())
+    } else {
+        say(&told(&edited, common.lang))
+    }
 }
 
 fn read(file: &Path) -> Result<Source, Failure> {
     Source::read(file).map_err(|fault| Failure::file(file, &fault.into_io()))
 }
 
-fn view(edited: &Edited) -> serde_json::Value {
+fn view(edited: &Edited, lang: Lang) -> serde_json::Value {
     let counts = edited.report.as_ref().map(|r| r.counts).unwrap_or_default();
     json!({
         "outcome": if edited.report.is_some() { "edited" } else { "tried" },
@@ -65,13 +71,13 @@ fn view(edited: &Edited) -> serde_json::Value {
         "created": counts.created,
         "changed": counts.changed,
         "deleted": counts.deleted,
-        "differences": differences(&edited.differences),
+        "differences": differences(&edited.differences, lang),
         "left_behind": edited.left_behind,
         "warnings": edited.warnings.faults.len(),
     })
 }
 
-pub(super) fn differences(all: &[Difference]) -> Vec<serde_json::Value> {
+pub(super) fn differences(all: &[Difference], lang: Lang) -> Vec<serde_json::Value> {
     use crate::store::{Cell, Fate};
     let cell = |cell: &Cell| match cell {
         Cell::Null => json!(null),
@@ -92,8 +98,9 @@ pub(super) fn differences(all: &[Difference]) -> Vec<serde_json::Value> {
                 Fate::Changed => "changed",
                 Fate::Deleted => "deleted",
             },
-            "subject": d.subject,
-            "ru": d.to_string(),
+            "subject": d.subject.say(lang.language()),
+            "ru": d.say(Language::Russian),
+            "en": d.say(Language::English),
             "fields": fields,
         })
     };
@@ -104,7 +111,8 @@ fn told(edited: &Edited, lang: Lang) -> String {
     if edited.differences.is_empty() {
         return lang.pick("Ничего не меняется.", "Nothing changes.").to_owned();
     }
-    let mut text: String = edited.differences.iter().map(|d| format!("{d}\n")).collect();
+    let mut text: String =
+        edited.differences.iter().map(|d| d.say(lang.language()) + "\n").collect();
     if !edited.left_behind.is_empty() {
         let names = edited.left_behind.join(", ");
         let _ = match lang {

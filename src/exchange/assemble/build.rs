@@ -11,7 +11,8 @@ use crate::map::{
 use crate::report::{What, Why};
 use crate::synonyms::{Synonyms, Vocabulary};
 use crate::units::{
-    AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, PlaceId, Point, TypeId, capitalized,
+    AreaId, Bilingual, Cm, Deg, DoorId, Frame, Language, MapId, OrFrId, PlaceId, Point, TypeId,
+    capitalized,
 };
 use crate::{ImportError, Level, OpeningKind, Report, Room, Survey};
 
@@ -163,9 +164,18 @@ impl Maker<'_> {
         self.world.domain.maps = maps;
         if self.world.maps.is_empty() {
             return Err(ImportError::content(
-                "импорт",
-                format!("в файле нет ни одного пригодного помещения\n{}", self.report),
-                "проверьте файл: помещения - это контуры, грани стен или записи комнат",
+                "import",
+                Bilingual::new(
+                    format!("в файле нет ни одного пригодного помещения\n{}", self.report),
+                    format!(
+                        "the file has no room that could be used\n{}",
+                        self.report.say(Language::English)
+                    ),
+                ),
+                (
+                    "проверьте файл: помещения - это контуры, грани стен или записи комнат",
+                    "check the file: rooms are outlines, faces of walls or records of rooms",
+                ),
             ));
         }
         Ok(storeys)

@@ -124,10 +124,17 @@ fn thickened(outline: &[Point]) -> Option<Ring> {
 }
 
 fn flat_part(part: &Part, kind: &Kind, report: &mut Report) {
-    let what = if part.word.is_empty() { "часть вида" } else { "часть" };
-    let value =
-        if part.word.is_empty() { "без площади".to_owned() } else { part.word.clone() };
-    report.mended(What::Kind, &kind.source, Why::BadValue { what, value });
+    let what = if part.word.is_empty() {
+        ("часть вида", "a part of the kind")
+    } else {
+        ("часть", "a part")
+    };
+    let value = if part.word.is_empty() {
+        ("без площади", "without area").into()
+    } else {
+        part.word.clone().into()
+    };
+    report.mended(What::Kind, &kind.source, Why::BadValue { what: what.into(), value });
 }
 
 /// Solid parts must not lie in one another: what is common stays with the larger one.

@@ -42,13 +42,13 @@ pub fn assemble(
     report: &mut Report,
 ) -> Result<World, ImportError> {
     for (what, count) in [
-        ("помещений", survey.levels.iter().map(|l| l.rooms.len()).sum::<usize>()),
-        ("проёмов", survey.levels.iter().map(|l| l.openings.len()).sum()),
-        ("вещей", survey.levels.iter().map(|l| l.things.len()).sum()),
-        ("видов вещей", survey.kinds.len()),
+        (("помещений", "rooms"), survey.levels.iter().map(|l| l.rooms.len()).sum::<usize>()),
+        (("проёмов", "openings"), survey.levels.iter().map(|l| l.openings.len()).sum()),
+        (("вещей", "things"), survey.levels.iter().map(|l| l.things.len()).sum()),
+        (("видов вещей", "kinds of things"), survey.kinds.len()),
     ] {
         if count > MOST_RECORDS {
-            return Err(ImportError::Limit { what, count, limit: MOST_RECORDS });
+            return Err(ImportError::Limit { what: what.into(), count, limit: MOST_RECORDS });
         }
     }
     let world = build::build(survey, synonyms, report)?;

@@ -34,7 +34,14 @@ pub(super) fn floors(level: &Level, report: &mut Report) -> Floors {
         let corners = room.outline.len() + room.holes.iter().map(Vec::len).sum::<usize>();
         if corners > MOST_CORNERS {
             let value = corners.to_string();
-            report.skipped(What::Room, &room.source, Why::BadValue { what: "число углов", value });
+            report.skipped(
+                What::Room,
+                &room.source,
+                Why::BadValue {
+                    what: ("число углов", "number of corners").into(),
+                    value: value.into(),
+                },
+            );
             regions.push(None);
             continue;
         }

@@ -9,7 +9,7 @@ use crate::map::plane::{bounds, doubled_area, edges, meeting};
 use crate::map::{BaseVector, Forms, Object, Place, Properties, Replica, TypeKind};
 use crate::report::{What, Why};
 use crate::synonyms::{Meaning, Vocabulary};
-use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitalized};
+use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, bilingual, capitalized};
 use crate::{Kind, Level, Spot, Thing};
 
 use super::build::{Maker, Storey};
@@ -215,7 +215,11 @@ impl Maker<'_> {
         if share(room, &made.bases(&moved)) < LEAST_SHARE {
             return None;
         }
-        let text = format!("стояло в стене; сдвинуто в помещение на {:.0} см", shift.norm());
+        let text = bilingual!(
+            "стояло в стене; сдвинуто в помещение на {:.0} см",
+            "stood in the wall; moved into the room by {:.0} cm",
+            shift.norm()
+        );
         self.report.mended(What::Thing, &thing.source, Why::Other { text });
         Some((room, moved))
     }

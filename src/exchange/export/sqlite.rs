@@ -17,6 +17,7 @@ use thiserror::Error;
 use crate::LARGEST;
 use crate::map::World;
 use crate::store::{Cell, Column, Key, Kind, Origin, Reader, Row, Sheet, StoreError, Table};
+use crate::units::{Bilingual, InEnglish, Language, bilingual};
 
 /// Rows of one file.
 const MOST_ROWS: usize = 5_000_000;
@@ -44,17 +45,44 @@ pub enum SqliteError {
         code(exchange::sqlite_content),
         help("нужны таблицы статьи с её полями; образец – ortho export --sqlite")
     )]
-    Content { path: String, what: String },
+    Content { path: String, what: Bilingual },
 
     /// More than any building.
     #[error("«{path}»: {what} больше {limit}")]
     #[diagnostic(code(exchange::sqlite_limit), help("разделите базу на несколько"))]
-    Limit { path: String, what: &'static str, limit: u64 },
+    Limit { path: String, what: Bilingual, limit: u64 },
 
     /// A row that makes no record.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Store(#[from] StoreError),
+}
+
+impl InEnglish for SqliteError {
+    fn english(&self) -> String {
+        match self {
+            Self::Sqlite { path, source } => format!("SQLite, “{path}”: {source}"),
+            Self::Exists { path } => format!("the file “{path}” is there already"),
+            Self::Content { path, what } => format!("“{path}”: {}", what.say(Language::English)),
+            Self::Limit { path, what, limit } => {
+                format!("“{path}”: more than {limit} {}", what.say(Language::English))
+            }
+            Self::Store(error) => error.english(),
+        }
+    }
+
+    fn english_help(&self) -> Option<String> {
+        let help = match self {
+            Self::Sqlite { .. } => "see that it is an SQLite file, and not damaged",
+            Self::Exists { .. } => "name a new file, or remove this one",
+            Self::Content { .. } => {
+                "the paper’s tables with their fields are needed; an example: ortho export --sqlite"
+            }
+            Self::Limit { .. } => "divide the database into several",
+            Self::Store(error) => return error.english_help(),
+        };
+        Some(help.to_owned())
+    }
 }
 
 impl SqliteError {
@@ -210,14 +238,20 @@ fn file_name(path: &Path) -> String {
 pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     let shown = path.display().to_string();
     let failed = |source| SqliteError::Sqlite { path: shown.clone(), source };
-    let content = |what: String| SqliteError::Content { path: shown.clone(), what };
-    let limit = |what, limit| SqliteError::Limit { path: shown.clone(), what, limit };
+    let content = |what: Bilingual| SqliteError::Content { path: shown.clone(), what };
+    let limit = |what: (&'static str, &'static str), limit| SqliteError::Limit {
+        path: shown.clone(),
+        what: what.into(),
+        limit,
+    };
     let bytes = match std::fs::metadata(path) {
-        Ok(data) if data.len() > LARGEST => return Err(limit("байт", LARGEST)),
+        Ok(data) if data.len() > LARGEST => return Err(limit(("байт", "bytes"), LARGEST)),
         // Opening a pipe could wait for ever.
-        Ok(data) if !data.is_file() => return Err(content("это не файл".to_owned())),
+        Ok(data) if !data.is_file() => {
+            return Err(content(("это не файл", "this is no file").into()));
+        }
         Ok(data) => data.len(),
-        Err(e) => return Err(content(e.to_string())),
+        Err(e) => return Err(content(e.to_string().into())),
     };
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(path, flags).map_err(failed)?;
@@ -232,20 +266,32 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     if bytes < whole.unsigned_abs()
         && !path.with_file_name(format!("{}-wal", file_name(path))).exists()
     {
-        return Err(content(format!("файл обрезан: в нём {bytes} байт из {whole}")));
+        return Err(content(bilingual!(
+            "файл обрезан: в нём {bytes} байт из {whole}",
+            "the file is cut off: it has {bytes} bytes of {whole}"
+        )));
     }
     let mut sheet = Sheet::default();
     let mut rows = 0_usize;
     for table in tables().filter(|t| t.is_stored()) {
         let Some(columns) = columns_of(&connection, table).map_err(failed)? else {
             if table.origin() == Origin::Paper {
-                return Err(content(format!("нет таблицы {}", table.name())));
+                return Err(content(bilingual!(
+                    "нет таблицы {}",
+                    "the table {} is missing",
+                    table.name()
+                )));
             }
             continue;
         };
         let has = |name: &str| columns.iter().any(|c| c.eq_ignore_ascii_case(name));
         if let Some(missing) = table.columns().iter().find(|c| !c.is_beyond && !has(c.name)) {
-            let what = format!("в таблице {} нет поля {}", table.name(), missing.name);
+            let what = bilingual!(
+                "в таблице {} нет поля {}",
+                "the table {} lacks the field {}",
+                table.name(),
+                missing.name
+            );
             return Err(content(what));
         }
         let present: Vec<bool> = table.columns().iter().map(|c| has(c.name)).collect();
@@ -258,7 +304,7 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
         while let Some(record) = found.next().map_err(failed)? {
             rows += 1;
             if rows > MOST_ROWS {
-                return Err(limit("записей", MOST_ROWS as u64));
+                return Err(limit(("записей", "records"), MOST_ROWS as u64));
             }
             let mut index = 0;
             let mut row = Row::new();
@@ -270,7 +316,12 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
                 let value = record.get_ref(index).map_err(failed)?;
                 index += 1;
                 let cell = cell(value, column).ok_or_else(|| {
-                    content(format!("таблица {}: поле {} не читается", table.name(), column.name))
+                    content(bilingual!(
+                        "таблица {}: поле {} не читается",
+                        "table {}: the field {} cannot be read",
+                        table.name(),
+                        column.name
+                    ))
                 })?;
                 row.push(cell);
             }

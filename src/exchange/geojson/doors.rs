@@ -2,7 +2,7 @@
 
 use crate::geometry::nearest_on_segment;
 use crate::map::{DoorKind, DoorStatus};
-use crate::units::{Cm, Point};
+use crate::units::{Bilingual, Cm, Point};
 use crate::{Opening, OpeningKind, ReadError, outline};
 
 use super::classify::Class;
@@ -30,7 +30,9 @@ impl Reader {
         if points.saturating_mul(rooms) > MOST_PAIRS {
             let limit = MOST_PAIRS;
             return Err(ReadError::TooMany {
-                format: FORMAT, what: "пар дверь–помещение", limit
+                format: FORMAT,
+                what: ("пар дверь–помещение", "pairs of door and room").into(),
+                limit,
             });
         }
         let bounds: Vec<Vec<(Point, Point)>> = self
@@ -46,7 +48,13 @@ impl Reader {
                         let opening = opening(feature, class, jambs, self.tongue.name(feature));
                         self.survey.levels[level].openings.push(opening);
                     }
-                    Err(why) => self.remark(&feature.id, format!("дверь пропущена: {why}")),
+                    Err((russian, english)) => self.remark(
+                        &feature.id,
+                        Bilingual::new(
+                            format!("дверь пропущена: {russian}"),
+                            format!("the door is left out: {english}"),
+                        ),
+                    ),
                 }
             }
         }
@@ -58,13 +66,13 @@ impl Reader {
         feature: &Feature,
         level: usize,
         bounds: &[(Point, Point)],
-    ) -> Result<[Point; 2], &'static str> {
+    ) -> Result<[Point; 2], (&'static str, &'static str)> {
         let sound = |jambs: [Point; 2]| {
             let fit = jambs.iter().all(|p| Cm::new(p.x).is_ok() && Cm::new(p.y).is_ok());
             if !fit {
-                Err("координаты – не числа плана")
+                Err(("координаты – не числа плана", "its coordinates are no numbers of a plan"))
             } else if (jambs[1] - jambs[0]).norm() < NARROWEST {
-                Err("она уже 20 см")
+                Err(("она уже 20 см", "it is narrower than 20 cm"))
             } else {
                 Ok(jambs)
             }
@@ -72,19 +80,31 @@ impl Reader {
         match &feature.shape {
             Some(Shape::Lines(lines)) => {
                 let ends = lines.first().and_then(|l| l.first().copied().zip(l.last().copied()));
-                let (a, b) = ends.ok_or("у линии нет точек")?;
+                let (a, b) = ends.ok_or(("у линии нет точек", "the line has no points"))?;
                 sound([self.ground.place(a), self.ground.place(b)])
             }
             Some(Shape::Polygons(polygons)) => {
-                let ring = polygons.first().and_then(|p| p.first()).ok_or("у контура нет точек")?;
-                let ring = outline::ring(self.points(ring)).ok_or("контур вырожден")?;
-                sound(outline::long_axis(&ring).ok_or("контур вырожден")?)
+                let ring = polygons
+                    .first()
+                    .and_then(|p| p.first())
+                    .ok_or(("у контура нет точек", "the outline has no points"))?;
+                let ring = outline::ring(self.points(ring))
+                    .ok_or(("контур вырожден", "the outline has no area"))?;
+                sound(
+                    outline::long_axis(&ring)
+                        .ok_or(("контур вырожден", "the outline has no area"))?,
+                )
             }
             Some(Shape::Points(points)) => {
-                let at = self.ground.place(*points.first().ok_or("у неё нет места")?);
-                sound(self.in_wall(feature, at, level, bounds).ok_or("рядом нет стены помещения")?)
+                let at = self
+                    .ground
+                    .place(*points.first().ok_or(("у неё нет места", "it has no place"))?);
+                sound(
+                    self.in_wall(feature, at, level, bounds)
+                        .ok_or(("рядом нет стены помещения", "no wall of a room is near"))?,
+                )
             }
-            None => Err("у неё нет места"),
+            None => Err(("у неё нет места", "it has no place")),
         }
     }
 

@@ -12,7 +12,7 @@ use serde::de::{Deserializer, IgnoredAny, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use crate::units::Source;
+use crate::units::{Bilingual, Language, Source, bilingual};
 use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "GeoJSON";
@@ -175,15 +175,22 @@ pub(super) fn features(
         (None, kind) => {
             let what = match kind {
                 Some(kind) => {
-                    format!("«type» здесь «{}», а нужен FeatureCollection", shorten(kind))
+                    bilingual!(
+                        "«type» здесь «{}», а нужен FeatureCollection",
+                        "“type” is “{}” here, and FeatureCollection is needed",
+                        shorten(kind)
+                    )
                 }
-                None => "нет членов «type» и «features»".to_owned(),
+                None => {
+                    ("нет членов «type» и «features»", "there are no members “type” and “features”")
+                        .into()
+                }
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }
     };
     if raw.len() > MOST_FEATURES {
-        let what = "записей (features)";
+        let what = ("записей (features)", "records (features)").into();
         return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST_FEATURES });
     }
     let mut features = Vec::with_capacity(raw.len());
@@ -192,14 +199,17 @@ pub(super) fn features(
             Ok(feature) => features.push(feature),
             Err(why) => remarks.push(Remark {
                 source: format!("features[{no}]"),
-                text: format!("запись пропущена: {why}"),
+                text: Bilingual::new(
+                    format!("запись пропущена: {why}"),
+                    format!("the record is left out: {}", why.say(Language::English)),
+                ),
             }),
         }
     }
     Ok((around, features))
 }
 
-fn feature(text: &str, no: usize) -> Result<Feature, String> {
+fn feature(text: &str, no: usize) -> Result<Feature, Bilingual> {
     let raw: RawFeature<'_> = serde_json::from_str(text).map_err(|e| reason(&e))?;
     let properties = raw.properties.unwrap_or_default();
     let own = |keys: [&str; 3]| keys.iter().find_map(|k| scalar(properties.get(*k)?));
@@ -210,10 +220,16 @@ fn feature(text: &str, no: usize) -> Result<Feature, String> {
     Ok(Feature { id, feature_type: feature_type.unwrap_or_default(), shape, properties })
 }
 
-fn shape(raw: &RawGeometry<'_>) -> Result<Shape, String> {
-    fn coordinates<'a, T: Deserialize<'a>>(raw: &RawGeometry<'a>) -> Result<T, String> {
-        let text = raw.coordinates.ok_or("у геометрии нет координат")?.get();
-        serde_json::from_str(text).map_err(|e| format!("{}: {}", shorten(&raw.kind), reason(&e)))
+fn shape(raw: &RawGeometry<'_>) -> Result<Shape, Bilingual> {
+    fn coordinates<'a, T: Deserialize<'a>>(raw: &RawGeometry<'a>) -> Result<T, Bilingual> {
+        let text = raw
+            .coordinates
+            .ok_or(("у геометрии нет координат", "the geometry has no coordinates"))?
+            .get();
+        serde_json::from_str(text).map_err(|e| {
+            let (kind, reason) = (shorten(&raw.kind), reason(&e));
+            Bilingual::both(|language| format!("{kind}: {}", reason.say(language)))
+        })
     }
     let line = |line: Vec<At>| line.into_iter().map(|at| at.0).collect::<Vec<_>>();
     let lines = |lines: Vec<Vec<At>>| lines.into_iter().map(line).collect::<Vec<_>>();
@@ -227,7 +243,13 @@ fn shape(raw: &RawGeometry<'_>) -> Result<Shape, String> {
             let polygons: Vec<Vec<Vec<At>>> = coordinates(raw)?;
             Shape::Polygons(polygons.into_iter().map(lines).collect())
         }
-        other => return Err(format!("геометрия «{}» не поддерживается", shorten(other))),
+        other => {
+            return Err(bilingual!(
+                "геометрия «{}» не поддерживается",
+                "the geometry “{}” is not read",
+                shorten(other)
+            ));
+        }
     })
 }
 
@@ -243,11 +265,15 @@ pub(crate) fn json_fault(source: &Source, error: &serde_json::Error) -> ReadErro
 }
 
 /// What serde_json says, without the place, which is shown apart.
-fn reason(error: &serde_json::Error) -> String {
+fn reason(error: &serde_json::Error) -> Bilingual {
     let text = error.to_string();
     let end = text.rfind(" at line ").unwrap_or(text.len());
     let said = shorten(&text[..end]);
-    if error.is_eof() { format!("текст оборван ({said})") } else { said }
+    if error.is_eof() {
+        bilingual!("текст оборван ({said})", "the text is cut off ({said})")
+    } else {
+        said.into()
+    }
 }
 
 /// A word from a file for a message: at most 60 letters of it.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Level;
-use crate::units::Cm;
+use crate::units::{Bilingual, Cm, bilingual};
 
 use super::classify::Class;
 use super::feature::{Feature, leading_number};
@@ -131,9 +131,14 @@ impl Levels {
     }
 
     /// What was assumed of the elevations.
-    pub(super) fn assumed(&self) -> Option<String> {
+    pub(super) fn assumed(&self) -> Option<Bilingual> {
         let bare = self.list.len() > 1 && self.list.iter().any(|s| s.elevation.is_none());
-        bare.then(|| format!("высоты этажей не указаны, принято по {STOREY} см на этаж"))
+        bare.then(|| {
+            bilingual!(
+                "высоты этажей не указаны, принято по {STOREY} см на этаж",
+                "heights of storeys are not given, {STOREY} cm a storey are taken"
+            )
+        })
     }
 }
 

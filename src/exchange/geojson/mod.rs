@@ -31,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use crate::map::Properties;
-use crate::units::{Cm, Point, Source};
+use crate::units::{Bilingual, Cm, Language, Point, Source, bilingual};
 
 use super::{ReadError, Remark, Room, Spot, Survey, input, outline};
 use classify::{Class, class};
@@ -106,7 +106,11 @@ pub fn read_folder(dir: &Path) -> Result<Survey, ReadError> {
             // One file of the archive may be empty of features; the others make the building.
             Err(ReadError::NoBuilding { what, .. }) => {
                 remarks.push(Remark {
-                    source: stem, text: format!("файл пропущен: {what}")
+                    source: stem,
+                    text: Bilingual::new(
+                        format!("файл пропущен: {what}"),
+                        format!("the file is left out: {}", what.say(Language::English)),
+                    ),
                 });
                 continue;
             }
@@ -140,7 +144,9 @@ fn survey(
     };
     if rooms().count() > MOST_ROOMS {
         return Err(ReadError::TooMany {
-            format: FORMAT, what: "помещений", limit: MOST_ROOMS
+            format: FORMAT,
+            what: ("помещений", "rooms").into(),
+            limit: MOST_ROOMS,
         });
     }
     let positions = || features.iter().filter_map(|f| f.shape.as_ref()).flat_map(Shape::positions);
@@ -224,11 +230,11 @@ struct Reader {
     /// Where the room of a feature went: `(level, room)`.
     room_places: HashMap<String, Vec<(usize, usize)>>,
     /// What was left out without a word for each.
-    left_out: BTreeMap<&'static str, usize>,
+    left_out: BTreeMap<(&'static str, &'static str), usize>,
 }
 
 impl Reader {
-    fn remark(&mut self, source: &str, text: impl Into<String>) {
+    fn remark(&mut self, source: &str, text: impl Into<Bilingual>) {
         self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
     }
 
@@ -248,10 +254,20 @@ impl Reader {
                     parts.push((outer, holes.collect()));
                 }
                 Some(outer) => {
-                    let text = format!("контур из {} углов пропущен", outer.len());
+                    let text = bilingual!(
+                        "контур из {} углов пропущен",
+                        "an outline of {} corners is left out",
+                        outer.len()
+                    );
                     self.remark(&feature.id, text);
                 }
-                None => self.remark(&feature.id, "контур не замкнут или вырожден, пропущен"),
+                None => self.remark(
+                    &feature.id,
+                    (
+                        "контур не замкнут или вырожден, пропущен",
+                        "the outline is not closed or has no area, it is left out",
+                    ),
+                ),
             }
         }
         parts
@@ -260,7 +276,10 @@ impl Reader {
     fn room(&mut self, feature: &Feature, word: &str) {
         let parts = self.rings(feature);
         if parts.is_empty() && !matches!(feature.shape, Some(Shape::Polygons(_))) {
-            return self.remark(&feature.id, "у помещения нет контура, пропущено");
+            return self.remark(
+                &feature.id,
+                ("у помещения нет контура, пропущено", "the room has no outline, it is left out"),
+            );
         }
         let name = self.tongue.name(feature).unwrap_or_default();
         let height = feature.number(&["height", "room_height", "ceiling_height", "высота"]);
@@ -305,7 +324,10 @@ impl Reader {
             let unit = feature.text("anchor_id").and_then(|a| anchors.get(&*a)?.text("unit_id"));
             let places = unit.and_then(|u| self.room_places.get(&*u)).cloned().unwrap_or_default();
             if places.is_empty() {
-                self.remark(&feature.id, format!("«{name}»: помещение не найдено"));
+                self.remark(
+                    &feature.id,
+                    bilingual!("«{name}»: помещение не найдено", "“{name}”: the room is not found"),
+                );
             }
             for (level, room) in places {
                 let room = &mut self.survey.levels[level].rooms[room];
@@ -331,7 +353,13 @@ impl Reader {
         let Some(name) = name else { return self.count(feature, &Class::Unknown) };
         let at = self.ground.place(at);
         if Cm::new(at.x).is_err() || Cm::new(at.y).is_err() {
-            return self.remark(&feature.id, "координаты точки – не числа плана, пропущена");
+            return self.remark(
+                &feature.id,
+                (
+                    "координаты точки – не числа плана, пропущена",
+                    "the point’s coordinates are no numbers of a plan, it is left out",
+                ),
+            );
         }
         let heading = feature.number(&["heading", "direction", "yaw"]);
         let heading = heading.and_then(|h| crate::units::Deg::new(h).ok());
@@ -345,11 +373,19 @@ impl Reader {
 
     fn count(&mut self, feature: &Feature, class: &Class) {
         let what = match (class, &feature.shape) {
-            (Class::Structure, _) => "стены и конструкции: стены стоят между помещениями",
-            (Class::Silent, _) => "адреса, контуры зданий, пути и чертёжные линии",
-            (_, Some(Shape::Lines(_))) => "линии без признака двери",
-            (_, Some(Shape::Points(_))) => "точки без имени",
-            _ => "записи неизвестного вида",
+            (Class::Structure, _) => (
+                "стены и конструкции: стены стоят между помещениями",
+                "walls and structures: walls stand between rooms",
+            ),
+            (Class::Silent, _) => (
+                "адреса, контуры зданий, пути и чертёжные линии",
+                "addresses, outlines of buildings, ways and lines of the drawing",
+            ),
+            (_, Some(Shape::Lines(_))) => {
+                ("линии без признака двери", "lines that nothing marks as doors")
+            }
+            (_, Some(Shape::Points(_))) => ("точки без имени", "points without a name"),
+            _ => ("записи неизвестного вида", "records of an unknown kind"),
         };
         *self.left_out.entry(what).or_default() += 1;
     }
@@ -357,13 +393,20 @@ impl Reader {
     fn finish(mut self) -> Result<Survey, ReadError> {
         self.survey.kinds = self.things.kinds;
         for (what, count) in std::mem::take(&mut self.left_out) {
-            let text = format!("не взято, {what}: {count}");
+            let (russian, english) = what;
+            let text = Bilingual::new(
+                format!("не взято, {russian}: {count}"),
+                format!("left out, {english}: {count}"),
+            );
             self.survey.remarks.push(Remark { source: String::new(), text });
         }
         if self.survey.levels.iter().all(|l| l.rooms.is_empty()) {
             let what = match self.survey.remarks.iter().find(|r| !r.source.is_empty()) {
-                Some(r) => format!("нет ни одного помещения; {}: {}", r.source, r.text),
-                None => "нет ни одного помещения".to_owned(),
+                Some(r) => Bilingual::new(
+                    format!("нет ни одного помещения; {}: {}", r.source, r.text),
+                    format!("there is no room; {}: {}", r.source, r.text.say(Language::English)),
+                ),
+                None => ("нет ни одного помещения", "there is no room").into(),
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }

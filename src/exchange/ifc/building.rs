@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::units::{Cm, Point};
+use crate::units::{Bilingual, Cm, Point, bilingual};
 use crate::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
 
 use super::classes::{self, Becomes};
@@ -48,7 +48,11 @@ pub(super) fn survey(
     mut remarks: Vec<Remark>,
 ) -> Result<Survey, ReadError> {
     let unit = length_unit(all).unwrap_or_else(|| {
-        let text = "единица длины не указана, принят метр".to_owned();
+        let text = (
+            "единица длины не указана, принят метр",
+            "the unit of length is not given, the metre is taken",
+        )
+            .into();
         remarks.push(Remark { source: String::new(), text });
         100.0
     });
@@ -152,7 +156,7 @@ fn types(all: &Instances) -> HashMap<u32, u32> {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn remark(&mut self, source: &str, text: impl Into<String>) {
+    pub(super) fn remark(&mut self, source: &str, text: impl Into<Bilingual>) {
         self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
     }
 
@@ -163,14 +167,14 @@ impl<'a> Reader<'a> {
         (deed, what): (Deed, What),
         (found, taken): (usize, usize),
         source: &str,
-        text: impl Into<String>,
+        text: impl Into<Bilingual>,
     ) {
         let (source, text) = (source.to_owned(), text.into());
         self.survey.told.push(Told { deed, what, source, text, count: Count { found, taken } });
     }
 
     /// A record that does not arrive.
-    pub(super) fn lose(&mut self, what: What, source: &str, text: impl Into<String>) {
+    pub(super) fn lose(&mut self, what: What, source: &str, text: impl Into<Bilingual>) {
         self.tell((Deed::Skipped, what), (1, 0), source, text);
     }
 
@@ -206,11 +210,14 @@ impl<'a> Reader<'a> {
             let origin = self.place_of(first).origin.coords;
             if origin.xy().amax() > FAR || z.abs() > FAR {
                 shift = origin.map(f64::floor);
-                let text = format!(
+                let text = bilingual!(
                     "план сдвинут к началу координат: {}, {}, {} см",
-                    shift.x, shift.y, shift.z
+                    "the plan is moved to the origin: {}, {}, {} cm",
+                    shift.x,
+                    shift.y,
+                    shift.z
                 );
-                self.survey.frame.clone_from(&text);
+                self.survey.frame = text.to_string();
                 self.remark("", text);
             }
         }
@@ -246,7 +253,13 @@ impl<'a> Reader<'a> {
             whole = whole.and_then(|id| self.parents.get(&id).copied());
         }
         if self.survey.levels.is_empty() {
-            self.remark("", "этажей (IfcBuildingStorey) нет, принят один");
+            self.remark(
+                "",
+                (
+                    "этажей (IfcBuildingStorey) нет, принят один",
+                    "there are no storeys (IfcBuildingStorey), one is taken",
+                ),
+            );
             let name = "Этаж 1".to_owned();
             self.survey.levels.push(Level { source: "0".to_owned(), name, ..Level::default() });
         }
@@ -292,21 +305,40 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self) -> Result<Survey, ReadError> {
         if self.shapes.is_exhausted() {
-            self.remark("", "тел слишком много, часть пропущена");
+            self.remark(
+                "",
+                (
+                    "тел слишком много, часть пропущена",
+                    "there are too many bodies, some are left out",
+                ),
+            );
         }
         if self.looks > MOST_LOOKS {
-            self.remark("", "проёмов и помещений слишком много: не у всех найдены стороны");
+            self.remark(
+                "",
+                (
+                    "проёмов и помещений слишком много: не у всех найдены стороны",
+                    "there are too many openings and rooms: the sides of some are not found",
+                ),
+            );
         }
         if self.shapes.effort.hulls > 0 {
-            let text =
-                format!("слишком подробные контуры взяты выпуклыми: {}", self.shapes.effort.hulls);
+            let text = bilingual!(
+                "слишком подробные контуры взяты выпуклыми: {}",
+                "outlines with too much detail are taken convex: {}",
+                self.shapes.effort.hulls
+            );
             self.remark("", text);
         }
         if self.survey.levels.iter().all(|l| l.rooms.is_empty()) {
             let what = if self.all.all("IFCSPACE").next().is_none() {
-                "в модели нет помещений (IfcSpace)".to_owned()
+                ("в модели нет помещений (IfcSpace)", "the model has no rooms (IfcSpace)").into()
             } else {
-                "ни у одного помещения (IfcSpace) нет контура".to_owned()
+                (
+                    "ни у одного помещения (IfcSpace) нет контура",
+                    "no room (IfcSpace) has an outline",
+                )
+                    .into()
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }
@@ -322,7 +354,11 @@ impl<'a> Reader<'a> {
             let Becomes::Nothing(why) = becomes else { continue };
             let count = all.count(kind);
             if count > 0 {
-                let text = format!("{count} шт.: {why}");
+                let (russian, english) = why;
+                let text = Bilingual::new(
+                    format!("{count} шт.: {russian}"),
+                    format!("{count}: {english}"),
+                );
                 self.tell((Deed::Noted, What::Record), (count, 0), kind, text);
             }
         }
@@ -338,9 +374,13 @@ impl<'a> Reader<'a> {
                 kept.push(level);
                 continue;
             }
-            let text = format!("этаж «{}» без помещений пропущен", level.name);
+            let text = bilingual!(
+                "этаж «{}» без помещений пропущен",
+                "the storey “{}” without rooms is left out",
+                level.name
+            );
             self.lose(What::Level, &level.source, text);
-            let text = "на этаже без помещений";
+            let text = ("на этаже без помещений", "on a storey without rooms");
             for thing in &level.things {
                 self.lose(What::Thing, &thing.source, text);
             }

@@ -19,17 +19,33 @@ pub(super) enum Becomes {
     /// What joins rooms without a wall.
     Virtual,
     /// Nothing: why, for the person who imports.
-    Nothing(&'static str),
+    Nothing((&'static str, &'static str)),
 }
 
 use Becomes::{Door, Flight, Lift, Nothing, Opening, Pillar, Stairs, Thing, Virtual, Window};
 
-const WALLS: Becomes = Nothing("стена – это то, что между помещениями; отдельно не переносится");
-const FLOORS: Becomes = Nothing("пол и потолок карты берутся из помещений");
-const FRAME: Becomes = Nothing("несущие части не переносятся");
-const PIPES: Becomes = Nothing("трубы, каналы и кабели не переносятся");
-const SMALL: Becomes = Nothing("части других элементов и крепёж не переносятся");
-const GROUND: Becomes = Nothing("то, что снаружи и под землёй, не переносится");
+const WALLS: Becomes = Nothing((
+    "стена – это то, что между помещениями; отдельно не переносится",
+    "a wall is what is between rooms; it is not carried over by itself",
+));
+const FLOORS: Becomes = Nothing((
+    "пол и потолок карты берутся из помещений",
+    "the map’s floor and ceiling are taken from the rooms",
+));
+const FRAME: Becomes =
+    Nothing(("несущие части не переносятся", "structural parts are not carried over"));
+const PIPES: Becomes = Nothing((
+    "трубы, каналы и кабели не переносятся",
+    "pipes, ducts and cables are not carried over",
+));
+const SMALL: Becomes = Nothing((
+    "части других элементов и крепёж не переносятся",
+    "parts of other elements and fasteners are not carried over",
+));
+const GROUND: Becomes = Nothing((
+    "то, что снаружи и под землёй, не переносится",
+    "what is outside and under the ground is not carried over",
+));
 
 /// Classes of elements, without their `IFC`, and what becomes of them.
 pub(super) const ELEMENTS: &[(&str, Becomes)] = &[
@@ -47,7 +63,13 @@ pub(super) const ELEMENTS: &[(&str, Becomes)] = &[
     ("IFCVEHICLE", Thing),
     ("IFCSHADINGDEVICE", Thing),
     ("IFCCHIMNEY", Thing),
-    ("IFCGEOGRAPHICELEMENT", Nothing("то, что снаружи и под землёй, не переносится")),
+    (
+        "IFCGEOGRAPHICELEMENT",
+        Nothing((
+            "то, что снаружи и под землёй, не переносится",
+            "what is outside and under the ground is not carried over",
+        )),
+    ),
     ("IFCFLOWTERMINAL", Thing),
     ("IFCAIRTERMINAL", Thing),
     ("IFCAUDIOVISUALAPPLIANCE", Thing),

@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::{Point3, Vector3};
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Properties};
-use crate::units::{Cm, Point, Vector};
+use crate::units::{Cm, Point, Vector, bilingual};
 use crate::{Deed, Opening, OpeningKind, What};
 
 use super::body::Body;
@@ -75,7 +75,10 @@ impl Reader<'_> {
                 if is_hole {
                     others += 1;
                 } else {
-                    let text = "место или ширина не указаны, пропущено";
+                    let text = (
+                        "место или ширина не указаны, пропущено",
+                        "place or width is not given, it is left out",
+                    );
                     self.lose(what, &source(record, id), text);
                 }
                 continue;
@@ -98,13 +101,17 @@ impl Reader<'_> {
             }
         }
         if others > 0 {
-            let text = format!(
-                "{others} шт.: пустые отверстия, сквозь которые не пройти или которые не соединяют помещений"
+            let text = bilingual!(
+                "{others} шт.: пустые отверстия, сквозь которые не пройти или которые не соединяют помещений",
+                "{others}: empty openings that cannot be passed or join no rooms"
             );
             self.tell((Deed::Noted, What::Record), (others, 0), "IFCOPENINGELEMENT", text);
         }
         if passed > 0 {
-            let text = format!("{passed} шт. сверх {MOST_OPENINGS}, пропущены");
+            let text = bilingual!(
+                "{passed} шт. сверх {MOST_OPENINGS}, пропущены",
+                "{passed} beyond {MOST_OPENINGS} are left out"
+            );
             self.tell((Deed::Skipped, What::Record), (passed, 0), "IFCDOOR", text);
         }
     }

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::Properties;
-use crate::units::{Cm, Point, Vector};
+use crate::units::{Cm, Point, Vector, bilingual};
 use crate::{Deed, Opening, OpeningKind, What, outline};
 
 use super::body::Body;
@@ -105,7 +105,10 @@ impl Reader<'_> {
             }
         }
         if placeless > 0 {
-            let text = format!("{placeless} мнимых границ без поверхности и без второго помещения");
+            let text = bilingual!(
+                "{placeless} мнимых границ без поверхности и без второго помещения",
+                "{placeless} virtual boundaries without a surface and without a second room"
+            );
             self.tell((Deed::Noted, What::Record), (0, 0), "IFCRELSPACEBOUNDARY", text);
         }
         for ((level, one, other), stretches) in found {
@@ -115,8 +118,10 @@ impl Reader<'_> {
         }
         let elements = self.elements(Becomes::Virtual).len();
         if elements > 0 {
-            let text =
-                format!("{elements} шт.: сами они не тела; проходы берутся из границ помещений");
+            let text = bilingual!(
+                "{elements} шт.: сами они не тела; проходы берутся из границ помещений",
+                "{elements}: they are no bodies themselves; passages are taken from the boundaries of rooms"
+            );
             self.tell((Deed::Noted, What::Record), (elements, 0), "IFCVIRTUALELEMENT", text);
         }
     }

@@ -21,7 +21,7 @@ impl Reader<'_> {
         if spaces.len() > MOST_ROOMS {
             return Err(ReadError::TooMany {
                 format: FORMAT,
-                what: "помещений",
+                what: ("помещений", "rooms").into(),
                 limit: MOST_ROOMS,
             });
         }
@@ -35,20 +35,29 @@ impl Reader<'_> {
         for (id, space) in spaces {
             let source = source(space, id);
             if wholes.contains(&id) {
-                let text = "помещение состоит из других, взяты они";
+                let text = (
+                    "помещение состоит из других, взяты они",
+                    "the room consists of others, which are taken",
+                );
                 self.tell((Deed::Noted, What::Room), (1, 1), &source, text);
                 continue;
             }
             // A whole storey's area, for sums of money.
             if space.at(9).word() == Some("GFA") {
-                let text = "это площадь этажа (GFA), а не помещение";
+                let text = (
+                    "это площадь этажа (GFA), а не помещение",
+                    "this is a storey’s area (GFA), and no room",
+                );
                 self.tell((Deed::Noted, What::Room), (1, 0), &source, text);
                 continue;
             }
             let place = self.place_of(space);
             let (bodies, from) = self.shapes.of_product(space.at(6), &place, Else::Footprint);
             if bodies.is_empty() {
-                let text = "у помещения нет ни тела, ни контура, которые читаются";
+                let text = (
+                    "у помещения нет ни тела, ни контура, которые читаются",
+                    "the room has neither a body nor an outline that can be read",
+                );
                 self.lose(What::Room, &source, text);
                 continue;
             }
@@ -72,15 +81,24 @@ impl Reader<'_> {
             (ring.len() <= outline::MOST_CORNERS).then_some(ring)
         };
         let Some((floor, outline)) = largest.and_then(|f| Some((f, ring(&f.outer)?))) else {
-            let text = "контур вырожден или слишком подробен, пропущен";
+            let text = (
+                "контур вырожден или слишком подробен, пропущен",
+                "the outline has no area or too much detail, it is left out",
+            );
             return self.lose(What::Room, &source, text);
         };
         if floors.iter().any(|f| f != floor && f.area() > 0.1 * floor.area()) {
-            let text = "пол помещения из нескольких частей, взята наибольшая";
+            let text = (
+                "пол помещения из нескольких частей, взята наибольшая",
+                "the room’s floor is in several parts, the largest is taken",
+            );
             self.tell((Deed::Mended, What::Room), (0, 0), &source, text);
         }
         if bodies.iter().any(|b| b.is_round) {
-            let text = "стены кривые: взят выпуклый контур их рёбер";
+            let text = (
+                "стены кривые: взят выпуклый контур их рёбер",
+                "the walls are curved: the convex outline of their edges is taken",
+            );
             self.tell((Deed::Mended, What::Room), (0, 0), &source, text);
         }
         let holes = floor.holes.iter().filter_map(|h| ring(h)).collect();

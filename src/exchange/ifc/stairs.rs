@@ -18,7 +18,7 @@ use crate::assemble::ring::{
 };
 use crate::map::Properties;
 use crate::shafts::vertical;
-use crate::units::{Cm, Point, Vector};
+use crate::units::{Cm, Point, Vector, bilingual};
 use crate::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
 
 use super::body::{Body, rings, together};
@@ -88,7 +88,11 @@ impl Reader<'_> {
             self.elements(Becomes::Flight).into_iter().partition(|(id, _)| self.is_of_stairs(*id));
         every.extend(alone);
         if !of_others.is_empty() {
-            let text = format!("{} шт.: марши взяты вместе с их лестницами", of_others.len());
+            let text = bilingual!(
+                "{} шт.: марши взяты вместе с их лестницами",
+                "{}: flights are taken with their stairs",
+                of_others.len()
+            );
             let count = (of_others.len(), of_others.len());
             self.tell((Deed::Noted, What::Record), count, "IFCSTAIRFLIGHT", text);
         }
@@ -96,12 +100,19 @@ impl Reader<'_> {
         for (no, (id, record)) in every.into_iter().enumerate() {
             let own = source(record, id);
             if no >= MOST {
-                self.lose(What::Lift, &own, "лестниц слишком много");
+                self.lose(What::Lift, &own, ("лестниц слишком много", "there are too many stairs"));
                 continue;
             }
             let own_parts = parts.get(&id).map(Vec::as_slice).unwrap_or_default();
             let Some(way) = self.way(id, record, own_parts) else {
-                self.lose(What::Lift, &own, "нет тела, по которому видно, куда ведёт");
+                self.lose(
+                    What::Lift,
+                    &own,
+                    (
+                        "нет тела, по которому видно, куда ведёт",
+                        "there is no body that shows where it leads",
+                    ),
+                );
                 continue;
             };
             let levels = self.reached(&way);
@@ -124,7 +135,10 @@ impl Reader<'_> {
 
     /// A few steps within one storey are in the way.
     fn within_storey(&mut self, id: u32, own: &str, parts: &[u32]) {
-        let text = "не ведёт на другой этаж: взято как препятствие";
+        let text = (
+            "не ведёт на другой этаж: взято как препятствие",
+            "it leads to no other storey: it is taken as an obstacle",
+        );
         if parts.is_empty() {
             self.tell((Deed::Mended, What::Lift), (0, 0), own, text);
             self.steps.push(id);
@@ -225,7 +239,10 @@ impl Reader<'_> {
         if share >= OWN_SHARE * floor.area() {
             way.kind.clone_into(&mut self.survey.levels[level].rooms[room].kind);
             let own = self.survey.levels[level].rooms[room].source.clone();
-            let text = "помещение занято лестницей: оно и есть лестница";
+            let text = (
+                "помещение занято лестницей: оно и есть лестница",
+                "the room is taken up by stairs: it is the stairs",
+            );
             self.tell((Deed::Noted, What::Room), (0, 0), &own, text);
             return Some(room);
         }
@@ -310,7 +327,12 @@ impl Reader<'_> {
                 sill: Cm::ZERO,
                 properties: Properties::new(),
             }),
-            None => self.tell((Deed::Mended, What::Lift), (0, 0), &own, "вход не найден"),
+            None => self.tell(
+                (Deed::Mended, What::Lift),
+                (0, 0),
+                &own,
+                ("вход не найден", "its entrance is not found"),
+            ),
         }
         number
     }
@@ -319,9 +341,15 @@ impl Reader<'_> {
         if stops.len() < 2 {
             let text = if way.kind == "lift" {
                 // Shafts that lie above one another are joined all the same.
-                "по телу не видно, на каких этажах останавливается"
+                (
+                    "по телу не видно, на каких этажах останавливается",
+                    "the body does not show on which storeys it stops",
+                )
             } else {
-                "концы лестницы не в помещениях: этажи не связаны"
+                (
+                    "концы лестницы не в помещениях: этажи не связаны",
+                    "the ends of the stairs are in no rooms: the storeys are not joined",
+                )
             };
             return self.lose(What::Lift, &way.source, text);
         }
@@ -331,7 +359,10 @@ impl Reader<'_> {
             let new = stops.into_iter().filter(|s| !lift.stops.contains(s)).collect::<Vec<_>>();
             lift.stops.extend(new);
             lift.stops.sort_unstable();
-            let text = "вместе с другими маршами того же лестничного колодца";
+            let text = (
+                "вместе с другими маршами того же лестничного колодца",
+                "with other flights of the same shaft",
+            );
             return self.tell((Deed::Noted, What::Lift), (1, 1), &way.source, text);
         }
         // Of one name, each after the first with its number.

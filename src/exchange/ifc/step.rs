@@ -17,7 +17,7 @@ use nom::error::{Error, ErrorKind};
 use nom::multi::many0_count;
 use nom::sequence::{delimited, preceded};
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source, bilingual};
 use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "IFC";
@@ -119,12 +119,20 @@ pub(super) fn instances(
 ) -> Result<Instances, ReadError> {
     let text = source.text();
     let offset = |rest: &str| text.len() - rest.len();
-    let fault = |what: &str, rest: &str| ReadError::syntax(FORMAT, what, source, offset(rest));
+    let fault = |what: (&'static str, &'static str), rest: &str| {
+        ReadError::syntax(FORMAT, what, source, offset(rest))
+    };
     if !is_step(text) {
-        return Err(fault("текст не начинается с ISO-10303-21", text));
+        return Err(fault(
+            ("текст не начинается с ISO-10303-21", "the text does not begin with ISO-10303-21"),
+            text,
+        ));
     }
     let Some(mut rest) = data_section(text) else {
-        return Err(fault("текст оборван: нет раздела DATA", &text[text.len()..]));
+        return Err(fault(
+            ("текст оборван: нет раздела DATA", "the text is cut off: there is no section DATA"),
+            &text[text.len()..],
+        ));
     };
     let wanted: HashMap<&'static str, &'static str> = wanted.iter().map(|w| (*w, *w)).collect();
     let counted: HashMap<&'static str, &'static str> = counted.iter().map(|w| (*w, *w)).collect();
@@ -135,7 +143,13 @@ pub(super) fn instances(
         rest = space(rest).map_or(rest, |(rest, ())| rest);
         let begun = rest;
         if rest.is_empty() {
-            return Err(fault("текст оборван: раздел DATA не закончен (ENDSEC;)", rest));
+            return Err(fault(
+                (
+                    "текст оборван: раздел DATA не закончен (ENDSEC;)",
+                    "the text is cut off: the section DATA is not ended (ENDSEC;)",
+                ),
+                rest,
+            ));
         }
         if let Ok((after, _)) = word(rest)
             && rest[..rest.len() - after.len()].eq_ignore_ascii_case("ENDSEC")
@@ -153,13 +167,19 @@ pub(super) fn instances(
                 if found.by_id.len() >= MOST {
                     return Err(ReadError::TooMany {
                         format: FORMAT,
-                        what: "записей",
+                        what: ("записей", "records").into(),
                         limit: MOST,
                     });
                 }
                 let kind = instance.kind;
                 if found.by_id.insert(id, instance).is_some() {
-                    remarks.push(remark(id, "номер встречается дважды, взята последняя запись"));
+                    remarks.push(remark(
+                        id,
+                        (
+                            "номер встречается дважды, взята последняя запись",
+                            "the number stands twice, the last record is taken",
+                        ),
+                    ));
                 } else {
                     found.order.entry(kind).or_default().push(id);
                 }
@@ -176,13 +196,18 @@ pub(super) fn instances(
                     nom::Err::Incomplete(_) => rest,
                 };
                 let Ok((after, ())) = skip(begun) else {
-                    return Err(fault("текст оборван посреди записи", begun));
+                    return Err(fault(
+                        ("текст оборван посреди записи", "the text is cut off amid a record"),
+                        begun,
+                    ));
                 };
                 faulty += 1;
                 if faulty <= MOST_REMARKS {
                     let (line, column) = source.position(offset(at));
-                    let text =
-                        format!("запись не читается (строка {line}, столбец {column}), пропущена");
+                    let text = bilingual!(
+                        "запись не читается (строка {line}, столбец {column}), пропущена",
+                        "the record cannot be read (line {line}, column {column}), it is left out"
+                    );
                     remarks.push(Remark { source: begun.chars().take(40).collect(), text });
                 }
                 rest = after;
@@ -190,14 +215,17 @@ pub(super) fn instances(
         }
     }
     if faulty > MOST_REMARKS {
-        let text = format!("записей, которые не читаются: {faulty}");
+        let text = bilingual!(
+            "записей, которые не читаются: {faulty}",
+            "records that cannot be read: {faulty}"
+        );
         remarks.push(Remark { source: String::new(), text });
     }
     Ok(found)
 }
 
-fn remark(id: u32, text: &str) -> Remark {
-    Remark { source: format!("#{id}"), text: text.to_owned() }
+fn remark(id: u32, text: impl Into<Bilingual>) -> Remark {
+    Remark { source: format!("#{id}"), text: text.into() }
 }
 
 /// What follows the next `DATA;` that stands outside of strings and comments.
@@ -448,6 +476,6 @@ mod tests {
         assert_eq!(found.all("IFCDOOR").map(|(id, _)| id).collect::<Vec<_>>(), [3]);
         assert_eq!((found.count("IFCWALL"), found.count("IFCDOOR")), (1, 1));
         assert_eq!(remarks.len(), 1);
-        assert!(remarks[0].text.contains("строка 4, столбец 12"), "{remarks:?}");
+        assert!(remarks[0].text.to_string().contains("строка 4, столбец 12"), "{remarks:?}");
     }
 }

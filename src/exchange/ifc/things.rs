@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
-use crate::units::{Cm, Deg, Point};
+use crate::units::{Bilingual, Cm, Deg, Point};
 use crate::{Deed, Kind, Part, Thing, What, outline};
 
 use super::body::{Body, area, hull, rings, together};
@@ -56,7 +56,7 @@ struct Look {
     /// Of the lowest part, above the thing's origin.
     bottom: f64,
     /// What is not as in the file.
-    doubt: Option<&'static str>,
+    doubt: Option<(&'static str, &'static str)>,
 }
 
 impl Reader<'_> {
@@ -81,7 +81,11 @@ impl Reader<'_> {
         for (no, (id, thing, is_pillar)) in every.into_iter().enumerate() {
             let source = source(thing, id);
             if no >= MOST_THINGS {
-                self.lose(What::Thing, &source, "вещей слишком много");
+                self.lose(
+                    What::Thing,
+                    &source,
+                    ("вещей слишком много", "there are too many things"),
+                );
                 continue;
             }
             if is_pillar && self.is_of_stairs(id) {
@@ -92,7 +96,10 @@ impl Reader<'_> {
                 .iter()
                 .any(|w| thing.at(8).word() == Some(w))
             {
-                let text = "заготовка отверстия, а не вещь";
+                let text = (
+                    "заготовка отверстия, а не вещь",
+                    "this provides for an opening, and is no thing",
+                );
                 self.tell((Deed::Noted, What::Thing), (1, 0), &source, text);
                 continue;
             }
@@ -101,7 +108,10 @@ impl Reader<'_> {
             let look = looks.entry(key).or_insert_with(|| look(&mut self.shapes, thing, &place));
             let look = look.clone();
             if look.parts.is_empty() && wholes.contains(&id) {
-                let text = "состоит из других вещей, взяты они";
+                let text = (
+                    "состоит из других вещей, взяты они",
+                    "it consists of other things, which are taken",
+                );
                 self.tell((Deed::Noted, What::Thing), (1, 1), &source, text);
                 continue;
             }
@@ -110,20 +120,39 @@ impl Reader<'_> {
                 continue;
             }
             if look.parts.is_empty() && thing.at(5).reference().is_none() {
-                self.lose(What::Thing, &source, "не сказано ни где стоит, ни как выглядит");
+                self.lose(
+                    What::Thing,
+                    &source,
+                    (
+                        "не сказано ни где стоит, ни как выглядит",
+                        "it is told neither where it stands nor what it looks like",
+                    ),
+                );
                 continue;
             }
             self.thing(id, thing, &place, look, &mut kinds);
         }
         let told = [
-            (within, (1, 0), "стоят в стенах и вне помещений, отдельно не переносятся"),
-            (of_stairs, (1, 1), "части лестниц, взяты лестницы"),
+            (
+                within,
+                (1, 0),
+                (
+                    "стоят в стенах и вне помещений, отдельно не переносятся",
+                    "they stand in walls and outside of rooms, and are not carried over by themselves",
+                ),
+            ),
+            (
+                of_stairs,
+                (1, 1),
+                ("части лестниц, взяты лестницы", "parts of stairs, the stairs are taken"),
+            ),
         ];
         for (counts, (found, taken), why) in told {
             let mut counts: Vec<_> = counts.into_iter().collect();
             counts.sort_unstable();
             for (kind, n) in counts {
-                let text = format!("{n} шт.: {why}");
+                let (russian, english) = why;
+                let text = Bilingual::new(format!("{n} шт.: {russian}"), format!("{n}: {english}"));
                 let count = (n * found, n * taken);
                 self.tell((Deed::Noted, What::Thing), count, kind, text);
             }
@@ -156,7 +185,11 @@ impl Reader<'_> {
         let level = self.level_of(id, bottom);
         let raised = Cm::new(bottom - self.survey.levels[level].elevation.get());
         let (false, Ok(raised)) = (is_far, raised) else {
-            return self.lose(What::Thing, &source_id, "стоит за пределами всякого здания");
+            return self.lose(
+                What::Thing,
+                &source_id,
+                ("стоит за пределами всякого здания", "it stands outside of any building"),
+            );
         };
         if let Some(doubt) = look.doubt {
             self.tell((Deed::Mended, What::Thing), (0, 0), &source_id, doubt);
@@ -226,15 +259,20 @@ fn frame(place: &Place) -> crate::units::Frame {
 fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
     let (bodies, from) = shapes.of_product(thing.at(6), &place.unturned(), Else::Box);
     let mut doubt = match from {
-        Source::Body if bodies.is_empty() => {
-            Some("тела, которое читается, нет: взят обычный для слова размер или метка")
-        }
-        Source::Body if bodies.iter().any(|b| b.is_round) => {
-            Some("тело с кривыми гранями: взят выпуклый контур")
-        }
+        Source::Body if bodies.is_empty() => Some((
+            "тела, которое читается, нет: взят обычный для слова размер или метка",
+            "there is no body that can be read: the size usual for the word is taken, or a mark",
+        )),
+        Source::Body if bodies.iter().any(|b| b.is_round) => Some((
+            "тело с кривыми гранями: взят выпуклый контур",
+            "a body with curved faces: its convex outline is taken",
+        )),
         Source::Body => None,
-        Source::Box => Some("тела нет: взята его коробка"),
-        Source::Footprint => Some("тела нет: взят контур на плане, высота принята 75 см"),
+        Source::Box => Some(("тела нет: взята его коробка", "there is no body: its box is taken")),
+        Source::Footprint => Some((
+            "тела нет: взят контур на плане, высота принята 75 см",
+            "there is no body: its outline on the plan is taken, and a height of 75 cm",
+        )),
     };
     let mut solids = solids(&bodies, shapes);
     if from == Source::Footprint {
@@ -255,7 +293,10 @@ fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
         }
     }
     if parts.is_empty() && !bodies.is_empty() {
-        doubt = Some("тело вырождено: взят обычный для слова размер или метка");
+        doubt = Some((
+            "тело вырождено: взят обычный для слова размер или метка",
+            "the body has no volume: the size usual for the word is taken, or a mark",
+        ));
     }
     Look { parts, bottom, doubt }
 }

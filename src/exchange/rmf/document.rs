@@ -9,7 +9,7 @@ use super::{FORMAT, METRE};
 
 /// The whole text as one value; nesting, nodes and aliases are limited.
 pub(super) fn parse(source: &Source) -> Result<Value, ReadError> {
-    crate::yaml::parse(source, FORMAT, "здания")
+    crate::yaml::parse(source, FORMAT, ("здания", "of a building"))
 }
 
 pub(super) fn text<'v>(value: &'v Value, field: &str) -> Option<&'v str> {

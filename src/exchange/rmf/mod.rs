@@ -18,7 +18,7 @@ use std::collections::HashMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Permeability, Properties};
-use crate::units::{Cm, Deg, Point, Source, Vector};
+use crate::units::{Bilingual, Cm, Deg, Language, Point, Source, Vector, bilingual};
 
 use super::{
     Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
@@ -57,8 +57,9 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let word = text(&building, "coordinate_system");
     let Some(system) = System::named(word) else {
         let word = word.unwrap_or_default();
-        let what = format!(
-            "система координат {word} не читается: нужна reference_image, cartesian_meters, wgs84 или web_mercator"
+        let what = bilingual!(
+            "система координат {word} не читается: нужна reference_image, cartesian_meters, wgs84 или web_mercator",
+            "the coordinate system {word} is not read: reference_image, cartesian_meters, wgs84 or web_mercator is needed"
         );
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     };
@@ -86,7 +87,9 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
         reader.lift(name, lift, &names);
     }
     if reader.survey.levels.iter().all(|level| level.rooms.is_empty()) {
-        let what = "стены и полы не образуют ни одного помещения".to_owned();
+        let what =
+            ("стены и полы не образуют ни одного помещения", "walls and floors make no room")
+                .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     text(&building, "name").unwrap_or_default().clone_into(&mut reader.survey.name);
@@ -102,7 +105,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn remark(&mut self, source: &str, text: impl Into<String>) {
+    fn remark(&mut self, source: &str, text: impl Into<Bilingual>) {
         self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
     }
 
@@ -111,7 +114,13 @@ impl Reader {
         let mut fits = Vec::with_capacity(levels.len());
         for (name, level) in levels {
             let scale = document::scale(level).unwrap_or_else(|| {
-                self.remark(name, "на этаже нет измерений: принято 5 см на точку рисунка");
+                self.remark(
+                    name,
+                    (
+                        "на этаже нет измерений: принято 5 см на точку рисунка",
+                        "the storey has no measurements: 5 cm a point of the drawing are taken",
+                    ),
+                );
                 PIXEL
             });
             fits.push(Fit::pixels(scale));
@@ -127,9 +136,13 @@ impl Reader {
             }
             match document::lay(&document::fiducials(level, &fits[i]), &base_marks) {
                 Some(motion) => fits[i] = fits[i].then(motion),
-                None => {
-                    self.remark(name, "нет общих меток (fiducials): этаж положен как нарисован")
-                }
+                None => self.remark(
+                    name,
+                    (
+                        "нет общих меток (fiducials): этаж положен как нарисован",
+                        "there are no common marks (fiducials): the storey is laid as it is drawn",
+                    ),
+                ),
             }
         }
         fits
@@ -145,7 +158,8 @@ impl Reader {
         let mut all = levels.iter().flat_map(|(_, level)| list(level, "vertices"));
         let first = all.find_map(|v| place(v).filter(is_sound));
         let Some((x, y)) = first else {
-            let what = "ни одна вершина не лежит на земном шаре".to_owned();
+            let what =
+                ("ни одна вершина не лежит на земном шаре", "no vertex lies on the globe").into();
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         };
         Ok(match system {
@@ -157,7 +171,7 @@ impl Reader {
     fn level(&mut self, index: usize, name: &str, level: &Value) -> Result<(), ReadError> {
         for what in ["vertices", "walls", "doors", "models"] {
             if list(level, what).len() > MOST {
-                let what = "записей этажа";
+                let what = ("записей этажа", "records of a storey").into();
                 return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST });
             }
         }
@@ -196,7 +210,11 @@ impl Reader {
         let (rooms, faces): (Vec<Room>, Vec<Option<usize>>) = found.rooms.into_iter().unzip();
         made.rooms = rooms;
         for (source, hole) in found.left_out {
-            let text = format!("по рисунку здесь нет пола: {}", rooms::place(&hole));
+            let place = rooms::place(&hole);
+            let text = Bilingual::new(
+                format!("по рисунку здесь нет пола: {place}"),
+                format!("by the drawing there is no floor here: {}", place.say(Language::English)),
+            );
             self.survey.notes.push(Remark { source, text });
         }
         self.gaps(name, &plan);
@@ -233,14 +251,31 @@ impl Reader {
     /// Doorways that nobody drew.
     fn gaps(&mut self, level: &str, plan: &faces::Plan) {
         let told = [
-            (&plan.gaps, "gap", "в стене проём без двери: помещения по обе стороны стали одним"),
-            (&plan.wide, "wide", "стена прервана: пол по обе стороны стал одним помещением"),
+            (
+                &plan.gaps,
+                "gap",
+                (
+                    "в стене проём без двери: помещения по обе стороны стали одним",
+                    "an opening without a door is in the wall: the rooms on both sides became one",
+                ),
+            ),
+            (
+                &plan.wide,
+                "wide",
+                (
+                    "стена прервана: пол по обе стороны стал одним помещением",
+                    "the wall is broken off: the floor on both sides became one room",
+                ),
+            ),
         ];
-        for (gaps, sort, text) in told {
+        for (gaps, sort, (russian, english)) in told {
             for (i, (a, b)) in gaps.iter().enumerate() {
                 let middle = nalgebra::center(a, b);
                 let (width, x, y) = ((b - a).norm(), middle.x / METRE, middle.y / METRE);
-                let text = format!("{text}; {width:.0} см у ({x:.2}; {y:.2}) м");
+                let text = Bilingual::new(
+                    format!("{russian}; {width:.0} см у ({x:.2}; {y:.2}) м"),
+                    format!("{english}; {width:.0} cm at ({x:.2}; {y:.2}) m"),
+                );
                 self.survey.notes.push(Remark { source: format!("{level}/{sort}/{i}"), text });
             }
         }
@@ -262,7 +297,13 @@ impl Reader {
             };
             match (end(0), end(1)) {
                 (Some(a), Some(b)) => drawn.push(Drawn { source, ends: (a, b), record }),
-                _ => self.remark(&source, "пропущено: нет вершины, на которую ссылается запись"),
+                _ => self.remark(
+                    &source,
+                    (
+                        "пропущено: нет вершины, на которую ссылается запись",
+                        "left out: the vertex to which the record refers is missing",
+                    ),
+                ),
             }
         }
         drawn
@@ -279,7 +320,10 @@ impl Reader {
             _ => {
                 self.remark(
                     &door.source,
-                    format!("неизвестный вид двери «{word}»: принята распашная"),
+                    bilingual!(
+                        "неизвестный вид двери «{word}»: принята распашная",
+                        "unknown kind of door “{word}”: a hinged one is taken"
+                    ),
                 );
                 DoorKind::Hinged
             }
@@ -361,7 +405,7 @@ impl Reader {
     fn model(&mut self, level: &str, i: usize, model: &Value, fit: &Fit, things: &mut Vec<Thing>) {
         let source = format!("{level}/models/{i}");
         let Some(at) = document::point(model.get("x"), model.get("y"), fit) else {
-            self.remark(&source, "пропущено: негодное место");
+            self.remark(&source, ("пропущено: негодное место", "left out: bad place"));
             return;
         };
         let word = text(model, "model_name").unwrap_or("model");
@@ -441,7 +485,13 @@ impl Reader {
         let (Some(at), (Some(width), Some(depth))) =
             (document::point(lift.get("x"), lift.get("y"), &fit), sizes)
         else {
-            self.remark(name, "лифт пропущен: нет места или размеров кабины");
+            self.remark(
+                name,
+                (
+                    "лифт пропущен: нет места или размеров кабины",
+                    "the lift is left out: it has no place, or its cabin no size",
+                ),
+            );
             return;
         };
         let yaw = number(lift.get("yaw")).unwrap_or(0.0) + fit.turn();
@@ -455,7 +505,13 @@ impl Reader {
         let mut stops = Vec::new();
         for (level_name, doors) in entries(lift, "level_doors") {
             let Some(index) = levels.iter().position(|level| *level == level_name) else {
-                self.remark(name, format!("этажа «{level_name}», который лифт называет, нет"));
+                self.remark(
+                    name,
+                    bilingual!(
+                        "этажа «{level_name}», который лифт называет, нет",
+                        "the storey “{level_name}” that the lift names is missing"
+                    ),
+                );
                 continue;
             };
             let level = &mut self.survey.levels[index];
@@ -489,7 +545,10 @@ impl Reader {
                         properties: Properties::new(),
                     }),
                     None => {
-                        let text = format!("двери «{door_name}», которую лифт называет, нет");
+                        let text = bilingual!(
+                            "двери «{door_name}», которую лифт называет, нет",
+                            "the door “{door_name}” that the lift names is missing"
+                        );
                         self.survey.remarks.push(Remark { source: name.to_owned(), text });
                     }
                 }

@@ -6,7 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::assemble::ring::{self, Region, Ring};
 use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
-use crate::units::{Cm, Point};
+use crate::units::{Bilingual, Cm, Point, bilingual};
 use crate::{Room, Spot};
 
 use super::faces::{Face, Plan};
@@ -100,10 +100,16 @@ pub(super) fn rooms(
 }
 
 /// Where a piece of floor is and how large, for people.
-pub(super) fn place(region: &Region) -> String {
+pub(super) fn place(region: &Region) -> Bilingual {
     let (low, high) = bounds(region.outer.iter().copied());
     let middle = nalgebra::center(&low, &high) / METRE;
-    format!("{:.1} м² у ({:.2}; {:.2}) м", region.area() / 1e4, middle.x, middle.y)
+    bilingual!(
+        "{:.1} м² у ({:.2}; {:.2}) м",
+        "{:.1} m² at ({:.2}; {:.2}) m",
+        region.area() / 1e4,
+        middle.x,
+        middle.y
+    )
 }
 
 /// The part of drawn polygons that lies in a face.

@@ -1,6 +1,7 @@
 //! The picture of a grid: PGM, plain (P2) and binary (P5), or PNG. Rows run downwards.
 
 use crate::ReadError;
+use crate::units::{Bilingual, bilingual};
 
 use super::{FORMAT, MOST_CELLS};
 
@@ -19,19 +20,26 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
     match bytes {
         [b'P', b'2' | b'5', ..] => pgm(bytes),
         [0x89, b'P', b'N', b'G', ..] => png(bytes),
-        _ => Err(fault(0, "картинка не PGM (P2, P5) и не PNG")),
+        _ => Err(fault(
+            0,
+            ("картинка не PGM (P2, P5) и не PNG", "the picture is neither PGM (P2, P5) nor PNG"),
+        )),
     }
 }
 
-fn fault(at: usize, what: impl Into<String>) -> ReadError {
+fn fault(at: usize, what: impl Into<Bilingual>) -> ReadError {
     ReadError::Bytes { format: FORMAT, what: what.into(), at }
 }
 
 fn cells(width: usize, height: usize) -> Result<usize, ReadError> {
     match width.checked_mul(height) {
-        Some(0) => Err(fault(0, "картинка пуста")),
+        Some(0) => Err(fault(0, ("картинка пуста", "the picture is empty"))),
         Some(cells) if cells <= MOST_CELLS => Ok(cells),
-        _ => Err(ReadError::TooMany { format: FORMAT, what: "клеток", limit: MOST_CELLS }),
+        _ => Err(ReadError::TooMany {
+            format: FORMAT,
+            what: ("клеток", "cells").into(),
+            limit: MOST_CELLS,
+        }),
     }
 }
 
@@ -49,8 +57,13 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
                 }
                 Some(b) if b.is_ascii_whitespace() => *at += 1,
                 Some(b) if b.is_ascii_digit() => break,
-                Some(_) => return Err(fault(*at, "здесь должно быть число")),
-                None => return Err(fault(*at, "файл оборван")),
+                Some(_) => {
+                    return Err(fault(
+                        *at,
+                        ("здесь должно быть число", "a number must stand here"),
+                    ));
+                }
+                None => return Err(fault(*at, ("файл оборван", "the file is cut off"))),
             }
         }
         let mut n = 0_usize;
@@ -64,7 +77,10 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
     if !(1..=65_535).contains(&most) {
         return Err(fault(
             at,
-            format!("наибольшее значение серого {most}, а должно быть 1..65535"),
+            bilingual!(
+                "наибольшее значение серого {most}, а должно быть 1..65535",
+                "the largest grey value is {most}, and must be 1..65535"
+            ),
         ));
     }
     let cells = cells(width, height)?;
@@ -73,7 +89,13 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
     if is_plain {
         // Each number takes two bytes at least: a raster that cannot fit is refused before memory is taken.
         if bytes.len().saturating_sub(at) < cells {
-            return Err(fault(bytes.len(), "файл оборван: чисел меньше, чем клеток"));
+            return Err(fault(
+                bytes.len(),
+                (
+                    "файл оборван: чисел меньше, чем клеток",
+                    "the file is cut off: there are fewer numbers than cells",
+                ),
+            ));
         }
         grey.reserve_exact(cells);
         for _ in 0..cells {
@@ -85,7 +107,13 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
         let wide = if most > 255 { 2 } else { 1 };
         let Some(raster) = raster.get(..cells * wide) else {
             let have = raster.len() / wide;
-            return Err(fault(bytes.len(), format!("файл оборван: клеток {have} вместо {cells}")));
+            return Err(fault(
+                bytes.len(),
+                bilingual!(
+                    "файл оборван: клеток {have} вместо {cells}",
+                    "the file is cut off: {have} cells instead of {cells}"
+                ),
+            ));
         };
         grey = if wide == 1 {
             raster.iter().map(|b| scaled(usize::from(*b))).collect()
@@ -105,9 +133,15 @@ fn png(bytes: &[u8]) -> Result<Picture, ReadError> {
     let mut reader = decoder.read_info().map_err(wrong)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let cells = cells(width, height)?;
-    let size = reader.output_buffer_size().ok_or_else(|| fault(0, "PNG: слишком велик"))?;
+    let size = reader
+        .output_buffer_size()
+        .ok_or_else(|| fault(0, ("PNG: слишком велик", "PNG: too large")))?;
     if size > MOST_CELLS * 4 {
-        return Err(ReadError::TooMany { format: FORMAT, what: "клеток", limit: MOST_CELLS });
+        return Err(ReadError::TooMany {
+            format: FORMAT,
+            what: ("клеток", "cells").into(),
+            limit: MOST_CELLS,
+        });
     }
     let mut raw = vec![0; size];
     let info = reader.next_frame(&mut raw).map_err(wrong)?;
@@ -120,7 +154,10 @@ fn png(bytes: &[u8]) -> Result<Picture, ReadError> {
         |p: &[u8]| (p[..colours].iter().map(|c| u32::from(*c)).sum::<u32>() / colours as u32) as u8;
     let grey: Vec<u8> = pixels().map(mean).collect();
     if grey.len() < cells {
-        return Err(fault(bytes.len(), "PNG: клеток меньше, чем сказано"));
+        return Err(fault(
+            bytes.len(),
+            ("PNG: клеток меньше, чем сказано", "PNG: fewer cells than it says"),
+        ));
     }
     let is_clear =
         if has_alpha { pixels().map(|p| p[channels - 1] < 255).collect() } else { Vec::new() };
@@ -151,12 +188,15 @@ mod tests {
     fn broken_pictures_are_refused_with_the_place() {
         assert_eq!(
             said(b"P5 3 2 255\n\x00"),
-            "карта ROS, байт 12: файл оборван: клеток 1 вместо 6"
+            "ROS map_server, байт 12: файл оборван: клеток 1 вместо 6"
         );
-        assert_eq!(said(b"P5 99999 99999 255\n"), "карта ROS: клеток больше 40000000");
-        assert_eq!(said(b"P5 99999999999999999999 9 255\n"), "карта ROS: клеток больше 40000000");
-        assert_eq!(said(b"P5 0 9 255\n"), "карта ROS, байт 0: картинка пуста");
-        assert_eq!(said(b"GIF89a"), "карта ROS, байт 0: картинка не PGM (P2, P5) и не PNG");
+        assert_eq!(said(b"P5 99999 99999 255\n"), "ROS map_server: клеток больше 40000000");
+        assert_eq!(
+            said(b"P5 99999999999999999999 9 255\n"),
+            "ROS map_server: клеток больше 40000000"
+        );
+        assert_eq!(said(b"P5 0 9 255\n"), "ROS map_server, байт 0: картинка пуста");
+        assert_eq!(said(b"GIF89a"), "ROS map_server, байт 0: картинка не PGM (P2, P5) и не PNG");
     }
 
     #[test]
@@ -167,6 +207,6 @@ mod tests {
         encoder.write_header().unwrap().write_image_data(&[254, 255, 0, 0]).unwrap();
         let picture = read(&bytes).unwrap();
         assert_eq!((picture.grey, picture.is_clear), (vec![254, 0], vec![false, true]));
-        assert!(said(&bytes[..bytes.len() / 2]).starts_with("карта ROS, байт 0: PNG: "));
+        assert!(said(&bytes[..bytes.len() / 2]).starts_with("ROS map_server, байт 0: PNG: "));
     }
 }

@@ -19,10 +19,10 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::{Level, ReadError, Remark, Survey, input};
-use crate::units::{Deg, Frame, Source};
+use crate::units::{Bilingual, Deg, Frame, Source, bilingual};
 use grid::Grid;
 
-pub(super) const FORMAT: &str = "карта ROS";
+pub(super) const FORMAT: &str = "ROS map_server";
 /// Cells of one grid: two kilometres square at half a metre, 250 m at 5 cm.
 const MOST_CELLS: usize = 40_000_000;
 
@@ -80,16 +80,23 @@ pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, R
     let grid = Grid::of(sheet, &picture);
     let mut remarks = vec![Remark {
         source: String::new(),
-        text: format!(
+        text: bilingual!(
             "сетка {} × {}, {} см на клетку; помещения и проходы найдены по узким местам: проверьте их",
-            grid.width, grid.height, sheet.resolution
+            "a grid of {} × {}, {} cm a cell; rooms and passages are found by narrow places: check them",
+            grid.width,
+            grid.height,
+            sheet.resolution
         ),
     }];
     let mut level =
         Level { source: name.to_owned(), name: "Этаж 1".to_owned(), ..Level::default() };
     let kinds = rooms::furnish(&grid, sheet, &mut level, &mut remarks);
     if level.rooms.is_empty() {
-        let what = "на сетке нет свободного пола размером с помещение".to_owned();
+        let what = (
+            "на сетке нет свободного пола размером с помещение",
+            "the grid has no free floor the size of a room",
+        )
+            .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     Ok(Survey { name: name.to_owned(), levels: vec![level], kinds, remarks, ..Survey::default() })
@@ -100,14 +107,14 @@ pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, R
 /// # Errors
 /// [`ReadError::Syntax`] when it is no YAML, [`ReadError::NoBuilding`] when a field is missing or makes no sense.
 pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
-    let root: Value = super::yaml::parse(source, FORMAT, "карты")?;
-    let wrong = |what: &str| ReadError::NoBuilding { format: FORMAT, what: what.to_owned() };
+    let root: Value = super::yaml::parse(source, FORMAT, ("карты", "of a map"))?;
+    let wrong = |what: Bilingual| ReadError::NoBuilding { format: FORMAT, what };
     let number = |key: &str| root.get(key).and_then(as_number);
     let share = |key: &str, usual: f64| match root.get(key) {
         None => Ok(usual),
-        Some(v) => as_number(v)
-            .filter(|x| (0.0..=1.0).contains(x))
-            .ok_or_else(|| wrong(&format!("«{key}» – не число от 0 до 1"))),
+        Some(v) => as_number(v).filter(|x| (0.0..=1.0).contains(x)).ok_or_else(|| {
+            wrong(bilingual!("«{key}» – не число от 0 до 1", "“{key}” is no number from 0 to 1"))
+        }),
     };
     let image = root.get("image").and_then(Value::as_str).filter(|i| !i.is_empty());
     let resolution = number("resolution").map(|r| r * 100.0).filter(|r| (0.1..=1000.0).contains(r));
@@ -117,7 +124,15 @@ pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
             .as_array()
             .map(|l| l.iter().map(as_number).collect::<Option<Vec<f64>>>())
             .and_then(|l| l.filter(|l| l.len() >= 2 && l.iter().all(|x| x.abs() <= 1e4)))
-            .ok_or_else(|| wrong("«origin» – не [x, y, поворот] в пределах 10 км"))?,
+            .ok_or_else(|| {
+                wrong(
+                    (
+                        "«origin» – не [x, y, поворот] в пределах 10 км",
+                        "“origin” is no [x, y, turn] within 10 km",
+                    )
+                        .into(),
+                )
+            })?,
     };
     let negate = match root.get("negate") {
         None => false,
@@ -125,8 +140,18 @@ pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
         Some(v) => as_number(v).is_some_and(|n| n != 0.0),
     };
     Ok(Sheet {
-        image: image.ok_or_else(|| wrong("нет поля «image»"))?.to_owned(),
-        resolution: resolution.ok_or_else(|| wrong("«resolution» – не число от 0.001 до 10 м"))?,
+        image: image
+            .ok_or_else(|| wrong(("нет поля «image»", "the field “image” is missing").into()))?
+            .to_owned(),
+        resolution: resolution.ok_or_else(|| {
+            wrong(
+                (
+                    "«resolution» – не число от 0.001 до 10 м",
+                    "“resolution” is no number from 0.001 to 10 m",
+                )
+                    .into(),
+            )
+        })?,
         origin: Frame::new(
             origin[0] * 100.0,
             origin[1] * 100.0,

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::units::{Cm, Point, Source};
+use crate::units::{Bilingual, Cm, Point, Source};
 use crate::{ReadError, Remark};
 
 /// Metres to centimetres.
@@ -19,16 +19,18 @@ pub(super) fn parse(format: &'static str, text: &Source) -> Result<Value, ReadEr
     })
 }
 
-fn words(e: &serde_json::Error) -> String {
+fn words(e: &serde_json::Error) -> Bilingual {
     match e.classify() {
-        serde_json::error::Category::Eof => "файл обрывается, не закончившись".to_owned(),
+        serde_json::error::Category::Eof => {
+            ("файл обрывается, не закончившись", "the file breaks off before its end").into()
+        }
         _ if e.to_string().contains("recursion limit") => {
-            "вложенность глубже 128 уровней".to_owned()
+            ("вложенность глубже 128 уровней", "nested deeper than 128 levels").into()
         }
         _ if e.to_string().contains("number out of range") => {
-            "число больше, чем может быть".to_owned()
+            ("число больше, чем может быть", "a number larger than can be").into()
         }
-        _ => "это не JSON".to_owned(),
+        _ => ("это не JSON", "this is no JSON").into(),
     }
 }
 
@@ -74,7 +76,7 @@ pub(super) fn plan([x, _, z]: [f64; 3]) -> Point {
     Point::new(x, z)
 }
 
-pub(super) fn remark(source: impl Into<String>, text: impl Into<String>) -> Remark {
+pub(super) fn remark(source: impl Into<String>, text: impl Into<Bilingual>) -> Remark {
     Remark { source: source.into(), text: text.into() }
 }
 

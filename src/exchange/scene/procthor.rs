@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Deg, Point, Source};
+use crate::units::{Cm, Deg, Point, Source, bilingual};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -88,7 +88,11 @@ impl Assets {
             }
         }
         if known.is_empty() {
-            let what = "в базе нет ни одного предмета с размерами".to_owned();
+            let what = (
+                "в базе нет ни одного предмета с размерами",
+                "the database has no thing with sizes",
+            )
+                .into();
             return Err(ReadError::NoBuilding { format: "AI2-THOR asset database", what });
         }
         Ok(Self { known })
@@ -116,7 +120,11 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     let walls: BTreeMap<&str, Wall> = list(&house, "walls").iter().filter_map(Wall::of).collect();
     let rooms = reader.rooms(&house, &walls);
     if rooms.is_empty() {
-        let what = "нет ни одного помещения с полом (rooms[].floorPolygon)".to_owned();
+        let what = (
+            "нет ни одного помещения с полом (rooms[].floorPolygon)",
+            "there is no room with a floor (rooms[].floorPolygon)",
+        )
+            .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     let mut openings = Vec::new();
@@ -134,11 +142,14 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     let count = list(&house, "objects").len();
     if pieces.is_empty() && count > 0 {
         let what = if assets.is_empty() {
-            "нет базы с ними (asset-database.json)"
+            (
+                "нет базы с ними (asset-database.json)",
+                "the database of them is missing (asset-database.json)",
+            )
         } else {
-            "база говорит о других вещах"
+            ("база говорит о других вещах", "the database is of other things")
         };
-        return Err(ReadError::NoSizes { format: FORMAT, what, count });
+        return Err(ReadError::NoSizes { format: FORMAT, what: what.into(), count });
     }
     let Shelf { kinds, things, feet } = shelve(pieces);
     let level = Level {
@@ -278,7 +289,13 @@ impl Reader<'_> {
                 .map(plan)
                 .collect();
             if outline.len() < 3 {
-                self.remarks.push(remark(id, "помещение пропущено: у пола меньше трёх углов"));
+                self.remarks.push(remark(
+                    id,
+                    (
+                        "помещение пропущено: у пола меньше трёх углов",
+                        "the room is left out: its floor has fewer than three corners",
+                    ),
+                ));
                 continue;
             }
             let mut properties = surface(record.get("floorMaterial"), " ПОЛА");
@@ -310,13 +327,25 @@ impl Reader<'_> {
             list(record, "holePolygon").iter().filter_map(|p| triple(Some(p))).collect();
         let wall = ["wall0", "wall1"].iter().find_map(|w| walls.get(text(record, w)?));
         let (Some(wall), &[low, high, ..]) = (wall, hole.as_slice()) else {
-            self.remarks.push(remark(id, "проём пропущен: нет его стены или отверстия в ней"));
+            self.remarks.push(remark(
+                id,
+                (
+                    "проём пропущен: нет его стены или отверстия в ней",
+                    "the opening is left out: its wall or the hole in it is missing",
+                ),
+            ));
             return None;
         };
         let along = wall.to - wall.from;
         let length = along.norm();
         if length < 1.0 {
-            self.remarks.push(remark(id, "проём пропущен: его стена короче сантиметра"));
+            self.remarks.push(remark(
+                id,
+                (
+                    "проём пропущен: его стена короче сантиметра",
+                    "the opening is left out: its wall is shorter than a centimetre",
+                ),
+            ));
             return None;
         }
         let jamb = |x: f64| wall.from + along * (x / length);
@@ -399,12 +428,18 @@ impl Reader<'_> {
         let id = text(record, "id").unwrap_or_default();
         let asset_id = text(record, "assetId").unwrap_or_default();
         let Some(asset) = self.assets.known.get(asset_id) else {
-            let text = format!("предмет пропущен: размеров «{asset_id}» нет в базе");
+            let text = bilingual!(
+                "предмет пропущен: размеров «{asset_id}» нет в базе",
+                "the thing is left out: the database lacks the sizes of “{asset_id}”"
+            );
             self.remarks.push(remark(id, text));
             return None;
         };
         let Some(at) = triple(record.get("position")) else {
-            self.remarks.push(remark(id, "предмет пропущен: нет его места"));
+            self.remarks.push(remark(
+                id,
+                ("предмет пропущен: нет его места", "the thing is left out: it has no place"),
+            ));
             return None;
         };
         let turn = angles(record.get("rotation"));

@@ -36,7 +36,9 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         floor.filter_map(|o| Box3::of(o.get("axisAlignedBoundingBox")?)).collect();
     let bounds = scene.get("sceneBounds").and_then(Box3::of);
     let Some(first) = floors.first().copied().or(bounds) else {
-        let what = "нет ни пола, ни границ сцены".to_owned();
+        let what =
+            ("нет ни пола, ни границ сцены", "there is neither a floor nor bounds of the scene")
+                .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     };
     let room = floors.iter().fold(first, |b, f| b.union(f));
@@ -51,7 +53,13 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         }
         match piece(object, id, word) {
             Some(piece) => pieces.push(piece),
-            None => remarks.push(remark(id, "предмет пропущен: нет коробки, в которой он стоит")),
+            None => remarks.push(remark(
+                id,
+                (
+                    "предмет пропущен: нет коробки, в которой он стоит",
+                    "the thing is left out: the box in which it stands is missing",
+                ),
+            )),
         }
     }
     let Shelf { kinds, things, feet } = shelve(pieces);

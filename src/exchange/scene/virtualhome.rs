@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Point, Source};
+use crate::units::{Cm, Point, Source, bilingual};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -57,7 +57,11 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
         list(&graph, "nodes").iter().filter_map(|n| Node::of(n, &mut remarks)).collect();
     let rooms = rooms(&nodes, &floors(&graph, &nodes));
     if rooms.is_empty() {
-        let what = "нет ни одного помещения с размерами (category = Rooms)".to_owned();
+        let what = (
+            "нет ни одного помещения с размерами (category = Rooms)",
+            "there is no room with sizes (category = Rooms)",
+        )
+            .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     let mut openings = doors(&nodes, &rooms, &mut remarks);
@@ -77,7 +81,10 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
             "Rooms" | "Floor" | "Floors" | "Walls" | "Ceiling" | "Doors" | "Windows" => {}
             _ => match twin(node, &pieces) {
                 Some(first) => {
-                    let text = format!("предмет пропущен: на том же месте уже стоит «{first}»");
+                    let text = bilingual!(
+                        "предмет пропущен: на том же месте уже стоит «{first}»",
+                        "the thing is left out: “{first}” stands in the same place already"
+                    );
                     remarks.push(remark(&node.id, text));
                 }
                 None => pieces.push(node.piece()),
@@ -112,7 +119,13 @@ impl<'v> Node<'v> {
             Some([length(x)?, length(y)?, length(z)?])
         };
         let (Some(centre), Some(size)) = (triple("center"), triple("size")) else {
-            remarks.push(remark(id, format!("«{class}» пропущено: нет его места и размеров")));
+            remarks.push(remark(
+                id,
+                bilingual!(
+                    "«{class}» пропущено: нет его места и размеров",
+                    "“{class}” is left out: its place and sizes are missing"
+                ),
+            ));
             return None;
         };
         let words = |field: &str| -> Vec<&'v str> {
@@ -289,7 +302,13 @@ fn doors(nodes: &[Node<'_>], rooms: &[Room], remarks: &mut Vec<Remark>) -> Vec<O
         let frame = of("doorjamb").find(|f| near(door, f));
         let along = frame.map_or_else(|| wall_across(door, rooms), |f| long_side(f));
         let Some(along) = along else {
-            remarks.push(remark(&door.id, "дверь пропущена: не видно, в какой стене она стоит"));
+            remarks.push(remark(
+                &door.id,
+                (
+                    "дверь пропущена: не видно, в какой стене она стоит",
+                    "the door is left out: it cannot be seen in which wall it stands",
+                ),
+            ));
             continue;
         };
         let open = door.either("OPEN", "CLOSED").unwrap_or(false);
@@ -316,7 +335,13 @@ fn doors(nodes: &[Node<'_>], rooms: &[Room], remarks: &mut Vec<Remark>) -> Vec<O
                 let height = frame.high[1] - frame.low[1];
                 found.push(opening(frame, along, OpeningKind::Passage, Some(height)));
             }
-            None => remarks.push(remark(&frame.id, "проём пропущен: его рама квадратна в плане")),
+            None => remarks.push(remark(
+                &frame.id,
+                (
+                    "проём пропущен: его рама квадратна в плане",
+                    "the opening is left out: its frame is square on the plan",
+                ),
+            )),
         }
     }
     found

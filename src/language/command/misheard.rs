@@ -4,7 +4,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::question::Unanswered;
-use crate::units::{Source, capitalized};
+use crate::units::{InEnglish, Source, capitalized};
 use crate::words::{Language, alternatives};
 
 /// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
@@ -121,39 +121,60 @@ impl Misheard {
         if let Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) = self {
             return unanswered.text.clone();
         }
-        if language == Language::Russian {
-            let help = self.help().map(|help| help.to_string()).unwrap_or_default();
-            return sentences(&self.to_string(), &help);
-        }
+        let (told, help) = match language {
+            Language::Russian => (self.to_string(), self.help().map(|help| help.to_string())),
+            Language::English => (self.english(), self.english_help()),
+        };
+        sentences(&told, &help.unwrap_or_default())
+    }
+}
+
+impl InEnglish for Misheard {
+    fn english(&self) -> String {
+        let english = Language::English;
         match self {
-            Self::Empty => {
-                "The command is empty. Say what to do, for example \"Bring the medicine\".".into()
-            }
-            Self::TooLong { length } => {
-                format!("The command is too long: {length} characters. Split it.")
-            }
-            Self::NotUnderstood { word, .. } => format!("I do not understand the word \"{word}\"."),
-            Self::Forbidden { .. } => {
-                "I keep no prohibitions in mind. Without a command I do nothing; say what to do."
-                    .into()
-            }
-            Self::Unable { word, .. } => {
-                sentences(&format!("I cannot do that: \"{word}\""), ABLE[1])
-            }
-            Self::Timed { word, .. } => {
-                format!("I keep no time: \"{word}\". Tell me when it has come.")
-            }
+            Self::Empty => "the command is empty".to_owned(),
+            Self::TooLong { length } => format!("the command is too long: {length} characters"),
+            Self::NotUnderstood { word, .. } => format!("I do not understand the word \"{word}\""),
+            Self::Forbidden { .. } => "I keep no prohibitions in mind".to_owned(),
+            Self::Unable { word, .. } => format!("I cannot do that: \"{word}\""),
+            Self::Timed { word, .. } => format!("I keep no time: \"{word}\""),
             Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) => unanswered.text.clone(),
-            Self::Incomplete { english, .. } => format!("You did not say {english}."),
+            Self::Incomplete { english, .. } => format!("you did not say {english}"),
             Self::Ambiguous { reference, candidates, .. } => {
-                format!(
-                    "By \"{reference}\", do you mean {}?",
-                    alternatives(&quoted(candidates), language)
-                )
+                let candidates = alternatives(&quoted(candidates), english);
+                format!("by \"{reference}\", do you mean {candidates}?")
             }
-            Self::UnknownName { reference, near, .. } => {
-                sentences(&format!("The map has no \"{reference}\""), &offer(near, language))
+            Self::UnknownName { reference, .. } => format!("the map has no \"{reference}\""),
+        }
+    }
+
+    fn english_help(&self) -> Option<String> {
+        let help = match self {
+            Self::Empty => "say what to do, for example \"Bring the medicine\"",
+            Self::TooLong { .. } => "split it",
+            Self::Forbidden { .. } => "without a command I do nothing; say what to do",
+            Self::Unable { .. } => ABLE[1],
+            Self::Timed { .. } => "tell me when it has come",
+            Self::WhichOf(_) => "say which of these was meant",
+            Self::NoneSuch(_) => "name what the map has",
+            Self::UnknownName { near, .. } => {
+                return Some(offer(near, Language::English)).filter(|offer| !offer.is_empty());
             }
+            // The question says it all.
+            Self::NotUnderstood { .. } | Self::Incomplete { .. } | Self::Ambiguous { .. } => {
+                return None;
+            }
+        };
+        Some(help.to_owned())
+    }
+
+    fn english_labels(&self) -> [&'static str; 2] {
+        match self {
+            Self::Incomplete { .. } => ["to this word", ""],
+            Self::Ambiguous { .. } => ["this may mean several", ""],
+            Self::UnknownName { .. } => ["there is no such name", ""],
+            _ => ["here", ""],
         }
     }
 }

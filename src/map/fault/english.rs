@@ -460,6 +460,14 @@ impl InEnglish for Fault {
     }
 }
 
+impl MapErrors {
+    /// The faults as English tells them.
+    #[must_use]
+    pub fn in_english(&self) -> EnglishMapErrors<'_> {
+        self.into()
+    }
+}
+
 /// Faults of a map as English tells them.
 #[derive(Debug, Clone)]
 pub struct EnglishMapErrors<'f> {

@@ -24,6 +24,7 @@ use crate::geometry::Openings;
 pub use follow::Followed;
 pub(super) use rows::Rows;
 use rows::{Load, note, tuple};
+pub(crate) use rules::MAX_FILE_BYTES;
 pub use rules::{RelationError, RelationRules, STANDARD};
 
 /// With more pairs than this, what updates need is prepared beforehand: deriving takes longer than that anyway.

@@ -9,12 +9,12 @@ use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
 use crate::measure::Reach;
 use crate::measured::{MEASURED, Measured, Order};
 use crate::thresholds::{self, ThresholdFault};
-use crate::units::{FileFault, Source};
+use crate::units::{Bilingual, FileFault, Source};
 
 /// The rule text that the crate brings along.
 pub const STANDARD: &str = include_str!("../../../rules/relations.dl");
 /// No rule file that a person wrote is longer.
-const MAX_FILE_BYTES: u64 = 16 << 20;
+pub(crate) const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// Why there are no relations.
 #[derive(Debug, Error, Diagnostic)]
@@ -26,7 +26,7 @@ pub enum RelationError {
         code(semantics::unreadable),
         help("проверьте путь и права доступа; файл должен быть в UTF-8")
     )]
-    Unreadable { path: String, message: String },
+    Unreadable { path: String, message: Bilingual },
     /// Longer than what a person writes.
     #[error("файл правил «{path}» слишком велик: {bytes} байт, предел {MAX_FILE_BYTES}")]
     #[diagnostic(
@@ -242,7 +242,7 @@ fn text_of(path: &Path) -> Result<Source, RelationError> {
     let name = || path.to_string_lossy().into_owned();
     let source = Source::read_within(path, MAX_FILE_BYTES).map_err(|fault| match fault {
         FileFault::TooLarge { bytes, .. } => RelationError::TooLarge { path: name(), bytes },
-        other => RelationError::Unreadable { path: name(), message: other.to_string() },
+        other => RelationError::Unreadable { path: name(), message: (&other).into() },
     })?;
     if source.text().trim().is_empty() {
         return Err(RelationError::Empty { path: name() });

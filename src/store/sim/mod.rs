@@ -344,7 +344,7 @@ impl Trees for SimTrees {
     }
     fn state(&self) -> Result<State> {
         if self.broken {
-            return Err(StoreError::Tables { what: "сломаны".into() });
+            return Err(StoreError::Tables { what: ("сломаны", "broken").into() });
         }
         self.now.state()
     }

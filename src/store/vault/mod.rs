@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 use super::behind::Behind;
 use super::disk::Disk;
-use super::error::{Result, StoreError};
+use super::error::{Result, StoreError, doing};
 use super::frame::{Digests, Op, encode_frame};
 use super::head::{Head, Known, Mark, read_head};
 use super::journal::{
@@ -34,6 +34,7 @@ use super::past::{Layered, Past, is_past};
 use super::snapshot::write_snapshot;
 
 use super::trees::{State, Trees};
+use crate::units::Bilingual;
 
 use recover::{Brought, Files, Found, Recovered, find, journal_fault, recover};
 
@@ -49,19 +50,19 @@ pub struct OpenReport {
     /// Length of a write that was cut short, and so never acknowledged; it was cut off.
     pub torn_bytes: u64,
     /// Why the tables were built anew from snapshot and journal.
-    pub tables_rebuilt: Option<String>,
+    pub tables_rebuilt: Option<Bilingual>,
     /// Why the journal was written anew from the tables.
-    pub journal_renewed: Option<String>,
+    pub journal_renewed: Option<Bilingual>,
     /// Why a store that is only read was read from the tables: what the journal lacks, an opening for writing mends.
-    pub read_from_tables: Option<String>,
+    pub read_from_tables: Option<Bilingual>,
     /// Why the tables are not kept this time; journal and snapshots have everything.
-    pub tables_off: Option<String>,
+    pub tables_off: Option<Bilingual>,
     /// Which of the small files `FORMAT` and `head` were lost or broken, and are written anew.
     pub marks_renewed: Vec<&'static str>,
     /// A file of the past that was lost or broken, and was written anew from its twin.
-    pub past_mended: Option<String>,
+    pub past_mended: Option<Bilingual>,
     /// Why nothing can be written though the store was opened for writing.
-    pub not_writable: Option<String>,
+    pub not_writable: Option<Bilingual>,
 }
 
 impl OpenReport {
@@ -125,13 +126,13 @@ const SNAPSHOTS_KEPT: usize = 3;
 /// Why a store takes nothing.
 #[derive(Debug, Clone)]
 struct ReadOnly {
-    reason: String,
+    reason: Bilingual,
     /// It was opened so.
     by_choice: bool,
 }
 
 impl ReadOnly {
-    fn because(reason: String) -> Self {
+    fn because(reason: Bilingual) -> Self {
         Self { reason, by_choice: false }
     }
 
@@ -148,9 +149,9 @@ impl Vault {
         shelf: &mut dyn Shelf,
     ) -> Result<(Self, OpenReport)> {
         for dir in [dir.to_owned(), journal_dir(dir), snapshot_dir(dir)] {
-            disk.create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;
+            disk.create_dir(&dir).map_err(StoreError::io(doing::MAKE_DIR, &dir))?;
         }
-        disk.sync_dir(dir).map_err(StoreError::io("записать каталог", dir))?;
+        disk.sync_dir(dir).map_err(StoreError::io(doing::WRITE_DIR, dir))?;
         let known = read_head(&*disk, dir)?;
         let mut log = Log::read(&*disk, dir)?;
         let snapshots = snapshot_files(&*disk, dir)?;
@@ -165,7 +166,7 @@ impl Vault {
         // what is built upon must be on the disk first.
         if let Some((_, path, _)) = log.files.last() {
             let synced = disk.appender(path).and_then(|mut file| file.sync());
-            synced.map_err(StoreError::io("записать", path))?;
+            synced.map_err(StoreError::io(doing::WRITE, path))?;
         }
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
         let mut report = OpenReport::default();
@@ -199,8 +200,8 @@ impl Vault {
         };
         if let Err(error) = vault.resume_journal(&log, &mut report) {
             // What was acknowledged is here and can be read, though nothing can be added to it.
-            report.not_writable = Some(error.to_string());
-            vault.read_only = Some(ReadOnly::because(error.to_string()));
+            report.not_writable = Some(Bilingual::of(&error));
+            vault.read_only = Some(ReadOnly::because(Bilingual::of(&error)));
         }
         vault.care_for_runs(&mut report);
         Ok((vault, report))
@@ -219,7 +220,9 @@ impl Vault {
         let mut report = OpenReport::default();
         // Where `head` tells how far the journal must reach, the trees need not be asked; else they are who knows.
         let by_files = match known.mark().is_some() || !had_trees {
-            true => Some(find(&files, || Err(StoreError::Tables { what: "нет".to_owned() }))),
+            true => Some(find(&files, || {
+                Err(StoreError::Tables { what: ("нет", "there are none").into() })
+            })),
             false => None,
         };
         let brought = match by_files {
@@ -228,7 +231,7 @@ impl Vault {
                 let Found { brought, trees } = find(&files, || shelf.look())?;
                 report.read_from_tables = match not_told {
                     Some(Err(StoreError::BothCorrupt { journal, .. })) => Some(journal),
-                    Some(Err(other)) => Some(other.to_string()),
+                    Some(Err(other)) => Some(Bilingual::of(&other)),
                     _ if trees.is_ok() => journal_fault(&*disk, dir, &log, brought.state.lsn)?,
                     _ => None,
                 };
@@ -256,7 +259,7 @@ impl Vault {
         let journal_renewed = journal_fault(&*disk, dir, &log, brought.state.lsn)?;
         let mut report = OpenReport {
             torn_bytes: if journal_renewed.is_some() { 0 } else { log.torn },
-            tables_rebuilt: trees.err().map(|why| why.to_string()),
+            tables_rebuilt: trees.err().map(|why| Bilingual::of(&why)),
             journal_renewed,
             ..OpenReport::default()
         };
@@ -283,7 +286,8 @@ impl Vault {
             journal: None,
             head: None,
             read_only: Some(ReadOnly {
-                reason: "так его открыли".into(), by_choice: true
+                reason: ("так его открыли", "so it was opened").into(),
+                by_choice: true,
             }),
             checkpoint_at: u64::MAX,
             journal_bytes: 0,
@@ -302,9 +306,9 @@ impl Vault {
             self.remove(path)?;
             return self.begin_journal();
         }
-        let mut file = self.disk.appender(path).map_err(StoreError::io("открыть", path))?;
+        let mut file = self.disk.appender(path).map_err(StoreError::io(doing::OPEN, path))?;
         if log.end < bytes.len() as u64 {
-            file.cut(log.end).map_err(StoreError::io("укоротить", path))?;
+            file.cut(log.end).map_err(StoreError::io(doing::CUT, path))?;
         }
         self.journal = Some(Journal { file, path: path.clone(), length: log.end });
         Ok(())
@@ -314,18 +318,18 @@ impl Vault {
     fn renew_journal(&mut self, log: &Log) -> Result<()> {
         self.write_snapshot()?;
         let aside = self.dir.join("aside");
-        self.disk.create_dir(&aside).map_err(StoreError::io("создать каталог", &aside))?;
+        self.disk.create_dir(&aside).map_err(StoreError::io(doing::MAKE_DIR, &aside))?;
         for (first, path, _) in &log.files {
             let to = numbered(&aside, *first, "journal");
-            self.disk.rename(path, &to).map_err(StoreError::io("переименовать", path))?;
+            self.disk.rename(path, &to).map_err(StoreError::io(doing::RENAME, path))?;
         }
         let dir = journal_dir(&self.dir);
-        self.disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
+        self.disk.sync_dir(&dir).map_err(StoreError::io(doing::WRITE_DIR, &dir))?;
         self.begin_journal()
     }
 
     fn remove(&self, path: &Path) -> Result<()> {
-        self.disk.remove(path).map_err(StoreError::io("удалить", path))
+        self.disk.remove(path).map_err(StoreError::io(doing::REMOVE, path))
     }
 
     fn begin_journal(&mut self) -> Result<()> {
@@ -368,8 +372,8 @@ impl Vault {
         self.state.lsn
     }
 
-    pub(crate) fn read_only(&self) -> Option<&str> {
-        self.read_only.as_ref().map(|why| why.reason.as_str())
+    pub(crate) fn read_only(&self) -> Option<&Bilingual> {
+        self.read_only.as_ref().map(|why| &why.reason)
     }
 
     /// # Errors
@@ -434,8 +438,11 @@ impl Vault {
             // After a failed sync nobody knows what the disk holds. Whatever of the frame is there goes, if it
             // can; and nothing is written after it.
             let _ = journal.file.cut(journal.length);
-            self.read_only = Some(ReadOnly::because(format!("журнал не записывается ({error})")));
-            return Err(StoreError::io("записать", &journal.path)(error));
+            self.read_only = Some(ReadOnly::because(Bilingual::new(
+                format!("журнал не записывается ({error})"),
+                format!("the journal cannot be written ({error})"),
+            )));
+            return Err(StoreError::io(doing::WRITE, &journal.path)(error));
         }
         journal.length += frame.len() as u64;
         self.journal_bytes += frame.len() as u64;
@@ -472,7 +479,7 @@ impl Vault {
         });
         if !empty && let Err(error) = self.begin_journal() {
             // Two journals that both go on from here would not be told apart.
-            self.read_only = Some(ReadOnly::because(error.to_string()));
+            self.read_only = Some(ReadOnly::because(Bilingual::of(&error)));
             return Err(error);
         }
         self.drop_old_files()?;

@@ -21,6 +21,7 @@ use super::super::memory::MemoryTrees;
 use super::super::snapshot::load_snapshot;
 use super::super::trees::{State, Trees, digests};
 use super::{OpenReport, Shelf};
+use crate::units::Bilingual;
 
 /// Records brought to the end of the journal.
 pub(super) struct Brought {
@@ -45,7 +46,7 @@ pub(super) struct Files<'f> {
 pub(super) struct Recovered {
     pub(super) memory: Arc<MemoryTrees>,
     /// The trees that are to follow, or why none do.
-    pub(super) trees: std::result::Result<Arc<dyn Trees>, String>,
+    pub(super) trees: std::result::Result<Arc<dyn Trees>, Bilingual>,
     /// Keys in which they differ from memory.
     pub(super) dirty: Vec<(u8, Vec<u8>)>,
     pub(super) state: State,
@@ -63,27 +64,30 @@ pub(super) struct Found {
 fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
     let log = files.log;
     let mut state = memory.state()?;
-    let broken = |what: &str| StoreError::Tables { what: what.to_owned() };
+    let broken = |what: (&'static str, &'static str)| StoreError::Tables { what: what.into() };
     // At the transaction that was acknowledged last, the store must hold what it held then.
     let check = |state: &State| match files.known.mark() {
-        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => {
-            Err(broken("записи не те, что были подтверждены"))
-        }
+        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => Err(broken((
+            "записи не те, что были подтверждены",
+            "the records are not those that were confirmed",
+        ))),
         _ => Ok(()),
     };
     check(&state)?;
     if !log.reaches(state.lsn, last) {
         let empty = state.lsn == 0;
         return Err(broken(if empty {
-            "таблиц нет"
+            ("таблиц нет", "there are no tables")
         } else {
-            "таблицы отстали от журнала"
+            ("таблицы отстали от журнала", "the tables are behind the journal")
         }));
     }
     let before = state.lsn;
     let mut touched = Vec::new();
     for lsn in before + 1..=last {
-        let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
+        let payload = log.payload(lsn).ok_or_else(|| {
+            broken(("кадр журнала не читается", "a frame of the journal cannot be read"))
+        })?;
         state.advance(lsn, payload.digests);
         check(&state)?;
         for op in &payload.ops {
@@ -100,7 +104,10 @@ fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -
     }
     counted.retain(|_, digest| *digest != Digest::default());
     if counted != state.digests {
-        return Err(broken("записи не совпадают с контрольной суммой"));
+        return Err(broken((
+            "записи не совпадают с контрольной суммой",
+            "the records do not match their checksum",
+        )));
     }
     Ok(Brought { memory, frames: state.lsn - before, state, touched })
 }
@@ -116,13 +123,13 @@ pub(super) fn recover(
         Ok(trees) => (Ok(trees), std::mem::take(&mut brought.touched)),
         Err(why) => {
             let anew = shelf.set_aside().and_then(|()| shelf.open());
-            report.tables_rebuilt = anew.is_ok().then(|| why.to_string());
+            report.tables_rebuilt = anew.is_ok().then(|| Bilingual::of(&why));
             (anew, brought.memory.keys())
         }
     };
     let Brought { memory, state, frames, .. } = brought;
     report.fill(&state, frames);
-    let trees = trees.map_err(|why| why.to_string());
+    let trees = trees.map_err(|why| Bilingual::of(&why));
     Ok(Recovered { memory: Arc::new(memory), trees, dirty, state })
 }
 
@@ -142,7 +149,9 @@ pub(super) fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>)
     let was_emptied = files.had_trees && log.is_headless() && newest_snapshot == 0;
     let opened = opened.and_then(|found| match found.1.state.lsn {
         // sled makes new trees of broken ones: that they are empty then says nothing.
-        0 if was_emptied => Err(StoreError::Tables { what: "пусты".to_owned() }),
+        0 if was_emptied => {
+            Err(StoreError::Tables { what: ("пусты", "they are empty").into() })
+        }
         _ => Ok(found),
     });
     match opened {
@@ -164,7 +173,11 @@ pub(super) fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>)
 fn from_files(files: &Files, snapshots: &[(u64, PathBuf)], last: u64) -> Result<Brought> {
     let Files { disk, log, .. } = *files;
     let mut why = StoreError::Tables {
-        what: "нет снимка, от которого ведёт журнал".to_owned()
+        what: (
+            "нет снимка, от которого ведёт журнал",
+            "there is no snapshot from which the journal leads",
+        )
+            .into(),
     };
     let empty = (0, PathBuf::new());
     for (lsn, path) in snapshots.iter().rev().chain([&empty]) {
@@ -191,12 +204,12 @@ pub(super) fn journal_fault(
     dir: &Path,
     log: &Log,
     lsn: u64,
-) -> Result<Option<String>> {
+) -> Result<Option<Bilingual>> {
     let snapshots = snapshot_files(disk, dir)?;
     let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
     let mut chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
     Ok(if let Some(fault) = &log.fault {
-        Some(fault.to_string())
+        Some(Bilingual::of(fault))
     } else if lsn > log.last().max(newest) {
         Some("в журнале нет последних кадров".into())
     } else if !chained.any(|first| log.reaches(first, lsn)) {
@@ -214,7 +227,7 @@ fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError)
     let journal = log.fault.as_ref().unwrap_or(rebuild);
     StoreError::BothCorrupt {
         dir: dir.display().to_string(),
-        journal: journal.to_string(),
-        tables: trees.to_string(),
+        journal: Bilingual::of(journal),
+        tables: Bilingual::of(trees),
     }
 }

@@ -2,13 +2,14 @@
 //!
 //! **Invariant**: the files of a run are whole before a transaction names it, and are there as long as a snapshot may.
 
-use super::super::error::{Result, StoreError};
+use super::super::error::{Result, StoreError, doing};
 use super::super::frame::Op;
 use super::super::journal::numbered_files;
 use super::super::past::{describe, is_past, past_dir, write_merged, write_young};
 use super::super::run::{self, Run};
 use super::super::trees::{RUNS, Trees, tree_names};
 use super::{Change, OpenReport, Vault};
+use crate::units::Bilingual;
 
 /// Less than this is not worth a run of its own. Tests see to it that there are runs.
 const LEAST_RUN: usize = if cfg!(test) { 1 } else { 1 << 20 };
@@ -39,7 +40,7 @@ impl Vault {
                 .collect();
             self.disk
                 .create_dir(&past_dir(&self.dir))
-                .map_err(StoreError::io("создать каталог", &self.dir))?;
+                .map_err(StoreError::io(doing::MAKE_DIR, &self.dir))?;
             let run = write_young(&*self.disk, &self.dir, place, &full)?;
             let gone = young.into_iter().map(|(tree, key, value)| Change {
                 op: Op { tree, key, value: None },
@@ -108,7 +109,7 @@ impl Vault {
     }
 
     /// Writes anew, from its twin, what of a run was found broken; names one of the files.
-    pub(super) fn mend_runs(&self) -> Option<String> {
+    pub(super) fn mend_runs(&self) -> Option<Bilingual> {
         let mut mended = None;
         for named in self.past.runs().iter() {
             let Ok(run) = &named.run else { continue };
@@ -120,7 +121,7 @@ impl Vault {
                 match anew {
                     Ok(anew) => {
                         self.past.put(named.place, named.place, anew);
-                        mended = Some(path.display().to_string());
+                        mended = Some(path.display().to_string().into());
                     }
                     Err(error) => tracing::warn!(%error, "a file of the past is not mended"),
                 }
@@ -135,7 +136,7 @@ impl Vault {
         let (gone, kept): (Vec<_>, Vec<_>) = retired.partition(|(since, _)| *since <= oldest);
         self.retired = kept;
         for path in gone.into_iter().flat_map(|(_, file)| run::paths(&past_dir(&self.dir), file)) {
-            self.disk.remove_if_there(&path).map_err(StoreError::io("удалить", &path))?;
+            self.disk.remove_if_there(&path).map_err(StoreError::io(doing::REMOVE, &path))?;
         }
         Ok(())
     }

@@ -12,6 +12,7 @@ use imageproc::contrast::otsu_level;
 use imageproc::image::GrayImage;
 use miette::Diagnostic;
 use nalgebra::Vector2;
+use orthoframe_units::InEnglish;
 use thiserror::Error;
 
 use crate::polyline::{Course, polyline};
@@ -39,6 +40,25 @@ pub enum PictureError {
     #[error("картинка не читается: {reason}")]
     #[diagnostic(code(vectors::picture_file), help("нужен целый файл PNG"))]
     Unreadable { reason: String },
+}
+
+impl InEnglish for PictureError {
+    fn english(&self) -> String {
+        match self {
+            Self::Size { width, height, pixels } => {
+                format!("a picture of {width}×{height} is not made of {pixels} points")
+            }
+            Self::Unreadable { reason } => format!("the picture cannot be read: {reason}"),
+        }
+    }
+
+    fn english_help(&self) -> Option<String> {
+        let help = match self {
+            Self::Size { .. } => "the points are width × height, and no side is longer than 16384",
+            Self::Unreadable { .. } => "a whole PNG file is needed",
+        };
+        Some(help.to_owned())
+    }
 }
 
 /// Grey values, row by row from the top.

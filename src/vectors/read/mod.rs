@@ -5,6 +5,7 @@
 mod breezy;
 mod carmen;
 mod csv;
+mod english;
 mod fault;
 mod noise;
 mod words;

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::map::{Permeability, Properties};
-use crate::units::{Cm, Frame, Point, Source};
+use crate::units::{Bilingual, Cm, Frame, Point, Source, bilingual};
 use crate::{
     Kind, Level, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
 };
@@ -53,7 +53,11 @@ pub fn read_pyrobosim(
         reader.room(n, room);
     }
     if reader.level.rooms.is_empty() {
-        let what = "нет ни одного помещения с контуром (rooms[].footprint)".to_owned();
+        let what = (
+            "нет ни одного помещения с контуром (rooms[].footprint)",
+            "there is no room with an outline (rooms[].footprint)",
+        )
+            .into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     for hallway in list(&world, "hallways") {
@@ -76,7 +80,7 @@ pub fn read_pyrobosim(
 }
 
 fn yaml(source: &Source) -> Result<Value, ReadError> {
-    crate::yaml::parse(source, FORMAT, "мира")
+    crate::yaml::parse(source, FORMAT, ("мира", "of a world"))
 }
 
 /// What a location or an object of one category looks like.
@@ -111,7 +115,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn note(&mut self, source: &str, text: impl Into<String>) {
+    fn note(&mut self, source: &str, text: impl Into<Bilingual>) {
         self.remarks.push(remark(source, text));
     }
 
@@ -138,7 +142,13 @@ impl Reader {
                             let value = yaml(&file)?;
                             self.looks(&value, &mut looks);
                         }
-                        None => self.note(path, "файл с видами предметов не найден рядом с миром"),
+                        None => self.note(
+                            path,
+                            (
+                                "файл с видами предметов не найден рядом с миром",
+                                "the file with the kinds of things is not found beside the world",
+                            ),
+                        ),
                     }
                 }
                 _ => {}
@@ -161,7 +171,13 @@ impl Reader {
                     looks.insert(category.clone(), look);
                 }
                 None => {
-                    self.note(category, "контур задан сеткой или неполон: взят обычный размер");
+                    self.note(
+                        category,
+                        (
+                            "контур задан сеткой или неполон: взят обычный размер",
+                            "the outline is a mesh or incomplete: the usual size is taken",
+                        ),
+                    );
                     let (x, y) = (MESH / 2.0, MESH / 2.0);
                     let look = Look {
                         outline: rectangle(-x, -y, x, y),
@@ -179,7 +195,10 @@ impl Reader {
         let name = text(record, "name").map_or_else(|| format!("room{n}"), str::to_owned);
         let outline = record.get("footprint").and_then(footprint_outline);
         let Some(outline) = outline.filter(|o| plane::area(o) > 1.0) else {
-            self.note(&name, "помещение пропущено: нет его контура");
+            self.note(
+                &name,
+                ("помещение пропущено: нет его контура", "the room is left out: it has no outline"),
+            );
             return;
         };
         let frame = record.get("pose").and_then(pose).unwrap_or_default();
@@ -222,7 +241,13 @@ impl Reader {
         let rooms = ends.map(|e| self.level.rooms.iter().position(|r| r.source == e));
         let width = record.get("width").and_then(length).filter(|w| *w > 0.0);
         let ([Some(from), Some(to)], Some(width)) = (rooms, width) else {
-            self.note(&name, "проход пропущен: нет его помещений или ширины");
+            self.note(
+                &name,
+                (
+                    "проход пропущен: нет его помещений или ширины",
+                    "the passage is left out: its rooms or its width are missing",
+                ),
+            );
             return;
         };
         let outlines = [from, to].map(|r| self.level.rooms[r].outline.clone());
@@ -231,7 +256,13 @@ impl Reader {
         let backwards: Vec<Point> = way.iter().rev().copied().collect();
         let (Some(out), Some(into)) = (leave(&outlines[0], &way), leave(&outlines[1], &backwards))
         else {
-            self.note(&name, "проход пропущен: он не пересекает стен своих помещений");
+            self.note(
+                &name,
+                (
+                    "проход пропущен: он не пересекает стен своих помещений",
+                    "the passage is left out: it does not cross the walls of its rooms",
+                ),
+            );
             return;
         };
         let floor = plane::difference(&band(&way, width), &outlines);
@@ -275,7 +306,13 @@ impl Reader {
         let name = text(record, "name").map_or_else(|| format!("{category}{n}"), str::to_owned);
         let parent = text(record, "parent").or_else(|| text(record, "room")).unwrap_or_default();
         let Some(look) = self.locations_known.get(category).cloned() else {
-            self.note(&name, format!("место пропущено: вид «{category}» не описан"));
+            self.note(
+                &name,
+                bilingual!(
+                    "место пропущено: вид «{category}» не описан",
+                    "the place is left out: the kind “{category}” is not described"
+                ),
+            );
             return;
         };
         let room = self.parents.get(parent).and_then(|p| p.room);
@@ -286,12 +323,21 @@ impl Reader {
         }) else {
             self.note(
                 &name,
-                format!("место пропущено: нет ни его положения, ни помещения «{parent}»"),
+                bilingual!(
+                    "место пропущено: нет ни его положения, ни помещения «{parent}»",
+                    "the place is left out: neither its pose nor the room “{parent}” is there"
+                ),
             );
             return;
         };
         if record.get("pose").is_none() {
-            self.note(&name, "положение не задано: поставлено посреди помещения");
+            self.note(
+                &name,
+                (
+                    "положение не задано: поставлено посреди помещения",
+                    "its pose is not given: it is put amid the room",
+                ),
+            );
         }
         let height = look.height.unwrap_or(LOCATION);
         let top = Frame { z: Cm::of(frame.z.get() + height), ..frame };
@@ -342,7 +388,13 @@ impl Reader {
             let name = text(record, "name").map_or_else(|| format!("{category}{n}"), str::to_owned);
             *n += 1;
             let Some(look) = self.objects_known.get(category).cloned() else {
-                self.note(&name, format!("предмет пропущен: вид «{category}» не описан"));
+                self.note(
+                    &name,
+                    bilingual!(
+                        "предмет пропущен: вид «{category}» не описан",
+                        "the thing is left out: the kind “{category}” is not described"
+                    ),
+                );
                 continue;
             };
             let parent_name = parent_of(record);
@@ -358,12 +410,20 @@ impl Reader {
                     let (done, all) = waiting.entry(parent_name).or_default();
                     let frame = in_row(parent, *done, *all);
                     *done += 1;
-                    self.note(&name, "положение не задано: поставлен в ряд с другими");
+                    self.note(
+                        &name,
+                        (
+                            "положение не задано: поставлен в ряд с другими",
+                            "its pose is not given: it is put in line with others",
+                        ),
+                    );
                     frame
                 }
                 (None, None) => {
-                    let text =
-                        format!("предмет пропущен: нет ни его положения, ни места «{parent_name}»");
+                    let text = bilingual!(
+                        "предмет пропущен: нет ни его положения, ни места «{parent_name}»",
+                        "the thing is left out: neither its pose nor the place “{parent_name}” is there"
+                    );
                     self.note(&name, text);
                     continue;
                 }
