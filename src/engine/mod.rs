@@ -42,6 +42,7 @@ mod error;
 mod events;
 mod export;
 mod forms;
+mod furniture;
 mod given;
 mod goals;
 mod history;
@@ -61,6 +62,7 @@ mod opening;
 mod plan;
 mod position;
 mod query;
+mod queue;
 mod reading;
 mod route;
 mod rule_files;
@@ -86,7 +88,7 @@ use std::sync::Arc;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
-pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
+pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell, queue_in_words};
 pub use directive_words::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
@@ -131,7 +133,7 @@ pub use crate::map::{Format, World};
 pub use crate::robot::{Replanned, Solved};
 pub use crate::semantics::Relations;
 pub use crate::store::{
-    Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
+    Change, Difference, FsckReport, Queue, QueuedTask, Revision, RevisionKind, Severity, Timestamp,
 };
 
 use crate::map::{MapErrors, read_file};
@@ -142,6 +144,8 @@ use crate::store::{ImportReport, OpenReport, Store, StoreError};
 pub struct Engine {
     store: Option<Store>,
     state: Arc<State>,
+    /// The tasks that wait, where no store keeps them.
+    waiting: Queue,
     /// What the next edit takes up instead of a copy.
     spares: edit::Spares,
     /// What opening the store found and mended.
@@ -177,7 +181,8 @@ impl Engine {
     /// Nothing is derived yet.
     fn new(store: Option<Store>, opened: OpenReport, rules: Rules, world: Option<World>) -> Self {
         let state = Arc::new(State::new(store.as_ref(), Arc::new(rules), world));
-        Self { store, state, spares: edit::Spares::default(), opened }
+        let (waiting, spares) = (Queue::default(), edit::Spares::default());
+        Self { store, state, waiting, spares, opened }
     }
 
     /// What is known now, to be asked by any thread for as long as it likes, whatever the engine does meanwhile. It is taken
@@ -247,7 +252,8 @@ impl Engine {
     /// robot does is noted by the writer ([`Engine::remember_after`]), and read here after that.
     #[must_use]
     pub fn beside(state: Arc<State>) -> Self {
-        Self { store: None, state, opened: OpenReport::default(), spares: edit::Spares::default() }
+        let (waiting, spares) = (Queue::default(), edit::Spares::default());
+        Self { store: None, state, waiting, opened: OpenReport::default(), spares }
     }
 
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction
