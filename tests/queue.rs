@@ -5,8 +5,9 @@ use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Dialogue, Heard, Outcome, Queue, change_now};
+use orthoframe::engine::{Dialogue, Heard, Outcome, change_now};
 use orthoframe_language::Language;
+use orthoframe_store::Queue;
 
 use crate::files::project;
 

@@ -88,7 +88,9 @@ use std::sync::Arc;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
-pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell, queue_in_words};
+#[cfg(feature = "cli")]
+pub(crate) use dialogue::queue_in_words;
+pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
 pub use directive_words::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
@@ -133,8 +135,9 @@ pub use crate::map::{Format, World};
 pub use crate::robot::{Replanned, Solved};
 pub use crate::semantics::Relations;
 pub use crate::store::{
-    Change, Difference, FsckReport, Queue, QueuedTask, Revision, RevisionKind, Severity, Timestamp,
+    Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
 };
+pub(crate) use crate::store::{Queue, QueuedTask};
 
 use crate::map::{MapErrors, read_file};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};

@@ -1,6 +1,6 @@
 //! What is not where it belongs: the home of a thing is the one that its property names, else where it was surveyed.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::map::{Entity, Mark, World};
 use crate::robot::facts_of_map;
@@ -33,9 +33,11 @@ impl State {
             }),
             Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
         };
-        let bins: BTreeSet<&str> =
-            self.bins(now)?.into_iter().map(|bin| world.name(Entity::Replica(bin))).collect();
-        let is_waste = |thing: &str| lie_on.get(thing).is_some_and(|on| bins.contains(on.as_str()));
+        let bins = self.bins(now)?;
+        let is_waste = |thing: &str| {
+            let called = now.world.replicas.values().filter(|one| one.name == thing);
+            called.map(|one| one.id).any(|id| bins.iter().any(|bin| relations.is_inside(id, *bin)))
+        };
         let is_held = |thing: &str| now.held.as_ref().is_some_and(|held| held.name == thing);
         let lies = |thing: &str| now.world.replicas.values().any(|r| r.name == thing);
         Ok(homes
