@@ -291,8 +291,14 @@ impl Detail {
 
 #[derive(Debug, Args)]
 pub(super) struct DoArgs {
-    #[arg(required_unless_present = "scenario")]
+    #[arg(required_unless_present_any = ["scenario", "resume"])]
     pub task: Option<String>,
+    /// Have the task wait, for "resume" or --resume, instead of beginning it
+    #[arg(long, requires = "task")]
+    pub later: bool,
+    /// Do what waits, in the order of the shortest way; what was under way when a process ended comes first
+    #[arg(long, conflicts_with_all = ["task", "scenario", "later"])]
+    pub resume: bool,
     /// Drive a scenario of a rule file (.strips) instead of a task in words
     #[arg(long, value_name = "FILE", conflicts_with = "task")]
     pub scenario: Option<PathBuf>,

@@ -288,7 +288,12 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     if let Some(robot) = args.vehicle.connect(engine.world()?)? {
         dialogue = dialogue.driving(Box::new(robot));
     }
-    let heard = super::demo::perform(common, &mut engine, task, dialogue)?;
+    let order = match (args.resume, args.later) {
+        (true, _) => super::demo::Order::GoOn,
+        (_, true) => super::demo::Order::Later(task),
+        _ => super::demo::Order::Now(task),
+    };
+    let heard = super::demo::perform(common, &mut engine, &order, dialogue)?;
     if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
         super::draw::put_driven(common, &engine, answer, path)?;
     }

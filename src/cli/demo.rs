@@ -47,7 +47,8 @@ pub(super) fn run(
         say("")?;
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
-    let heard = perform(common, &mut engine, task, Dialogue::new(common.lang.language()))?;
+    let heard =
+        perform(common, &mut engine, &Order::Now(task), Dialogue::new(common.lang.language()))?;
     let Some(answer) = heard.tasks().last() else { return Ok(Answer::Yes) };
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, answer, &drawing)? {
@@ -58,11 +59,19 @@ pub(super) fn run(
     Ok(came_to(answer))
 }
 
+/// What is to be done.
+pub(super) enum Order<'t> {
+    Now(&'t str),
+    Later(&'t str),
+    /// What waits.
+    GoOn,
+}
+
 /// Carries out a task, tells of it, and notes how it left the robot. A signal stops it.
 pub(super) fn perform(
     common: &Common,
     engine: &mut Engine,
-    task: &str,
+    order: &Order<'_>,
     mut dialogue: Dialogue,
 ) -> Result<Heard, Failure> {
     dialogue.stopped_by(stopped_by_signals());
@@ -70,8 +79,12 @@ pub(super) fn perform(
         dialogue = dialogue.keeping_nothing();
     }
     let mut teller = Teller::of_task(common);
-    let mut heard =
-        dialogue.order(engine, task, &mut |engine, event| teller.tell(engine, event))?;
+    let mut tell = |engine: &Engine, event: &Event<'_>| teller.tell(engine, event);
+    let mut heard = match order {
+        Order::Now(task) => dialogue.order(engine, task, &mut tell)?,
+        Order::Later(task) => dialogue.later(engine, task, &mut tell)?,
+        Order::GoOn => dialogue.go_on(engine, &mut tell)?,
+    };
     teller.end()?;
     let failed =
         |reply: &Reply| matches!(reply.outcome, Outcome::Misheard(_) | Outcome::Refused(_));

@@ -5,7 +5,7 @@
 
 use std::io::{BufRead, IsTerminal};
 
-use crate::engine::{Dialogue, Engine};
+use crate::engine::{Dialogue, Engine, queue_in_words};
 use crate::units::name_key;
 use rustyline::completion::Completer;
 use rustyline::error::ReadlineError;
@@ -26,6 +26,10 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     let mut dialogue = Dialogue::new(common.lang.language());
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();
+    }
+    let waiting = engine.queue()?;
+    if !waiting.tasks.is_empty() && !common.json {
+        say(&queue_in_words(&waiting, common.lang.language()))?;
     }
     let mut talk = Talk { engine, dialogue, teller: Teller::of_dialogue(common) };
     if std::io::stdin().is_terminal() {

@@ -103,7 +103,10 @@ impl Teller {
         match &reply.outcome {
             Outcome::Ended => Ok(()),
             Outcome::Misheard(_) | Outcome::Refused(_) if self.is_task => Ok(()),
-            Outcome::Condition { .. } if self.is_task && self.json => Ok(()),
+            Outcome::Condition { .. } | Outcome::Begun { .. } if self.is_task && self.json => {
+                Ok(())
+            }
+            Outcome::Begun { .. } if self.is_task => Ok(()),
             _ if self.json => put(&json::reply(engine, reply)?.to_string()),
             Outcome::Answered(answer) if self.explains => {
                 put(&reply.text)?;

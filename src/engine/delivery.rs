@@ -45,8 +45,14 @@ impl State {
         };
         match (to.relation, to.anchor) {
             (Relation::In, Entity::Replica(support)) => {
-                self.has_open_inside(support, now)?;
-                Ok(fact(predicate::THING_ON, to.anchor))
+                if !self.must_be_opened(support, now)? {
+                    return Ok(fact(predicate::THING_ON, to.anchor));
+                }
+                let shut = GoalFact {
+                    predicate: predicate::STANDS_SHUT.to_owned(),
+                    args: vec![name(to.anchor)],
+                };
+                Ok([fact(predicate::THING_IN, to.anchor), vec![shut]].concat())
             }
             // «поближе к телефону»: nothing is put onto what bears nothing.
             (Relation::At, Entity::Replica(anchor)) if !self.bears(anchor) => {
@@ -118,8 +124,11 @@ impl State {
         }
     }
 
-    /// That things can be put into another.
-    fn has_open_inside(&self, support: ReplicaId, now: &Now) -> Result<(), Error> {
+    /// Whether a thing into which others can be put is shut, and the robot opens it.
+    ///
+    /// # Errors
+    /// It has no inside, or the robot does not get in.
+    pub(super) fn must_be_opened(&self, support: ReplicaId, now: &Now) -> Result<bool, Error> {
         let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
         let around = self.around()?;
         let area = now.world.replicas.get(&support).map(|r| r.area);
@@ -129,7 +138,8 @@ impl State {
             None => Hollow::No,
         };
         match hollow {
-            Hollow::Open => Ok(()),
+            Hollow::Open => Ok(false),
+            Hollow::Shut if self.can_open(support, now) => Ok(true),
             Hollow::Shut => Err(RequestError::Shut { name: name()? }.into()),
             Hollow::No => Err(RequestError::NotHollow { name: name()? }.into()),
         }

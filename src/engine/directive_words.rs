@@ -11,7 +11,7 @@ use crate::units::Bilingual;
 
 use super::OPERATOR;
 use super::lexicon::named;
-use super::task::{TaskAnswer, TaskEnding};
+use super::task::{OPERATOR_PLACE, TaskAnswer, TaskEnding};
 
 /// A sentence for each deed that the robot's position does not tell; motion and doors are told by that.
 #[must_use]
@@ -37,6 +37,10 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
                 if *open { ("открыл", "opened") } else { ("закрыл", "shut") };
             say(format!("Я {ru} {thing}."), format!("I {en} {thing}."))
         }
+        Deed::Push(thing) => {
+            let thing = name(thing);
+            say(format!("Я подвинул {thing}."), format!("I pushed {thing} aside."))
+        }
         Deed::Seek(thing) => {
             let thing = name(thing);
             say(format!("Я вижу {thing}."), format!("I see {thing}."))
@@ -44,6 +48,10 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
         Deed::Put { thing, .. } if directive.brings_about(predicate::IN_ITS_PLACE) => {
             let thing = name(thing);
             say(format!("Я вернул {thing} на место."), format!("I put {thing} back in its place."))
+        }
+        Deed::Put { thing, .. } if directive.brings_about(predicate::THROWN_AWAY) => {
+            let thing = name(thing);
+            say(format!("Я выбросил {thing}."), format!("I threw {thing} away."))
         }
         Deed::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
             let door = named_door(world, door, language);
@@ -139,7 +147,15 @@ struct TaskPoint {
     case: Case,
 }
 
-const TASK_POINTS: [TaskPoint; 11] = [
+const TASK_POINTS: [TaskPoint; 12] = [
+    TaskPoint {
+        prefix: OPERATOR_PLACE,
+        dative: "оператору",
+        other: "место оператора",
+        english: "the operator's place",
+        preposition: None,
+        case: Case::Genitive,
+    },
     TaskPoint {
         prefix: BY_WINDOW,
         dative: "окну",
@@ -346,6 +362,9 @@ impl Words<'_> {
                     pick("закрыть", "shut")
                 };
                 format!("{verb} {}", accusative(thing))
+            }
+            Deed::Push(thing) => {
+                format!("{} {}", pick("подвинуть", "push aside"), accusative(thing))
             }
             Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
             Deed::Put { thing, onto: Some(onto) } => format!(

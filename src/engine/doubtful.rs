@@ -7,7 +7,7 @@
 use std::time::SystemTime;
 
 use crate::language::command::Command;
-use crate::map::{DoorStatus, Entity, stands};
+use crate::map::Entity;
 use crate::robot::GoalFact;
 use crate::semantics::{Relations, predicate};
 use crate::units::ReplicaId;
@@ -63,11 +63,9 @@ impl State {
     ) -> Result<(), Error> {
         let world = self.world()?;
         let name = |id| world.name(Entity::Replica(id)).to_owned();
-        let knows_how = self.rules.robot.predicate(predicate::STANDS_SHUT).is_some();
         for id in self.carried_by(commands, goals)? {
             let Some(around) = relations.shut_in(id) else { continue };
-            let status = now.world.replicas.get(&around).and_then(|it| stands(&now.world, it));
-            if !(world.robot.opens && knows_how && status == Some(DoorStatus::Closed)) {
+            if !self.can_open(around, now) {
                 let (thing, container) = (name(id), name(around));
                 return Err(RequestError::ShutIn { thing, container }.into());
             }
@@ -101,6 +99,7 @@ impl State {
                     | Command::Put { .. }
                     | Command::SetDown { .. }
                     | Command::PutBack(_)
+                    | Command::ThrowAway(_)
             )
         };
         let things = commands.iter().filter(carries).filter_map(thing_of);

@@ -79,6 +79,15 @@ impl RequestError {
                 called(area),
                 called(thing)
             ),
+            Self::Locked { name } => {
+                format!("{} is locked, and the robot has no keys to furniture", called(name))
+            }
+            Self::WhichQueued { waiting } => {
+                format!("it is not said which task: {waiting} are waiting")
+            }
+            Self::NoBin { thing } => {
+                format!("the map has nothing into which to throw {}", called(thing))
+            }
             Self::NotADoor { name } => format!(
                 "{} is no door between rooms, and the robot opens and shuts no others",
                 called(name)
@@ -183,6 +192,9 @@ impl InEnglish for RequestError {
                 "open it yourself, and tell the map: ortho edit state DOOR open"
             }
             Self::NoSpace { .. } => "name what to put it on",
+            Self::Locked { .. } => "open it yourself, and tell the map: ortho edit state DOOR open",
+            Self::WhichQueued { .. } => "name its number: “cancel 2”, or “cancel all”",
+            Self::NoBin { .. } => "a bin is a thing whose type, or a synonym of it, says so",
             Self::NotADoor { .. } | Self::LeadsOutside { .. } => {
                 "the map’s doors: ortho relations --name CONNECTS"
             }

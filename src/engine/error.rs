@@ -317,6 +317,30 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_space), help("назовите, на что положить"))]
     NoSpace { thing: String, area: String },
 
+    /// Something that is to be opened and is locked, as furniture is without a key of the robot's.
+    #[error("«{name}» заперто, а ключа от мебели у робота нет")]
+    #[diagnostic(
+        code(engine::locked),
+        help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
+    )]
+    Locked { name: String },
+
+    /// A task that waits was meant, and it is not said which.
+    #[error("непонятно, какое задание: в очереди {waiting}")]
+    #[diagnostic(
+        code(engine::which_queued),
+        help("назовите номер: «отмени 2»; «отмени всё» отменит все")
+    )]
+    WhichQueued { waiting: usize },
+
+    /// Something is to be thrown away, and nothing is there for that.
+    #[error("на карте нет, куда это выбросить: «{thing}»")]
+    #[diagnostic(
+        code(engine::no_bin),
+        help("ведро для мусора – вещь, чей тип или его синоним так и называется")
+    )]
+    NoBin { thing: String },
+
     /// Something that is to be opened or shut and is no door between rooms.
     #[error("«{name}» – не дверь между помещениями, а других робот не открывает")]
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]

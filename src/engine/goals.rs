@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::language::command::{Command, Relation};
-use crate::map::{DoorStatus, Entity, World, is_open};
+use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
@@ -49,7 +49,10 @@ impl State {
                 wanted = self.put_back(what.id, belief)?;
             }
             // What is not locked is unlocked already, and what is locked is closed: each order asks for its own part only.
-            let locked = |what: Entity| self.is_locked_by(&commands[..n], what, now);
+            let locked = |what: Entity| match what {
+                Entity::Replica(_) => Ok(false),
+                door => self.is_locked_by(&commands[..n], door, now),
+            };
             match command {
                 Command::Unlock(what) if !locked(what.id)? => wanted.clear(),
                 Command::Close(what) if !wanted.is_empty() && locked(what.id)? => wanted.clear(),
@@ -163,10 +166,15 @@ impl State {
                 place => one(self.being_at(place, now, relations)?),
             },
             // What is no door is neither opened nor closed; if it is so already, nothing is to be done.
-            Command::Open(thing) if self.is_open(thing.id) == Some(true) => Vec::new(),
-            Command::Close(thing) if self.is_open(thing.id) == Some(false) => Vec::new(),
-            Command::Open(door) => vec![self.door_facts(predicate::DOOR_OPEN, door.id)?],
-            Command::Close(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
+            Command::Open(thing) | Command::Close(thing) => {
+                let open = matches!(command, Command::Open(_));
+                let state = if open { predicate::DOOR_OPEN } else { predicate::DOOR_CLOSED };
+                match self.furniture_stands(thing.id, open, now)? {
+                    Some(goal) => vec![goal],
+                    None => vec![self.door_facts(state, thing.id)?],
+                }
+            }
+            Command::ThrowAway(what) => vec![self.thrown_away(what.id, now, belief)?],
             Command::Lock(door) => vec![self.door_facts(predicate::DOOR_LOCKED, door.id)?],
             Command::Unlock(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
             Command::SwitchOn(device) => one(self.switched(predicate::DEVICE_ON, device.id)?),
@@ -436,12 +444,6 @@ impl State {
         };
         let name = || RequestError::NotADoor { name: world.name(entity).to_owned() };
         Ok(door.ok_or_else(name)?)
-    }
-
-    /// Whether the map says that a thing is open; none where it says neither, and of doors.
-    fn is_open(&self, thing: Entity) -> Option<bool> {
-        let Entity::Replica(id) = thing else { return None };
-        is_open(&self.world().ok()?.replicas.get(&id)?.properties)
     }
 
     /// Whether a door is locked once the commands before have been carried out.

@@ -72,7 +72,7 @@ impl Engine {
         let world = self.store()?.world_as_of(revision)?;
         let then = State::new(None, Arc::clone(&self.state.rules), world);
         let (state, spares) = (Arc::new(then), Spares::default());
-        Ok(Self { store: None, state, spares, opened: self.opened })
+        Ok(Self { store: None, state, waiting: self.waiting, spares, opened: self.opened })
     }
 
     /// What changed between two points of the history.

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::differences::{Differing, ThingNews};
 use super::{
-    Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep,
+    Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep, Queue,
     Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things,
     Unanswered, View, Whereabout, World, face_in_words, name_in, no_way_in_words, steps,
     surprise_in_words,
@@ -438,7 +438,33 @@ pub fn reply(engine: &Engine, reply: &Reply) -> Result<Value, Error> {
         Heeded::Answered(found) => answer(engine, found)?,
         Heeded::Unanswered(unanswered) => doubt(unanswered),
         Heeded::Task(done) => task(engine.world()?, done),
+        Heeded::Queued { task } | Heeded::Begun { task } => {
+            json!({ "outcome": reply.outcome.word(), "task": task, "text": reply.text })
+        }
+        Heeded::Cancelled { tasks } => {
+            json!({ "outcome": reply.outcome.word(), "tasks": tasks, "text": reply.text })
+        }
+        Heeded::Waits(waiting) => {
+            let mut view = queue(waiting);
+            view["outcome"] = json!(reply.outcome.word());
+            view["text"] = json!(reply.text);
+            view
+        }
         other => json!({ "outcome": other.word(), "text": reply.text }),
+    })
+}
+
+/// The tasks that wait.
+pub fn queue(queue: &Queue) -> Value {
+    let tasks = queue.tasks.iter().map(|task| {
+        json!({
+            "task": task.id, "text": task.text, "by": task.by, "at": task.at.to_string(),
+            "is_begun": task.is_begun,
+        })
+    });
+    json!({
+        "tasks": tasks.collect::<Vec<_>>(),
+        "paused": queue.paused.map(|at| at.to_string()),
     })
 }
 

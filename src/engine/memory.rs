@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::FloorPlan;
-use crate::map::{Replica, World, is_on, switch};
-use crate::robot::{Belief, Mission, starting_pose};
+use crate::map::{DoorStatus, Replica, World, is_on, set_open, stands, switch};
+use crate::robot::{Belief, starting_pose};
 use crate::semantics::Followed;
 use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{Deg, MapId, Pose, ReplicaId};
+use crate::units::{Deg, MapId, Point, Pose, ReplicaId};
 
 use super::known::Known;
 use super::obstacles::{is_obstacle, put_up};
@@ -42,6 +42,8 @@ pub struct Now {
     pub obstacles: Vec<SeenObstacle>,
     /// Whether the robot stands where its last task left it; else it stands at the map's start.
     pub goes_on: bool,
+    /// Where the person stands who gives the orders; none, where the robot does.
+    pub person: Option<(MapId, Point)>,
 }
 
 impl Now {
@@ -87,7 +89,20 @@ impl State {
         let start = last.or_else(|| starting_pose(&world));
         let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
         let obstacles = memory.obstacles.clone();
-        Ok(Now { known, at, world, map, pose, held, handed_over, aboard, obstacles, goes_on })
+        let person = None;
+        Ok(Now {
+            known,
+            at,
+            world,
+            map,
+            pose,
+            held,
+            handed_over,
+            aboard,
+            obstacles,
+            goes_on,
+            person,
+        })
     }
 
     /// Of things that are carried, those that lie on or in others of them, each with the one that carries it and is itself
@@ -139,6 +154,13 @@ impl State {
         for (device, on) in &memory.devices {
             if let Some(replica) = world.replicas.get_mut(device) {
                 switch(&mut replica.properties, *on);
+            }
+        }
+        for (thing, open) in &memory.opened {
+            if let Some(replica) = world.replicas.get_mut(thing)
+                && let Some(object) = world.objects.get(&replica.object)
+            {
+                set_open(replica, object, *open);
             }
         }
         put_up(&mut world, memory.obstacles.iter().filter(|seen| seen.stands(at)));
@@ -194,6 +216,30 @@ impl Engine {
         Ok(store.remember(&after.memory, &seen, ROBOT, at)?)
     }
 
+    /// Notes how a task that is still under way has left the robot and its world so far, where it has changed more than
+    /// the robot's place since `kept`, which was noted last.
+    pub(super) fn remember_so_far(&mut self, after: &After, kept: &mut After) -> Result<(), Error> {
+        let news = after.moved.iter().filter(|(id, seen)| {
+            // What is in the hand is noted as that; it is seen again where it is put down.
+            seen.is_some() && kept.moved.get(*id) != Some(*seen)
+        });
+        let moved: BTreeMap<ReplicaId, Option<Seen>> =
+            news.map(|(id, seen)| (*id, *seen)).collect();
+        let pose = after.memory.pose;
+        if moved.is_empty() && after.memory == (RobotMemory { pose, ..kept.memory.clone() }) {
+            return Ok(());
+        }
+        kept.moved.extend(moved.clone());
+        kept.memory = after.memory.clone();
+        let so_far = After { memory: after.memory.clone(), moved };
+        self.remember_after(&so_far, std::time::SystemTime::now().into())
+    }
+
+    /// Whether what the robot does is kept on a disk.
+    pub(super) fn is_kept(&self) -> bool {
+        self.store.is_some()
+    }
+
     /// The robot stands at a place given by name or as `X,Y`, or as near to it as it fits: it was carried there, or the map does not say.
     ///
     /// # Errors
@@ -237,9 +283,8 @@ pub struct After {
 }
 
 impl After {
-    /// What a mission holds to be so, against the map and against what was so when it began.
-    pub(super) fn of(surveyed: &World, before: &Now, mission: &Mission<'_>) -> Self {
-        let belief: &Belief = &mission.belief;
+    /// What a robot holds to be so, against the map and against what was so when it began.
+    pub(super) fn of(surveyed: &World, before: &Now, belief: &Belief) -> Self {
         let doors = belief
             .world
             .doors
@@ -264,11 +309,18 @@ impl After {
         }
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
         let holding = holding.chain(belief.aboard.iter().map(|(thing, _)| thing));
-        let devices = belief
-            .world
-            .replicas
-            .values()
-            .chain(holding)
+        let all: Vec<&Replica> = belief.world.replicas.values().chain(holding).collect();
+        let is_open = |one: &Replica| Some(stands(surveyed, one)? == DoorStatus::Open);
+        let opened = all
+            .iter()
+            .filter_map(|is| {
+                let open = is_open(is)?;
+                let was = is_open(surveyed.replicas.get(&is.id)?);
+                (was != Some(open)).then_some((is.id, open))
+            })
+            .collect();
+        let devices = all
+            .iter()
             .filter_map(|is| {
                 let on = is_on(&is.properties)?;
                 let was = is_on(&surveyed.replicas.get(&is.id)?.properties);
@@ -277,8 +329,15 @@ impl After {
             .collect();
         let pose = Some((belief.map, belief.pose));
         let obstacles = before.obstacles.clone();
-        let memory =
-            RobotMemory { pose, doors, carried, devices, obstacles, ..RobotMemory::default() };
+        let memory = RobotMemory {
+            pose,
+            doors,
+            carried,
+            devices,
+            opened,
+            obstacles,
+            ..RobotMemory::default()
+        };
         Self { memory, moved }
     }
 }

@@ -43,6 +43,7 @@ mod error;
 mod events;
 mod export;
 mod forms;
+mod furniture;
 mod given;
 mod goals;
 mod history;
@@ -62,6 +63,7 @@ mod opening;
 mod plan;
 mod position;
 mod query;
+mod queue;
 mod reading;
 mod route;
 mod rule_files;
@@ -87,6 +89,8 @@ use std::sync::Arc;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
+#[cfg(feature = "cli")]
+pub(crate) use dialogue::queue_in_words;
 pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
 pub use directive_words::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use doubts::check_map_closely;
@@ -134,6 +138,7 @@ pub use crate::semantics::Relations;
 pub use crate::store::{
     Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
 };
+pub(crate) use crate::store::{Queue, QueuedTask};
 
 use crate::map::{MapErrors, read_file};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};
@@ -143,6 +148,8 @@ use crate::store::{ImportReport, OpenReport, Store, StoreError};
 pub struct Engine {
     store: Option<Store>,
     state: Arc<State>,
+    /// The tasks that wait, where no store keeps them.
+    waiting: Queue,
     /// What the next edit takes up instead of a copy.
     spares: edit::Spares,
     /// What opening the store found and mended.
@@ -178,7 +185,8 @@ impl Engine {
     /// Nothing is derived yet.
     fn new(store: Option<Store>, opened: OpenReport, rules: Rules, world: Option<World>) -> Self {
         let state = Arc::new(State::new(store.as_ref(), Arc::new(rules), world));
-        Self { store, state, spares: edit::Spares::default(), opened }
+        let (waiting, spares) = (Queue::default(), edit::Spares::default());
+        Self { store, state, waiting, spares, opened }
     }
 
     /// What is known now, to be asked by any thread for as long as it likes, whatever the engine does meanwhile. It is taken
@@ -248,7 +256,8 @@ impl Engine {
     /// robot does is noted by the writer ([`Engine::remember_after`]), and read here after that.
     #[must_use]
     pub fn beside(state: Arc<State>) -> Self {
-        Self { store: None, state, opened: OpenReport::default(), spares: edit::Spares::default() }
+        let (waiting, spares) = (Queue::default(), edit::Spares::default());
+        Self { store: None, state, waiting, opened: OpenReport::default(), spares }
     }
 
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction

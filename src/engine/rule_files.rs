@@ -34,6 +34,7 @@ pub const RULE_FILES: &[(&str, &str)] = files![
     "scenarios/medicine-walk.strips",
     "scenarios/milk-in-the-fridge.strips",
     "scenarios/operator-opens-the-door.strips",
+    "scenarios/rubbish.strips",
     "scenarios/tidy-up.strips",
     "scenarios/two-goals-exclude.strips",
 ];

@@ -131,6 +131,7 @@ impl State {
         let unmoved = !in_time
             && memory.doors.is_empty()
             && memory.devices.is_empty()
+            && memory.opened.is_empty()
             && memory.carried.is_empty()
             && memory.obstacles.is_empty()
             && self

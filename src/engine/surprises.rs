@@ -1,9 +1,11 @@
 //! What went otherwise than believed, in words.
 
+use crate::geometry::Remedy;
 use crate::language::Language;
 use crate::map::{Entity, World};
 use crate::robot::{Obstruction, Refusal, Sighting, Surprise};
 
+use super::advice::Advice;
 use super::barriers::no_way_in_words;
 use super::directive_words::place_in_words;
 use super::lexicon::named;
@@ -51,9 +53,16 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
                 what,
             )
         }
-        Surprise::NoWay { to, why } => {
+        Surprise::NoWay { to, why, remedy } => {
             let to = place_in_words(world, to, language);
-            format!("«{to}»: {}", no_way_in_words(world, why, language))
+            let told = format!("«{to}»: {}", no_way_in_words(world, why, language));
+            let Some(remedy) = remedy else { return told };
+            let advice = Advice { remedy: Remedy::clone(remedy), whither: None };
+            let advice = advice.in_words(world, language);
+            match language {
+                Language::Russian => format!("{told}; чтобы путь был, {advice}"),
+                Language::English => format!("{told}; for a way, {advice}"),
+            }
         }
         Surprise::NotSeen { thing, area, next, for_kin } => {
             let area = said(Entity::Area(*area));
@@ -126,6 +135,11 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             Refusal::Shut(id) => told(
                 "«{}»: дверцы закрыты, а дверцы мебели робот не открывает",
                 "{} is shut, and the robot does not open doors of furniture",
+                Obstruction::Replica(id),
+            ),
+            Refusal::Stays(id) => told(
+                "«{}» туда не подвинуть",
+                "{} cannot be pushed there",
                 Obstruction::Replica(id),
             ),
             Refusal::NoRoom(id) => told(

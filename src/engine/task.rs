@@ -27,6 +27,9 @@ use super::{Error, RequestError, State};
 /// What a person who gives a task is called in plans.
 pub const OPERATOR: &str = "Оператор";
 
+/// The name of the point where that person stands, for the time of a task.
+pub(super) const OPERATOR_PLACE: &str = "Место-оператора";
+
 /// What happens on the way, as it happens.
 #[derive(Debug)]
 pub enum Progress<'a> {
@@ -63,6 +66,8 @@ pub struct Report {
     pub points: Vec<Point>,
     pub length: f64,
     pub seconds: f64,
+    /// How the robot and its world were then.
+    pub after: After,
 }
 
 /// How a task ended.
@@ -213,7 +218,19 @@ impl State {
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
+        self.carry_out_for(commands, None, vehicle, tell, stop)
+    }
+
+    /// The same for a person who stands elsewhere than the robot does now.
+    pub(super) fn carry_out_for(
+        &self,
+        commands: &[Command<Entity>],
+        person: Option<(MapId, Point)>,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let now = Now { person, ..self.now(std::time::SystemTime::now().into())? };
         self.carry_out_by(commands, &now, vehicle, tell, stop)
     }
 
@@ -252,7 +269,8 @@ impl State {
         Ok(Now { map, pose, ..now.clone() })
     }
 
-    /// What the robot believes when a task begins, and the place where it then stands; the operator stands there too.
+    /// What the robot believes when a task begins, and the place where the operator stands: where the robot does, unless
+    /// it is told otherwise.
     pub(super) fn belief_of(&self, now: &Now) -> Result<(Belief, String), Error> {
         let (map, start) = (now.map, now.pose);
         let mut belief = Belief::new(now.world.clone(), now.floors()?, map, start)
@@ -262,6 +280,14 @@ impl State {
         belief.aboard.clone_from(&now.aboard);
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
+        };
+        let elsewhere = now.person.and_then(|(map, at)| {
+            let floor = self.around().ok()?.floor(map).ok()?;
+            Some((floor.locate(at)?.0, at))
+        });
+        let here = match elsewhere {
+            Some((area, at)) => belief.name_point(OPERATOR_PLACE.to_owned(), area, at),
+            None => here,
         };
         belief.people.push(Person {
             name: OPERATOR.to_owned(),
@@ -330,12 +356,13 @@ impl State {
         for (thing, _) in unsure.iter().rev() {
             let name = self.world()?.name(Entity::Replica(*thing)).to_owned();
             belief.sought.insert(name.clone(), BTreeSet::new());
+            belief.adrift.insert(name.clone());
             goals.insert(
                 0,
                 vec![GoalFact { predicate: predicate::FOUND.to_owned(), args: vec![name] }],
             );
         }
-        belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
+        belief.into.extend(commands.iter().filter_map(|command| self.put_into(command)));
         let sought = commands.iter().filter_map(|command| match command {
             Command::Find(what) => Some(what.id),
             _ => None,
@@ -388,6 +415,9 @@ impl State {
             if in_hand || in_view {
                 belief.found.insert(name);
             } else {
+                if self.doubted(id).is_some() {
+                    belief.adrift.insert(name.clone());
+                }
                 belief.sought.insert(name, BTreeSet::new());
             }
         }
@@ -410,6 +440,7 @@ impl State {
         let effort = Some(Limits::TO_START);
         let (rules, limits) = (&self.rules.relations, Limits { effort, ..Limits::default() });
         let mut mission = Mission::new(belief, domain, relations, rules, limits);
+        let surveyed = self.world()?;
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
@@ -424,7 +455,8 @@ impl State {
             Event::Moved(moment) => tell(&Progress::Moved(moment)),
             Event::Scanned(scan) => tell(&Progress::Scanned(scan)),
             Event::Finished { number, directive, belief, leg } => {
-                let report = report_of(*number, directive, belief, leg, &mut reported);
+                let after = After::of(surveyed, now, belief);
+                let report = report_of((*number, directive), belief, leg, after, &mut reported);
                 tell(&Progress::Finished(&report));
                 reports.push(report);
             }
@@ -490,17 +522,17 @@ impl State {
             tidies: false,
             stops: false,
             reported: None,
-            after: Some(After::of(self.world()?, now, &mission)),
+            after: Some(After::of(surveyed, now, &mission.belief)),
             unsure: Vec::new(),
         })
     }
 }
 
 fn report_of(
-    number: usize,
-    directive: &Directive,
+    (number, directive): (usize, &Directive),
     belief: &Belief,
     leg: &Leg,
+    after: After,
     relations: &mut Followed,
 ) -> Report {
     let say = |relations: &Relations| {
@@ -516,6 +548,7 @@ fn report_of(
         length: leg.route.as_ref().map_or(0.0, |r| r.length),
         points,
         seconds: leg.seconds,
+        after,
     }
 }
 

@@ -33,13 +33,21 @@ impl State {
             }),
             Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
         };
+        let bins = self.bins(now)?;
+        let is_waste = |thing: &str| {
+            let called = now.world.replicas.values().filter(|one| one.name == thing);
+            called.map(|one| one.id).any(|id| bins.iter().any(|bin| relations.is_inside(id, *bin)))
+        };
         let is_held = |thing: &str| now.held.as_ref().is_some_and(|held| held.name == thing);
         let lies = |thing: &str| now.world.replicas.values().any(|r| r.name == thing);
         Ok(homes
             .into_iter()
             .filter(|(thing, home)| {
                 is_held(thing)
-                    || (lies(thing) && is_asked(thing) && lie_on.get(thing) != Some(home))
+                    || (lies(thing)
+                        && is_asked(thing)
+                        && lie_on.get(thing) != Some(home)
+                        && !is_waste(thing))
             })
             .collect())
     }

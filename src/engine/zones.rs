@@ -28,6 +28,8 @@ enum Ask {
     WhyNoWay,
     WhyShut,
     HowLong,
+    /// Whether it is closed, or whether it is open.
+    IsShut(bool),
 }
 
 /// A kind of zones, as people ask for it.
@@ -52,6 +54,7 @@ impl Sort {
 
 const ZONE: &str = "зона зоны зон зонах zone zones";
 const CLOSED: &str = "закрыт закрыта закрыто закрыты закрытые закрытая закрытых closed shut";
+const OPEN: &str = "открыт открыта открыто открыты open";
 const KEEP_OUT: &str = "запретные запретная запретных запрещенные запрещенных forbidden prohibited";
 const SLOW: &str = "медленные медленная медленных slow";
 const ONE_WAY: &str = "односторонние односторонняя односторонних";
@@ -163,6 +166,13 @@ fn asked(words: &Words<'_>) -> Option<(Ask, Vec<&'static str>)> {
                    насколько когда откроют откроется открывается how long until till when will \
                    does be open opened reopen is stay remain for";
         return Some((Ask::HowLong, vec![own, CLOSED, ABOUT, "вход", "зона", "zone"]));
+    }
+    let is_shut = words.has(CLOSED);
+    if is_shut != words.has(OPEN)
+        && (words.has("ли is are") || words.text.trim_end().ends_with('?'))
+    {
+        let state = if is_shut { CLOSED } else { OPEN };
+        return Some((Ask::IsShut(is_shut), vec![state, "ли is are the сейчас now"]));
     }
     None
 }
@@ -294,6 +304,19 @@ impl State {
             .map(|(id, _)| *id)
             .filter(|id| world.zones[id].kind.is_shut() && known.is_in_force(&world.zones[id]))
             .collect();
+        if let Ask::IsShut(is_shut) = ask {
+            // Of a room that no zone closes its doors tell.
+            if shut.is_empty() && !matches!(subject, Entity::Zone(_)) {
+                return Ok(None);
+            }
+            let said = if shut.is_empty() == is_shut { Said::No } else { Said::Yes };
+            let yes = match said {
+                Said::Yes => language.pick("Да.", "Yes."),
+                _ => language.pick("Нет.", "No."),
+            };
+            let words = format!("{yes} {}", told(&zones));
+            return Ok(Some(answer(said, &zones, None, words)));
+        }
         if let (Ask::WhyNoWay, false) = (ask, matches!(subject, Entity::Zone(_))) {
             let way = senses.way(None, Thing::Entity(subject), language, Detail::default());
             return Ok(Some(match way {

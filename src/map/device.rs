@@ -48,8 +48,15 @@ pub fn set_open(replica: &mut Replica, object: &Object, open: bool) {
 /// doors and of which nothing of the kind is told.
 #[must_use]
 pub fn stands(world: &World, replica: &Replica) -> Option<DoorStatus> {
-    if let Some(open) = is_open(&replica.properties) {
-        return Some(if open { DoorStatus::Open } else { DoorStatus::Closed });
+    if let (Some(open), Some((_, state))) =
+        (is_open(&replica.properties), Mark::State.of(&replica.properties))
+    {
+        let state = state.to_lowercase();
+        return Some(match open {
+            true => DoorStatus::Open,
+            false if state == "locked" || state.starts_with("запер") => DoorStatus::Locked,
+            false => DoorStatus::Closed,
+        });
     }
     let states = world.objects.get(&replica.object)?.doors.iter().filter_map(|mount| {
         let own = replica.door_states.get(&mount.door).copied();

@@ -8,7 +8,7 @@ use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt
 use crate::semantics::{
     Relations, Told, carried_to, lifts, predicate, robot_eye, storey_name, things_in_view,
 };
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector, name_key};
 
 use super::obstacle::{is_obstacle, stand_obstacle};
 use super::vehicle::{Outlines, Sighting};
@@ -50,6 +50,19 @@ const MOST_UNKNOWN: usize = 40;
 /// An unknown thing whose corners moved by no more is as it was, cm.
 const SAME: f64 = 5.0;
 
+/// A thing that a push brings out of a way.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct InTheWay {
+    pub(super) thing: ReplicaId,
+    /// In the Map's frame, cm.
+    pub(super) by: Vector,
+    /// The door, and the Area in which the way to it is barred.
+    pub(super) door: String,
+    pub(super) area: AreaId,
+    /// What was given up for it.
+    pub(super) way: (AreaId, String),
+}
+
 /// What the mission holds to be so.
 #[derive(Debug, Clone)]
 pub struct Belief {
@@ -67,6 +80,9 @@ pub struct Belief {
     pub spots: Vec<Spot>,
     /// Places and doors that proved to have no way to them from within an Area.
     pub unreachable: Vec<(AreaId, String)>,
+    /// What is to be pushed out of the way, and what proved not to be.
+    pub(super) pushes: Vec<InTheWay>,
+    pub(super) stays: BTreeSet<ReplicaId>,
     /// Unknown things that were met, and whether one whose outline was not seen bars one of these ways.
     unknown: Vec<ReplicaId>,
     is_barred: bool,
@@ -74,12 +90,19 @@ pub struct Belief {
     pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
     pub sought: BTreeMap<String, BTreeSet<AreaId>>,
+    /// Of these what was seen so long ago, for how often such a thing is moved, that its last place is hardly surer than
+    /// others where its kind lies.
+    pub adrift: BTreeSet<String>,
     /// Of these what is looked for everywhere, since no way leads to where it is likely.
     wide: BTreeSet<String>,
     /// What is or was in view since the mission began, or known to be in a hand.
     pub found: BTreeSet<String>,
     /// Where things belong: by the names of a thing and of its support.
     pub homes: Vec<(String, String)>,
+    /// What proved to have no place on something: the names of both.
+    pub(super) no_room: BTreeSet<(String, String)>,
+    /// What things are thrown into, by name.
+    pub bins: BTreeSet<String>,
     /// What is to be put into another thing, not onto it: by the names of both.
     pub into: BTreeSet<(String, String)>,
     /// What is to be put beside another thing: by the names of both.
@@ -122,13 +145,18 @@ impl Belief {
             people: Vec::new(),
             spots,
             unreachable: Vec::new(),
+            pushes: Vec::new(),
+            stays: BTreeSet::new(),
             unknown: Vec::new(),
             is_barred: false,
             no_return: Vec::new(),
             sought: BTreeMap::new(),
+            adrift: BTreeSet::new(),
             wide: BTreeSet::new(),
             found: BTreeSet::new(),
             homes: Vec::new(),
+            no_room: BTreeSet::new(),
+            bins: BTreeSet::new(),
             into: BTreeSet::new(),
             beside: BTreeSet::new(),
             cabins: BTreeMap::new(),
@@ -214,8 +242,15 @@ impl Belief {
             .facts
             .into_iter()
             .filter(|f| !speaks_of_robot(f) && !self.is_refuted(f) && !is_seen(f));
+        let of_map: Vec<InitialFact> = of_map.collect();
+        let lies = |f: &&InitialFact| is(f, predicate::THING_ON) || is(f, predicate::THING_IN);
+        let in_bin =
+            of_map.iter().filter(lies).filter(|f| self.bins.contains(&f.arguments[1].name));
+        let thrown =
+            in_bin.map(|f| fact(predicate::THROWN_AWAY, &[(&f.arguments[0].name, "предмет")]));
+        let thrown: Vec<InitialFact> = thrown.collect();
         let known = self.of_robot().into_iter().chain(self.on_storey(relations));
-        (of_map.chain(known).collect(), initial.places)
+        (of_map.into_iter().chain(thrown).chain(known).collect(), initial.places)
     }
 
     /// The facts that a plan begins with, given the relations of the believed world.
@@ -277,9 +312,24 @@ impl Belief {
                 [(door.as_str(), "дверь"), (self.world.name(Entity::Area(*area)), "помещение")];
             all.push(fact(predicate::NO_RETURN, &args));
         }
+        for InTheWay { thing, door, area, .. } in &self.pushes {
+            let name = self.world.name(Entity::Replica(*thing));
+            let room = (self.world.name(Entity::Area(*area)), "помещение");
+            let (thing, door) = ((name, "объект"), (door.as_str(), "дверь"));
+            all.push(fact(predicate::LIGHT, &[thing]));
+            all.push(fact(predicate::BLOCKS_DOOR, &[thing, door, room]));
+            all.push(fact(predicate::WAY_BLOCKED, &[door, room]));
+        }
         for (thing, home) in &self.homes {
             let args = [(thing.as_str(), "предмет"), (home.as_str(), "объект")];
             all.push(fact(predicate::STORED_ON, &args));
+        }
+        for (thing, support) in &self.no_room {
+            let args = [(thing.as_str(), "предмет"), (support.as_str(), "объект")];
+            all.push(fact(predicate::NO_ROOM, &args));
+        }
+        for bin in &self.bins {
+            all.push(fact(predicate::FOR_WASTE, &[(bin, "объект")]));
         }
         for (thing, searched) in &self.sought {
             for area in self.where_may_be(thing, searched) {
@@ -313,13 +363,20 @@ impl Belief {
         doors.map(|(id, _)| self.world.name(Entity::Door(*id)))
     }
 
-    /// Where a thing is believed to be; once it proved not to be there, the Areas where things of its kind lie; then every
-    /// Area. Of these those not yet searched.
+    /// Where a thing is believed to be, and of what is adrift also the Areas where things of its kind lie; once it proved not
+    /// to be there, these Areas; then every Area. Of these those not yet searched.
     fn where_may_be(&self, thing: &str, searched: &BTreeSet<AreaId>) -> Vec<AreaId> {
         let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
         let believed = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
         match believed.map(|r| r.area) {
-            Some(area) if !searched.contains(&area) => vec![area],
+            Some(area) if !searched.contains(&area) => {
+                let kin = match self.adrift.contains(thing) {
+                    true => self.where_else(thing, searched),
+                    false => (Vec::new(), false),
+                };
+                let kin = kin.0.into_iter().filter(|other| kin.1 && *other != area);
+                std::iter::once(area).chain(kin).collect()
+            }
             _ => self.where_else(thing, searched).0,
         }
     }
@@ -371,6 +428,14 @@ impl Belief {
         let news = !self.unreachable.contains(&refuted);
         self.unreachable.push(refuted);
         news
+    }
+
+    /// Notes that a thing is not to be pushed; whether it was news.
+    pub(super) fn stays(&mut self, thing: ReplicaId) -> bool {
+        for one in self.pushes.extract_if(.., |one| one.thing == thing) {
+            self.unreachable.push(one.way);
+        }
+        self.stays.insert(thing)
     }
 
     /// Notes that a door could not be opened again from within an Area; whether it was news.
@@ -504,6 +569,22 @@ impl Belief {
         }
         self.world.doors.get_mut(&door).expect("found above").state = state;
         true
+    }
+
+    /// A thing stands where it was pushed to, and what lies on it and in it goes with it.
+    pub(super) fn pushed(&mut self, thing: ReplicaId, to: Frame, with: &BTreeSet<ReplicaId>) {
+        let Some(before) = self.world.replicas.get(&thing).cloned() else { return };
+        let mut changed = vec![thing];
+        for id in with {
+            let Some(carried) = self.world.replicas.get(id).cloned() else { continue };
+            let frame = frame_aboard(&self.world, &before, &carried, &to);
+            let area = before.area;
+            self.world.replicas.insert(*id, Replica { area, frame, ..carried });
+            changed.push(*id);
+        }
+        self.world.replicas.insert(thing, Replica { frame: to, ..before });
+        self.pushes.retain(|one| one.thing != thing);
+        self.rebuild(&changed);
     }
 
     /// Takes a thing off the floor and into the hand, and with it what lies on it and in it.

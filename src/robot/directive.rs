@@ -61,6 +61,8 @@ pub enum Deed {
         thing: String,
         open: bool,
     },
+    /// Push a thing out of the way.
+    Push(String),
     Take(String),
     /// Put a thing onto another, or down where the robot stands.
     Put {
@@ -181,6 +183,9 @@ impl Directive {
                 deeds.push(Deed::SetOpen { thing: thing.clone(), open });
             }
         }
+        if let Some([thing, ..]) = find(&self.deletes, predicate::BLOCKS_DOOR) {
+            deeds.push(Deed::Push(thing.clone()));
+        }
         if let Some([thing]) = self.added(predicate::ROBOT_HOLDS) {
             deeds.push(Deed::Take(thing.clone()));
         }
@@ -189,7 +194,8 @@ impl Directive {
             deeds.push(if let Some([_, person]) = self.added(predicate::HANDED_OVER) {
                 Deed::HandOver { thing, person: person.clone() }
             } else {
-                let onto = self.added(predicate::THING_ON).and_then(|args| args.get(1)).cloned();
+                let put = self.added(predicate::THING_ON).or(self.added(predicate::THING_IN));
+                let onto = put.and_then(|args| args.get(1)).cloned();
                 Deed::Put { thing, onto }
             });
         }

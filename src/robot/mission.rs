@@ -1,10 +1,10 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{NoRoute, Route, Target};
+use crate::geometry::{NoRoute, Remedy, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{Entity, World};
 use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
-use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts};
+use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts, predicate};
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId, Stop};
 
@@ -14,6 +14,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 mod acts;
+mod aside;
 
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
@@ -96,7 +97,8 @@ pub enum Surprise {
     /// The vehicle would not.
     Refused { refusal: Refusal, seen: Option<Sighting> },
     /// There is no way on the floor that is believed.
-    NoWay { to: String, why: NoRoute },
+    /// With what would open one, where the mission ends for it.
+    NoWay { to: String, why: NoRoute, remedy: Option<Box<Remedy>> },
     /// The directive names what the Map does not know.
     Unknown { name: String },
     /// A thing that is sought is in view of no place of this Area; where it is looked for next, and whether for things of its
@@ -294,6 +296,7 @@ impl<'r> Mission<'r> {
                     // Who is told may stop: another way that the task has is not tried then.
                     if reins.stop.is_raised() { Ending::Stopped } else { Ending::NoPlan(planned) }
                 }
+                Ending::Stuck(surprise) => Ending::Stuck(self.with_remedy(surprise)),
                 other => other,
             });
         }
@@ -346,7 +349,7 @@ impl<'r> Mission<'r> {
                 return Ok(Ending::Stopped);
             }
             if matches!(planned.solved.outcome, Outcome::NoPlan { .. })
-                && self.belief.widen_search()
+                && (self.belief.widen_search() || self.push_aside())
             {
                 learned = now_learned.and_then(|learned| learned.after(&[]));
                 continue;
@@ -513,6 +516,7 @@ impl<'r> Mission<'r> {
                 let moved = seen.is_some_and(|seen| self.belief.learn(seen));
                 self.belief.no_way_to(name) || moved
             }
+            Surprise::Refused { refusal: Refusal::Stays(thing), .. } => self.belief.stays(*thing),
             Surprise::Blocked { seen: Some(seen), .. }
             | Surprise::Refused { seen: Some(seen), .. } => {
                 // The robot stopped somewhere on its way; from here on that is its place.
@@ -545,6 +549,11 @@ impl<'r> Mission<'r> {
                 news
             }
             Known::NoReturn(area, door) => self.belief.no_return_by(area, door),
+            Known::NoRoom(thing, on) => {
+                self.domain.predicate(predicate::NO_ROOM).is_some()
+                    && self.belief.no_room.insert((thing, on))
+            }
+            Known::Stays(thing) => self.belief.stays(thing),
             Known::Nothing => false,
         }
     }

@@ -484,6 +484,16 @@ impl Vehicle for Pilot<'_, '_> {
         self.act(watch, |body, watch| body.set_open(thing, open, watch))
     }
 
+    fn push(
+        &mut self,
+        thing: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        self.act(watch, |body, watch| body.push(thing, area, frame, watch))
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         self.act(watch, |body, watch| body.take(thing, watch))
     }

@@ -1,8 +1,8 @@
 //! Where a thing can be set down on another, or in it: the free spot nearest to the robot.
 
 use crate::geometry::{Bounds, PlacedReplica, Polygon, Prism, Scene};
-use crate::map::{DoorStatus, Permeability, World};
-use crate::units::{AreaId, Deg, Frame, Point, Pose, ReplicaId, Vector};
+use crate::map::{DoorStatus, Permeability, Replica, World, plane};
+use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
 const MARGIN: f64 = 1.0;
@@ -171,6 +171,57 @@ pub(super) fn rests(scene: &Scene, thing: ReplicaId) -> bool {
     (on_floor || others().flat_map(|r| &r.prisms).any(bears)) && !stands_within()
 }
 
+/// Whether a thing can be pushed to another frame of its Area in a straight line: it stays in its room, and touches no
+/// other thing, nor the disc of a robot, any more than it does now.
+pub(super) fn slides(
+    world: &World,
+    map: MapId,
+    thing: &Replica,
+    to: &Frame,
+    (robot, radius): (Point, f64),
+) -> bool {
+    /// Between two places that are looked at on the way, cm.
+    const STEP: f64 = 4.0;
+    /// What is no touch, in cm².
+    const NONE: f64 = 1.0;
+    let from = thing.frame;
+    let way = Vector::new(to.x.get() - from.x.get(), to.y.get() - from.y.get());
+    let count = (way.norm() / STEP).ceil().max(1.0);
+    let mut moved = world.clone();
+    let mut touches = |share: f64| -> Option<f64> {
+        let (x, y) = (from.x.get() + way.x * share, from.y.get() + way.y * share);
+        let frame = Frame::new(x, y, from.z.get(), from.angle);
+        moved.replicas.get_mut(&thing.id)?.frame = frame;
+        let scene = Scene::of(&moved, map);
+        let (placed, room) = (scene.replicas.get(&thing.id)?, scene.areas.get(&thing.area)?);
+        let inside = |p: &Prism| {
+            p.polygon
+                .corners
+                .iter()
+                .all(|corner| room.prisms.iter().any(|r| r.polygon.contains(*corner, 1.0)))
+        };
+        if !placed.prisms.iter().all(inside) {
+            return None;
+        }
+        let near =
+            |p: &Prism| p.polygon.contains(robot, 0.0) || p.polygon.border_distance(robot) < radius;
+        if share > 0.0 && placed.prisms.iter().any(near) {
+            return None;
+        }
+        let others = scene.replicas.values().filter(|r| r.id != thing.id);
+        let pairs = others.flat_map(|r| &r.prisms).flat_map(|other| {
+            placed.prisms.iter().filter_map(move |own| {
+                let apart = own.top <= other.bottom + FLAT || other.top <= own.bottom + FLAT;
+                (!apart && own.bounds.meets(&other.bounds))
+                    .then(|| plane::intersection(&own.polygon.corners, &other.polygon.corners).area)
+            })
+        });
+        Some(pairs.sum())
+    };
+    let Some(now) = touches(0.0) else { return false };
+    (1..=count as u32).all(|n| touches(f64::from(n) / count).is_some_and(|then| then <= now + NONE))
+}
+
 /// What a thing may be set down on.
 struct Surface<'p> {
     polygon: &'p Polygon,
@@ -266,7 +317,8 @@ fn is_hollow(prism: &Prism) -> bool {
         || prism.sides.iter().any(|s| s.permeability != Permeability::Impermeable)
 }
 
-/// A hand gets in: by a face that is open, or by a door that is.
+/// A hand gets in: by a face that is open, or by a door that is; where no door is drawn, by the lid or drawer that the
+/// thing's state tells of.
 fn is_open(world: &World, replica: ReplicaId, prism: &Prism) -> bool {
     if prism.roof_permeability == Permeability::Permeable
         || prism.sides.iter().any(|s| s.permeability == Permeability::Permeable)
@@ -275,6 +327,9 @@ fn is_open(world: &World, replica: ReplicaId, prism: &Prism) -> bool {
     }
     let Some(replica) = world.replicas.get(&replica) else { return false };
     let object = &world.objects[&replica.object];
+    if object.doors.is_empty() {
+        return crate::map::is_open(&replica.properties) == Some(true);
+    }
     let item = object.items.get(prism.item).map(|item| item.id.as_str());
     object.doors.iter().filter(|mount| item == Some(&*mount.item)).any(|mount| {
         let own = replica.door_states.get(&mount.door).copied();

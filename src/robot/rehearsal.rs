@@ -7,7 +7,7 @@
 //! **Invariant**: neither the mission nor the vehicle is changed by it.
 
 use crate::map::{DoorStatus, Entity};
-use crate::units::{AreaId, Stop};
+use crate::units::{AreaId, ReplicaId, Stop};
 
 use super::directive::{Deed, Directive};
 use super::mission::{Event, Mission, Surprise};
@@ -22,6 +22,10 @@ pub(super) enum Known {
     NoWay(AreaId, String),
     /// From within an Area a door could not be opened again.
     NoReturn(AreaId, String),
+    /// A thing has no place on another.
+    NoRoom(String, String),
+    /// What was to be pushed aside is not to be.
+    Stays(ReplicaId),
     /// Nothing that the rules could be told.
     Nothing,
 }
@@ -58,6 +62,14 @@ pub(super) fn rehearse(
     let name = |door| trial.belief.world.name(Entity::Door(door)).to_owned();
     let known = match &surprise {
         Surprise::NoWay { to, .. } => Known::NoWay(area, to.clone()),
+        Surprise::Refused { refusal: Refusal::NoRoom(support), .. } => match &trial.belief.held {
+            Some(held) if held.id != *support => {
+                let on = trial.belief.world.name(Entity::Replica(*support)).to_owned();
+                Known::NoRoom(held.name.clone(), on)
+            }
+            _ => Known::Nothing,
+        },
+        Surprise::Refused { refusal: Refusal::Stays(thing), .. } => Known::Stays(*thing),
         Surprise::NoReturn { door, area, .. } => Known::NoReturn(*area, name(*door)),
         Surprise::Refused { refusal: Refusal::DoorJammed { door, .. }, .. } => {
             let state = trial.belief.world.doors.get(door).map(|d| d.state.status);

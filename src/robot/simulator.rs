@@ -27,7 +27,7 @@ use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Ve
 
 use super::belief::frame_aboard;
 use super::eye::View;
-use super::placing::rests;
+use super::placing::{rests, slides};
 use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
@@ -560,6 +560,37 @@ impl Vehicle for Simulator {
         Ok(())
     }
 
+    /// In a straight line, past nothing that it would touch on its way.
+    fn push(
+        &mut self,
+        thing: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        watch.check()?;
+        if !self.reaches(thing)? {
+            return Err(Refusal::OutOfReach(thing).into());
+        }
+        let replica = self.truth.replicas.get(&thing).ok_or(Refusal::NotThere(thing))?.clone();
+        if !self.truth.has_trait(thing, "movable") || replica.area != area {
+            return Err(Refusal::Stays(thing).into());
+        }
+        let me = (self.pose.at, self.profile.radius.get());
+        if !slides(&self.truth, self.map, &replica, &frame, me) {
+            return Err(Refusal::Stays(thing).into());
+        }
+        for id in self.cargo(thing) {
+            let Some(carried) = self.truth.replicas.get(&id).cloned() else { continue };
+            let frame = frame_aboard(&self.truth, &replica, &carried, &frame);
+            self.truth.replicas.insert(id, Replica { area, frame, ..carried });
+        }
+        self.truth.replicas.insert(thing, Replica { area, frame, ..replica });
+        self.rebuild();
+        self.advance(PUSH_TIME, self.pose);
+        Ok(())
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         watch.check()?;
         if let Some(held) = &self.held {
@@ -684,6 +715,8 @@ const CALL_TIME: f64 = 2.0;
 const SIGHT_RANGE: f64 = 1_000.0;
 /// Seconds to swing or lock a door.
 const DOOR_TIME: f64 = 4.0;
+/// Seconds that a push takes.
+const PUSH_TIME: f64 = 6.0;
 /// Seconds to take a thing or to let it go.
 const GRASP_TIME: f64 = 5.0;
 

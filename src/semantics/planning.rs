@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_dark, is_on, stands};
+use crate::map::{DoorKind, DoorStatus, Entity, Mark, Replica, World, is_dark, is_on, stands};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::lifts::{Lift, lifts, storey_name};
@@ -334,6 +334,13 @@ impl Writer<'_> {
                 let on = self.relations.symbols().replica(support).to_string();
                 let kind = if self.world.has_trait(support, "portable") { ITEM } else { OBJECT };
                 self.fact(predicate::THING_ON, &[(name, ITEM), (&on, kind)]);
+                let opens =
+                    |s: &&Replica| self.world.robot.opens && stands(self.world, s).is_some();
+                if self.world.replicas.get(&support).filter(opens).is_some()
+                    && self.relations.is_inside(id, support)
+                {
+                    self.fact(predicate::THING_IN, &[(name, ITEM), (&on, kind)]);
+                }
             }
             None => {
                 for place in self.places_of(root, area) {

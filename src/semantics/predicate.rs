@@ -35,7 +35,7 @@ pub const KEY_FITS: &str = "КЛЮЧ_ПОДХОДИТ-К";
 pub const PERSON_HAS_KEY: &str = "ЧЕЛОВЕК_ИМЕЕТ-КЛЮЧ-ОТ";
 /// (предмет, объект)
 pub const THING_ON: &str = "ПРЕДМЕТ_НАХОДИТСЯ-НА";
-/// (предмет, объект): in what stands shut
+/// (предмет, объект): in what the robot opens and shuts
 pub const THING_IN: &str = "ПРЕДМЕТ_НАХОДИТСЯ-В";
 /// (объект): what the robot can open and shut stands open
 pub const STANDS_OPEN: &str = "ОБЪЕКТ-ОТКРЫТ";
@@ -67,6 +67,18 @@ pub const FOUND: &str = "ПРЕДМЕТ-НАЙДЕН";
 pub const STORED_ON: &str = "ПРЕДМЕТ_ХРАНИТСЯ-НА";
 /// (предмет)
 pub const IN_ITS_PLACE: &str = "ПРЕДМЕТ-НА-СВОЁМ-МЕСТЕ";
+/// (объект): what is thrown away goes into it
+pub const FOR_WASTE: &str = "ОБЪЕКТ-ДЛЯ-МУСОРА";
+/// (предмет)
+pub const THROWN_AWAY: &str = "ПРЕДМЕТ-ВЫБРОШЕН";
+/// (предмет, объект): it proved to have no place there
+pub const NO_ROOM: &str = "НЕТ-МЕСТА-НА";
+/// (объект): the robot may push it
+pub const LIGHT: &str = "ОБЪЕКТ-ЛЁГКИЙ";
+/// (объект, дверь, помещение)
+pub const BLOCKS_DOOR: &str = "ОБЪЕКТ_ПРЕГРАЖДАЕТ-ДВЕРЬ";
+/// (дверь, помещение)
+pub const WAY_BLOCKED: &str = "ПОДХОД-К-ДВЕРИ-ПРЕГРАЖДЁН";
 /// (человек)
 pub const CALLED: &str = "ЧЕЛОВЕК-ПОЗВАН";
 /// (этаж)

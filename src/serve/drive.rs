@@ -401,8 +401,10 @@ impl Tasks {
     /// What is driven, what waits, what ended, who drives.
     #[must_use]
     pub(super) fn view(&self) -> Value {
+        let waiting = self.desk.state().waiting().map(|queue| json::queue(&queue)).ok();
         let book = self.book();
         json!({
+            "waiting": waiting,
             "task": book.running.as_ref().map(|running| &running.view),
             "queue": book.queue.iter().map(|task| task.view("queued")).collect::<Vec<_>>(),
             "ended": book.ended,

@@ -345,7 +345,7 @@ pub(super) fn pose_record(map: MapId, pose: &Pose) -> t::RobotPose {
 }
 
 /// The robot of the Domain; the tables have room for more.
-const ROBOT: u32 = 1;
+pub(super) const ROBOT: u32 = 1;
 
 fn record_of(o: &Observation, no: u32) -> t::Observations {
     let seen = o.seen.unwrap_or(Seen { area: AreaId(0), frame: Frame::IDENTITY });

@@ -30,6 +30,8 @@ pub struct RobotMemory {
     pub carried: BTreeMap<ReplicaId, String>,
     /// Devices that it left switched otherwise than the map says: whether they are on.
     pub devices: BTreeMap<ReplicaId, bool>,
+    /// Things with doors, lids or drawers that it left otherwise than the map says: whether they stand open.
+    pub opened: BTreeMap<ReplicaId, bool>,
     /// What it saw where the map has nothing.
     pub obstacles: Vec<SeenObstacle>,
     /// Where its laser told it last that it may be, the best first.
@@ -111,6 +113,7 @@ impl Reader {
         let doors = self.records::<t::DoorStates>(&Key::new())?;
         let carried = self.records::<t::Carried>(&Key::new())?;
         let devices = self.records::<t::DeviceStates>(&Key::new())?;
+        let opened = self.records::<t::OpenStates>(&Key::new())?;
         let obstacle = |r: t::Obstacles| SeenObstacle {
             area: AreaId(r.area_id),
             pieces: pieces_of_text(&r.pieces),
@@ -134,6 +137,7 @@ impl Reader {
             doors: doors.into_iter().map(state).collect(),
             carried: carried.into_iter().map(|r| (ReplicaId(r.repl_id), r.holder)).collect(),
             devices: devices.into_iter().map(|r| (ReplicaId(r.repl_id), r.is_on)).collect(),
+            opened: opened.into_iter().map(|r| (ReplicaId(r.repl_id), r.is_open)).collect(),
         })
     }
 }
@@ -191,6 +195,15 @@ impl Store {
                 .is_none_or(|r| !memory.devices.contains_key(&ReplicaId(r.repl_id)))
         };
         self.drop_all(Table::DeviceStates, stale, &mut draft, &stamp)?;
+        for (thing, is_open) in &memory.opened {
+            let record = t::OpenStates { repl_id: thing.0, is_open: *is_open };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::OpenStates::from_row(row)
+                .is_none_or(|r| !memory.opened.contains_key(&ReplicaId(r.repl_id)))
+        };
+        self.drop_all(Table::OpenStates, stale, &mut draft, &stamp)?;
         for (no, obstacle) in (0..).zip(&memory.obstacles) {
             let record = t::Obstacles {
                 no,
@@ -229,7 +242,7 @@ impl Store {
     }
 
     /// Marks the live records of a table of notes as deleted, where `stale` holds of their rows.
-    fn drop_all(
+    pub(super) fn drop_all(
         &self,
         table: Table,
         stale: impl Fn(&[super::Cell]) -> bool,

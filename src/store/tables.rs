@@ -614,6 +614,30 @@ tables! {
         col explained: f64 = "Explained",
         col at: i64 = "At",
     }
+    /// Things with doors, lids or drawers that the robot left otherwise than the map says: whether they stand open.
+    Log OpenStates = 71 {
+        key repl_id: u32 = "ReplID",
+        col is_open: bool = "IsOpen",
+    }
+    /// Tasks that are to be done, in their order. `RecUser` gave them, `RecDate` is when they were noted last.
+    Log Tasks = 72 {
+        key no: u32 = "No",
+        col task_id: u32 = "TaskID",
+        col text: String = "Text",
+        col by: String = "By",
+        col at: i64 = "At",
+        // waiting, begun
+        col state: String = "State",
+        // Where the person stood who gave it, and is brought what is to be brought.
+        col map_id: Option<u32> = "MapID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+    }
+    /// Whether the tasks wait: one row while they do.
+    Log Pause = 73 {
+        key robot_id: u32 = "RobotID",
+        col at: i64 = "At",
+    }
 }
 
 impl Table {

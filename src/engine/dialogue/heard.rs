@@ -6,7 +6,7 @@ use crate::language::question::{Answer, Unanswered};
 use crate::map::World;
 
 use crate::engine::narration::progress_in_words;
-use crate::engine::{Error, Progress, TaskAnswer};
+use crate::engine::{Error, Progress, Queue, TaskAnswer};
 
 /// What came of a line, in the order in which it was heeded.
 #[derive(Debug, Default)]
@@ -69,6 +69,16 @@ pub enum Outcome {
     NotBegun { order: String },
     /// What waited for an answer was dropped, if anything waited.
     Stopped { waited: bool },
+    /// An order waits, by its number.
+    Queued { task: u32 },
+    /// One that waited is begun.
+    Begun { task: u32 },
+    /// What waits.
+    Waits(Queue),
+    /// Nothing more is begun.
+    Paused,
+    /// Of those that waited these do no longer.
+    Cancelled { tasks: Vec<u32> },
     /// Nothing is to be done now.
     Waiting,
     /// It was told to come back from where it was never sent.
@@ -95,6 +105,11 @@ impl Outcome {
             Self::Task(task) => task.word(),
             Self::NotBegun { .. } => "not_begun",
             Self::Stopped { .. } => "stopped",
+            Self::Queued { .. } => "queued",
+            Self::Begun { .. } => "begun",
+            Self::Waits(_) => "queue",
+            Self::Paused => "paused",
+            Self::Cancelled { .. } => "cancelled",
             Self::Waiting => "waiting",
             Self::Reported => "reported",
             Self::Ended => "ended",

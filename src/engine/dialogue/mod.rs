@@ -23,12 +23,14 @@
 
 mod heard;
 mod substitute;
+mod waiting;
 
 pub use heard::{Event, Heard, Outcome, Reply};
+pub use waiting::queue_in_words;
 
 use crate::language::Language;
 use crate::language::command::{
-    Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb,
+    Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
     Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, sentences,
@@ -38,8 +40,8 @@ use crate::robot::Vehicle;
 use crate::units::Stop;
 
 use super::narration::nothing_to_stop;
-use super::task::Progress;
-use super::{Engine, Error, task_in_words};
+use super::task::{OPERATOR, Progress};
+use super::{After, Engine, Error, QueuedTask, task_in_words};
 
 /// How whoever speaks is told what happens, as it happens.
 pub type Tell<'t> = dyn FnMut(&Engine, &Event<'_>) + 't;
@@ -57,6 +59,14 @@ pub struct Dialogue {
     keeps: bool,
     wheels: Wheels,
     stop: Stop,
+}
+
+/// Where an order comes from.
+enum Given {
+    /// It was said just now.
+    Now,
+    /// It waited.
+    Before(QueuedTask),
 }
 
 /// What carries out the orders of a dialogue.
@@ -160,6 +170,33 @@ impl Dialogue {
         Ok(hearing.heard)
     }
 
+    /// Has an order wait.
+    ///
+    /// # Errors
+    /// As [`Dialogue::hear`].
+    pub fn later(
+        &mut self,
+        engine: &mut Engine,
+        task: &str,
+        tell: &mut Tell<'_>,
+    ) -> Result<Heard, Error> {
+        let language = self.language;
+        let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
+        hearing.wait(task, language)?;
+        Ok(hearing.heard)
+    }
+
+    /// Does what waits, in the order of the shortest way, until nothing waits or the robot is stopped.
+    ///
+    /// # Errors
+    /// As [`Dialogue::hear`].
+    pub fn go_on(&mut self, engine: &mut Engine, tell: &mut Tell<'_>) -> Result<Heard, Error> {
+        let language = self.language;
+        let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
+        hearing.go_on(language)?;
+        Ok(hearing.heard)
+    }
+
     /// Hears a question, and nothing else: no order is carried out.
     ///
     /// # Errors
@@ -233,6 +270,11 @@ impl Hearing<'_, '_> {
             (Some(Aside::Yes), _, Some(meant)) => return self.command(&meant, true),
             (Some(Aside::No), _, _) if awaited => return self.stop(true, language),
             _ => {}
+        }
+        if let Some(said) = waiting(line)
+            && self.of_waiting(said, awaited, language)?
+        {
+            return Ok(());
         }
         if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
             return self.command(&whole, awaited);
@@ -410,7 +452,7 @@ impl Hearing<'_, '_> {
                 };
                 self.put(Outcome::Reported, &text, language)
             }
-            _ => self.carry_out(line, &commands, language),
+            _ => self.carry_out(line, &commands, &Given::Now, language),
         }
     }
 
@@ -419,33 +461,65 @@ impl Hearing<'_, '_> {
         &mut self,
         line: &str,
         commands: &[Command<Entity>],
+        given: &Given,
         language: Language,
     ) -> Result<(), Error> {
-        let (engine, tell) = (&*self.engine, &mut *self.tell);
-        let world = engine.world()?;
+        let noted = match given {
+            Given::Now if self.is_paused()? => return self.wait(line, language),
+            Given::Now => self.note(line, commands)?,
+            Given::Before(_) => None,
+        };
+        let person = match given {
+            Given::Before(task) => task.from,
+            Given::Now => None,
+        };
+        let state = self.engine.state()?;
+        let world = state.world()?;
+        let keeps = self.dialogue.keeps && self.engine.is_kept();
+        let (engine, tell) = (&mut *self.engine, &mut *self.tell);
+        let (mut kept, mut failed) = (After::default(), None);
         let mut told = |progress: &Progress<'_>| {
+            if let (true, Progress::Finished(report)) = (keeps, progress)
+                && let Err(error) = engine.remember_so_far(&report.after, &mut kept)
+            {
+                failed.get_or_insert(error);
+            }
             tell(engine, &Event::Progress { progress, world, language });
         };
         let stop = &self.dialogue.stop;
+        let told: &mut dyn FnMut(&Progress<'_>) = &mut told;
         let carried_out = match &mut self.dialogue.wheels {
-            Wheels::Simulated => engine
-                .simulator(None)
-                .and_then(|mut robot| engine.carry_out_with(commands, &mut robot, &mut told, stop)),
+            Wheels::Simulated => state.simulator(None).and_then(|mut robot| {
+                state.carry_out_for(commands, person, &mut robot, told, stop)
+            }),
             Wheels::InTruth(truth) => {
-                let mut robot = engine.simulator(Some(World::clone(truth)))?;
-                let carried_out = engine.carry_out_with(commands, &mut robot, &mut told, stop);
+                let mut robot = state.simulator(Some(World::clone(truth)))?;
+                let carried_out = state.carry_out_for(commands, person, &mut robot, told, stop);
                 **truth = robot.into_truth();
                 carried_out
             }
             Wheels::Vehicle(vehicle) => {
-                engine.carry_out_with(commands, &mut **vehicle, &mut told, stop)
+                state.carry_out_for(commands, person, &mut **vehicle, told, stop)
             }
         };
-        let task = match carried_out {
-            Ok(task) => task,
-            Err(error) => return self.refuse(error, language),
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        let carried_out = carried_out.map(|mut task| {
+            if let Some(after) = &mut task.after {
+                after.moved.retain(|id, seen| kept.moved.get(id) != Some(seen));
+            }
+            task
+        });
+        let ended = match carried_out {
+            Ok(task) => self.done(line, task, None, language),
+            Err(error) => self.refuse(error, language),
         };
-        self.done(line, task, None, language)
+        ended?;
+        if let Some(id) = noted {
+            self.engine.drop_queued(id, OPERATOR)?;
+        }
+        Ok(())
     }
 
     fn done(
@@ -530,6 +604,11 @@ impl Hearing<'_, '_> {
 /// What is given as a task alone.
 impl Hearing<'_, '_> {
     fn order(&mut self, task: &str) -> Result<(), Error> {
+        if let Some(said) = waiting(task)
+            && self.of_waiting(said, false, self.dialogue.language)?
+        {
+            return Ok(());
+        }
         let parts = match self.engine.parts_of(task)? {
             // «Проверь, открыт ли холодильник» orders nothing but an answer.
             Some(parts) if parts.len() == 1 => return self.ask(&parts[0]),
@@ -583,7 +662,7 @@ impl Hearing<'_, '_> {
                 let task = self.engine.carry_out(&commands, &mut |_| {})?;
                 self.done(order, task, Some(text), language)
             }
-            None => self.carry_out(order, &commands, language),
+            None => self.carry_out(order, &commands, &Given::Now, language),
         }
     }
 }

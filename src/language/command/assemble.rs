@@ -460,7 +460,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::Take, to @ Some(_)) => Command::Bring { what, to },
             (Verb::Take, None) if to_me => Command::Bring { what, to: None },
             (Verb::Take, None) => Command::Take { what },
-            (Verb::Put | Verb::Clear, Some(to)) => Command::Put { what, to },
+            (Verb::Put | Verb::Clear | Verb::ThrowAway, Some(to)) => Command::Put { what, to },
+            (Verb::ThrowAway, None) => Command::ThrowAway(what),
             (Verb::Put, None) if to_me => Command::Bring { what, to: None },
             (Verb::PutBack, _) => Command::PutBack(what),
             (Verb::Put | Verb::Clear, None) => {

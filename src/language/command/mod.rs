@@ -30,6 +30,7 @@ mod spoken;
 mod time;
 mod verbs;
 mod vocabulary;
+mod waiting;
 
 pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
@@ -40,6 +41,7 @@ pub(crate) use verbs::{
     without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
+pub use waiting::{Waiting, waiting};
 
 use std::hash::Hash;
 
@@ -148,6 +150,8 @@ pub enum Command<T> {
     },
     /// «Верни на место»: to where it is kept.
     PutBack(Thing<T>),
+    /// «Выброси»: into what is there for rubbish.
+    ThrowAway(Thing<T>),
     Open(Thing<T>),
     Close(Thing<T>),
     Lock(Thing<T>),
@@ -177,6 +181,7 @@ impl<T> Command<T> {
             | Self::Put { what, .. }
             | Self::SetDown { what, .. }
             | Self::PutBack(what)
+            | Self::ThrowAway(what)
             | Self::Open(what)
             | Self::Close(what)
             | Self::Lock(what)

@@ -74,6 +74,7 @@ pub(super) fn by_verb(verb: Verb) -> Role {
         | Verb::Clear
         | Verb::Return
         | Verb::PutBack
+        | Verb::ThrowAway
         | Verb::Leave => Role::Whither,
         _ => Role::Where,
     }
@@ -92,6 +93,7 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::SwitchOff => ("что выключить", "what to switch off"),
         Verb::Find => ("что найти", "what to find"),
         Verb::PutBack => ("что вернуть на место", "what to put back"),
+        Verb::ThrowAway => ("что выбросить", "what to throw away"),
         Verb::GoTo | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
             ("куда ехать", "where to go")
         }

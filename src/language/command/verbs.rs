@@ -31,7 +31,7 @@ impl Sort {
         match verb {
             Verb::GoTo | Verb::Face | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
-            Verb::Bring | Verb::Get | Verb::Need | Verb::Take => Self::Carry,
+            Verb::Bring | Verb::Get | Verb::Need | Verb::Take | Verb::ThrowAway => Self::Carry,
             Verb::Put | Verb::SetDown | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => {
                 Self::Put
             }
@@ -64,6 +64,7 @@ const SPLIT: &[(&str, &[&str])] = &[
     ("set", &["down"]),
     ("lay", &["down"]),
     ("throw", &["away", "out"]),
+    ("toss", &["away", "out"]),
     ("clear", &["up", "away"]),
     ("clean", &["up"]),
     ("tidy", &["up"]),

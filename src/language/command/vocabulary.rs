@@ -67,6 +67,8 @@ pub(super) enum Verb {
     Return,
     /// «верни на место»
     PutBack,
+    /// «выброси»: into a bin, unless a place is named.
+    ThrowAway,
     /// «зарядись»
     Charge,
     /// «выйди»: out of the room in which the robot is.
@@ -143,8 +145,8 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         Meaning::Verb(Verb::Unable),
         "застели|застелите|заправь|заправьте|объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
-        почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
-        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out the trash|take out the garbage|take out the rubbish|get rid of|dispose of|избавься|go around|drive around|go round|покажи|покажите|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
+        почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
+        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|take out the trash|take out the garbage|take out the rubbish|go around|drive around|go round|покажи|покажите|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
         repair|fix|buy|order|wake up|play|photograph|say|speak|slice|eat|boil|make",
     ),
     (
@@ -170,7 +172,12 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "вези|везите|положи|положите|положил|поставил|отнёс|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
         отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переставьте|переложи|переложите|\
         брось|бросьте|кинь|киньте|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|вынеси|вынесите|вывези|оставь|оставьте|\
-        put|place|set|lay|hang|drop|поднеси|поднесите|drop off|insert|putting|placing",
+        put|place|set|lay|hang|drop|throw|toss|поднеси|поднесите|drop off|insert|putting|placing",
+    ),
+    (
+        Meaning::Verb(Verb::ThrowAway),
+        "выброси|выбросите|выбросить|выбрасывай|выбрасывайте|выкинь|выкиньте|выкинуть|выкидывай|избавься от|избавьтесь от|\
+        throw away|throw out|toss away|toss out|get rid of|dispose of|discard",
     ),
     (Meaning::Verb(Verb::SetDown), "опусти|опустите|put down|set down|lay down"),
     (

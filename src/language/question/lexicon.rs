@@ -426,6 +426,14 @@ impl Lexicon {
         self.sorts.get(usize::from(sort)).cloned().unwrap_or_default()
     }
 
+    /// The kinds of what people throw things into.
+    #[must_use]
+    pub fn bins(&self) -> Vec<Extension> {
+        let sort = purposes::sort_called("place for rubbish");
+        let kinds = sort.map(|sort| self.kinds_of_sort(sort)).unwrap_or_default();
+        kinds.into_iter().map(|id| self.kind(id).extension).collect()
+    }
+
     /// # Panics
     /// When the id is not of this lexicon.
     #[must_use]

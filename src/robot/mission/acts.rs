@@ -63,6 +63,10 @@ impl Mission<'_> {
                 self.within_reach(id, reins, leg, |v, watch| v.set_open(id, *open, watch))?;
                 self.belief.set_open(id, *open);
             }
+            Deed::Push(name) => {
+                let id = self.replica(name)?;
+                self.push(id, reins, leg)?;
+            }
             Deed::Take(name) => self.take(name, reins, leg)?,
             Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
             Deed::HandOver { thing, person } => {
@@ -118,7 +122,7 @@ impl Mission<'_> {
 
     /// Does something to a thing. Where the arm is too short from the place that serves what the thing stands on, a bed
     /// say, the robot first goes to where the thing itself is nearest.
-    fn within_reach(
+    pub(super) fn within_reach(
         &mut self,
         thing: ReplicaId,
         reins: &mut Reins<'_>,
@@ -150,7 +154,7 @@ impl Mission<'_> {
             .belief
             .floor()
             .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
-            .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
+            .map_err(|why| Surprise::NoWay { to: name.to_owned(), why, remedy: None })?;
         let pieces = self.belief.floor().paces(&route.points);
         let driven = reins.follow_paced(&pieces, route.heading);
         leg.route = Some(route);
@@ -185,7 +189,10 @@ impl Mission<'_> {
         let number = number.ok_or_else(|| Surprise::Unknown { name: lift.to_owned() })?;
         let Some((arrival, rise)) = self.arrival(to) else {
             self.belief.unreachable.push((to, door.to_owned()));
-            return Err(Surprise::NoWay { to: lift.to_owned(), why: NoRoute::NoFloor }.into());
+            return Err({
+                let why = NoRoute::NoFloor;
+                Surprise::NoWay { to: lift.to_owned(), why, remedy: None }.into()
+            });
         };
         let ride = Ride { lift: number, from: self.belief.area, to, rise };
         let ridden =

@@ -404,6 +404,16 @@ impl Vehicle for SensingRobot {
         self.act(watch, |body| body.set_open(thing, open, &mut Watch::none()))
     }
 
+    fn push(
+        &mut self,
+        thing: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        self.act(watch, |body| body.push(thing, area, frame, &mut Watch::none()))
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         self.act(watch, |body| body.take(thing, &mut Watch::none()))
     }

@@ -3,7 +3,9 @@
 mod carried_off;
 mod furniture;
 mod leaves;
+mod lifts;
 mod missions;
+mod push;
 mod search;
 mod senses;
 mod setting;

@@ -364,6 +364,18 @@ impl Vehicle for RemoteVehicle {
         self.act("set_open", Wish::SetOpen { thing, open }, watch)
     }
 
+    fn push(
+        &mut self,
+        thing: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        let thing = self.names.thing_name(thing);
+        let place = Place::new(&self.names.area_name(area), frame);
+        self.act("push", Wish::Push { thing, place }, watch)
+    }
+
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
         let thing = self.names.thing_name(thing);
         self.act("take", Wish::Take { thing }, watch)

@@ -81,6 +81,8 @@ pub enum Refusal {
     NoRoom(ReplicaId),
     /// It is in something that is shut.
     Shut(ReplicaId),
+    /// It is not to be pushed, or not to where it was to go.
+    Stays(ReplicaId),
 }
 
 impl Refusal {
@@ -93,7 +95,11 @@ impl Refusal {
                 Some(Obstruction::Door(door))
             }
             Self::OutOfReach(thing) | Self::NotThere(thing) => Some(Obstruction::Replica(thing)),
-            Self::HandFull(_) | Self::NotHeld(_) | Self::NoRoom(_) | Self::Shut(_) => None,
+            Self::HandFull(_)
+            | Self::NotHeld(_)
+            | Self::NoRoom(_)
+            | Self::Shut(_)
+            | Self::Stays(_) => None,
         }
     }
 }
@@ -314,6 +320,22 @@ pub trait Vehicle {
         let _cannot = open;
         watch.check()?;
         Err(Refusal::Shut(thing).into())
+    }
+
+    /// Pushes a thing on the floor to a frame of an Area, with what lies on it and in it. A vehicle that cannot refuses.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the thing is then as it was.
+    fn push(
+        &mut self,
+        thing: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        let _cannot = (area, frame);
+        watch.check()?;
+        Err(Refusal::Stays(thing).into())
     }
 
     /// Takes a thing into the hand, with what lies on it and in it.

@@ -165,6 +165,7 @@ impl Names {
             Refusal::NotHeld(id) => No::NotHeld { thing: thing(id) },
             Refusal::NoRoom(id) => No::NoRoom { thing: thing(id) },
             Refusal::Shut(id) => No::Shut { thing: thing(id) },
+            Refusal::Stays(id) => No::Stays { thing: thing(id) },
         }
     }
 
@@ -182,6 +183,7 @@ impl Names {
             No::NotHeld { thing } => Refusal::NotHeld(self.thing(thing)?),
             No::NoRoom { thing } => Refusal::NoRoom(self.thing(thing)?),
             No::Shut { thing } => Refusal::Shut(self.thing(thing)?),
+            No::Stays { thing } => Refusal::Stays(self.thing(thing)?),
         })
     }
 }

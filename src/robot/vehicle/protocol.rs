@@ -69,6 +69,8 @@ pub enum Wish {
     },
     /// Open or shut the doors, lid or drawer of a thing. Asked only of a robot that the map says `opens`.
     SetOpen { thing: String, open: bool },
+    /// Push a thing over the floor to there. Asked only of what the map says is `movable`.
+    Push { thing: String, place: Place },
     /// Take a thing into the hand, with what lies on it and in it.
     Take { thing: String },
     /// Put the thing in the hand down.
@@ -270,6 +272,8 @@ pub enum No {
     NoRoom { thing: String },
     /// What one wants is in it, and it is shut.
     Shut { thing: String },
+    /// It is not to be pushed, or not to there.
+    Stays { thing: String },
 }
 
 /// One turn of a range finder, as it was at the pose of its message.

@@ -168,6 +168,10 @@ impl<W: Write> Desk<'_, W> {
                 vehicle.ride(&ride, door, arrival, watch)
             }
             Wish::SetOpen { thing, open } => vehicle.set_open(names.thing(&thing)?, open, watch),
+            Wish::Push { thing, place } => {
+                let frame = place.frame().ok_or_else(|| format!("{place:?}"))?;
+                vehicle.push(names.thing(&thing)?, names.area(&place.area)?, frame, watch)
+            }
             Wish::Take { thing } => vehicle.take(names.thing(&thing)?, watch),
             Wish::Put { thing, place } => {
                 let frame = place.frame().ok_or_else(|| format!("{place:?}"))?;

@@ -172,6 +172,12 @@ impl Relations {
         self.second_of("SHUT_IN", id).min()
     }
 
+    /// Whether a thing is in another.
+    #[must_use]
+    pub fn is_inside(&self, id: ReplicaId, around: ReplicaId) -> bool {
+        self.second_of("INSIDE", id).any(|other| other == around)
+    }
+
     /// All that is in something shut.
     #[must_use]
     pub fn all_shut_in(&self) -> BTreeSet<ReplicaId> {

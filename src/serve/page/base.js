@@ -9,7 +9,7 @@ export const S = {
   drawing: null, floor: null, map: null,
   robot: null, trail: [], follow: false,
   /** A plan that waits for a word, the task that is driven, and its directives. */
-  plan: null, task: null, step: 0, queue: [], ended: [], lease: null,
+  plan: null, task: null, step: 0, queue: [], waiting: null, ended: [], lease: null,
   selected: null, thing: null, marked: [], proof: null,
   linked: 'begin', stoppedBy: null, stopping: false,
   asOf: null, history: [], proposals: [],

@@ -23,7 +23,7 @@ export async function refresh() {
   for (let again = 0; again < 5 && older(state.event, last); again += 1) state = await api('/api/state');
   last = state.event;
   S.state = state;
-  S.task = state.task; S.queue = state.queue; S.ended = state.ended; S.lease = state.lease;
+  S.task = state.task; S.queue = state.queue; S.waiting = state.waiting; S.ended = state.ended; S.lease = state.lease;
   S.robot = state.robot?.place ?? null;
   return state;
 }

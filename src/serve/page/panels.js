@@ -60,6 +60,9 @@ function taskTab(act) {
     S.queue.length ? el('ul', { class: 'list' }, S.queue.map((task, i) => el('li', null, el('span', { class: 'g' }, task.text, el('div', { class: 'sub' }, task.by)),
       may('drive') && i > 0 ? el('button', { class: 'ib', type: 'button', 'aria-label': L(`Раньше: ${task.text}`, `Sooner: ${task.text}`), onclick: () => act.move(task.task, S.queue[i - 1].task) }, I('up')) : null,
       may('drive') ? el('button', { class: 'ib', type: 'button', 'aria-label': L(`Отменить: ${task.text}`, `Cancel: ${task.text}`), onclick: () => act.cancel(task.task) }, I('x')) : null))) : el('p', { class: 'sub' }, L('Пусто. Приказы, подтверждённые в пути, ждут здесь.', 'Empty. Orders confirmed on the way wait here.'))));
+  const noted = S.waiting?.tasks ?? [];
+  if (noted.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Отложено в хранилище', 'Kept in the store'), el('span', { class: 'num' }, String(noted.length))),
+    el('ul', { class: 'list' }, noted.map((task) => el('li', null, el('span', { class: 'g' }, task.text, el('div', { class: 'sub' }, task.is_begun ? L('начато и прервано', 'begun and broken off') : task.by)))))));
   if (S.ended.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Было', 'Ended')), el('ul', { class: 'list' }, S.ended.slice(-8).reverse().map((task) => el('li', null, I(task.state === 'done' ? 'check' : task.state === 'stopped' ? 'stop' : 'x'),
     el('span', { class: 'g' }, task.text, el('div', { class: 'sub' }, `${ending(task.state)}${task.stopped_by ? ` – ${task.stopped_by === 'lease' ? L('кончилось право управления', 'the right to drive ended') : task.stopped_by}` : ''}`, task.state !== 'done' && task.text_end ? el('div', null, task.text_end) : null)),
     may('drive') ? el('button', { class: 'lnk', type: 'button', onclick: () => act.say(task.text) }, L('Ещё раз', 'Again')) : null)))));

@@ -1,0 +1,112 @@
+//! Orders about what opens and shuts by itself (cupboards, fridges, drawers, boxes), and about what is thrown away.
+//!
+//! Invariant: what the robot cannot open is told before it moves.
+
+use crate::language::question::Extension;
+use crate::map::{DoorStatus, Entity, Replica, stands};
+use crate::robot::{Belief, GoalFact};
+use crate::semantics::predicate;
+use crate::units::ReplicaId;
+
+use super::memory::Now;
+use super::{Error, RequestError, State};
+
+impl State {
+    /// Whether a thing stands shut and the robot opens it: its profile says so, its rules know how, and there is no lock.
+    pub(super) fn can_open(&self, thing: ReplicaId, now: &Now) -> bool {
+        let status = now.world.replicas.get(&thing).and_then(|it| stands(&now.world, it));
+        self.opens_furniture() && status == Some(DoorStatus::Closed)
+    }
+
+    fn opens_furniture(&self) -> bool {
+        let knows_how = self.rules.robot.predicate(predicate::STANDS_SHUT).is_some();
+        knows_how && self.world().is_ok_and(|world| world.robot.opens)
+    }
+
+    /// What holds when a thing stands open or shut; nothing where it does. None for what neither opens nor shuts.
+    ///
+    /// # Errors
+    /// The robot does not open such things, or it is locked.
+    pub(super) fn furniture_stands(
+        &self,
+        thing: Entity,
+        open: bool,
+        now: &Now,
+    ) -> Result<Option<Vec<GoalFact>>, Error> {
+        let Entity::Replica(id) = thing else { return Ok(None) };
+        let status = now.world.replicas.get(&id).and_then(|it| stands(&now.world, it));
+        let Some(status) = status else { return Ok(None) };
+        if (status == DoorStatus::Open) == open {
+            return Ok(Some(Vec::new()));
+        }
+        let name = self.world()?.name(thing).to_owned();
+        if !self.opens_furniture() {
+            return Err(RequestError::NotADoor { name }.into());
+        }
+        if status == DoorStatus::Locked {
+            return Err(RequestError::Locked { name }.into());
+        }
+        let predicate = if open { predicate::STANDS_OPEN } else { predicate::STANDS_SHUT };
+        Ok(Some(vec![GoalFact { predicate: predicate.to_owned(), args: vec![name] }]))
+    }
+
+    /// What holds when a thing has been thrown away: into any bin, and those that are shut now are shut then.
+    ///
+    /// # Errors
+    /// It cannot be carried, or the map has no bin that the robot gets into.
+    pub(super) fn thrown_away(
+        &self,
+        thing: Entity,
+        now: &Now,
+        belief: &mut Belief,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let id = self.portable(thing)?;
+        let world = self.world()?;
+        let name = world.name(thing).to_owned();
+        let mut goal = vec![GoalFact {
+            predicate: predicate::THROWN_AWAY.to_owned(),
+            args: vec![name.clone()],
+        }];
+        let mut locked = None;
+        for bin in self.bins(now)?.into_iter().filter(|bin| *bin != id) {
+            let called = world.name(Entity::Replica(bin)).to_owned();
+            match self.must_be_opened(bin, now) {
+                Ok(is_shut) => {
+                    let args = vec![called.clone()];
+                    let predicate = predicate::STANDS_SHUT.to_owned();
+                    goal.extend(is_shut.then_some(GoalFact { predicate, args }));
+                    belief.into.insert((name.clone(), called.clone()));
+                }
+                // What is drawn solid takes things on its top.
+                Err(Error::Request(RequestError::NotHollow { .. })) => {}
+                Err(error) => {
+                    locked = Some(error);
+                    continue;
+                }
+            }
+            belief.bins.insert(called);
+        }
+        match (belief.bins.is_empty(), locked) {
+            (false, _) => Ok(goal),
+            (true, Some(error)) => Err(error),
+            (true, None) => Err(RequestError::NoBin { thing: name }.into()),
+        }
+    }
+
+    /// What people throw things into, by the words of their kinds.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub(super) fn bins(&self, now: &Now) -> Result<Vec<ReplicaId>, Error> {
+        let kinds = self.mind()?.lexicon.bins();
+        let of_kind = |one: &&Replica| {
+            let kind = now.world.objects.get(&one.object).and_then(|object| object.object_type);
+            kinds.iter().any(|extension| match extension {
+                Extension::ObjectType(wanted) => Some(*wanted) == kind,
+                Extension::Object(wanted) => *wanted == one.object,
+                _ => false,
+            })
+        };
+        Ok(now.world.replicas.values().filter(of_kind).map(|one| one.id).collect())
+    }
+}
