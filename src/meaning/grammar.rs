@@ -9,6 +9,7 @@ use super::file::{self, Name, Repeat, Statement};
 use super::sense::{Meaning, Signatures, Type};
 use super::term::Sorts;
 use crate::language::Language;
+use crate::language::question::Part;
 use crate::units::{Source, nearest_name};
 
 /// Every grammar that there is: what roles mean, and each language's words, phrases and frames.
@@ -44,8 +45,22 @@ pub(crate) const NOUN: Category = 0;
 pub(crate) const VALUE: Category = 1;
 pub(crate) const NUMBER: Category = 2;
 pub(crate) const PROPERTY: Category = 3;
-pub(super) const OF_THE_MAP: [(&str, Type); 4] =
-    [("Noun", Type::Desc), ("Adj", Type::Mods), ("Num", Type::Number), ("Prop", Type::Property)];
+/// What serves for a deed that words say, by the part that it has: the first of [`PARTS`] and those after it.
+pub(crate) const SERVING: Category = 4;
+pub(crate) const PARTS: [Part; 6] =
+    [Part::With, Part::From, Part::At, Part::By, Part::To, Part::Any];
+pub(super) const OF_THE_MAP: [(&str, Type); 10] = [
+    ("Noun", Type::Desc),
+    ("Adj", Type::Mods),
+    ("Num", Type::Number),
+    ("Prop", Type::Property),
+    ("Done_with", Type::Desc),
+    ("Done_from", Type::Desc),
+    ("Done_at", Type::Desc),
+    ("Done_by", Type::Desc),
+    ("Done_to", Type::Desc),
+    ("Done_any", Type::Desc),
+];
 
 /// A language.
 #[derive(Debug, Default)]

@@ -254,7 +254,15 @@ impl Asking<'_> {
                     self.kind(*kind, x, &mut choices);
                 }
                 if choices.is_empty() {
-                    return Err(NoAnswer::Unfit("such a kind"));
+                    let is_sort = |kind: &KindId| {
+                        let extension = &self.map.lexicon.kind(*kind).extension;
+                        matches!(extension, Extension::Sort(_))
+                    };
+                    // Of a sort of things the map has no kind.
+                    if !kinds.iter().all(is_sort) {
+                        return Err(NoAnswer::Unfit("such a kind"));
+                    }
+                    choices.push(format!("replica({x}, _, _, _, _), {FALSE}"));
                 }
             }
             Head::Any => {

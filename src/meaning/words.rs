@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::features::Features;
-use super::grammar::{NOUN, NUMBER, PROPERTY, Tongue, VALUE};
+use super::grammar::{NOUN, NUMBER, PARTS, PROPERTY, SERVING, Tongue, VALUE};
 use super::sense::{Meaning as Meant, Sense, Signatures};
 use super::term::{Desc, Head, Mod, Quant, Sorts};
 use crate::language::names::hints;
-use crate::language::question::{Extension, KindId, Lexicon, Meaning, ValueId};
+use crate::language::question::{Doing, Extension, KindId, Lexicon, Meaning, ValueId};
 use crate::language::{Gender, Language, NounPhrase, Spelling, word_ranges};
 use crate::map::{Entity, World};
 use crate::units::name_key;
@@ -39,6 +39,8 @@ pub(crate) struct Edge {
 
 /// Words of the longest name that is looked for.
 const LONGEST_NAME: usize = 7;
+/// Words of the longest deed, with what it is done to.
+const LONGEST_DEED: usize = 8;
 /// Of more names alike the gender of each does not matter.
 const FEW_NAMES: usize = 8;
 
@@ -160,6 +162,7 @@ impl Sentence<'_> {
             let marks = self.tokens[from..].iter().position(Token::is_mark);
             let most = marks.unwrap_or(self.tokens.len() - from);
             self.nouns(from, most.min(LONGEST_NAME), &mut edges);
+            self.deeds(from, most, tongue, &mut edges);
             let mut key = String::new();
             let longest = tongue.longest.max(self.words.longest);
             for (n, token) in self.tokens[from..].iter().take(longest.max(1)).enumerate() {
@@ -205,6 +208,39 @@ impl Sentence<'_> {
             }
         }
         edges
+    }
+
+    /// What serves for a deed that begins at a word. What it is done to need not be on the map, but is no word of the
+    /// grammar: «порезать хлеб».
+    fn deeds(&self, from: usize, most: usize, tongue: &Tongue, edges: &mut Vec<Edge>) {
+        let keys: Vec<String> = self.tokens[from..from + most]
+            .iter()
+            .take(LONGEST_DEED)
+            .map(|t| t.key.clone())
+            .collect();
+        let Some(doing) = Doing::of(&keys) else { return };
+        let mut ends = vec![from + doing.words];
+        let object =
+            doing.words + keys[doing.words..].iter().take_while(|key| Doing::passes(key)).count();
+        if doing.takes_object && keys.get(object).is_some_and(|key| !tongue.words.contains_key(key))
+        {
+            ends.push(from + object + 1);
+        }
+        for (n, part) in PARTS.into_iter().enumerate() {
+            let Some(kinds) = self.lexicon.serving(doing, part) else { continue };
+            let desc = Desc {
+                head: Head::Kinds(kinds),
+                sorts: Sorts::THING,
+                quant: Quant::Bare,
+                plural: true,
+                mods: Vec::new(),
+            };
+            for to in &ends {
+                let category = SERVING + n as u16;
+                let (features, sense) = (Features::ALL, Sense::Desc(desc.clone()));
+                edges.push(Edge { category, from, to: *to, features, cost: 0, sense });
+            }
+        }
     }
 
     /// Names and kinds that begin at a word. A shorter one, where a longer begins too, has its price.

@@ -8,9 +8,9 @@ use std::collections::{BTreeSet, HashMap};
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::names::{english_name, hints, hints_of_type};
 use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
+use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 
-use super::purposes;
 use super::values::Values;
 
 /// A kind by its place in the lexicon.
@@ -370,28 +370,28 @@ impl Lexicon {
 
     /// Sorts above the types, with the kinds of the map that belong to each.
     fn add_sorts(&mut self) {
-        for (n, sort) in purposes::SORTS.iter().enumerate() {
+        for (n, sort) in things().sorts.iter().enumerate() {
             let extension = Extension::Sort(u16::try_from(n).unwrap_or(u16::MAX));
             let mut members: Vec<KindId> = Vec::new();
-            for word in sort.members.split('|') {
+            for word in &sort.members {
                 members.extend(self.kinds_called(word));
             }
-            let english: Vec<&str> = sort.english.split('|').collect();
+            let english = &sort.english;
             let russian: Vec<NounPhrase> = sort
                 .russian
-                .split('|')
+                .iter()
                 .map(|word| NounPhrase::parse(word, &WordHints::default()))
                 .collect();
-            let own = self.push(extension, russian[0].clone(), english[0]);
+            let own = self.push(extension, russian[0].clone(), &english[0]);
             // "thing to tell the time by" is what such things are counted by, and makes no word of it known.
             let spoken = sort.is_spoken();
             for phrase in russian.into_iter().filter(|_| spoken) {
                 if self.nouns.find(phrase.name()).is_empty() {
-                    let id = self.push(extension, phrase.clone(), english[0]);
+                    let id = self.push(extension, phrase.clone(), &english[0]);
                     self.nouns.insert(&phrase, Meaning::Kind(id));
                 }
             }
-            for word in english.into_iter().filter(|_| spoken) {
+            for word in english.iter().filter(|_| spoken) {
                 if self.nouns.find(word).is_empty() {
                     let first = self.kind(own).phrase.clone();
                     let id = self.push(extension, first, word);

@@ -37,6 +37,7 @@ mod rephrase;
 mod resolution;
 mod rest;
 mod sentences;
+mod serving;
 mod several;
 mod speech;
 mod storeys;
@@ -56,6 +57,7 @@ pub use orders::{Conditional, conditional};
 pub use outlive::{Departed, Stamp};
 pub use query::{Best, Claim, Filter, Head, Noun, Passing, Query, Rel, Restriction, Thing, Use};
 pub use resolution::{Settled, Strict};
+pub use serving::{Doing, Part};
 pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 

@@ -13,6 +13,7 @@ use super::query::{Head, Noun, Thing};
 use super::values::Property;
 use crate::units::ReplicaId;
 use crate::words::Language;
+use crate::words::things::things;
 
 /// Sorts of more kinds are no use: all that can be carried serves for nothing in particular.
 const MOST_KINDS: usize = 24;
@@ -74,7 +75,7 @@ impl Asker<'_> {
     /// The kinds of each use that these have, the narrowest use first.
     fn of_same_use(&self, kinds: &[KindId]) -> Vec<Vec<KindId>> {
         let lexicon = &self.mind.lexicon;
-        let mut uses: Vec<Vec<KindId>> = (0..purposes::SORTS.len())
+        let mut uses: Vec<Vec<KindId>> = (0..things().sorts.len())
             .filter_map(|n| u16::try_from(n).ok())
             .filter(|sort| matches!(purposes::role(*sort), Role::Source | Role::Instrument))
             .map(|sort| lexicon.kinds_of_sort(sort))

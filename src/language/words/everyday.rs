@@ -12,100 +12,15 @@ use super::grammar::{Case, Number, WordHints};
 use super::lexicon;
 use super::list::Language;
 use super::phrase::NounPhrase;
+use super::things::things;
 use crate::units::name_key;
 
-/// Names of one sort of thing, both languages; any of them may stand for any other.
-const SAME: &[&str] = &[
-    "телевизор|телик|телек|тв|tv|television|telly|tv set",
-    "компьютер|комп|computer|pc|desktop|desktop computer|системный блок",
-    "ноутбук|ноут|лэптоп|laptop|notebook computer",
-    "холодильник|холодос|fridge|refrigerator",
-    "микроволновая печь|микроволновка|свч|microwave|microwave oven",
-    "стиральная машина|стиралка|стиральная машинка|washing machine|washer",
-    "посудомоечная машина|посудомойка|dishwasher",
-    "мусорное ведро|мусорка|мусорная корзина|урна|помойка|мусорный бак|корзина для мусора|bin|trash can|trash bin|garbage can|garbage bin|rubbish bin|waste basket|wastebasket|dustbin|trash|garbage|waste bin|trashcan",
-    "мешок для мусора|мусорный мешок|мусорный пакет|пакет для мусора|пакет с мусором|мешок с мусором|garbage bag|trash bag|rubbish bag|bin bag|bin liner",
-    "распылитель|пульверизатор|опрыскиватель|спрей|spray bottle|sprayer bottle|spray|sprayer|cleaning spray|бутылка с распылителем",
-    "будильник|alarm clock|alarm",
-    "жидкое мыло|флакон мыла|флакон с мылом|дозатор мыла|soap bottle|liquid soap|hand soap|soap dispenser|дозатор|дозатор для мыла|бутылка мыла|бутылка с мылом|бутылочка мыла|бутылка жидкого мыла|мыльница",
-    "туалет|санузел|уборная|wc|toilet|lavatory|restroom|washroom|loo|bathroom",
-    "унитаз|toilet|loo|wc|туалет",
-    "ванная|ванная комната|санузел|bathroom|washroom",
-    "раковина|умывальник|мойка|sink|washbasin|basin",
-    "лифт|lift|elevator",
-    "лестница|stairs|staircase|stairway|stairwell|steps",
-    "лаборатория|лаба|lab|laboratory",
-    "диван|софа|тахта|couch|sofa|settee",
-    "тумбочка|прикроватная тумбочка|nightstand|bedside table|night table|night stand|bedside cabinet",
-    "шкаф|гардероб|платяной шкаф|wardrobe|closet",
-    "шкафчик|тумба|cupboard|cabinet",
-    "чашка|кружка|mug|cup|coffee cup|coffee mug|tea cup|teacup|кофейная чашка|чайная чашка",
-    "журнальный стол|журнальный столик|кофейный столик|приставной столик|coffee table|side table|end table",
-    "письменный стол|рабочий стол|desk|writing desk",
-    "входная дверь|парадная дверь|парадная|entrance door|front door|main door|entry door",
-    "телефон|мобильник|мобильный телефон|сотовый телефон|мобильный|смартфон|сотовый|phone|cellphone|cell phone|mobile phone|smartphone|telephone|mobile",
-    "картина|картинка|фотография|фото|снимок|painting|picture|photo|photograph|плакат|постер|poster|wall art|artwork",
-    "растение|цветок|комнатное растение|plant|houseplant|house plant|flower|potted plant|pot plant|plant pot|горшок с цветком|комнатный цветок|цветок в горшке|растение в горшке",
-    "кран|tap|faucet",
-    "плита|печка|stove|cooker|stove top",
-    "солонка|соль|salt shaker|salt",
-    "перечница|перец|pepper shaker|pepper|pepper mill|pepper grinder|pepper pot|мельница для перца",
-    "коридор|прихожая|corridor|hallway|passageway",
-    "пульт|пульт от телевизора|remote|remote control",
-    "лекарство|таблетки|medicine|pills|meds|drugs",
-    "кресло|armchair|easy chair",
-    "торшер|floor lamp|standing lamp",
-    "настольная лампа|desk lamp|table lamp",
-    "картофель|картошка|картофелина|potato",
-    "зеркало|mirror|looking glass",
-    "кровать|постель|койка|bed",
-    "ковёр|коврик|палас|rug|carpet|mat",
-    "комод|dresser|chest of drawers",
-    "стеллаж|книжный шкаф|bookshelf|bookcase|shelving unit",
-    "штора|занавеска|шторы|curtain|curtains|drapes",
-    "тумба под телевизор|тумбочка под телевизор|тумба под тв|тв тумба|телевизионная тумба|тумба для телевизора|tv stand|tv unit|tv cabinet|media console",
-    "столешница|counter|countertop|worktop|рабочая поверхность|кухонная столешница|kitchen counter|kitchen worktop|kitchen countertop",
-    "верстак|workbench",
-    "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",
-    "батарейка|батарея|аккумулятор|battery",
-    "табурет|табуретка|stool",
-    "губка|губка для посуды|губка для мытья посуды|sponge|dish sponge",
-    "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet|racquet",
-    "нож|столовый нож|knife|butter knife|table knife|нож для масла|кухонный нож|kitchen knife",
-    "офисное кресло|офисный стул|рабочее кресло|office chair|desk chair|swivel chair",
-    "кредитная карта|кредитная карточка|кредитка|банковская карта|credit card|bank card",
-    "ключи|связка ключей|брелок|keys|keychain|key chain|key ring|bunch of keys",
-    "часы|будильник|clock|alarm clock",
-    "сковорода|сковородка|pan|frying pan|skillet",
-    "кастрюля|кастрюлька|pot|saucepan|cooking pot",
-    "чайник|kettle|tea kettle|teapot",
-    "хлеб|батон|буханка|буханка хлеба|bread|loaf|loaf of bread|bread loaf",
-    "салат|латук|салат латук|lettuce|salad|head of lettuce",
-    "помидор|томат|tomato",
-    "бутылка вина|вино|винная бутылка|wine bottle|wine|bottle of wine",
-    "наручные часы|часы|watch|wristwatch|wrist watch",
-    "подушка|pillow|cushion|throw pillow",
-    "стул|обеденный стул|кухонный стул|chair|dining chair|kitchen chair",
-    "ваза|ваза для цветов|vase|flower vase",
-    "статуэтка|статуя|фигурка|скульптура|statue|figurine|statuette|sculpture",
-    "коробка|картонная коробка|box|cardboard box|carton",
-    "салфетки|коробка с салфетками|коробка салфеток|бумажные салфетки|tissue box|tissues|box of tissues|kleenex",
-    "бумажное полотенце|бумажные полотенца|рулон бумажных полотенец|paper towel|paper towel roll|kitchen roll|roll of paper towels",
-    "туалетная бумага|рулон туалетной бумаги|toilet paper|toilet roll|roll of toilet paper",
-    "плюшевый мишка|плюшевый медведь|мишка|медвежонок|медведь|teddy bear|teddy|stuffed bear",
-    "ботинки|сапоги|обувь|туфли|boots|shoes",
-    "гантель|dumbbell|hand weight",
-    "лежанка|лежанка для собаки|собачья лежанка|подстилка|dog bed|pet bed",
-    "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker|espresso machine|coffee pot",
-];
-
-/// The sorts of [`SAME`], and those words of the word list that have one and the same English: «скамья», «скамейка»,
+/// The words for one sort of thing each, and those words of the word list that have one and the same English: «скамья», «скамейка»,
 /// "bench".
 fn sorts() -> &'static [Vec<String>] {
     static SORTS: OnceLock<Vec<Vec<String>>> = OnceLock::new();
     SORTS.get_or_init(|| {
-        let mut sorts: Vec<Vec<String>> =
-            SAME.iter().map(|words| words.split('|').map(str::to_owned).collect()).collect();
+        let mut sorts = things().same.clone();
         let mut of_english: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for (word, entry) in lexicon::all().filter(|(_, entry)| !entry.animate) {
             if let [english] = &entry.english[..] {

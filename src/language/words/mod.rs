@@ -30,6 +30,7 @@ mod number;
 mod parse;
 mod phrase;
 pub mod russian;
+pub(crate) mod things;
 
 pub(crate) use dictionary::ordering_verb;
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};

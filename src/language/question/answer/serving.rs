@@ -12,6 +12,7 @@ use crate::question::purposes::{self, Role};
 use crate::question::query::{Asked, Head, Noun, Query, Thing};
 use crate::question::uses;
 use crate::question::{Doubt, Said};
+use crate::words::things::things;
 use crate::words::{Case, NounPhrase, Number, WordHints, alternatives, english, enumerate};
 
 /// So many things are told each with its own place.
@@ -139,10 +140,9 @@ impl Knowledge<'_> {
             none if none.is_empty() => self.pick("на карте", "on the map").to_owned(),
             place => place,
         };
-        let names = purposes::SORTS.get(usize::from(sort));
-        let first = |words: &'static str| words.split('|').next().unwrap_or_default();
-        let russian = names.map_or("", |sort| first(sort.russian));
-        let english = names.map_or("", |sort| first(sort.english));
+        let names = things().sorts.get(usize::from(sort));
+        let russian = names.map_or("", |sort| &*sort.russian[0]);
+        let english = names.map_or("", |sort| &*sort.english[0]);
         let plain = of.filters.is_empty() && of.head.named.is_empty();
         let text = match (self.is_russian(), plain) {
             (true, true) if let Some(rest) = russian.strip_prefix("вещь ") => {
