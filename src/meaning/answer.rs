@@ -274,14 +274,12 @@ impl Asking<'_> {
             }
             return Ok(Found::Truth(false));
         }
-        let all = self.all(desc, true)?;
         let so = self.all_that(desc, claims, true)?;
-        match desc.quant {
-            Quant::None => Ok(Found::Truth(so.is_empty())),
-            Quant::Some => Ok(Found::Truth(!so.is_empty())),
-            _ if all.is_empty() => Err(NoAnswer::NoneSuch),
-            _ => Ok(Found::Truth(so == all)),
+        if let Quant::None | Quant::Some = desc.quant {
+            return Ok(Found::Truth(so.is_empty() == (desc.quant == Quant::None)));
         }
+        let all = self.all(desc, true)?;
+        if all.is_empty() { Err(NoAnswer::NoneSuch) } else { Ok(Found::Truth(so == all)) }
     }
 
     /// Whether the map tells of all that fits but for its values whether it has such: else none of them is no answer.

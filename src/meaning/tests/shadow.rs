@@ -177,6 +177,7 @@ fn agree(old: &Old, new: &Answer) -> bool {
         }
         // That there is such a one the old way may tell by naming it.
         Found::Truth(true) if old.said == Said::Found => true,
+        Found::Truth(false) if old.said == Said::Nothing => true,
         Found::Truth(yes) => old.said == if *yes { Said::Yes } else { Said::No },
         Found::Number(number) => {
             old.number.map_or(old.said == Said::Nothing && *number == 0, |n| {
@@ -273,7 +274,7 @@ fn golden_questions_come_to_the_same() {
 }
 
 /// Golden questions that the new way answers as the old one does; the number may only rise.
-const LEAST_SAME: usize = 728;
+const LEAST_SAME: usize = 809;
 
 /// How an answer fares against what the data say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
