@@ -1,9 +1,11 @@
 //! Values of properties as people say them: «чёрный», "wooden", «включена» – one value under all its words.
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 use crate::map::{DoorStatus, World};
 use crate::units::name_key;
+use crate::words::things::things;
 use crate::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
 
 /// What a property says of a thing.
@@ -28,184 +30,61 @@ pub enum Property {
 }
 
 impl Property {
+    /// By the name that `things.txt` gives it.
+    fn called(name: &str) -> Option<Self> {
+        Some(match name {
+            "colour" => Self::Colour,
+            "material" => Self::Material,
+            "state" => Self::State,
+            "surface" => Self::Surface,
+            "shape" => Self::Shape,
+            "orientation" => Self::Orientation,
+            "weight" => Self::Weight,
+            "price" => Self::Price,
+            "age" => Self::Age,
+            "temperature" => Self::Temperature,
+            "owner" => Self::Owner,
+            "brand" => Self::Brand,
+            "kind" => Self::Kind,
+            _ => return None,
+        })
+    }
+
     /// By the name that a map gives it, in either language.
     #[must_use]
     pub fn of(name: &str) -> Self {
+        static KNOWN: OnceLock<HashMap<String, Property>> = OnceLock::new();
+        let known = KNOWN.get_or_init(|| {
+            let mut known = HashMap::new();
+            for (property, name) in property_names() {
+                known.entry(name_key(name)).or_insert(property);
+            }
+            known
+        });
         let key = name_key(name);
-        let known = NAMES.iter().find(|(_, names)| names.split('|').any(|n| name_key(n) == key));
-        known.map_or(Self::Other(key), |(property, _)| property.clone())
+        known.get(&key).cloned().unwrap_or(Self::Other(key))
     }
 
     /// «цвет», "colour"
     #[must_use]
     pub fn noun(&self, language: Language) -> String {
-        let names = NAMES.iter().find(|(p, _)| p == self).map(|(_, names)| *names);
-        let Some(names) = names else {
-            let Self::Other(name) = self else { return String::new() };
-            let known =
-                OTHERS.iter().find(|(russian, english)| [*russian, *english].contains(&&**name));
-            let known = known.map(|(russian, english)| language.pick(*russian, *english));
-            return known.unwrap_or(name).to_owned();
-        };
-        let wanted = |name: &&str| Language::of(name) == language;
-        names.split('|').find(wanted).unwrap_or_default().to_owned()
+        if let Self::Other(name) = self {
+            let own = things().called.iter().find(|(ru, en)| ru == name || en == name);
+            return own.map_or(name, |(ru, en)| language.pick(ru, en)).clone();
+        }
+        let mut own = property_names().filter(|(property, _)| property == self);
+        let name = own.find(|(_, name)| Language::of(name) == language);
+        name.map(|(_, name)| name.to_owned()).unwrap_or_default()
     }
 }
 
-const NAMES: &[(Property, &str)] = &[
-    (
-        Property::Colour,
-        "цвет|colour|color|цвета|цветом|по цвету|цвете|colors|colours|окраска|расцветка",
-    ),
-    (Property::Material, "материал|material|материала|материалом|по материалу|материалы|materials"),
-    (Property::State, "состояние|state|status|состоянии|состояния|condition|статус|положение"),
-    (Property::Surface, "поверхность|surface|texture|фактура"),
-    (Property::Shape, "форма|shape|формы|форме"),
-    (Property::Orientation, "ориентация|orientation|ориентации"),
-    (
-        Property::Weight,
-        "вес|weight|масса|mass|веса|сколько весит|сколько весят|насколько тяжёлый|насколько тяжёлая|насколько тяжёлое|how heavy|weigh|weighs",
-    ),
-    (
-        Property::Price,
-        "цена|price|стоимость|cost|costs|цену|цены|стоимости|сколько стоит|по чём|почём|price tag",
-    ),
-    (Property::Age, "возраст|age|возраста|сколько лет|how old"),
-    (
-        Property::Temperature,
-        "температура|temperature|температуры|how hot|how cold|how warm|насколько горячий|насколько тёплый",
-    ),
-    (Property::Owner, "владелец|owner|хозяин|владельца"),
-    (Property::Kind, "тип|type|типа|тип у|разновидность"),
-    (Property::Brand, "марка|brand|фирма|марки|бренд"),
-];
-
-/// Names of properties that nobody asks for by a word of their own, as imports and maps give them.
-const OTHERS: &[(&str, &str)] = &[
-    ("можно взять", "can be taken"),
-    ("можно подвинуть", "can be moved"),
-    ("открывается", "can be opened"),
-    ("вмещает", "holds things"),
-    ("можно сесть", "can be sat on"),
-    ("можно лечь", "can be lain on"),
-    ("есть выключатель", "has a switch"),
-    ("есть вилка", "has a plug"),
-    ("можно читать", "can be read"),
-    ("съедобно", "can be eaten"),
-    ("можно пить", "can be drunk"),
-    ("чистота", "cleanliness"),
-    ("питание", "power"),
-    ("хранится на", "kept on"),
-    ("ключ от", "key of"),
-    ("ключ у", "key with"),
-];
-
-/// Values with the property they belong to: the Russian adjective (masculine), other Russian forms, English words.
-const VALUES: &[(Property, &str, &str, &str)] = &[
-    (Property::Colour, "чёрный", "чёрно", "black"),
-    (Property::Colour, "белый", "бело", "white"),
-    (Property::Colour, "красный", "", "red"),
-    (Property::Colour, "зелёный", "", "green"),
-    (Property::Colour, "синий", "", "blue"),
-    (Property::Colour, "голубой", "", "light blue"),
-    (Property::Colour, "жёлтый", "", "yellow"),
-    (Property::Colour, "серый", "", "grey|gray"),
-    (Property::Colour, "коричневый", "", "brown"),
-    (Property::Colour, "оранжевый", "", "orange"),
-    (Property::Colour, "розовый", "", "pink"),
-    (Property::Colour, "фиолетовый", "", "purple|violet"),
-    (Property::Colour, "бежевый", "", "beige"),
-    (Property::Colour, "золотой", "золотистый", "golden|gold"),
-    (Property::Colour, "серебряный", "серебристый|серебристая|серебристое", "silver"),
-    (Property::Colour, "прозрачный", "", "transparent|clear"),
-    (Property::Colour, "бордовый", "", "maroon"),
-    (Property::Material, "деревянный", "дерево|дерева|из дерева", "wooden|wood|made of wood"),
-    (Property::Material, "стеклянный", "стекло|стекла|из стекла", "glass|made of glass"),
-    (
-        Property::Material,
-        "металлический",
-        "металл|металла|из металла",
-        "metal|metallic|made of metal",
-    ),
-    (Property::Material, "стальной", "сталь|стали|из стали", "steel|made of steel"),
-    (Property::Material, "кожаный", "кожа|кожи|из кожи", "leather|made of leather"),
-    (
-        Property::Material,
-        "пластиковый",
-        "пластик|пластика|из пластика|пластмассовый|пластмассовая|пластмасса",
-        "plastic|made of plastic",
-    ),
-    (Property::Material, "тканевый", "ткань|ткани|из ткани", "fabric|cloth|textile"),
-    (Property::Material, "каменный", "камень|камня|из камня", "stone"),
-    (
-        Property::Material,
-        "керамический",
-        "керамика|керамики|из керамики|фарфор",
-        "ceramic|ceramics|porcelain",
-    ),
-    (Property::Material, "бумажный", "бумага|бумаги|из бумаги", "paper"),
-    (Property::Material, "резиновый", "резина|резины", "rubber"),
-    (Property::Material, "картонный", "картон|картона|из картона", "cardboard"),
-    (
-        Property::State,
-        "включённый",
-        "включён|включена|включено|включены|горит|горят|работает|работают|светит",
-        "switched on|turned on|lit|powered on",
-    ),
-    (
-        Property::State,
-        "выключенный",
-        "выключен|выключена|выключено|выключены|отключён|отключена|отключено|погашен|погашена",
-        "switched off|turned off|powered off",
-    ),
-    (
-        Property::State,
-        "открытый",
-        "открыт|открыта|открыто|открыты|распахнут|распахнута|распахнуты|отворена|приоткрыта|приоткрыт",
-        "open|opened|ajar",
-    ),
-    (
-        Property::State,
-        "закрытый",
-        "закрыт|закрыта|закрыто|закрыты|затворена|прикрыта",
-        "closed|shut",
-    ),
-    (
-        Property::State,
-        "запертый",
-        "заперт|заперта|заперто|заперты|закрыта на ключ|закрыт на ключ|закрыты на ключ|закрыта на замок",
-        "locked",
-    ),
-    (
-        Property::State,
-        "отпертый",
-        "отперт|отперта|отперты|не заперта|не заперт|не заперты",
-        "unlocked",
-    ),
-    (Property::State, "грязный", "грязен|грязна|грязно|грязны", "dirty|unclean|soiled"),
-    (Property::State, "чистый", "чист|чиста|чисто|чисты", "clean"),
-    (Property::State, "сломанный", "сломан|сломана|сломано|сломаны", "broken"),
-    (Property::State, "полный", "полон|полна|полно|полны", "full"),
-    (Property::Weight, "тяжёлый", "тяжёл|тяжела|тяжело|тяжелы", "heavy"),
-    (
-        Property::State,
-        "пустой",
-        "пуст|пуста|пусто|пусты|свободен|свободна|свободно|свободны|свободный|свободная|свободное|свободные|свободного|свободную|свободных|свободном",
-        "empty|unoccupied|vacant|not occupied",
-    ),
-    (Property::State, "занятый", "занят|занята|занято|заняты", "occupied|busy|in use"),
-    (Property::Surface, "мягкий", "мягок|мягка|мягко|мягки", "soft"),
-    (Property::Surface, "твёрдый", "твёрд|тверда|твёрдо", "hard|rigid"),
-    (Property::Surface, "хрупкий", "хрупок|хрупка|хрупко", "fragile|breakable"),
-    (Property::Surface, "гладкий", "", "smooth"),
-    (Property::Surface, "матовый", "", "matte|matt"),
-    (Property::Surface, "глянцевый", "", "glossy|shiny"),
-    (Property::Shape, "круглый", "круг", "round|circular"),
-    (Property::Shape, "квадратный", "квадрат", "square"),
-    (Property::Shape, "прямоугольный", "прямоугольник", "rectangular|rectangle"),
-    (Property::Orientation, "горизонтальный", "горизонтально", "horizontal"),
-    (Property::Orientation, "вертикальный", "вертикально", "vertical"),
-];
+/// Every name of a property that the program knows.
+fn property_names() -> impl Iterator<Item = (Property, &'static str)> {
+    things().properties.iter().flat_map(|(called, names)| {
+        let property = Property::called(called);
+        names.iter().filter_map(move |name| Some((property.clone()?, name.as_str())))
+    })
+}
 
 /// A value under all its words.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -247,29 +126,30 @@ impl Values {
     #[must_use]
     pub fn of(world: &World) -> Self {
         let mut values = Self::default();
-        for (property, names) in NAMES {
-            for name in names.split('|') {
-                let key = name_key(name);
-                values.longest_property = values.longest_property.max(key.split(' ').count());
-                values.properties.insert(key, property.clone());
-            }
+        for (property, name) in property_names() {
+            let key = name_key(name);
+            values.longest_property = values.longest_property.max(key.split(' ').count());
+            values.properties.insert(key, property);
         }
-        for (property, adjective, others, english) in VALUES {
+        for quality in &things().values {
+            // A test reads every line.
+            let Some(property) = Property::called(&quality.property) else { continue };
+            let (others, english) = (&quality.others, &quality.english);
             let noun = match property {
-                Property::Material => others.split('|').next().unwrap_or_default(),
-                _ => "",
+                Property::Material => others.first().cloned().unwrap_or_default(),
+                _ => String::new(),
             };
             let entry = ValueEntry {
-                property: property.clone(),
-                russian: (*adjective).to_owned(),
-                noun: noun.to_owned(),
-                english: english.split('|').next().unwrap_or_default().to_owned(),
+                property,
+                russian: quality.adjective.clone(),
+                noun,
+                english: english.first().cloned().unwrap_or_default(),
             };
             let id = values.add(entry);
-            for form in adjective_forms(adjective) {
+            for form in adjective_forms(&quality.adjective) {
                 values.name(&form, id);
             }
-            for word in others.split('|').chain(english.split('|')).filter(|w| !w.is_empty()) {
+            for word in others.iter().chain(english) {
                 values.name(word, id);
             }
         }
@@ -469,4 +349,17 @@ fn adjective_forms(adjective: &str) -> Vec<String> {
     forms.sort_unstable();
     forms.dedup();
     forms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_property_of_the_file_is_one_that_the_program_knows() {
+        for name in things().properties.iter().map(|(name, _)| name) {
+            assert!(Property::called(name).is_some(), "{name}");
+        }
+        assert_eq!(Property::of("Цвет").noun(Language::English), "colour");
+    }
 }

@@ -60,6 +60,23 @@ pub(crate) struct Things {
     /// Forms that stand for one another, the first for all.
     pub(crate) forms: Vec<Vec<String>>,
     pub(crate) deeds: Vec<Deed>,
+    /// Names of properties: what the program calls one, and the words for it.
+    pub(crate) properties: Vec<(String, Vec<String>)>,
+    /// Names of properties that nobody asks for by a word of their own, as imports and maps give them, in both languages.
+    pub(crate) called: Vec<(String, String)>,
+    pub(crate) values: Vec<Quality>,
+}
+
+/// A value with the property that it belongs to.
+#[derive(Debug)]
+pub(crate) struct Quality {
+    /// As [`Things::properties`] call it.
+    pub(crate) property: String,
+    /// The Russian adjective in the masculine.
+    pub(crate) adjective: String,
+    /// Other Russian forms; of a material its noun first.
+    pub(crate) others: Vec<String>,
+    pub(crate) english: Vec<String>,
 }
 
 /// What the file says.
@@ -75,8 +92,8 @@ pub(crate) fn things() -> &'static Things {
     })
 }
 
-/// Lines with those that go on with them.
-fn entries(text: &str) -> Vec<String> {
+/// Lines of such a file with those that go on with them.
+pub(crate) fn entries(text: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for line in text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
         match found.last_mut() {
@@ -90,11 +107,13 @@ fn entries(text: &str) -> Vec<String> {
     found
 }
 
+/// What stands between «|».
+pub(crate) fn words(text: &str) -> Vec<String> {
+    text.split('|').map(|word| word.trim().to_owned()).filter(|w| !w.is_empty()).collect()
+}
+
 impl Things {
     fn add(&mut self, entry: &str) -> Option<()> {
-        let words = |text: &str| -> Vec<String> {
-            text.split('|').map(|word| word.trim().to_owned()).filter(|w| !w.is_empty()).collect()
-        };
         let (what, rest) = entry.split_once(' ')?;
         match what {
             "same" => self.same.push(words(rest)),
@@ -120,6 +139,21 @@ impl Things {
                 };
                 self.sorts.push(Sort { russian, english, role, members });
             }
+            "property" => {
+                let (name, said) = rest.split_once(" : ")?;
+                self.properties.push((name.to_owned(), words(said)));
+            }
+            "called" => {
+                let (russian, english) = rest.split_once(" : ")?;
+                self.called.push((russian.to_owned(), english.to_owned()));
+            }
+            "value" => {
+                let parts: Vec<&str> = rest.split(" : ").collect();
+                let [property, adjective, others, english] = parts[..] else { return None };
+                let (others, english) = (words(others), words(english));
+                let (property, adjective) = (property.to_owned(), adjective.to_owned());
+                self.values.push(Quality { property, adjective, others, english });
+            }
             _ => return None,
         }
         Some(())
@@ -137,6 +171,11 @@ mod tests {
         }
         for sort in &things().sorts {
             assert!(!sort.russian.is_empty() && !sort.english.is_empty(), "{sort:?}");
+        }
+        let Things { properties, values, .. } = things();
+        for value in values {
+            assert!(properties.iter().any(|(name, _)| *name == value.property), "{value:?}");
+            assert!(!value.english.is_empty(), "{value:?}");
         }
         for deed in &things().deeds {
             assert!(!deed.said.is_empty() && !deed.sorts.is_empty(), "{deed:?}");
