@@ -11,6 +11,7 @@ use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
 use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 
+use super::purposes;
 use super::values::Values;
 
 /// A kind by its place in the lexicon.
