@@ -10,7 +10,7 @@ use crate::engine::{ImportFormat, Sighted, When};
 use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, Language, Timestamp};
 
 use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
@@ -107,6 +107,11 @@ impl Lang {
             _ => Self::Ru,
         }
     }
+}
+
+/// A moment.
+pub(super) fn moment(text: &str) -> Result<Timestamp, String> {
+    text.parse().map_err(|_no_time| "a time is written 2026-11-21T09:30:00.000Z".to_owned())
 }
 
 /// A point of the history.

@@ -1,5 +1,6 @@
 //! One function a command.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
@@ -244,7 +245,16 @@ pub(super) fn relations(
     if rows.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }
-    say(&text::facts(&rows))
+    say(&text::facts(&match common.lang {
+        Lang::Ru => rows,
+        Lang::En => {
+            let named = relations.counts().into_iter().filter(|row| !row.name_en.is_empty());
+            let names: BTreeMap<String, String> =
+                named.map(|row| (row.name, row.name_en)).collect();
+            let called = |relation: String| names.get(&relation).cloned().unwrap_or(relation);
+            rows.into_iter().map(|(relation, values)| (called(relation), values)).collect()
+        }
+    }))
 }
 
 pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure> {

@@ -7,7 +7,7 @@ use crate::engine::{Believed, Engine, Source, Station, Timestamp, change_now};
 use crate::store::Seen;
 use crate::units::{Deg, Frame};
 
-use super::args::{Common, Lang};
+use super::args::{Common, Lang, moment};
 use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
@@ -19,7 +19,7 @@ pub(super) enum ObserveCommand {
     Find {
         name: String,
         /// At this moment, by what was known then
-        #[arg(long, value_name = "MOMENT")]
+        #[arg(long, value_name = "MOMENT", value_parser = moment)]
         at: Option<Timestamp>,
         /// All that is known of where it stood
         #[arg(long)]
@@ -73,7 +73,7 @@ pub(super) struct ObserveArgs {
     #[arg(long, default_value_t = 0.9, value_name = "0..1", value_parser = share)]
     sure: f64,
     /// When; now when left out
-    #[arg(long, value_name = "MOMENT")]
+    #[arg(long, value_name = "MOMENT", value_parser = moment)]
     when: Option<Timestamp>,
 }
 

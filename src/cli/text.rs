@@ -36,15 +36,25 @@ impl Lang {
 /// How often each relation holds.
 pub(super) fn counts(relations: &Relations, lang: Lang) -> String {
     let mut table = table();
-    table.set_header([
-        lang.pick("Отношение", "Russian name"),
-        "English name",
-        lang.pick("Число", "Count"),
-    ]);
+    let counts = match lang {
+        Lang::Ru => {
+            table.set_header(["Отношение", "English name", "Число"]);
+            2
+        }
+        Lang::En => {
+            table.set_header(["Relation", "Count"]);
+            1
+        }
+    };
     for row in relations.counts() {
-        table.add_row([row.name, row.name_en, row.count.to_string()]);
+        let count = row.count.to_string();
+        match lang {
+            Lang::Ru => table.add_row([row.name, row.name_en, count]),
+            Lang::En if row.name_en.is_empty() => table.add_row([row.name, count]),
+            Lang::En => table.add_row([row.name_en, count]),
+        };
     }
-    if let Some(column) = table.column_mut(2) {
+    if let Some(column) = table.column_mut(counts) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.to_string()

@@ -25,7 +25,7 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::units::{Bilingual, Cm, Source, nearest_name};
+use crate::units::{Bilingual, Cm, Language, Source, nearest_name};
 
 use super::arms;
 use super::fault::{CorridorFault, CorridorFileError};
@@ -543,9 +543,12 @@ impl Reader {
         if found.is_none() {
             let all: Vec<&str> =
                 words.iter().flat_map(|(spellings, _)| *spellings).copied().collect();
-            let all = all.join(", ");
-            let expected =
-                Bilingual::new(format!("одно из слов: {all}"), format!("one of the words: {all}"));
+            let expected = Bilingual::both(|language| {
+                let said = |word: &&&str| language == Language::Russian || word.is_ascii();
+                let all: Vec<&str> = all.iter().filter(said).copied().collect();
+                let of_these = language.pick("одно из слов", "one of the words");
+                format!("{of_these}: {}", all.join(", "))
+            });
             self.wrong(field, expected, value);
         }
         found

@@ -4,6 +4,7 @@ mod differences;
 mod drives;
 mod faults;
 mod language_server;
+mod languages;
 mod limits;
 mod locate;
 mod map;
