@@ -190,6 +190,18 @@ fn what_is_hardly_known_is_compared_as_fast() {
     assert!(before.elapsed().as_secs() < 20, "{:?}", before.elapsed());
 }
 
+/// A picture of grey, colour or clear pixels, packed as a PNG.
+fn packed(colour: png::ColorType, pixels: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let rows = pixels.len() / (16 * colour.samples());
+    let mut encoder = png::Encoder::new(&mut bytes, 16, rows as u32);
+    encoder.set_color(colour);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(pixels).expect("all rows");
+    writer.finish().expect("an end");
+    bytes
+}
+
 fn odd_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         5 => -500.0..500.0_f64,
@@ -226,6 +238,30 @@ proptest! {
         scene.observe(&b, Odometry::Unknown);
         let joined = a.united(&b, &equality);
         prop_assert!(joined.len() <= a.len() + b.len());
+    }
+
+    /// A PNG with bytes changed or cut off is a picture or a fault; what is drawn in it has finite contours.
+    #[test]
+    fn any_picture_is_read_or_refused(
+        colour in prop::sample::select(vec![
+            png::ColorType::Grayscale, png::ColorType::GrayscaleAlpha, png::ColorType::Rgb, png::ColorType::Rgba,
+        ]),
+        pixels in prop::collection::vec(prop_oneof![Just(0_u8), Just(255), any::<u8>()], 16 * 16 * 4),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+        left in 0.0..1.5_f64,
+    ) {
+        let whole = packed(colour, &pixels[..256 * colour.samples()]);
+        prop_assert_eq!(Picture::from_png(&whole).expect("a picture").size(), (16, 16));
+        let mut bytes = whole;
+        for (place, value) in changes {
+            let at = place.index(bytes.len());
+            bytes[at] = value;
+        }
+        bytes.truncate((left.min(1.0) * bytes.len() as f64) as usize);
+        if let Ok(picture) = Picture::from_png(&bytes) {
+            let segments = picture.contours(picture.level()).concat();
+            prop_assert!(segments.iter().all(|s| s.length().is_finite()));
+        }
     }
 
     /// Any poses and ranges of a log make a survey that ends.
