@@ -4,6 +4,7 @@
 //! from a tuple has that tuple's word there. Tuples that differ in it never meet: they are dealt out to the threads by
 //! it, no thread waits for another between rounds, and none looks at what another has found.
 
+use std::cell::Ref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use datafrog::Iteration;
@@ -141,7 +142,7 @@ impl Apart<'_> {
             for ((clause, plan), sources) in self.rounds.iter().zip(sources) {
                 let recent = rows.recent(0);
                 let sources: Vec<Source<'_>> =
-                    sources.iter().map(|plain| source(plain.as_ref(), &*recent)).collect();
+                    sources.iter().map(|plain| source(plain.as_ref(), &recent)).collect();
                 let mut registers = vec![0; clause.variables.len()];
                 let mut sink = rows.sink();
                 let head = Head::new(self.program, clause, usize::MAX, &mut *sink, watch);
@@ -165,6 +166,7 @@ impl Apart<'_> {
 }
 
 /// What a thread reads: what all share, or the new rows of its own part.
-fn source<'a>(plain: Option<&Plain<'a>>, recent: &'a dyn RowSet) -> Source<'a> {
-    plain.map_or_else(|| Source::Rows(vec![recent]), Plain::source)
+fn source<'a>(plain: Option<&Plain<'a>>, recent: &'a [Ref<'_, dyn RowSet>]) -> Source<'a> {
+    let rows = || Source::Rows(recent.iter().map(|rows| &**rows).collect());
+    plain.map_or_else(rows, Plain::source)
 }

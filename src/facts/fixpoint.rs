@@ -224,11 +224,11 @@ fn parts<'a>(
         let Request::Growing { relation, version, .. } = request else { return Vec::new() };
         let rows = &growing[relation];
         match version {
-            Version::Recent => vec![rows.recent(*order)],
+            Version::Recent => rows.recent(*order),
             Version::Stable => rows.stable(*order),
             Version::All | Version::Finished => {
                 let mut all = rows.stable(*order);
-                all.push(rows.recent(*order));
+                all.extend(rows.recent(*order));
                 all
             }
         }

@@ -236,7 +236,7 @@ pub(super) trait Growing {
     fn follow(&mut self);
     /// The number of the order that starts with these columns.
     fn order(&mut self, iteration: &mut Iteration, columns: &[usize], version: Version) -> usize;
-    fn recent(&self, order: usize) -> Ref<'_, dyn RowSet>;
+    fn recent(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>>;
     fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>>;
     fn len(&self) -> usize;
     /// Memory held, what was pushed since included.
@@ -268,6 +268,8 @@ pub(super) trait Growing {
 struct GrowingRows<const N: usize> {
     columns: usize,
     rows: Variable<Row<N>>,
+    /// Rows of the last round that stay as the threads found them.
+    beside: RefCell<Vec<Relation<Row<N>>>>,
     orders: Vec<(Vec<usize>, Variable<Row<N>>)>,
     pushed: RefCell<Pushed<N>>,
     /// Some rule reads rows from before the last round.
@@ -278,10 +280,15 @@ struct GrowingRows<const N: usize> {
     try_seen_at: usize,
 }
 
+/// Fewer rows are copied.
+const MANY: usize = 1 << 10;
+
 /// Rows since the last flush.
 #[derive(Debug)]
 struct Pushed<const N: usize> {
     rows: Vec<Row<N>>,
+    /// What threads have found and nothing has moved.
+    beside: Vec<Vec<Row<N>>>,
     /// With it, `rows` are new and distinct.
     seen: Option<Seen>,
     /// Rows beyond the range of `seen`.
@@ -304,12 +311,13 @@ impl<const N: usize> Sink for Pushed<N> {
     }
 
     fn len(&self) -> usize {
-        self.rows.len() + self.outside.len()
+        self.rows.len() + self.outside.len() + total(&self.beside)
     }
 
     fn bytes(&self) -> usize {
         let seen = self.seen.as_ref().map_or(0, Seen::bytes);
-        Sink::bytes(&self.rows) + Sink::bytes(&self.outside) + seen
+        let beside: usize = self.beside.iter().map(Vec::capacity).sum();
+        Sink::bytes(&self.rows) + Sink::bytes(&self.outside) + beside * size_of::<Row<N>>() + seen
     }
 
     fn branch(&self, is_any_order: bool) -> Option<Box<dyn Branch + '_>> {
@@ -325,12 +333,21 @@ impl<const N: usize> Sink for Pushed<N> {
         let Some(seen) = &mut self.seen else { return self.rows.absorb(taken, pieces, rename) };
         let taken: Vec<Box<(Vec<Row<N>>, Vec<Row<N>>)>> =
             taken.into_iter().filter_map(|taken| taken.downcast().ok()).collect();
-        // Copied, so that what one thread has asked for goes back when it ends.
-        let new: Vec<&[Row<N>]> = taken.iter().map(|taken| taken.0.as_slice()).collect();
-        seen.len += new.iter().map(|new| new.len()).sum::<usize>();
-        append(&mut self.rows, &new, taken.len());
-        taken.iter().for_each(|taken| self.outside.extend_from_slice(&taken.1));
+        for taken in taken {
+            let (new, outside) = *taken;
+            seen.len += new.len();
+            self.outside.extend_from_slice(&outside);
+            // Many rows stay where they are: to bring them together would be one thread's work.
+            match new.len() < MANY {
+                true => self.rows.extend_from_slice(&new),
+                false => self.beside.push(new),
+            }
+        }
     }
+}
+
+fn total<const N: usize>(batches: &[Vec<Row<N>>]) -> usize {
+    batches.iter().map(Vec::len).sum()
 }
 
 /// A growing relation of so many columns.
@@ -339,8 +356,14 @@ pub(super) fn growing(iteration: &mut Iteration, name: &str, columns: usize) -> 
         columns,
         // Rows are told apart here, before they are handed over.
         rows: iteration.variable_indistinct(name),
+        beside: RefCell::new(Vec::new()),
         orders: Vec::new(),
-        pushed: RefCell::new(Pushed { rows: Vec::new(), seen: None, outside: Vec::new() }),
+        pushed: RefCell::new(Pushed {
+            rows: Vec::new(),
+            beside: Vec::new(),
+            seen: None,
+            outside: Vec::new(),
+        }),
         needs_stable: false,
         needs_sorted: false,
         try_seen_at: 16,
@@ -365,6 +388,7 @@ impl<const N: usize> GrowingRows<N> {
 
     fn forget_recent(&self) {
         *self.rows.recent.borrow_mut() = Relation { elements: Vec::new() };
+        self.beside.borrow_mut().clear();
     }
 
     /// Goes over to bits where the relation is dense enough.
@@ -397,6 +421,14 @@ impl<const N: usize> Growing for GrowingRows<N> {
     fn flush(&mut self) {
         let pushed = self.pushed.get_mut();
         let mut rows = std::mem::take(&mut pushed.rows);
+        let mut beside = std::mem::take(&mut pushed.beside);
+        let is_read_through = !self.needs_stable && !self.needs_sorted && self.orders.is_empty();
+        if !is_read_through || !pushed.outside.is_empty() {
+            rows.reserve(total(&beside));
+            beside.drain(..).for_each(|found| rows.extend_from_slice(&found));
+        } else if rows.is_empty() {
+            rows = beside.pop().unwrap_or_default();
+        }
         if !pushed.outside.is_empty() {
             let outside = std::mem::take(&mut pushed.outside);
             if let Some(seen) = pushed.seen.take() {
@@ -418,6 +450,8 @@ impl<const N: usize> Growing for GrowingRows<N> {
             self.try_seen(&rows);
         }
         self.rows.insert(Relation { elements: rows });
+        let beside = beside.into_iter().map(|elements| Relation { elements });
+        self.beside.borrow_mut().extend(beside);
     }
 
     fn follow(&mut self) {
@@ -449,8 +483,14 @@ impl<const N: usize> Growing for GrowingRows<N> {
         self.orders.len()
     }
 
-    fn recent(&self, order: usize) -> Ref<'_, dyn RowSet> {
-        Ref::map(self.variable(order).recent.borrow(), |rows| rows as &dyn RowSet)
+    fn recent(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>> {
+        let rows = Ref::map(self.variable(order).recent.borrow(), |rows| rows as &dyn RowSet);
+        let beside = self.beside.borrow();
+        let batch = |at: usize| {
+            let beside = Ref::clone(&beside);
+            Ref::map(beside, |rows| &rows[at] as &dyn RowSet)
+        };
+        std::iter::once(rows).chain((0..beside.len()).map(batch)).collect()
     }
 
     fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>> {
@@ -465,7 +505,7 @@ impl<const N: usize> Growing for GrowingRows<N> {
     fn len(&self) -> usize {
         let pushed = self.pushed.borrow();
         if let Some(seen) = &pushed.seen {
-            return seen.len - pushed.rows.len();
+            return seen.len - pushed.rows.len() - total(&pushed.beside);
         }
         let stable: usize = self.rows.stable.borrow().iter().map(|batch| batch.len()).sum();
         stable + self.rows.recent.borrow().len()
@@ -477,7 +517,9 @@ impl<const N: usize> Growing for GrowingRows<N> {
             stable + rows.recent.borrow().len()
         };
         let own = std::iter::once(&self.rows).chain(self.orders.iter().map(|(_, rows)| rows));
-        own.map(batches).sum::<usize>() * size_of::<Row<N>>() + self.pushed.borrow().bytes()
+        let beside: usize = self.beside.borrow().iter().map(|rows| rows.elements.capacity()).sum();
+        let rows = own.map(batches).sum::<usize>() + beside;
+        rows * size_of::<Row<N>>() + self.pushed.borrow().bytes()
     }
 
     fn split(&self, column: usize, parts: usize) -> Vec<Taken> {
@@ -487,6 +529,7 @@ impl<const N: usize> Growing for GrowingRows<N> {
             |row: &Row<N>| (row.0[column].wrapping_mul(0x9E37_79B1) >> 16) as usize % parts.max(1);
         let recent = self.rows.recent.borrow();
         let mut new = recent.elements.clone();
+        self.beside.borrow().iter().for_each(|rows| new.extend_from_slice(&rows.elements));
         new.sort_unstable();
         new.iter().for_each(|row| dealt[of(row)].1.push(*row));
         let pushed = self.pushed.borrow();

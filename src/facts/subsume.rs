@@ -272,8 +272,8 @@ impl Growing for Pruned {
         })
     }
 
-    fn recent(&self, order: usize) -> Ref<'_, dyn RowSet> {
-        Ref::map(self.orders[order].recent.borrow(), |rows| &**rows as &dyn RowSet)
+    fn recent(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>> {
+        vec![Ref::map(self.orders[order].recent.borrow(), |rows| &**rows as &dyn RowSet)]
     }
 
     fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>> {
