@@ -53,11 +53,11 @@ impl Changes {
         self.count += 1;
         let Some(changed) = changed else {
             (self.building, self.vocabulary) = (self.count, self.count);
-            for entity in entities(before).filter(|entity| !is_on(after, *entity)) {
+            for entity in entities_gone(before, after) {
                 self.gone.insert(entity, (self.count, departed(before, entity)));
             }
             if ids_are_unique {
-                self.gone.retain(|entity, _| !is_on(after, *entity));
+                self.gone.retain(|entity, _| !after.has(*entity));
             }
             return;
         };
@@ -92,25 +92,17 @@ impl Changes {
     }
 }
 
-fn entities(world: &World) -> impl Iterator<Item = Entity> + '_ {
-    let maps = world.maps.keys().map(|id| Entity::Map(*id));
-    let areas = world.areas.keys().map(|id| Entity::Area(*id));
-    let doors = world.doors.keys().map(|id| Entity::Door(*id));
-    let replicas = world.replicas.keys().map(|id| Entity::Replica(*id));
-    let places = world.places.keys().map(|id| Entity::Place(*id));
-    let zones = world.zones.keys().map(|id| Entity::Zone(*id));
-    maps.chain(areas).chain(doors).chain(replicas).chain(places).chain(zones)
-}
-
-fn is_on(world: &World, entity: Entity) -> bool {
-    match entity {
-        Entity::Map(id) => world.maps.contains_key(&id),
-        Entity::Area(id) => world.areas.contains_key(&id),
-        Entity::Door(id) => world.doors.contains_key(&id),
-        Entity::Replica(id) => world.replicas.contains_key(&id),
-        Entity::Place(id) => world.places.contains_key(&id),
-        Entity::Zone(id) => world.zones.contains_key(&id),
+/// What is of the first world alone.
+fn entities_gone(before: &World, after: &World) -> Vec<Entity> {
+    let mut gone = Vec::new();
+    macro_rules! note {
+        ($($records:ident: $entity:ident),*) => {$(
+            let changes = before.$records.changes(&after.$records).into_iter();
+            gone.extend(changes.filter(|(.., is)| is.is_none()).map(|(id, ..)| Entity::$entity(id)));
+        )*};
     }
+    note!(maps: Map, areas: Area, doors: Door, replicas: Replica, places: Place, zones: Zone);
+    gone
 }
 
 fn departed(world: &World, entity: Entity) -> Departed {
@@ -139,7 +131,7 @@ impl State {
             let gone = |thing: Thing| match thing {
                 Thing::Entity(entity) => match changes.gone.get(&entity) {
                     Some((left, departed)) if *left > since.change => Some(departed.clone()),
-                    _ => (!is_on(world, entity)).then(Departed::default),
+                    _ => (!world.has(entity)).then(Departed::default),
                 },
                 Thing::Opening(_) | Thing::Window(_) => {
                     (changes.building > since.change).then(Departed::default)
