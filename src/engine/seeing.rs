@@ -394,7 +394,7 @@ fn branch(node: &Branch<2>, language: Language) -> TreeNode {
         }
         Node::Segment(k, s) => {
             let length = decimal(s.length(), language.pick("см", "cm"), language);
-            vec![format!("σ{k}"), length]
+            vec![format!("{} {k}", language.pick("отрезок", "segment")), length]
         }
     };
     TreeNode { lines, below, is_same: matches!(node.node, Node::Scene) }

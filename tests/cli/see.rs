@@ -55,6 +55,10 @@ fn things_and_what_moved() {
     assert_eq!(value["things"].as_array().unwrap().len(), 3, "{value}");
     place.run(&["see", "two.log", "--models", "--tree", "--draw", "tree.png"]).is(0);
     assert!(std::fs::read(place.path("tree.png")).unwrap().starts_with(b"\x89PNG"));
+    // The font that PNG files are drawn with has no Greek.
+    place.run(&["see", "two.log", "--models", "--tree", "--draw", "tree.svg"]).is(0);
+    let tree = std::fs::read_to_string(place.path("tree.svg")).unwrap();
+    assert!(tree.contains("отрезок 0") && !tree.contains('σ'), "{tree}");
     let value = place.json(&["see", "two.log", "--against", "2", "--draw", "moved.svg"], 0);
     let parts = value["parts"].as_array().unwrap();
     // The wall may have slid along itself: nothing says whether it did. The box moved.
