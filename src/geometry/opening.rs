@@ -165,6 +165,16 @@ impl Opening {
         }
     }
 
+    /// Whether it is called and measured as another; its number, and what the rules let it join, do not count.
+    #[must_use]
+    pub fn is_measured_as(&self, other: &Self) -> bool {
+        let bay = |o: &Self| (o.opens_to, o.gap, o.rise, o.origin, o.along, o.span, o.is_through);
+        (self.map, &self.name, self.areas, &self.sides)
+            == (other.map, &other.name, other.areas, &other.sides)
+            && (self.door, self.permeability) == (other.door, other.permeability)
+            && bay(self) == bay(other)
+    }
+
     /// The point at `t` along the first Area's side, `s` out of that Area.
     #[must_use]
     pub fn at(&self, t: f64, s: f64) -> Point {

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::geometry::contact::extent;
-use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, World, stands};
-use crate::units::{Cm, DoorId, ReplicaId, Vector};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, Properties, World, stands};
+use crate::units::{AreaId, Cm, DoorId, ObjectId, OrFrId, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
 use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
@@ -130,9 +130,10 @@ impl Feed<'_> {
     /// Both sides of an opening bear one name: the nearer counts.
     fn near_openings(&self, x: &Arc<str>, single: &Single, sink: &mut impl Sink) {
         let mut near: BTreeMap<&String, i64> = BTreeMap::new();
-        for &(n, distance) in &single.openings {
-            let side = &self.measured.borders.open[n];
-            let Some(opening) = self.openings.of_side(side.area, &side.side) else { continue };
+        for &(at, distance) in &single.openings {
+            let side = self.measured.borders.open_side(at);
+            let opening = side.and_then(|side| self.openings.of_side(at.0, side));
+            let Some(opening) = opening else { continue };
             let known = near.entry(&opening.name).or_insert(distance);
             *known = distance.min(*known);
         }
@@ -222,29 +223,19 @@ impl Feed<'_> {
 
     /// Everything but the things: Areas, openings, parts, properties, the robot.
     pub(super) fn ground(&self, sink: &mut impl Sink) {
-        for room in self.measured.rooms.values() {
-            let map = self.symbols.symbol(Subject::Entity(Entity::Map(room.map)));
-            let area = self.symbols.area(room.id);
-            row!(sink, "area", area, map);
-            if let Some(narrow) = self.measured.narrow_side(room.id) {
-                row!(sink, "narrow_side", area, narrow);
-            }
-            for (wall, next, turn) in self.measured.corners(room.id) {
-                row!(sink, "corner", area, wall as i64, next as i64, turn);
-            }
-        }
-        for object in self.world.objects.values() {
-            let entry = self.world.types.object.get(object.object_type);
-            for is in entry.iter().flat_map(|t| &t.traits) {
-                row!(sink, "kind_trait", self.symbols.object(object.id), is);
-            }
-        }
+        self.robot(sink);
+        self.openings(|_| true, sink);
+        self.world.areas.keys().for_each(|&area| self.area(area, sink));
+        self.world.objects.keys().for_each(|&object| self.object(object, sink));
+        self.world.orthoframes.keys().for_each(|&part| self.part(part, sink));
+        self.world.doors.keys().for_each(|&door| self.door_properties(door, sink));
+        self.world.replicas.keys().for_each(|&id| self.replica_properties(id, sink));
+    }
+
+    pub(super) fn robot(&self, sink: &mut impl Sink) {
         let robot = &self.world.robot;
         let width = Cm::of(robot.passing_width());
         row!(sink, "robot", width.to_tenths_mm(), robot.height.to_tenths_mm());
-        self.openings(|_| true, sink);
-        self.parts(sink);
-        self.properties(sink);
     }
 
     pub(super) fn openings(&self, wanted: impl Fn(&Opening) -> bool, sink: &mut impl Sink) {
@@ -281,61 +272,70 @@ impl Feed<'_> {
         }
     }
 
-    fn parts(&self, sink: &mut impl Sink) {
-        for object in self.world.objects.values() {
-            let whole = self.symbols.object(object.id);
-            for item in &object.items {
-                row!(sink, "part", self.symbols.part(item.orthoframe), whole, "object");
-            }
-            let Some(kind) = self.measured.kind(object.id) else { continue };
-            for (item, block) in object.items.iter().zip(&kind.blocks) {
-                let part = self.symbols.part(item.orthoframe);
-                for (axis, (low, high)) in spans(kind, block) {
-                    row!(sink, "part_along", part, whole, "object", axis, low, high);
-                }
-            }
+    /// An Area, with its parts and properties.
+    pub(super) fn area(&self, id: AreaId, sink: &mut impl Sink) {
+        let Some(area) = self.world.areas.get(&id) else { return };
+        let whole = self.symbols.area(id);
+        for item in &area.items {
+            row!(sink, "part", self.symbols.part(item.orthoframe), whole, "area");
         }
-        for area in self.world.areas.values() {
-            let whole = self.symbols.area(area.id);
-            for item in &area.items {
-                row!(sink, "part", self.symbols.part(item.orthoframe), whole, "area");
-            }
-            let Some(room) = self.measured.rooms.get(&area.id) else { continue };
-            let low = room.parts.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
-            let high = room.parts.iter().map(|p| p.2).fold(f64::NEG_INFINITY, f64::max);
-            for (item, (_, bottom, top)) in area.items.iter().zip(&room.parts) {
-                let part = self.symbols.part(item.orthoframe);
-                if let Some((from, to)) = share_of((*bottom, *top), (low, high)) {
-                    row!(sink, "part_along", part, whole, "area", "height", from, to);
-                }
+        self.properties(whole, &area.properties, sink);
+        let Some(room) = self.measured.rooms.get(&id) else { return };
+        row!(sink, "area", whole, self.symbols.symbol(Subject::Entity(Entity::Map(room.map))));
+        if let Some(narrow) = self.measured.narrow_side(id) {
+            row!(sink, "narrow_side", whole, narrow);
+        }
+        for (wall, next, turn) in self.measured.corners(id) {
+            row!(sink, "corner", whole, wall as i64, next as i64, turn);
+        }
+        let low = room.parts.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+        let high = room.parts.iter().map(|p| p.2).fold(f64::NEG_INFINITY, f64::max);
+        for (item, (_, bottom, top)) in area.items.iter().zip(&room.parts) {
+            let part = self.symbols.part(item.orthoframe);
+            if let Some((from, to)) = share_of((*bottom, *top), (low, high)) {
+                row!(sink, "part_along", part, whole, "area", "height", from, to);
             }
         }
     }
 
-    fn properties(&self, sink: &mut impl Sink) {
-        let world = self.world;
-        let objects = world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
-        let areas = world.areas.values().map(|a| (self.symbols.area(a.id), &a.properties));
-        let frames = world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
-        for (symbol, properties) in objects.chain(areas).chain(frames) {
-            for (name, value) in properties {
-                row!(sink, "property", symbol, name, value);
+    /// A kind of thing, with its parts, traits and properties.
+    pub(super) fn object(&self, id: ObjectId, sink: &mut impl Sink) {
+        let Some(object) = self.world.objects.get(&id) else { return };
+        let whole = self.symbols.object(id);
+        let entry = self.world.types.object.get(object.object_type);
+        for is in entry.iter().flat_map(|t| &t.traits) {
+            row!(sink, "kind_trait", whole, is);
+        }
+        for item in &object.items {
+            row!(sink, "part", self.symbols.part(item.orthoframe), whole, "object");
+        }
+        self.properties(whole, &object.properties, sink);
+        let Some(kind) = self.measured.kind(id) else { return };
+        for (item, block) in object.items.iter().zip(&kind.blocks) {
+            let part = self.symbols.part(item.orthoframe);
+            for (axis, (low, high)) in spans(kind, block) {
+                row!(sink, "part_along", part, whole, "object", axis, low, high);
             }
         }
-        for &door in world.doors.keys() {
-            self.door_properties(door, sink);
+    }
+
+    /// The properties of an Orthoframe.
+    pub(super) fn part(&self, id: OrFrId, sink: &mut impl Sink) {
+        if let Some(orthoframe) = self.world.orthoframes.get(&id) {
+            self.properties(self.symbols.part(id), &orthoframe.properties, sink);
         }
-        for &replica in world.replicas.keys() {
-            self.replica_properties(replica, sink);
+    }
+
+    fn properties(&self, of: &Arc<str>, properties: &Properties, sink: &mut impl Sink) {
+        for (name, value) in properties {
+            row!(sink, "property", of, name, value);
         }
     }
 
     pub(super) fn door_properties(&self, id: DoorId, sink: &mut impl Sink) {
         let Some(door) = self.world.doors.get(&id) else { return };
         let x = self.symbols.door(id);
-        for (name, value) in &door.properties {
-            row!(sink, "property", x, name, value);
-        }
+        self.properties(x, &door.properties, sink);
         if !door.leaves.is_empty() && Mark::State.of(&door.properties).is_none() {
             row!(sink, "property", x, "СОСТОЯНИЕ", state_word(door.state));
         }
@@ -344,9 +344,7 @@ impl Feed<'_> {
     pub(super) fn replica_properties(&self, id: ReplicaId, sink: &mut impl Sink) {
         let Some(replica) = self.world.replicas.get(&id) else { return };
         let x = self.symbols.replica(id);
-        for (name, value) in &replica.properties {
-            row!(sink, "property", x, name, value);
-        }
+        self.properties(x, &replica.properties, sink);
         let mounts = &self.world.objects[&replica.object].doors;
         let states = mounts.iter().filter_map(|m| {
             let own = replica.door_states.get(&m.door).copied();

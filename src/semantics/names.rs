@@ -2,6 +2,7 @@
 //!
 //! **Invariant:** two different things never share a symbol; a thing whose name is its own keeps it unchanged.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::hash::Hasher;
 use std::sync::Arc;
@@ -26,10 +27,54 @@ pub enum Subject {
 pub struct Symbols {
     of: HashMap<Subject, Arc<str>, RandomState>,
     subjects: BTreeMap<Arc<str>, Subject>,
-    /// Of every symbol the hash of the name as people spell it.
-    taken: HashSet<u64, RandomState>,
-    /// Names, so hashed, that more than one subject would have had.
-    contested: HashSet<u64, RandomState>,
+    /// Of every symbol the hash of the name as people spell it, and whose it is.
+    taken: HashMap<u64, Subject, RandomState>,
+    /// Of names, so hashed, that others would have had, how many.
+    contested: HashMap<u64, u32, RandomState>,
+}
+
+/// What a subject may be called by: its name, and what tells it from others of that name.
+type Called<'w> = (&'w str, &'w str, u32);
+
+/// The symbols that a subject would have, the dearest first.
+fn candidates((name, key, n): Called<'_>) -> impl Iterator<Item = String> {
+    let wanted = if name.is_empty() { key } else { name };
+    let numbered = (0..).map(move |i| format!("{wanted} #{}", n + i));
+    let first = [wanted.to_owned(), format!("{wanted} ({key})")].into_iter();
+    first.filter(|c| !c.is_empty() && c != " ()").chain(numbered)
+}
+
+/// What a world calls a subject; none where it has no such subject.
+fn called(world: &World, subject: Subject) -> Option<Called<'_>> {
+    macro_rules! called {
+        ($records:ident, $id:expr, $key:ident) => {
+            world.$records.get(&$id).map(|r| (r.name.as_str(), r.$key.as_str(), $id.0))
+        };
+    }
+    match subject {
+        Subject::Entity(Entity::Area(id)) => called!(areas, id, key),
+        Subject::Entity(Entity::Replica(id)) => called!(replicas, id, name_en),
+        Subject::Entity(Entity::Door(id)) => called!(doors, id, key),
+        Subject::Entity(Entity::Place(id)) => called!(places, id, name_en),
+        Subject::Entity(Entity::Zone(id)) => called!(zones, id, key),
+        Subject::Entity(Entity::Map(id)) => called!(maps, id, key),
+        Subject::Object(id) => called!(objects, id, key),
+        Subject::Part(id) => called!(orthoframes, id, key),
+    }
+}
+
+/// Who is named before whom: theirs are the names that people speak.
+fn rank(subject: Subject) -> (u8, u32) {
+    match subject {
+        Subject::Entity(Entity::Area(id)) => (0, id.0),
+        Subject::Entity(Entity::Replica(id)) => (1, id.0),
+        Subject::Entity(Entity::Door(id)) => (2, id.0),
+        Subject::Entity(Entity::Place(id)) => (3, id.0),
+        Subject::Entity(Entity::Zone(id)) => (4, id.0),
+        Subject::Entity(Entity::Map(id)) => (5, id.0),
+        Subject::Object(id) => (6, id.0),
+        Subject::Part(id) => (7, id.0),
+    }
 }
 
 /// Two names that meet are held for one, which costs a derivation and no more.
@@ -40,57 +85,103 @@ fn hash(name: &str) -> u64 {
 }
 
 impl Symbols {
-    /// Names everything. Areas, replicas, doors and places come first: theirs are the names that people speak.
+    /// Names everything, in the order of their ranks.
     #[must_use]
     pub fn of(world: &World) -> Self {
         let mut symbols = Self::default();
-        let Self { of, subjects, taken, contested } = &mut symbols;
-        let mut give = |subject: Subject, name: &str, key: &str, n: u32| {
-            let wanted = if name.is_empty() { key } else { name };
-            let numbered = (0..).map(|i| format!("{wanted} #{}", n + i));
-            let candidates = [wanted.to_owned(), format!("{wanted} ({key})")];
-            let symbol = candidates
-                .into_iter()
-                .filter(|c| !c.is_empty() && c != " ()")
-                .chain(numbered)
-                .find(|c| {
-                    let hash = hash(c);
-                    let is_free = taken.insert(hash);
-                    if !is_free {
-                        contested.insert(hash);
-                    }
-                    is_free
-                })
-                .expect("the numbers do not end");
-            let symbol: Arc<str> = symbol.into();
-            subjects.insert(Arc::clone(&symbol), subject);
-            of.insert(subject, symbol);
-        };
-        for a in world.areas.values() {
-            give(Subject::Entity(Entity::Area(a.id)), &a.name, &a.key, a.id.0);
+        macro_rules! name {
+            ($records:ident, $subject:expr) => {
+                for id in world.$records.keys() {
+                    let subject = $subject(*id);
+                    let called = called(world, subject).expect("it is one of the world's");
+                    symbols.enter(subject, called);
+                }
+            };
         }
-        for r in world.replicas.values() {
-            give(Subject::Entity(Entity::Replica(r.id)), &r.name, &r.name_en, r.id.0);
-        }
-        for d in world.doors.values() {
-            give(Subject::Entity(Entity::Door(d.id)), &d.name, &d.key, d.id.0);
-        }
-        for p in world.places.values() {
-            give(Subject::Entity(Entity::Place(p.id)), &p.name, &p.name_en, p.id.0);
-        }
-        for z in world.zones.values() {
-            give(Subject::Entity(Entity::Zone(z.id)), &z.name, &z.key, z.id.0);
-        }
-        for m in world.maps.values() {
-            give(Subject::Entity(Entity::Map(m.id)), &m.name, &m.key, m.id.0);
-        }
-        for o in world.objects.values() {
-            give(Subject::Object(o.id), &o.name, &o.key, o.id.0);
-        }
-        for o in world.orthoframes.values() {
-            give(Subject::Part(o.id), &o.name, &o.key, o.id.0);
-        }
+        name!(areas, |id| Subject::Entity(Entity::Area(id)));
+        name!(replicas, |id| Subject::Entity(Entity::Replica(id)));
+        name!(doors, |id| Subject::Entity(Entity::Door(id)));
+        name!(places, |id| Subject::Entity(Entity::Place(id)));
+        name!(zones, |id| Subject::Entity(Entity::Zone(id)));
+        name!(maps, |id| Subject::Entity(Entity::Map(id)));
+        name!(objects, Subject::Object);
+        name!(orthoframes, Subject::Part);
         symbols
+    }
+
+    /// Gives a subject the first symbol that nobody has; of those that it would rather have had it is noted.
+    fn enter(&mut self, subject: Subject, called: Called<'_>) {
+        let Self { of, subjects, taken, contested } = self;
+        let is_free = |candidate: &String| match taken.entry(hash(candidate)) {
+            Entry::Vacant(place) => {
+                place.insert(subject);
+                true
+            }
+            Entry::Occupied(place) => {
+                *contested.entry(*place.key()).or_default() += 1;
+                false
+            }
+        };
+        let symbol: Arc<str> =
+            candidates(called).find(is_free).expect("the numbers do not end").into();
+        subjects.insert(Arc::clone(&symbol), subject);
+        of.insert(subject, symbol);
+    }
+
+    /// Names these subjects, of replicas those that are gone, as an edited world calls them: as naming everything anew would. The symbols
+    /// that they had still lead to them until [`Symbols::retire`]. None where others might get another one with them;
+    /// these symbols are then of neither world.
+    pub(super) fn rename(
+        &mut self,
+        before: &World,
+        after: &World,
+        changed: impl Iterator<Item = Subject>,
+    ) -> Option<Vec<(Subject, Option<Arc<str>>)>> {
+        let mut changed: Vec<Subject> =
+            changed.filter(|s| called(before, *s) != called(after, *s)).collect();
+        changed.sort_unstable_by_key(|subject| rank(*subject));
+        let mut old = Vec::new();
+        for &subject in &changed {
+            let (Some(called), Some(symbol)) = (called(before, subject), self.known(subject))
+            else {
+                old.push((subject, None));
+                continue;
+            };
+            let symbol = Arc::clone(symbol);
+            for skipped in candidates(called).take_while(|c| **c != *symbol) {
+                let hash = hash(&skipped);
+                let count = self.contested.get_mut(&hash)?;
+                *count -= 1;
+                if *count == 0 {
+                    self.contested.remove(&hash);
+                }
+            }
+            old.push((subject, Some(symbol)));
+        }
+        // What nobody else would have had is given free without any one getting it.
+        let mut left = old.iter().filter_map(|(_, symbol)| symbol.as_ref());
+        if left.any(|symbol| self.contested.contains_key(&hash(symbol))) {
+            return None;
+        }
+        for subject in changed {
+            let Some(called) = called(after, subject) else { continue };
+            for candidate in candidates(called) {
+                match self.taken.get(&hash(&candidate)) {
+                    None => break,
+                    // One who comes after it would have to give way, and of those who go it is not known who follows.
+                    Some(owner)
+                        if rank(*owner) >= rank(subject)
+                            || self::called(after, *owner).is_none()
+                            || old.iter().any(|(of, _)| of == owner) =>
+                    {
+                        return None;
+                    }
+                    Some(_) => {}
+                }
+            }
+            self.enter(subject, called);
+        }
+        Some(old)
     }
 
     /// # Panics
@@ -106,16 +197,27 @@ impl Symbols {
         self.of.get(&subject)
     }
 
+    /// Lets subjects have these symbols, and tells those that they had.
+    pub(super) fn swap(&mut self, symbols: &mut [(Subject, Option<Arc<str>>)]) {
+        for (subject, symbol) in symbols {
+            let new = symbol.take();
+            *symbol = match new {
+                Some(new) => self.of.insert(*subject, new),
+                None => self.of.remove(subject),
+            };
+        }
+    }
+
     /// Whether naming everything anew would give these replicas of an edited world their names for symbols, and all others
     /// the symbols that they have: no such name, the one before or the one now, is wanted by anything else.
     pub(super) fn can_give(&self, names: &[(ReplicaId, &str)]) -> bool {
         let mut new = HashSet::new();
         names.iter().all(|(id, name)| {
             let was = self.known(Subject::Entity(Entity::Replica(*id)));
-            let is_own = was.is_none_or(|was| !self.contested.contains(&hash(was)));
+            let is_own = was.is_none_or(|was| !self.contested.contains_key(&hash(was)));
             is_own
                 && !name.is_empty()
-                && !self.taken.contains(&hash(name))
+                && !self.taken.contains_key(&hash(name))
                 && new.insert(hash(name))
         })
     }
@@ -125,7 +227,7 @@ impl Symbols {
     pub(super) fn give(&mut self, id: ReplicaId, name: &str) {
         let subject = Subject::Entity(Entity::Replica(id));
         let symbol: Arc<str> = name.into();
-        self.taken.insert(hash(name));
+        self.taken.insert(hash(name), subject);
         self.subjects.insert(Arc::clone(&symbol), subject);
         self.of.insert(subject, symbol);
     }
@@ -134,21 +236,26 @@ impl Symbols {
     pub(super) fn of_replicas<'i>(
         &'i self,
         ids: impl IntoIterator<Item = &'i ReplicaId>,
-    ) -> Vec<(ReplicaId, Arc<str>)> {
-        let symbol = |id: &ReplicaId| {
-            Some((*id, Arc::clone(self.known(Subject::Entity(Entity::Replica(*id)))?)))
-        };
-        ids.into_iter().filter_map(symbol).collect()
+    ) -> Vec<(Subject, Arc<str>)> {
+        let subjects = ids.into_iter().map(|id| Subject::Entity(Entity::Replica(*id)));
+        subjects.filter_map(|s| Some((s, Arc::clone(self.known(s)?)))).collect()
     }
 
-    /// Forgets of these symbols those that replicas had and have no more.
-    pub(super) fn retire(&mut self, before: &[(ReplicaId, Arc<str>)]) {
-        for (id, was) in before {
-            let now = self.known(Subject::Entity(Entity::Replica(*id)));
-            if now.is_some_and(|now| now != was) {
-                self.subjects.remove(was);
-                self.taken.remove(&hash(was));
+    /// Forgets of these symbols those that their subjects had and have no more. One that is gone keeps its own, unless it
+    /// `is_gone` for good.
+    pub(super) fn retire(
+        &mut self,
+        before: &[(Subject, Arc<str>)],
+        is_gone: impl Fn(Subject) -> bool,
+    ) {
+        for (subject, was) in before {
+            if is_gone(*subject) {
+                self.of.remove(subject);
+            } else if self.known(*subject).is_none_or(|now| now == was) {
+                continue;
             }
+            self.subjects.remove(was);
+            self.taken.remove(&hash(was));
         }
     }
 

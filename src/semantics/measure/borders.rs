@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use crate::geometry::contact::{Footprint, bounds_distance, extent, gap};
 use crate::geometry::{Polygon, outward_normal};
 use crate::map::{Permeability, SideRef, World};
-use crate::units::{AreaId, Frame, MapId, Point, Vector};
+use crate::units::{AreaId, Frame, Point, Vector};
 
 use super::super::body::Body;
 use super::rooms::Room;
@@ -20,10 +20,9 @@ const APART: f64 = 2.0;
 
 /// A side of an Area, in the frame of its Map.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Side {
-    pub(crate) area: AreaId,
-    pub(crate) side: SideRef,
-    pub(crate) ends: (Point, Point),
+struct Side {
+    side: SideRef,
+    ends: (Point, Point),
     thread: Footprint,
 }
 
@@ -31,23 +30,16 @@ pub(crate) struct Side {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Borders {
     walls: BTreeMap<AreaId, Vec<Side>>,
-    /// Doors, passages and windows that can be gone through, in the order of Areas, items and sides.
-    pub(crate) open: Vec<Side>,
-    open_of: BTreeMap<AreaId, Vec<usize>>,
+    /// Doors, passages and windows that can be gone through, in the order of items and sides.
+    open: BTreeMap<AreaId, Vec<Side>>,
     /// Of each Area its middle, and its narrower side, cm.
     middles: BTreeMap<AreaId, (Point, f64)>,
 }
 
-pub(super) fn borders(
-    world: &World,
-    rooms: &BTreeMap<AreaId, Room>,
-    placements: &BTreeMap<AreaId, (MapId, Frame)>,
-) -> Borders {
-    let mut found = Borders::default();
-    for area in world.areas.values() {
-        let (Some(room), Some((_, frame))) = (rooms.get(&area.id), placements.get(&area.id)) else {
-            continue;
-        };
+impl Borders {
+    /// Looks for the sides of an Area; it must have none yet.
+    pub(super) fn enter(&mut self, world: &World, room: &Room, frame: &Frame) {
+        let Some(area) = world.areas.get(&room.id) else { return };
         for item in &area.items {
             let place = frame.compose(&item.frame);
             for vector in &world.orthoframe_of(item).base {
@@ -56,19 +48,15 @@ pub(super) fn borders(
                     continue;
                 }
                 let side = Side {
-                    area: area.id,
                     side: SideRef { item: item.id.clone(), side: vector.id.clone() },
                     ends,
                     thread: thread(ends).unwrap_or_else(|| {
                         Footprint::new(Polygon::new(vec![ends.0, ends.1, ends.0]))
                     }),
                 };
-                if vector.permeability == Permeability::Impermeable {
-                    found.walls.entry(area.id).or_default().push(side);
-                } else {
-                    found.open_of.entry(area.id).or_default().push(found.open.len());
-                    found.open.push(side);
-                }
+                let is_wall = vector.permeability == Permeability::Impermeable;
+                let sides = if is_wall { &mut self.walls } else { &mut self.open };
+                sides.entry(area.id).or_default().push(side);
             }
         }
         let corners = || room.parts.iter().flat_map(|(f, ..)| f.polygon.corners.iter().copied());
@@ -80,10 +68,20 @@ pub(super) fn borders(
         let narrow = across(Vector::new(1.0, 0.0)).min(across(Vector::new(0.0, 1.0)));
         let largest = room.parts.iter().max_by(|a, b| a.0.area.total_cmp(&b.0.area));
         if let Some((part, ..)) = largest {
-            found.middles.insert(area.id, (part.interior_point(), narrow));
+            self.middles.insert(area.id, (part.interior_point(), narrow));
         }
     }
-    found
+
+    pub(super) fn forget(&mut self, area: AreaId) {
+        self.walls.remove(&area);
+        self.open.remove(&area);
+        self.middles.remove(&area);
+    }
+
+    /// An open side by its Area and its place among the open sides of that.
+    pub(crate) fn open_side(&self, (area, place): (AreaId, usize)) -> Option<&SideRef> {
+        self.open.get(&area)?.get(place).map(|side| &side.side)
+    }
 }
 
 /// An open side between two items of one Area leads nowhere else.
@@ -122,13 +120,15 @@ impl Measurements {
         near(body, walls.enumerate(), self.reach.edge)
     }
 
-    /// Open sides near to a body, by their places among all, with their distances.
-    pub(super) fn near_openings(&self, body: &Body) -> Vec<(usize, i64)> {
+    /// Open sides near to a body, by their Areas and their places among the open sides of these, with their distances.
+    pub(super) fn near_openings(&self, body: &Body) -> Vec<((AreaId, usize), i64)> {
         let Some(grid) = self.room_grid.get(&body.map) else { return Vec::new() };
         let mut rooms = Vec::new();
         grid.near(&body.bounds.grown(cm(self.reach.opening)), &mut rooms);
-        let sides = rooms.iter().filter_map(|room| self.borders.open_of.get(room)).flatten();
-        near(body, sides.map(|&n| (n, &self.borders.open[n])), self.reach.opening)
+        let open = rooms.iter().filter_map(|room| Some((*room, self.borders.open.get(room)?)));
+        let sides =
+            open.flat_map(|(room, sides)| (0..).zip(sides).map(move |(n, s)| ((room, n), s)));
+        near(body, sides, self.reach.opening)
     }
 
     /// How far a body is from the middle of an Area, where that is nearer than its walls can be.
@@ -162,12 +162,12 @@ impl Measurements {
     }
 }
 
-fn near<'s>(
+fn near<'s, N>(
     body: &Body,
-    sides: impl Iterator<Item = (usize, &'s Side)>,
+    sides: impl Iterator<Item = (N, &'s Side)>,
     reach: i64,
-) -> Vec<(usize, i64)> {
-    let within = |(n, side): (usize, &Side)| {
+) -> Vec<(N, i64)> {
+    let within = |(n, side): (N, &Side)| {
         if bounds_distance(&body.bounds, &side.thread.bounds) > cm(reach) {
             return None;
         }

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 pub use between::{Beside, Between};
-use borders::{Borders, borders};
+use borders::Borders;
 pub use pair::{Below, Directed, Into, Over, Pair, Within};
 pub(super) use pair::{level, surface_distance};
 pub(super) use rooms::Room;
@@ -27,7 +27,6 @@ use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, ReplicaId};
 
 use super::body::{Body, Kind};
 use super::grid::Grid;
-use rooms::rooms;
 
 /// Fewer things than this are measured by one thread: starting more would take longer.
 const LEAST_SHARE: usize = 2_000;
@@ -122,27 +121,22 @@ impl Measurements {
 
     /// Measures things and Areas; pairs when they are first asked for.
     pub(super) fn of_things(world: &World, reach: Reach) -> Self {
-        let placements = world.placements();
         let mut measured = Self {
             reach,
-            kinds: world
-                .objects
-                .values()
-                .filter_map(|o| Some((o.id, Kind::of(world, o)?)))
-                .collect(),
-            rooms: rooms(world),
+            kinds: BTreeMap::new(),
+            placements: BTreeMap::new(),
+            rooms: BTreeMap::new(),
             room_grid: BTreeMap::new(),
             borders: Borders::default(),
             bodies: BTreeMap::new(),
             grids: BTreeMap::new(),
             singles: BTreeMap::new(),
             near: OnceLock::new(),
-            placements,
         };
-        for room in measured.rooms.values() {
-            measured.room_grid.entry(room.map).or_default().insert(room.id, &room.bounds);
+        world.objects.keys().for_each(|&object| measured.enter_kind(world, object));
+        for (area, placement) in world.placements() {
+            measured.enter_room(world, area, placement);
         }
-        measured.borders = borders(world, &measured.rooms, &measured.placements);
         measured.bodies = world
             .replicas
             .keys()
@@ -155,6 +149,44 @@ impl Measurements {
         }
         measured.singles = measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
         measured
+    }
+
+    /// Works out what the replicas of an Object have in common; there must be none in place.
+    pub(crate) fn enter_kind(&mut self, world: &World, id: ObjectId) {
+        self.kinds.remove(&id);
+        let kind = world.objects.get(&id).and_then(|object| Kind::of(world, object));
+        self.kinds.extend(kind.map(|kind| (id, kind)));
+    }
+
+    /// Takes over where an Area stands, and what bounds it; things near it must not be in place.
+    pub(crate) fn enter_room(&mut self, world: &World, id: AreaId, placement: (MapId, Frame)) {
+        self.forget_room(id);
+        self.placements.insert(id, placement);
+        let Some(room) = Room::of(world, id, placement) else { return };
+        self.room_grid.entry(room.map).or_default().insert(id, &room.bounds);
+        self.borders.enter(world, &room, &placement.1);
+        self.rooms.insert(id, room);
+    }
+
+    pub(crate) fn forget_room(&mut self, id: AreaId) {
+        self.placements.remove(&id);
+        self.borders.forget(id);
+        if let Some(room) = self.rooms.remove(&id)
+            && let Some(grid) = self.room_grid.get_mut(&room.map)
+        {
+            grid.remove(id, &room.bounds);
+        }
+    }
+
+    /// The things that may be within reach of what bounds an Area, as they are in place.
+    pub(crate) fn things_near(&self, room: &Room) -> Vec<ReplicaId> {
+        let Reach { beside, escape, outside, edge, opening, .. } = self.reach;
+        let reach = cm(beside.max(escape).max(outside).max(edge).max(opening));
+        let mut found = Vec::new();
+        if let Some(grid) = self.grids.get(&room.map) {
+            grid.near(&room.bounds.grown(reach), &mut found);
+        }
+        found
     }
 
     fn near(&self) -> &Near {
@@ -236,7 +268,7 @@ impl Measurements {
 
     /// Whether OUTSIDE is derived of every thing.
     pub(super) fn asks_of_all(&self) -> bool {
-        self.bodies.len() * self.rooms.len() <= MOST_OUTSIDE
+        asks_of_all(self.bodies.len(), self.rooms.len())
     }
 
     /// The Map on which a thing is.
@@ -265,6 +297,11 @@ impl Measurements {
             None => found.clear(),
         }
     }
+}
+
+/// Whether OUTSIDE is derived of every one of so many things.
+pub(crate) fn asks_of_all(things: usize, rooms: usize) -> bool {
+    things * rooms <= MOST_OUTSIDE
 }
 
 pub(super) fn tenths(length: f64) -> i64 {

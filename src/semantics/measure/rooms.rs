@@ -1,11 +1,9 @@
 //! The floors of the Areas, ready for measuring, and which of them lie under a point.
 
-use std::collections::BTreeMap;
-
 use crate::geometry::contact::Footprint;
 use crate::geometry::{Bounds, Polygon};
 use crate::map::{Item, World};
-use crate::units::{AreaId, MapId, Point};
+use crate::units::{AreaId, Frame, MapId, Point};
 
 use super::Measurements;
 
@@ -17,6 +15,7 @@ pub(crate) struct Room {
     pub(crate) parts: Vec<(Footprint, f64, f64)>,
     pub(crate) bounds: Bounds,
 }
+
 impl Measurements {
     /// The Area whose base holds a point of a Map; the lowest id where bases meet.
     #[must_use]
@@ -27,8 +26,9 @@ impl Measurements {
     }
 }
 
-pub(super) fn rooms(world: &World) -> BTreeMap<AreaId, Room> {
-    let placed = world.placements().into_iter().filter_map(|(area, (map, frame))| {
+impl Room {
+    /// The floor of an Area that stands so on a Map.
+    pub(crate) fn of(world: &World, id: AreaId, (map, frame): (MapId, Frame)) -> Option<Self> {
         let part = |item: &Item| {
             let orthoframe = world.orthoframe_of(item);
             let place = frame.compose(&item.frame);
@@ -36,9 +36,8 @@ pub(super) fn rooms(world: &World) -> BTreeMap<AreaId, Room> {
             let bottom = place.z.get();
             (Footprint::new(base), bottom, bottom + orthoframe.height.get())
         };
-        let parts: Vec<_> = world.areas.get(&area)?.items.iter().map(part).collect();
+        let parts: Vec<_> = world.areas.get(&id)?.items.iter().map(part).collect();
         let bounds = parts.iter().fold(Bounds::EMPTY, |b, (f, _, _)| b.union(&f.bounds));
-        Some((area, Room { id: area, map, parts, bounds }))
-    });
-    placed.collect()
+        Some(Self { id, map, parts, bounds })
+    }
 }

@@ -27,8 +27,9 @@ pub struct Single {
     pub at: [i64; 4],
     /// Near walls of the Area where it is, by their places among its walls, with the distance in the plan.
     pub walls: Vec<(usize, i64)>,
-    /// Near doors and passages, by the places of their sides among all open sides, with the distance in the plan.
-    pub openings: Vec<(usize, i64)>,
+    /// Near doors and passages, by the Areas of their sides and their places among the open sides of these, with the
+    /// distance in the plan.
+    pub openings: Vec<((AreaId, usize), i64)>,
     /// From the middle of the Area whose base holds it.
     pub middle: Option<i64>,
 }

@@ -26,17 +26,28 @@ pub struct Change {
 impl Measurements {
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.
     pub fn update(&mut self, world: &World, id: ReplicaId) -> Change {
+        let mut change = Change::default();
+        self.take_away(id, &mut change);
+        self.put_in_place(world, id, &mut change);
+        change
+    }
+
+    /// Forgets what was measured of a replica.
+    pub(crate) fn take_away(&mut self, id: ReplicaId, change: &mut Change) {
         self.near();
-        let mut change = Change { single_before: self.singles.remove(&id), ..Change::default() };
-        let mut near = Vec::new();
+        change.single_before = self.singles.remove(&id);
         if let Some(body) = self.bodies.remove(&id) {
-            self.forget(&body, &mut near, &mut change);
+            self.forget(&body, &mut Vec::new(), change);
         }
+    }
+
+    /// Measures a replica of `world`, if it is there, of which nothing is measured.
+    pub(crate) fn put_in_place(&mut self, world: &World, id: ReplicaId, change: &mut Change) {
+        self.near();
         if let Some(body) = Body::new(world, &self.kinds, &self.placements, id) {
-            self.enter(body, &mut near, &mut change);
+            self.enter(body, &mut Vec::new(), change);
         }
         change.single_after = self.singles.get(&id).cloned();
-        change
     }
 
     fn forget(&mut self, body: &Body, near: &mut Vec<ReplicaId>, change: &mut Change) {

@@ -85,13 +85,16 @@ impl Followed {
 }
 
 impl Relations {
-    /// Follows from the world of these relations to one that differs in places, names, properties and door states of its
-    /// replicas, in replicas that were taken away or put there, and in the states of its doors. `false` where more differs,
-    /// or so much that deriving anew is cheaper; then nothing is changed.
+    /// Follows from the world of these relations to one that differs in its things, in the states of its doors, or as an
+    /// edited building does: see `building`. `false` where so much differs that deriving anew is cheaper, or what things
+    /// are called has to be told anew; these relations may then be of neither world.
     ///
     /// # Errors
     /// As [`derive()`](super::derive).
     pub fn follow_world(&mut self, before: &World, after: &World) -> Result<bool, RelationError> {
+        if !before.is_same_building(after) {
+            return self.follow_building(before, after);
+        }
         let Some((replicas, doors)) = self.followed(before, after) else { return Ok(false) };
         let Some(named) = self.named(before, after, &replicas) else { return Ok(false) };
         let symbols = self.symbols.of_replicas(named.keys());
@@ -152,12 +155,12 @@ impl Relations {
         self.settle(&mut rows)?;
         self.live.update()?;
         self.follow();
-        self.symbols.retire(&symbols);
+        self.symbols.retire(&symbols, |_| false);
         Ok(true)
     }
 
     /// The replicas that get another symbol, with their names; none where others might get another one with them.
-    fn named<'w>(
+    pub(super) fn named<'w>(
         &self,
         before: &World,
         after: &'w World,
@@ -195,16 +198,13 @@ impl Relations {
     }
 
     /// The row by which OUTSIDE is derived of a thing.
-    fn asked(&self, thing: ReplicaId, map: MapId) -> (&'static str, Vec<Value>) {
+    pub(super) fn asked(&self, thing: ReplicaId, map: MapId) -> (&'static str, Vec<Value>) {
         let map = self.symbols.symbol(Subject::Entity(Entity::Map(map)));
         ("asked", tuple(&[Cell::Name(self.symbols.replica(thing)), Cell::Name(map)]))
     }
 
     /// The replicas and doors that differ; none where something else does, or too much.
     fn followed(&self, before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
-        if !before.is_same_building(after) {
-            return None;
-        }
         // What is gone goes first: nothing that is measured afterwards may lie beside it.
         let (mut replicas, mut stays) = (Vec::new(), Vec::new());
         for (id, was, is) in before.replicas.changes(&after.replicas) {
@@ -221,7 +221,7 @@ impl Relations {
     }
 
     /// Rows of doorways, where a door's state differs, and of the properties of what differs.
-    fn openings_and_properties(
+    pub(super) fn openings_and_properties(
         &self,
         world: &World,
         replicas: &[ReplicaId],

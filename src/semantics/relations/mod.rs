@@ -1,5 +1,6 @@
 //! Relations of a world, derived by the rule text from what was measured (SPEC R).
 
+mod building;
 mod follow;
 mod lookup;
 mod questions;

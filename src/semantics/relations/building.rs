@@ -1,0 +1,567 @@
+//! From the relations of one building to those of an edited one: rooms and doors built, rebuilt and taken away, kinds of
+//! things and their parts, links, names.
+//!
+//! **Invariant**: afterwards the derived relations are those that [`derive()`](super::derive) gives of the edited world.
+//! What was measured of an Area or an Object that changed, and of every thing near it, is measured anew, and of them alone;
+//! the openings are looked for in the whole building, since one is found by what others leave.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::facts::Value;
+use crate::feed::{Cell, Feed};
+use crate::geometry::{OpenSide, Openings};
+use crate::map::{Area, Entity, Item, Object, Orthoframe, World};
+use crate::measure::{Change, Room, asks_of_all};
+use crate::names::Subject;
+use crate::openings::openings;
+use crate::units::{AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId};
+
+use super::follow::Difference;
+use super::rows::tuple;
+use super::{RelationError, Relations};
+
+/// Beyond so many things that are to be measured anew, measuring all costs less.
+const MOST_MEASURED: usize = 500;
+
+/// What differs between two buildings.
+#[derive(Default)]
+struct Touched {
+    parts: BTreeSet<OrFrId>,
+    objects: BTreeSet<ObjectId>,
+    areas: BTreeSet<AreaId>,
+    doors: BTreeSet<DoorId>,
+    /// Of the Objects those of which every thing is another now.
+    remade: BTreeSet<ObjectId>,
+    /// Of the Areas those that are bounded otherwise, stand elsewhere or bear another name.
+    rebuilt: BTreeSet<AreaId>,
+    places: BTreeMap<AreaId, (MapId, Frame)>,
+    /// Whether openings may be others, or be called otherwise.
+    opens: bool,
+}
+
+impl Touched {
+    fn between(before: &World, after: &World) -> Self {
+        let mut touched = Self::default();
+        let mut remade_parts = BTreeSet::new();
+        for (id, was, is) in before.orthoframes.changes(&after.orthoframes) {
+            touched.parts.insert(id);
+            let same = |(was, is): (&Orthoframe, &Orthoframe)| {
+                let (name_en, description) = (was.name_en.clone(), was.description.clone());
+                let properties = was.properties.clone();
+                *was == Orthoframe { name_en, description, properties, ..is.clone() }
+            };
+            if !was.zip(is).is_some_and(same) {
+                remade_parts.insert(id);
+            }
+        }
+        let uses = |items: &[Item]| items.iter().any(|i| remade_parts.contains(&i.orthoframe));
+        touched.objects(before, after, &uses);
+        touched.areas(before, after, &uses);
+        for (id, was, is) in before.doors.changes(&after.doors) {
+            touched.doors.insert(id);
+            touched.opens |= was.zip(is).is_none_or(|(was, is)| {
+                (&was.name, &was.key, was.width, was.height, was.kind, &was.leaves)
+                    != (&is.name, &is.key, is.width, is.height, is.kind, &is.leaves)
+            });
+        }
+        touched.opens |= before.maps != after.maps || !touched.rebuilt.is_empty();
+        touched
+    }
+
+    fn objects(&mut self, before: &World, after: &World, uses: &impl Fn(&[Item]) -> bool) {
+        let changed = before.objects.changes(&after.objects).into_iter();
+        self.objects = changed.map(|(id, ..)| id).collect();
+        let using = |world: &World| -> Vec<ObjectId> {
+            world.objects.values().filter(|o| uses(&o.items)).map(|o| o.id).collect()
+        };
+        self.remade.extend([before, after].into_iter().flat_map(using));
+        let types = [&before.types.object, &after.types.object];
+        if types[0] != types[1] {
+            let is_other = |o: &&Object| types[0].get(o.object_type) != types[1].get(o.object_type);
+            self.remade.extend(after.objects.values().filter(is_other).map(|o| o.id));
+        }
+        for id in &self.objects {
+            let same = |(was, is): (&Object, &Object)| {
+                let (name_en, description) = (was.name_en.clone(), was.description.clone());
+                let (properties, links) = (was.properties.clone(), was.links.clone());
+                *was == Object { name_en, description, properties, links, ..is.clone() }
+            };
+            if !before.objects.get(id).zip(after.objects.get(id)).is_some_and(same) {
+                self.remade.insert(*id);
+            }
+        }
+        self.objects.extend(&self.remade);
+    }
+
+    fn areas(&mut self, before: &World, after: &World, uses: &impl Fn(&[Item]) -> bool) {
+        let changed = before.areas.changes(&after.areas).into_iter();
+        self.areas = changed.map(|(id, ..)| id).collect();
+        self.places = after.placements();
+        if before.maps != after.maps {
+            let old = before.placements();
+            let all: BTreeSet<&AreaId> = old.keys().chain(self.places.keys()).collect();
+            let moved = all.into_iter().filter(|id| old.get(id) != self.places.get(id)).copied();
+            self.rebuilt.extend(moved.collect::<Vec<_>>());
+        }
+        let using = |world: &World| -> Vec<AreaId> {
+            world.areas.values().filter(|a| uses(&a.items)).map(|a| a.id).collect()
+        };
+        self.rebuilt.extend([before, after].into_iter().flat_map(using));
+        for id in &self.areas {
+            let same = |(was, is): (&Area, &Area)| {
+                (&was.name, &was.key, &was.items, &was.doors)
+                    == (&is.name, &is.key, &is.items, &is.doors)
+            };
+            if !before.areas.get(id).zip(after.areas.get(id)).is_some_and(same) {
+                self.rebuilt.insert(*id);
+            }
+        }
+        self.areas.extend(&self.rebuilt);
+    }
+
+    /// All that may have another symbol, but for the replicas that stay.
+    fn subjects(&self, before: &World, after: &World) -> Vec<Subject> {
+        let entity = Subject::Entity;
+        let areas = self.areas.iter().map(|id| entity(Entity::Area(*id)));
+        let doors = self.doors.iter().map(|id| entity(Entity::Door(*id)));
+        let places = before.places.changes(&after.places).into_iter();
+        let places = places.map(|(id, ..)| entity(Entity::Place(id)));
+        let zones = before.zones.changes(&after.zones).into_iter();
+        let zones = zones.map(|(id, ..)| entity(Entity::Zone(id)));
+        let maps = before.maps.changes(&after.maps).into_iter();
+        let maps = maps.map(|(id, ..)| entity(Entity::Map(id)));
+        let objects = self.objects.iter().map(|id| Subject::Object(*id));
+        let parts = self.parts.iter().map(|id| Subject::Part(*id));
+        let things = before.replicas.changes(&after.replicas).into_iter();
+        let gone = things.filter(|(.., is)| is.is_none());
+        let gone = gone.map(|(id, ..)| entity(Entity::Replica(id)));
+        let all = areas.chain(doors).chain(places).chain(zones).chain(maps);
+        all.chain(objects).chain(parts).chain(gone).collect()
+    }
+}
+
+impl Relations {
+    /// Follows to an edited building; `false` where deriving anew is cheaper or safer: these relations are then of neither
+    /// world.
+    pub(super) fn follow_building(
+        &mut self,
+        before: &World,
+        after: &World,
+    ) -> Result<bool, RelationError> {
+        let renamed_maps = before.maps.changes(&after.maps).into_iter().any(|(_, was, is)| {
+            was.zip(is).is_some_and(|(was, is)| (&was.name, &was.key) != (&is.name, &is.key))
+        });
+        let things = |world: &World, areas: usize| asks_of_all(world.replicas.len(), areas);
+        let touched = Touched::between(before, after);
+        if before.domain.profile != after.domain.profile
+            || renamed_maps
+            || !self.told.is_empty()
+            || self.measured.asks_of_all() != things(after, touched.places.len())
+        {
+            return Ok(false);
+        }
+        let subjects = touched.subjects(before, after).into_iter();
+        let Some(mut old) = self.symbols.rename(before, after, subjects) else { return Ok(false) };
+        let changed: Vec<ReplicaId> =
+            before.replicas.changes(&after.replicas).into_iter().map(|(id, ..)| id).collect();
+        let Some(named) = self.named(before, after, &changed) else { return Ok(false) };
+        // An opening without a name of its own is called as nothing else is.
+        let is_like_opening = |symbol: &Arc<str>| {
+            let like = |own: &str| {
+                let rest = own.strip_prefix(&**symbol);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+            };
+            self.openings.iter().any(|o| o.door.is_none() && like(&o.name))
+        };
+        if old.iter().filter_map(|(_, was)| was.as_ref()).any(is_like_opening) {
+            return Ok(false);
+        }
+        let mut new = old.iter().filter_map(|(subject, _)| self.symbols.known(*subject));
+        let opens = touched.opens || new.any(is_like_opening);
+        let new = if opens {
+            Arc::new(openings(after, self.rules.step_cm(), &self.symbols))
+        } else {
+            Arc::clone(&self.openings)
+        };
+        let (names, mouths) = differing(&self.openings, &new, &touched.rebuilt);
+        let replicas = self.near_changes(before, after, &touched, &mouths, changed);
+        if replicas.len() > MOST_MEASURED {
+            return Ok(false);
+        }
+
+        // What was: under the symbols of before.
+        self.symbols.swap(&mut old);
+        let mut rows = Difference::default();
+        self.building_rows(before, &touched, &names, &replicas, |rel, row| {
+            rows.out.insert((rel, row));
+        });
+        let mut loose = BTreeSet::new();
+        for &id in &replicas {
+            if let Some(map) = self.measured.map_of(id) {
+                rows.out.insert(self.asked(id, map));
+            }
+            let mut change = Change::default();
+            self.measured.take_away(id, &mut change);
+            let feed = self.feed(before);
+            let mut put = |rel: &'static str, cells: &[Cell<'_>]| {
+                rows.out.insert((rel, tuple(cells)));
+            };
+            change.single_before.iter().for_each(|s| feed.single(id, s, &mut put));
+            change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut put));
+            loose.extend(change.added);
+        }
+
+        // What is.
+        self.symbols.swap(&mut old);
+        let gone = self.symbols.of_replicas(named.keys());
+        named.iter().for_each(|(id, name)| self.symbols.give(*id, name));
+        self.openings = new;
+        touched.remade.iter().for_each(|&id| self.measured.enter_kind(after, id));
+        for &id in &touched.rebuilt {
+            match touched.places.get(&id) {
+                Some(&place) => self.measured.enter_room(after, id, place),
+                None => self.measured.forget_room(id),
+            }
+        }
+        for &id in &replicas {
+            let mut change = Change::default();
+            self.measured.put_in_place(after, id, &mut change);
+            let feed = self.feed(after);
+            let mut put = |rel: &'static str, cells: &[Cell<'_>]| {
+                rows.out.insert((rel, tuple(cells)));
+            };
+            change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut put));
+            loose.extend(change.added);
+        }
+        let feed = self.feed(after);
+        let mut into: Vec<(&'static str, Vec<Value>)> = Vec::new();
+        let mut put = |rel: &'static str, cells: &[Cell<'_>]| into.push((rel, tuple(cells)));
+        for id in &replicas {
+            self.measured.of_thing(*id).into_iter().for_each(|s| feed.single(*id, s, &mut put));
+        }
+        for key in loose {
+            if let Some(pair) = self.measured.pairs().get(&key) {
+                feed.pair(key, pair, &mut put);
+            }
+        }
+        rows.into.extend(into);
+        if self.measured.asks_of_all() {
+            let mapped = |id: &ReplicaId| Some(self.asked(*id, self.measured.map_of(*id)?));
+            rows.into.extend(replicas.iter().filter_map(mapped));
+        }
+        self.building_rows(after, &touched, &names, &replicas, |rel, row| {
+            rows.into.insert((rel, row));
+        });
+        self.settle(&mut rows)?;
+        self.live.update()?;
+        self.follow();
+        if opens {
+            self.decide_openings();
+        }
+        self.symbols.retire(&gone, |_| false);
+        let old: Vec<_> = old.into_iter().filter_map(|(of, was)| Some((of, was?))).collect();
+        self.symbols.retire(&old, |subject| match subject {
+            Subject::Entity(Entity::Area(id)) => !after.areas.contains_key(&id),
+            Subject::Entity(Entity::Door(id)) => !after.doors.contains_key(&id),
+            Subject::Entity(Entity::Place(id)) => !after.places.contains_key(&id),
+            Subject::Entity(Entity::Zone(id)) => !after.zones.contains_key(&id),
+            Subject::Entity(Entity::Map(id)) => !after.maps.contains_key(&id),
+            Subject::Entity(Entity::Replica(id)) => !after.replicas.contains_key(&id),
+            Subject::Object(id) => !after.objects.contains_key(&id),
+            Subject::Part(id) => !after.orthoframes.contains_key(&id),
+        });
+        Ok(true)
+    }
+
+    /// The things of which something is measured otherwise: what changed itself, is of a kind that did, stands in or near
+    /// an Area that did, or near an opening that is called otherwise; what goes first.
+    fn near_changes(
+        &self,
+        before: &World,
+        after: &World,
+        touched: &Touched,
+        mouths: &BTreeSet<AreaId>,
+        changed: Vec<ReplicaId>,
+    ) -> Vec<ReplicaId> {
+        let mut replicas: BTreeSet<ReplicaId> = changed.into_iter().collect();
+        if !touched.remade.is_empty() || !touched.rebuilt.is_empty() {
+            for world in [before, after] {
+                let is_of = |r: &&crate::map::Replica| {
+                    touched.remade.contains(&r.object) || touched.rebuilt.contains(&r.area)
+                };
+                replicas.extend(world.replicas.values().filter(is_of).map(|r| r.id));
+            }
+        }
+        for area in touched.rebuilt.union(mouths) {
+            let new = touched.places.get(area).and_then(|place| Room::of(after, *area, *place));
+            for room in self.measured.rooms.get(area).into_iter().chain(&new) {
+                replicas.extend(self.measured.things_near(room));
+            }
+        }
+        replicas.into_iter().collect()
+    }
+
+    fn feed<'a>(&'a self, world: &'a World) -> Feed<'a> {
+        Feed { world, symbols: &self.symbols, measured: &self.measured, openings: &self.openings }
+    }
+
+    /// The rows of all that is touched, but for what is measured of things.
+    fn building_rows(
+        &self,
+        world: &World,
+        touched: &Touched,
+        openings: &BTreeSet<String>,
+        replicas: &[ReplicaId],
+        mut put: impl FnMut(&'static str, Vec<Value>),
+    ) {
+        let doors: Vec<DoorId> = touched.doors.iter().copied().collect();
+        self.openings_and_properties(world, replicas, &doors, &mut put);
+        let mut sink = |rel: &'static str, cells: &[Cell<'_>]| put(rel, tuple(cells));
+        let feed = self.feed(world);
+        feed.robot(&mut sink);
+        feed.openings(|opening| openings.contains(&opening.name), &mut sink);
+        touched.areas.iter().for_each(|&id| feed.area(id, &mut sink));
+        touched.objects.iter().for_each(|&id| feed.object(id, &mut sink));
+        touched.parts.iter().for_each(|&id| feed.part(id, &mut sink));
+    }
+}
+
+/// The names of openings that are others than they were, or are told of with one of these Areas; and the Areas in whose
+/// sides one is another.
+fn differing(
+    before: &Openings,
+    after: &Openings,
+    told: &BTreeSet<AreaId>,
+) -> (BTreeSet<String>, BTreeSet<AreaId>) {
+    let (mut names, mut areas) = (BTreeSet::new(), BTreeSet::new());
+    if std::ptr::eq(before, after) {
+        return (names, areas);
+    }
+    let with = |side: &OpenSide| {
+        let met = [side.inward, side.outward].into_iter().flatten().map(|(area, _)| area);
+        met.chain(side.linked).chain([side.area]).any(|area| told.contains(&area))
+    };
+    for (one, others) in [(before, after), (after, before)] {
+        for opening in one.iter() {
+            let first = opening.sides.first();
+            let other = first.and_then(|side| others.of_side(side.area, &side.side));
+            if other.is_none_or(|other| !other.is_measured_as(opening)) {
+                names.insert(opening.name.clone());
+                areas.extend(opening.sides.iter().map(|side| side.area));
+            } else if opening.sides.iter().any(with) {
+                names.insert(opening.name.clone());
+            }
+        }
+    }
+    (names, areas)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::{DoorState, Place, TypeKind};
+    use crate::relations::{RelationRules, derive};
+    use crate::units::{Cm, Deg, PlaceId, Point};
+
+    fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
+        move |below| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % below
+        }
+    }
+
+    /// The value under a random key.
+    macro_rules! any {
+        ($throw:ident, $records:expr) => {{
+            let keys: Vec<_> = $records.keys().copied().collect();
+            let key = keys[$throw(keys.len())];
+            $records.get_mut(&key).expect("chosen among them")
+        }};
+    }
+
+    fn shifted(frame: &Frame, by: (f64, f64)) -> Frame {
+        Frame::new(frame.x.get() + by.0, frame.y.get() + by.1, frame.z.get(), frame.angle)
+    }
+
+    fn take_area_away(world: &mut World, id: AreaId) {
+        world.areas.remove(&id);
+        world.replicas.retain(|_, r| r.area != id);
+        world.places.retain(|_, p| p.area != id);
+        for map in world.maps.values_mut() {
+            map.items.retain(|item| item.area != id);
+            map.links.retain(|link| link.area != id && link.to_area != id);
+        }
+    }
+
+    /// One edit of the building; it need not be a sound one.
+    fn alter(world: &mut World, throw: &mut impl FnMut(usize) -> usize) {
+        let names: Vec<String> = world.names().map(|(_, name)| name.to_owned()).collect();
+        let name = match throw(3) {
+            0 => names[throw(names.len())].clone(),
+            1 => world.objects.values().nth(throw(world.objects.len())).expect("some").name.clone(),
+            _ => format!("Имя-{}", throw(40)),
+        };
+        let (x, y) = (throw(400) as f64 - 200.0, throw(400) as f64 - 200.0);
+        match throw(22) {
+            0 | 1 => {
+                let last = world.orthoframes.keys().next_back().expect("some").0;
+                let part = any!(throw, world.orthoframes).clone();
+                let (id, key) = (OrFrId(last + 1), format!("part-{}", last + 1));
+                let height = Cm::of(part.height.get() + 7.0);
+                world
+                    .orthoframes
+                    .insert(id, Orthoframe { id, key, name: name.clone(), height, ..part });
+                let last = world.objects.keys().next_back().expect("some").0;
+                let mut object = any!(throw, world.objects).clone();
+                object.items.iter_mut().take(1).for_each(|item| item.orthoframe = id);
+                let (id, key) = (ObjectId(last + 1), format!("object-{}", last + 1));
+                world.objects.insert(id, Object { id, key, name, ..object });
+                let last = world.replicas.keys().next_back().expect("some").0;
+                let twin = any!(throw, world.replicas).clone();
+                let (new, name) = (ReplicaId(last + 1), format!("Новое-{last}"));
+                let frame = shifted(&twin.frame, (x / 5.0, y / 5.0));
+                let twin = crate::map::Replica { id: new, object: id, name, frame, ..twin };
+                world.replicas.insert(new, twin);
+            }
+            2 => any!(throw, world.orthoframes).height = Cm::of(20.0 + throw(200) as f64),
+            3 => any!(throw, world.objects).name = name,
+            4 => any!(throw, world.orthoframes).name = name,
+            5 => any!(throw, world.areas).name = name,
+            6 => any!(throw, world.doors).name = name,
+            7 => drop(any!(throw, world.areas).properties.insert("ЦВЕТ".into(), name)),
+            8 => drop(any!(throw, world.objects).properties.insert("ЦВЕТ".into(), name)),
+            9 => drop(any!(throw, world.orthoframes).properties.insert("ЦВЕТ".into(), name)),
+            10 => {
+                let used: BTreeSet<_> = world.replicas.values().map(|r| r.object).collect();
+                world.objects.retain(|id, _| used.contains(id));
+                let areas = world.areas.values().flat_map(|a| &a.items);
+                let items = world.objects.values().flat_map(|o| &o.items).chain(areas);
+                let used: BTreeSet<_> = items.map(|item| item.orthoframe).collect();
+                world.orthoframes.retain(|id, _| used.contains(id));
+            }
+            11 => {
+                let id = PlaceId(900 + throw(50) as u32);
+                let area = any!(throw, world.areas).id;
+                let (name_en, forms) = (String::new(), Default::default());
+                let at = Point::new(x, y);
+                let place =
+                    Place { id, area, name, name_en, at, heading: None, serves: None, forms };
+                world.places.insert(id, place);
+            }
+            12 => drop(world.places.pop_last()),
+            13 | 14 => {
+                let last = world.areas.keys().next_back().expect("some").0;
+                let mut area = any!(throw, world.areas).clone();
+                if throw(2) == 0 {
+                    area.doors.clear();
+                }
+                let (id, key) = (AreaId(last + 1), format!("area-{}", last + 1));
+                let map = any!(throw, world.maps);
+                let mut item = map.items[throw(map.items.len())].clone();
+                item.area = id;
+                item.frame = shifted(&item.frame, (4.0 * x, 4.0 * y));
+                map.items.push(item);
+                world.areas.insert(id, Area { id, key, name, ..area });
+            }
+            15 => {
+                let map = any!(throw, world.maps);
+                let at = throw(map.items.len());
+                let by = (x / 20.0, y / 20.0);
+                map.items[at].frame = shifted(&map.items[at].frame, by);
+            }
+            16 if world.areas.len() > 3 => {
+                let id = any!(throw, world.areas).id;
+                take_area_away(world, id);
+            }
+            17 => {
+                let door = any!(throw, world.doors);
+                match throw(3) {
+                    0 => door.width = Cm::of(door.width.get() * 0.9),
+                    1 => door.state = DoorState::CLOSED,
+                    _ => drop(door.properties.insert("ЦВЕТ".into(), name)),
+                }
+            }
+            18 => drop(any!(throw, world.areas).doors.pop()),
+            19 => {
+                let map = any!(throw, world.maps);
+                match map.links.pop() {
+                    Some(link) if throw(2) == 0 => map.links.insert(0, link),
+                    _ => {}
+                }
+            }
+            20 => {
+                let list = world.types.list_mut(TypeKind::Object);
+                let count = list.entries.len().max(1);
+                if let Some(entry) = list.entries.values_mut().nth(throw(count)) {
+                    entry.traits.push(["container", "portable"][throw(2)].to_owned());
+                }
+            }
+            _ => {
+                let object = any!(throw, world.objects).id;
+                let replica = any!(throw, world.replicas);
+                if throw(2) == 0 {
+                    replica.object = object;
+                }
+                replica.frame = Frame::new(x, y, replica.frame.z.get(), Deg::of(x));
+            }
+        }
+    }
+
+    fn same(followed: &Relations, anew: &Relations, world: &World, how: &str) {
+        for (_, info) in anew.derived().relations() {
+            let rows = |relations: &Relations| -> BTreeSet<String> {
+                let tuples = relations.derived().tuples(&*info.name);
+                tuples.into_iter().flatten().map(|t| format!("{:?}", t.values())).collect()
+            };
+            let [one, other] = [rows(followed), rows(anew)];
+            let differs: Vec<_> = one.symmetric_difference(&other).take(6).collect();
+            assert!(differs.is_empty(), "{how}, {}: {differs:?}", info.name);
+        }
+        assert_eq!(followed.openings, anew.openings, "{how}");
+        assert!(followed.measured == anew.measured, "{how}");
+        for subject in world.objects.keys().map(|id| Subject::Object(*id)) {
+            assert_eq!(followed.symbols.known(subject), anew.symbols.known(subject), "{how}");
+        }
+        let looked_up = |r: &Relations| {
+            (r.areas.clone(), r.supports.clone(), r.loads.clone(), r.on_floor.clone())
+        };
+        assert_eq!(looked_up(followed), looked_up(anew), "{how}");
+        assert_eq!(followed.bearing, anew.bearing, "{how}");
+    }
+
+    /// Whatever is built, rebuilt, taken away or called otherwise: followed, all is as derived anew.
+    #[test]
+    fn an_edited_building_is_followed() {
+        let rules = RelationRules::standard();
+        for (seed, map) in ["rb2", "lab", "two-storeys"].into_iter().enumerate() {
+            let mut throw = dice(seed as u64 + 5);
+            let first =
+                World::load(format!("../../maps/{map}.toml")).expect("a map of the project");
+            let anew =
+                |world: &World| derive(world, &rules, world.domain.profile).expect("the rules end");
+            let (mut before, mut relations) = (first.clone(), anew(&first));
+            let mut followed = 0;
+            const STEPS: usize = 40;
+            for step in 0..STEPS {
+                let mut after = before.clone();
+                for _ in 0..=throw(2) {
+                    alter(&mut after, &mut throw);
+                }
+                let how = format!("{map}, step {step}");
+                let fresh = anew(&after);
+                if relations.follow_world(&before, &after).expect("the rules end") {
+                    same(&relations, &fresh, &after, &how);
+                    followed += usize::from(!before.is_same_building(&after));
+                } else {
+                    relations = fresh;
+                }
+                before = after;
+                if step % 20 == 19 {
+                    (before, relations) = (first.clone(), anew(&first));
+                }
+            }
+            assert!(followed > STEPS / 2, "{map}: {followed} of {STEPS}");
+        }
+    }
+}
