@@ -60,6 +60,7 @@ impl NetworkLayer {
                 for border in &frame.borders {
                     if let (Beyond::Doorway { doorway, .. }, Some(crossing)) =
                         (border.beyond, border.crossing)
+                        && let Some(doorway) = floor.doorway_at(fragment.area, doorway)
                     {
                         by_doorway.entry(doorway).or_default().push((from, middle(crossing)));
                     }

@@ -93,7 +93,7 @@ impl FloorPlan {
         let is_among = |&a: &AreaId| fragments.binary_search_by_key(&a, |f| f.area).is_ok();
         let mut near: Vec<usize> = fragments
             .iter()
-            .flat_map(|f| f.exits.iter().map(|e| e.doorway))
+            .flat_map(|f| f.exits.iter().filter_map(|e| self.doorway_at(f.area, e.doorway)))
             .chain(self.network.straits.iter().flat_map(|s| s.doorways.iter().map(|d| d.0)))
             .filter(|&d| self.doorways()[d].areas.iter().all(is_among))
             .collect();

@@ -10,7 +10,7 @@ use std::fmt::{Debug, Write};
 use std::hash::{Hash, Hasher};
 
 use crate::map::{DoorMount, Item};
-use crate::units::{AreaId, ObjectId, ReplicaId};
+use crate::units::{AreaId, ObjectId, OpeningId, ReplicaId};
 
 use super::Bounds;
 use super::opening::Opening;
@@ -37,7 +37,9 @@ fn number_of(value: &impl Debug) -> u64 {
 /// The digests of some Areas' floors.
 pub(super) fn digests(site: &Site<'_>, areas: &[AreaId]) -> Vec<u64> {
     let robot = number_of(site.robot);
-    let doorways: Vec<u64> = site.doorways.iter().map(|d| doorway_number(site, d)).collect();
+    let mut doorways: HashMap<OpeningId, u64> = HashMap::new();
+    let mut doorway_number =
+        |d: &Opening| *doorways.entry(d.id).or_insert_with(|| doorway_number(site, d));
     let rooms: HashMap<AreaId, u64> = site
         .scene
         .areas
@@ -65,17 +67,13 @@ pub(super) fn digests(site: &Site<'_>, areas: &[AreaId]) -> Vec<u64> {
         let mut zones: Vec<Bounds> =
             site.scene.areas[&area].prisms.iter().map(|p| p.bounds.grown(1.0)).collect();
         for (index, doorway, side) in site.doorways_of(area) {
-            let mouth = doorway.mouth(site.reach()).grown(1.0);
-            zones.push(mouth);
+            zones.push(doorway.mouth(site.reach()).grown(1.0));
             let other = doorway.areas[1 - side];
-            (index, doorways[index], rooms.get(&other)).hash(&mut hash);
-            let around =
-                Bounds::of([doorway.middle()]).grown(doorway.width() / 2.0 + 3.0 * site.reach());
+            (index, doorway_number(doorway), rooms.get(&other)).hash(&mut hash);
             for (next, beside, at) in site.doorways_of(other) {
-                if around.grown(beside.width() + 1.0).contains(beside.middle())
-                    || beside.mouth(1.0).meets(&mouth)
-                {
-                    (next, doorways[next], rooms.get(&beside.areas[1 - at])).hash(&mut hash);
+                if doorway.may_tell(beside, site.reach()) {
+                    let beyond = rooms.get(&beside.areas[1 - at]);
+                    (next, doorway_number(beside), beyond).hash(&mut hash);
                 }
             }
         }

@@ -46,6 +46,7 @@ const PATIENCE: usize = 1;
 /// An edge of the centre space on a doorway's line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Exit {
+    /// Its number among the doorways of the Area.
     pub(super) doorway: usize,
     pub(super) cell: u32,
     pub(super) edge: usize,
@@ -206,7 +207,7 @@ impl FragmentFloor {
         difference(&contours(grid, &self.raw()), &beyond)
     }
 
-    /// The doorways that it names, by their index in [`super::FloorPlan::doorways`].
+    /// The doorways that it names, by their numbers among those of the Area.
     pub(super) fn doorways(&self) -> impl Iterator<Item = usize> + '_ {
         let along = self.edging.doorways.iter().filter_map(|face| match face.beyond {
             Beyond::Doorway { doorway, .. } => Some(doorway),

@@ -78,6 +78,7 @@ mod coverage;
 mod dead_zone;
 mod digest;
 mod edging;
+mod edited;
 mod eye;
 mod faces;
 mod floor;

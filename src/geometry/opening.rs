@@ -21,8 +21,8 @@
 use crate::map::{Door, DoorMount, DoorState, OpensTo, Permeability, SideRef, World};
 use crate::units::{AreaId, DoorId, MapId, OpeningId, Point, Vector};
 
-use super::Polygon;
 use super::leaf::{Bay, Leaves};
+use super::{Bounds, Polygon};
 
 /// Two sides that have less in common, in cm, make no way.
 pub(super) const LEAST_WIDTH: f64 = 1e-3;
@@ -168,11 +168,24 @@ impl Opening {
     /// Whether it is called and measured as another; its number, and what the rules let it join, do not count.
     #[must_use]
     pub fn is_measured_as(&self, other: &Self) -> bool {
-        let bay = |o: &Self| (o.opens_to, o.gap, o.rise, o.origin, o.along, o.span, o.is_through);
-        (self.map, &self.name, self.areas, &self.sides)
-            == (other.map, &other.name, other.areas, &other.sides)
-            && (self.door, self.permeability) == (other.door, other.permeability)
-            && bay(self) == bay(other)
+        (self.map, &self.name, &self.sides, self.rise, self.is_through)
+            == (other.map, &other.name, &other.sides, other.rise, other.is_through)
+            && self.is_shaped_as(other)
+    }
+
+    /// Whether a floor leads through it as through another of the same sides; see [`Self::shape`].
+    pub(super) fn is_shaped_as(&self, other: &Self) -> bool {
+        let bay = |o: &Self| (o.opens_to, o.gap, o.rise, o.origin, o.along, o.span);
+        let kind = |o: &Self| (o.areas, o.door, o.permeability);
+        kind(self) == kind(other) && bay(self) == bay(other)
+    }
+
+    /// Whether the floor before it, on the side of an Area, may tell of another doorway of that Area; for a robot that
+    /// keeps `reach` from everything.
+    pub(super) fn may_tell(&self, beside: &Self, reach: f64) -> bool {
+        let around = Bounds::of([self.middle()]).grown(self.width() / 2.0 + 3.0 * reach);
+        around.grown(beside.width() + 1.0).contains(beside.middle())
+            || beside.mouth(1.0).meets(&self.mouth(reach).grown(1.0))
     }
 
     /// The point at `t` along the first Area's side, `s` out of that Area.

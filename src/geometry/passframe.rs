@@ -64,7 +64,7 @@ impl PassframeKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Beyond {
     Passframe(PassframeId),
-    /// A door (none for an open passage) into an Area; `doorway` is its index in [`super::FloorPlan::doorways`].
+    /// A door (none for an open passage) into an Area; `doorway` is its number, see [`super::FloorPlan::doorway_at`].
     Doorway {
         doorway: usize,
         door: Option<DoorId>,

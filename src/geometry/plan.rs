@@ -6,21 +6,24 @@
 //!
 //! **Invariant**: a plan after [`FloorPlan::rebuild`] equals one built anew from the same world.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Arc, OnceLock};
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::{DoorState, Object, Replica, RobotProfile, World, Zone};
-use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
 use super::cells::CellKey;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
+use super::edited::shut_otherwise;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
@@ -37,29 +40,63 @@ use super::{Bounds, Passframe, PassframeId, Region};
 /// The floor of one Map for one robot.
 #[derive(Debug, Clone)]
 pub struct FloorPlan {
-    map: MapId,
-    robot: RobotProfile,
+    pub(super) map: MapId,
+    pub(super) robot: RobotProfile,
     states: DoorStates,
     pub(super) zones: Arc<Vec<PlacedZone>>,
-    scene: Arc<Scene>,
-    index: Arc<ReplicaIndex>,
-    /// Those that it leads through.
-    doorways: Arc<Vec<Opening>>,
-    /// The other openings of the Map.
-    blind: Arc<Vec<Opening>>,
-    /// For each Area its doorways, and which of their two sides it is.
-    by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
+    pub(super) scene: Arc<Scene>,
+    pub(super) index: Arc<ReplicaIndex>,
+    pub(super) doorways: Arc<Doorways>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
     /// The same, with what only the footprint covers; made when it is asked for. Not used for a disc.
-    covered: Vec<OnceLock<Arc<FragmentFloor>>>,
+    pub(super) covered: Vec<OnceLock<Arc<FragmentFloor>>>,
     /// Of each doorway whether it stands open, is high enough and without a step.
-    admits: Vec<bool>,
+    pub(super) admits: Vec<bool>,
     pub(super) network: Network,
     /// By Fragment, then by doorway.
-    straits: Vec<Vec<Strait>>,
+    pub(super) straits: Vec<Vec<Strait>>,
     /// The Fragments by place, with half of the walls behind their doorways.
-    by_place: Arc<Buckets>,
+    pub(super) by_place: Arc<Buckets>,
+}
+
+/// The openings of a Map.
+#[derive(Debug)]
+pub(super) struct Doorways {
+    /// Those that a floor leads through, in the order of their places.
+    pub(super) ways: Vec<Opening>,
+    /// The others.
+    blind: Vec<Opening>,
+    /// For each Area its doorways, and which of their two sides it is.
+    pub(super) by_area: BTreeMap<AreaId, Vec<(usize, usize)>>,
+}
+
+impl Doorways {
+    pub(super) fn of(openings: &Openings, map: MapId) -> Self {
+        let own = openings.iter().filter(|o| o.map == map).cloned();
+        let (mut ways, blind): (Vec<_>, Vec<_>) = own.partition(Opening::is_way);
+        ways.sort_by(by_place);
+        let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
+        for (index, doorway) in ways.iter().enumerate() {
+            for side in [0, 1] {
+                by_area.entry(doorway.areas[side]).or_default().push((index, side));
+            }
+        }
+        Self { ways, blind, by_area }
+    }
+
+    /// The number of the doorway between the sides of this one.
+    pub(super) fn find(&self, doorway: &Opening) -> Option<usize> {
+        self.ways.binary_search_by(|way| by_place(way, doorway)).ok()
+    }
+}
+
+fn by_place(one: &Opening, other: &Opening) -> Ordering {
+    let areas = one.areas.cmp(&other.areas);
+    areas.then_with(|| {
+        let sides = other.sides.iter().map(|side| &side.side);
+        one.sides.iter().map(|side| &side.side).cmp(sides)
+    })
 }
 
 impl FloorPlan {
@@ -88,26 +125,13 @@ impl FloorPlan {
         kept: &[u8],
     ) -> (Self, usize) {
         let scene = Scene::of(world, map);
-        let own = openings.iter().filter(|o| o.map == map).cloned();
-        let (mut doorways, blind): (Vec<_>, Vec<_>) = own.partition(Opening::is_way);
-        let place =
-            |o: &Opening| (o.areas, o.sides.iter().map(|s| s.side.clone()).collect::<Vec<_>>());
-        doorways.sort_by_cached_key(place);
-        let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
-        for (index, doorway) in doorways.iter().enumerate() {
-            for side in [0, 1] {
-                by_area.entry(doorway.areas[side]).or_default().push((index, side));
-            }
-        }
         let mut plan = Self {
             map,
             robot: robot.clone(),
             states: states.clone(),
             zones: Arc::new(placed(world, &scene, map, Zone::is_standing)),
             index: Arc::new(ReplicaIndex::of(&scene)),
-            doorways: Arc::new(doorways),
-            blind: Arc::new(blind),
-            by_area: Arc::new(by_area),
+            doorways: Arc::new(Doorways::of(openings, map)),
             scene: Arc::new(scene),
             fragments: Vec::new(),
             covered: Vec::new(),
@@ -125,7 +149,8 @@ impl FloorPlan {
             let digests = areas.iter().zip(digests(site, &areas));
             let same = digests.filter_map(|(area, digest)| {
                 let (own, floor) = kept.remove(area)?;
-                let leads = |doorway: usize| doorway < site.doorways.len();
+                let count = site.by_area.get(area).map_or(0, Vec::len);
+                let leads = |doorway: usize| doorway < count;
                 let is_sound = floor.doorways().all(leads);
                 (own == digest && is_sound).then(|| Arc::new(floor))
             });
@@ -153,10 +178,10 @@ impl FloorPlan {
     }
 
     /// A box around all that a Fragment's floor can ever reach, whatever its doors do.
-    fn extent_of(&self, fragment: &FragmentFloor) -> Bounds {
-        let doorways = self.by_area.get(&fragment.area).into_iter().flatten();
-        let mouths =
-            doorways.map(|&(d, _)| self.doorways[d].rectangle(0.0, self.doorways[d].gap, 0.0));
+    pub(super) fn extent_of(&self, fragment: &FragmentFloor) -> Bounds {
+        let doorways = self.doorways.by_area.get(&fragment.area).into_iter().flatten();
+        let mouths = doorways
+            .map(|&(d, _)| self.doorways.ways[d].rectangle(0.0, self.doorways.ways[d].gap, 0.0));
         mouths.fold(fragment.bounds, |b, m| b.union(&m.bounds())).grown(1.0)
     }
 
@@ -186,14 +211,14 @@ impl FloorPlan {
         areas.into_iter().find(|a| self.scene.areas.get(a).is_some_and(holds))
     }
 
-    fn with_site<T>(&self, world: &World, work: impl FnOnce(&Site<'_>) -> T) -> T {
+    pub(super) fn with_site<T>(&self, world: &World, work: impl FnOnce(&Site<'_>) -> T) -> T {
         let nearby = |bounds: &Bounds| self.index.near(&self.scene, bounds);
         work(&Site {
             world,
             scene: &self.scene,
             nearby: &nearby,
-            doorways: &self.doorways,
-            by_area: &self.by_area,
+            doorways: &self.doorways.ways,
+            by_area: &self.doorways.by_area,
             robot: &self.robot,
             states: &self.states,
             zones: &self.zones,
@@ -204,17 +229,15 @@ impl FloorPlan {
     /// anew the Fragments that they touch or touched.
     pub fn rebuild(&mut self, world: &World, replicas: &[ReplicaId]) {
         let mut touched = Vec::new();
+        let frame_of = |area: &AreaId| self.scene.areas.get(area).map(|area| area.frame);
+        let placed = Self::place(world, replicas, frame_of);
         let scene = Arc::make_mut(&mut self.scene);
         let index = Arc::make_mut(&mut self.index);
-        for &id in replicas {
+        for (id, placed) in placed {
             if let Some(gone) = scene.replicas.remove(&id) {
                 index.remove(&gone);
                 touched.push(gone.reach().grown(0.2));
             }
-            let placed = world.replicas.get(&id).and_then(|replica| {
-                let frame = scene.areas.get(&replica.area)?.frame;
-                Some(PlacedReplica::new(world, id, frame.compose(&replica.frame)))
-            });
             if let Some(placed) = placed {
                 index.insert(&placed);
                 touched.push(placed.reach().grown(0.2));
@@ -223,6 +246,20 @@ impl FloorPlan {
         }
         let stale = self.near(&touched);
         self.renew(world, &stale);
+    }
+
+    /// Replicas as they stand on the Map, whose Areas have these frames there.
+    pub(super) fn place<'r>(
+        world: &World,
+        replicas: impl IntoIterator<Item = &'r ReplicaId>,
+        frame_of: impl Fn(&AreaId) -> Option<Frame>,
+    ) -> BTreeMap<ReplicaId, Option<PlacedReplica>> {
+        let placed = |id: ReplicaId| {
+            let replica = world.replicas.get(&id)?;
+            let frame = frame_of(&replica.area)?;
+            Some(PlacedReplica::new(world, id, frame.compose(&replica.frame)))
+        };
+        replicas.into_iter().map(|&id| (id, placed(id))).collect()
     }
 
     /// The zones that it respects: those without a time, until told otherwise by [`Self::with_zones`].
@@ -237,11 +274,7 @@ impl FloorPlan {
         let mut plan = self.clone();
         let before = std::mem::take(&mut plan.zones);
         let after = placed(world, &plan.scene, plan.map, is_wanted);
-        let shut = |zones: &[PlacedZone], others: &[PlacedZone]| -> Vec<Bounds> {
-            let news = zones.iter().filter(|z| z.kind.is_shut() && !others.contains(z));
-            news.map(|z| z.bounds().grown(0.2)).collect()
-        };
-        let touched = [shut(&before, &after), shut(&after, &before)].concat();
+        let touched = shut_otherwise(&before, &after);
         plan.zones = Arc::new(after);
         let stale = plan.near(&touched);
         if !stale.is_empty() {
@@ -251,16 +284,16 @@ impl FloorPlan {
     }
 
     /// The Areas on whose floors it tells what lies in some boxes.
-    fn near(&self, touched: &[Bounds]) -> Vec<AreaId> {
+    pub(super) fn near(&self, touched: &[Bounds]) -> Vec<AreaId> {
         let reach = self.reach();
         let mut stale: Vec<AreaId> = Vec::new();
         for zone in touched {
             // A Fragment sees through its doorways as far as their mouths are deep.
             for fragment in self.fragments_near(&zone.grown(reach + 5.0)) {
-                let mut mouths = self.by_area.get(&fragment.area).into_iter().flatten();
+                let mut mouths = self.doorways.by_area.get(&fragment.area).into_iter().flatten();
                 let prisms = &self.scene.areas[&fragment.area].prisms;
                 if prisms.iter().any(|p| p.bounds.meets(zone))
-                    || mouths.any(|&(d, _)| self.doorways[d].mouth(reach).meets(zone))
+                    || mouths.any(|&(d, _)| self.doorways.ways[d].mouth(reach).meets(zone))
                 {
                     stale.push(fragment.area);
                 }
@@ -279,12 +312,12 @@ impl FloorPlan {
         plan
     }
 
-    fn set_doors(&mut self, before: &World, after: &World, states: &DoorStates) {
+    pub(super) fn set_doors(&mut self, before: &World, after: &World, states: &DoorStates) {
         let differs =
             |(door, state): &(&DoorId, &DoorState)| self.door_state(before, **door) != **state;
         let mut stale = Vec::new();
         for (&door, _) in states.iter().filter(differs) {
-            for doorway in self.doorways.iter().filter(|d| d.door == Some(door)) {
+            for doorway in self.doorways.ways.iter().filter(|d| d.door == Some(door)) {
                 stale.extend(doorway.areas);
                 // The leaf may stand before a neighbour's door.
                 stale.extend(self.next_to(doorway));
@@ -329,11 +362,12 @@ impl FloorPlan {
     }
 
     /// The Areas behind other doorways close to this one.
-    fn next_to(&self, doorway: &Opening) -> Vec<AreaId> {
+    pub(super) fn next_to(&self, doorway: &Opening) -> Vec<AreaId> {
         let zone = Bounds::of([doorway.middle()]).grown(
             2.0 * doorway.width() + 3.0 * (self.robot.radius.get() + self.robot.clearance.get()),
         );
         self.doorways
+            .ways
             .iter()
             .filter(|d| zone.grown(d.width()).contains(d.middle()))
             .flat_map(|d| d.areas)
@@ -381,19 +415,25 @@ impl FloorPlan {
     /// All openings that the floor leads through, with their doors open or not.
     #[must_use]
     pub fn doorways(&self) -> &[Opening] {
-        &self.doorways
+        &self.doorways.ways
+    }
+
+    /// The index in [`Self::doorways`] of an Area's doorway, by its number among those of the Area.
+    #[must_use]
+    pub fn doorway_at(&self, area: AreaId, number: usize) -> Option<usize> {
+        Some(self.doorways.by_area.get(&area)?.get(number)?.0)
     }
 
     /// The openings of the Map that join no two Areas by their sides: doors that lead out of it, and those that the rules
     /// do not let join.
     #[must_use]
     pub fn blind_openings(&self) -> &[Opening] {
-        &self.blind
+        &self.doorways.blind
     }
 
     /// The doorways that a door closes; several only if a door is mounted twice.
     pub fn doorways_of(&self, door: DoorId) -> impl Iterator<Item = &Opening> + '_ {
-        self.doorways.iter().filter(move |d| d.door == Some(door))
+        self.doorways.ways.iter().filter(move |d| d.door == Some(door))
     }
 
     /// All Fragments, in the order of their Areas' ids.
@@ -476,7 +516,7 @@ impl FloorPlan {
     /// Whether from a cell at a doorway the whole robot comes clear of the doorway, or through a further one: the
     /// wedge behind a leaf that stands ajar leads nowhere.
     fn leads_on(&self, (number, cell): CellKey, index: usize) -> bool {
-        let (floor, doorway) = (self.floor(number), &self.doorways[index]);
+        let (floor, doorway) = (self.floor(number), &self.doorways.ways[index]);
         let component = floor.cells.component(cell);
         let is_own = |&cell: &u32| floor.cells.component(cell) == component;
         let mut portals = self.network.portals[number as usize].iter();
@@ -492,19 +532,19 @@ impl FloorPlan {
 
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
     pub(super) fn doorways_at(&self, number: u32) -> &[(usize, usize)] {
-        self.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
+        self.doorways.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
     }
 
     /// Finds where the given Fragments touch others, and what hangs together now.
-    fn connect(&mut self, world: &World, stale: impl IntoIterator<Item = usize>) {
+    pub(super) fn connect(&mut self, world: &World, stale: impl IntoIterator<Item = usize>) {
         let (mut touched, mut crossed) = (BTreeSet::new(), BTreeSet::new());
         let stale: Vec<usize> = stale.into_iter().collect();
         for &number in &stale {
             touched.insert(number);
             let area = self.fragments[number].area;
-            for &(doorway, side) in self.by_area.get(&area).into_iter().flatten() {
+            for &(doorway, side) in self.doorways.by_area.get(&area).into_iter().flatten() {
                 crossed.insert(doorway);
-                touched.extend(self.number(self.doorways[doorway].areas[1 - side]));
+                touched.extend(self.number(self.doorways.ways[doorway].areas[1 - side]));
             }
         }
         self.network.portals.resize(self.fragments.len(), Vec::new());
@@ -512,18 +552,19 @@ impl FloorPlan {
             self.network.portals[number] = self.portals_from(number);
         }
         let count = self.fragments.len();
-        self.straits.resize(count + self.doorways.len(), Vec::new());
+        self.straits.resize(count + self.doorways.ways.len(), Vec::new());
         self.covered.resize(count, OnceLock::new());
-        self.admits.resize(self.doorways.len(), false);
+        self.admits.resize(self.doorways.ways.len(), false);
         for &doorway in &crossed {
             self.admits[doorway] =
-                self.with_site(world, |site| site.is_open(&self.doorways[doorway]));
+                self.with_site(world, |site| site.is_open(&self.doorways.ways[doorway]));
         }
         if !self.robot.footprint.is_empty() {
             // Straits lead on through Fragments without a place to turn.
             let mut open: Vec<usize> = crossed.iter().copied().collect();
             while let Some(doorway) = open.pop() {
-                let sides = self.doorways[doorway].areas.iter().filter_map(|&a| self.number(a));
+                let sides =
+                    self.doorways.ways[doorway].areas.iter().filter_map(|&a| self.number(a));
                 for number in sides.filter(|&n| self.is_blind(n as u32)) {
                     let own = self.doorways_at(number as u32).iter().map(|d| d.0);
                     open.extend(own.filter(|&d| crossed.insert(d)));
@@ -552,7 +593,7 @@ impl FloorPlan {
             }
         }
         let straits = self.straits.iter().flatten().cloned().collect();
-        self.network.join(&self.fragments, self.doorways.len(), straits);
+        self.network.join(&self.fragments, self.doorways.ways.len(), straits);
     }
 
     /// A Fragment whose free floor is what the footprint covers too.
@@ -572,7 +613,7 @@ impl FloorPlan {
     /// The floor of a Fragment that nothing stands on, up to so far beyond the lines of its open doorways, in cm.
     fn inside(&self, number: u32, further: f64) -> Shapes {
         let own = self.doorways_at(number).iter().filter(|d| self.admits[d.0]);
-        let open = own.map(|&(index, side)| (&self.doorways[index], side));
+        let open = own.map(|&(index, side)| (&self.doorways.ways[index], side));
         self.floor(number).inside(open, further, self.reach().max(2.0 * SLACK))
     }
 
@@ -587,7 +628,7 @@ impl FloorPlan {
         while let Some(&at) = numbers.get(k) {
             k += 1;
             for &(index, side) in self.doorways_at(at) {
-                let doorway = &self.doorways[index];
+                let doorway = &self.doorways.ways[index];
                 let next = self.number(doorway.areas[1 - side]).map(|n| n as u32);
                 if !self.admits[index] {
                     shut.push(doorway.line());
@@ -630,11 +671,13 @@ impl FloorPlan {
         let fragment = &self.fragments[number];
         let mut portals = Vec::new();
         for exit in &fragment.exits {
-            let doorway = &self.doorways[exit.doorway];
+            let Some(index) = self.doorway_at(fragment.area, exit.doorway) else { continue };
+            let doorway = &self.doorways.ways[index];
             let other = doorway.index_of(fragment.area).map(|side| doorway.areas[1 - side]);
-            let Some(to) = other.and_then(|a| self.number(a)) else { continue };
+            let Some((area, to)) = other.and_then(|a| Some((a, self.number(a)?))) else { continue };
             let own = fragment.cells.edge(exit.cell, exit.edge);
-            for entry in self.fragments[to].exits.iter().filter(|e| e.doorway == exit.doorway) {
+            let there = |number: usize| self.doorway_at(area, number) == Some(index);
+            for entry in self.fragments[to].exits.iter().filter(|e| there(e.doorway)) {
                 let opposite = self.fragments[to].cells.edge(entry.cell, entry.edge);
                 if let Some((right, left)) = overlap(own, opposite) {
                     portals.push(Portal {
@@ -643,7 +686,7 @@ impl FloorPlan {
                         to: (to as u32, entry.cell),
                         right,
                         left,
-                        doorway: exit.doorway,
+                        doorway: index,
                     });
                 }
             }
@@ -654,7 +697,7 @@ impl FloorPlan {
 }
 
 /// The floors of Areas, in their order, by as many threads as the machine has for so much work.
-fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFloor>> {
+pub(super) fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFloor>> {
     let build = |area: &AreaId| Arc::new(FragmentFloor::build(site, *area));
     const WORTH_A_THREAD: usize = 8;
     let most = std::thread::available_parallelism().map_or(1, usize::from);

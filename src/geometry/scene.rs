@@ -147,7 +147,7 @@ impl Scene {
 }
 
 impl PlacedArea {
-    fn new(world: &World, id: AreaId, frame: Frame) -> Self {
+    pub(super) fn new(world: &World, id: AreaId, frame: Frame) -> Self {
         Self { id, frame, prisms: prisms(world, Owner::Area(id), &world.areas[&id].items, &frame) }
     }
 }

@@ -64,12 +64,13 @@ impl Site<'_> {
         self.world.doors.get(&door).is_some_and(|d| d.kind == DoorKind::Passage)
     }
 
-    /// The doorways of an Area, each with the Area's index in it.
+    /// The doorways of an Area, each with its number among them and the Area's index in it.
     pub(super) fn doorways_of(
         &self,
         area: AreaId,
     ) -> impl Iterator<Item = (usize, &Opening, usize)> {
         let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
-        own.iter().map(|&(doorway, side)| (doorway, &self.doorways[doorway], side))
+        let told = |(number, &(index, side))| (number, &self.doorways[index], side);
+        own.iter().enumerate().map(told)
     }
 }
