@@ -53,7 +53,7 @@ impl Changes {
         self.count += 1;
         let Some(changed) = changed else {
             (self.building, self.vocabulary) = (self.count, self.count);
-            for entity in entities(before).filter(|entity| !is_on(after, *entity)) {
+            for entity in entities_gone(before, after) {
                 self.gone.insert(entity, (self.count, departed(before, entity)));
             }
             if ids_are_unique {
@@ -92,14 +92,17 @@ impl Changes {
     }
 }
 
-fn entities(world: &World) -> impl Iterator<Item = Entity> + '_ {
-    let maps = world.maps.keys().map(|id| Entity::Map(*id));
-    let areas = world.areas.keys().map(|id| Entity::Area(*id));
-    let doors = world.doors.keys().map(|id| Entity::Door(*id));
-    let replicas = world.replicas.keys().map(|id| Entity::Replica(*id));
-    let places = world.places.keys().map(|id| Entity::Place(*id));
-    let zones = world.zones.keys().map(|id| Entity::Zone(*id));
-    maps.chain(areas).chain(doors).chain(replicas).chain(places).chain(zones)
+/// What is of the first world alone.
+fn entities_gone(before: &World, after: &World) -> Vec<Entity> {
+    let mut gone = Vec::new();
+    macro_rules! note {
+        ($($records:ident: $entity:ident),*) => {$(
+            let changes = before.$records.changes(&after.$records).into_iter();
+            gone.extend(changes.filter(|(.., is)| is.is_none()).map(|(id, ..)| Entity::$entity(id)));
+        )*};
+    }
+    note!(maps: Map, areas: Area, doors: Door, replicas: Replica, places: Place, zones: Zone);
+    gone
 }
 
 fn is_on(world: &World, entity: Entity) -> bool {

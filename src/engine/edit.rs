@@ -36,8 +36,8 @@ pub struct Edited {
     pub report: Option<ImportReport>,
 }
 
-/// Beyond so many moved things, deriving all relations anew costs less than following each move.
-const MOST_FOLLOWED: usize = 16;
+/// Beyond so many changed records, deriving all relations anew costs less than following each change.
+const MOST_FOLLOWED: usize = 100;
 
 impl State {
     /// The faults that a map did not have before.
@@ -238,8 +238,7 @@ impl<T: Clone> Spare<T> {
         if Arc::get_mut(shared).is_some() {
             return Arc::clone(before);
         }
-        let is_near =
-            |of: &World| only_things(of, after).is_some_and(|(few, _)| few.len() <= MOST_FOLLOWED);
+        let is_near = |of: &World| of.count_changes(after) <= MOST_FOLLOWED;
         let fits = |spare: &Self| Arc::strong_count(&spare.what) == 1 && is_near(&spare.of);
         let own = spare.take().filter(fits);
         let Self { of, what } = own
@@ -267,68 +266,80 @@ impl State {
         // A door that stands otherwise may be spoken of in other words.
         let things = changed.as_ref().filter(|(_, doors)| doors.is_empty()).map(|(ids, _)| &**ids);
         Arc::make_mut(&mut self.changes).note(&before, &after, things, ids_are_unique);
-        match changed {
-            Some((changed, _)) => Arc::make_mut(surveyed).follow(&before, &after, &changed, spares),
-            None => {
-                let (rules, derived) = (Arc::clone(&self.rules), self.derived.clone());
-                *surveyed = Arc::new(Known::surveyed(rules, after, derived));
-            }
-        }
+        Arc::make_mut(surveyed).follow(&before, &after, changed.map(|(ids, _)| ids), spares);
     }
 }
 
 impl Known {
-    /// Takes over a map that differs in these replicas and in the states of doors alone.
+    /// Takes over an edited map; `things` are the replicas that differ, where nothing else does but the states of doors.
     fn follow(
         &mut self,
         before: &Arc<World>,
         after: &Arc<World>,
-        changed: &[ReplicaId],
+        things: Option<Vec<ReplicaId>>,
         spares: &mut Spares,
     ) {
         let told_alike = before.doors == after.doors
-            && changed
-                .iter()
-                .all(|id| is_told_alike(before.replicas.get(id), after.replicas.get(id)));
+            && things.as_ref().is_some_and(|ids| {
+                ids.iter().all(|id| is_told_alike(before.replicas.get(id), after.replicas.get(id)))
+            });
         if let Some(mind) = self.mind.take().filter(|_| told_alike) {
             self.mind = Arc::new(mind.renewed()).into();
         }
         if !told_alike {
             self.forms.take();
         }
+        if things.is_none() {
+            self.words.take();
+        }
         if let Some(names) = self.names.get_mut() {
             names.follow(before, after);
         }
         self.world = Arc::clone(after);
-        let mut followed = changed.len() <= MOST_FOLLOWED;
-        let mut openings = None;
+        let mut followed = before.count_changes(after) <= MOST_FOLLOWED;
+        let mut led = None;
         if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
-            let led = Arc::clone(relations.openings());
+            led = Some(Arc::clone(relations.openings()));
             let of = Spare::own(&mut spares.relations, relations, before, after);
             let relations = Arc::get_mut(relations).expect("made one's own by the line before");
             // A rule that fails now fails again, and is told, when they are derived anew.
             followed = relations.follow_world(&of, after).unwrap_or(false);
-            // Rules of the user's own may let doors join by what stands about.
-            if followed && led != *relations.openings() {
-                self.floors.take();
-            }
-            openings = Some(led);
         }
         if !followed {
             self.relations.take();
         }
-        if let Some(floors) = self.floors.get_mut() {
-            if openings.is_none() || spares.openings != openings {
-                spares.floors = None;
-            }
-            spares.openings = openings;
-            let of = Spare::own(&mut spares.floors, floors, before, after);
-            for floor in
-                Arc::get_mut(floors).expect("made one's own by the line before").values_mut()
-            {
-                floor.follow(&of, after);
-            }
+        if !self.follow_floors(before, after, led, spares) {
+            self.floors.take();
         }
+    }
+
+    /// Brings the floors, which were `led` through these openings, to an edited map; not where they are to be built anew.
+    fn follow_floors(
+        &mut self,
+        before: &Arc<World>,
+        after: &Arc<World>,
+        led: Option<Arc<Openings>>,
+        spares: &mut Spares,
+    ) -> bool {
+        let Some(floors) = self.floors.get_mut() else { return true };
+        if !before.maps.keys().eq(after.maps.keys()) {
+            return false;
+        }
+        let was_led = std::mem::replace(&mut spares.openings, led.clone());
+        let of = Spare::own(&mut spares.floors, floors, before, after);
+        let through = if Arc::ptr_eq(&of, before) { led } else { was_led };
+        let now = self.relations.get().map(|relations| relations.openings());
+        let floors = Arc::get_mut(floors).expect("made one's own by the line before").values_mut();
+        let leads_as_before = match (&through, now) {
+            (Some(through), Some(now)) => Arc::ptr_eq(through, now) || through == now,
+            (_, now) => now.is_none(),
+        };
+        if leads_as_before && of.is_same_building(after) {
+            floors.for_each(|floor| floor.follow(&of, after));
+            return true;
+        }
+        let Some(now) = now else { return false };
+        floors.map(|floor| floor.follow_building(&of, after, now)).all(|follows| follows)
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) struct Known {
     /// The nouns, for questions.
     pub(super) mind: OnceLock<Arc<Mind>>,
     /// The words of its values, for the grammar.
-    words: OnceLock<Arc<MapWords>>,
+    pub(super) words: OnceLock<Arc<MapWords>>,
     /// The names in all their forms, for commands.
     pub(super) forms: OnceLock<Arc<FormIndex<Entity>>>,
     /// The names as the world spells them.

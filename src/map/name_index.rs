@@ -5,7 +5,7 @@
 use std::hash::Hasher;
 
 use crate::units::name_key;
-use crate::{Entity, Records, Replica, World};
+use crate::{Entity, Records, World};
 
 /// Everything that bears a name, found by it without a search through the world. A copy shares what it has in common.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -35,16 +35,25 @@ impl NameIndex {
         Self { bearers: bearers.into() }
     }
 
-    /// Follows a world to one that differs in its replicas alone, of those that bear names.
+    /// Follows a world to an edited one.
     pub fn follow(&mut self, before: &World, after: &World) {
-        for (id, was, is) in before.replicas.changes(&after.replicas) {
-            let [old, new] = [was, is].map(keys);
-            for key in old.iter().filter(|key| !new.contains(key)) {
-                self.leave(*key, Entity::Replica(id));
-            }
-            for key in new.iter().filter(|key| !old.contains(key)) {
-                self.enter(*key, Entity::Replica(id));
-            }
+        macro_rules! follow {
+            ($($records:ident: $entity:ident),*) => {$(
+                for (id, was, is) in before.$records.changes(&after.$records) {
+                    let keys = [was, is].map(|r| r.map_or_else(Vec::new, |r| keys([&r.name, &r.name_en])));
+                    self.rename(Entity::$entity(id), &keys);
+                }
+            )*};
+        }
+        follow!(maps: Map, areas: Area, doors: Door, replicas: Replica, places: Place, zones: Zone);
+    }
+
+    fn rename(&mut self, entity: Entity, [old, new]: &[Vec<u64>; 2]) {
+        for key in old.iter().filter(|key| !new.contains(key)) {
+            self.leave(*key, entity);
+        }
+        for key in new.iter().filter(|key| !old.contains(key)) {
+            self.enter(*key, entity);
         }
     }
 
@@ -79,16 +88,16 @@ impl NameIndex {
     }
 }
 
-/// The hashes of a replica's names.
-fn keys(replica: Option<&Replica>) -> Vec<u64> {
-    let Some(replica) = replica else { return Vec::new() };
-    let names = [&replica.name, &replica.name_en].into_iter().filter(|name| !name.is_empty());
+/// The hashes of names.
+fn keys(names: [&String; 2]) -> Vec<u64> {
+    let names = names.into_iter().filter(|name| !name.is_empty());
     names.map(|name| hash(&name_key(name))).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Replica;
     use crate::units::ReplicaId;
 
     #[test]
@@ -110,6 +119,12 @@ mod tests {
                 Some(_) if step % 5 == 0 => drop(world.replicas.remove(&id)),
                 Some(replica) if step % 3 == 0 => replica.name_en.clone_from(other),
                 Some(replica) => replica.name.clone_from(other),
+            }
+            let area = world.areas.values_mut().nth(step % 3).expect("it has rooms");
+            area.name.clone_from(other);
+            if step % 9 == 0 {
+                world.doors.values_mut().take(1).for_each(|door| door.name_en.push('!'));
+                world.places.pop_last();
             }
             index.follow(&before, &world);
             assert_eq!(index, NameIndex::of(&world), "step {step}");

@@ -269,6 +269,16 @@ impl World {
             && self.doors.changes(&other.doors).into_iter().all(door)
     }
 
+    /// How many records another world has otherwise; what belongs to no record counts for nothing.
+    #[must_use]
+    pub fn count_changes(&self, other: &Self) -> usize {
+        macro_rules! count {
+            ($($records:ident)*) => { [$(self.$records.changes(&other.$records).len()),*] };
+        }
+        let counts = count!(maps areas objects orthoframes doors replicas places zones);
+        counts.into_iter().sum()
+    }
+
     /// Where every Area stands; for work that asks for many of them, see [`Self::placement`] for one.
     #[must_use]
     pub fn placements(&self) -> BTreeMap<AreaId, (MapId, Frame)> {
@@ -355,6 +365,19 @@ impl World {
             Entity::Replica(id) => names!(replicas, id),
             Entity::Place(id) => names!(places, id),
             Entity::Zone(id) => names!(zones, id),
+        }
+    }
+
+    /// Whether an entity is of this world.
+    #[must_use]
+    pub fn has(&self, entity: Entity) -> bool {
+        match entity {
+            Entity::Map(id) => self.maps.contains_key(&id),
+            Entity::Area(id) => self.areas.contains_key(&id),
+            Entity::Door(id) => self.doors.contains_key(&id),
+            Entity::Replica(id) => self.replicas.contains_key(&id),
+            Entity::Place(id) => self.places.contains_key(&id),
+            Entity::Zone(id) => self.zones.contains_key(&id),
         }
     }
 
