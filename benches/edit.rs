@@ -11,9 +11,11 @@ use std::time::Duration;
 use cpu_time::ProcessTime;
 use orthoframe::Engine;
 use orthoframe::engine::{Method, Mode, State, World, change_now};
-use orthoframe_map::{Format, Replica};
+use orthoframe_map::{Area, Format, Forms, MapItem, MapLink, Place, Replica, SideRef};
 use orthoframe_store::Store;
-use orthoframe_units::{Deg, DoorId, Frame, ReplicaId, Source};
+use orthoframe_units::{
+    AreaId, Cm, Deg, DoorId, Frame, ObjectId, OrFrId, PlaceId, Point, ReplicaId, Source,
+};
 
 const WARD: &str = include_str!("wards/ward.toml");
 /// The ward's floor, and the same with a door in one wall and a hole before the neighbour's door in the other.
@@ -70,20 +72,98 @@ fn tell(what: &str, mut times: Vec<Duration>) {
 }
 
 /// A kind of edit: its name, how it alters a chair of a world, and the same as a step of a text.
-type Kind = (&'static str, fn(&mut World, ReplicaId, usize), fn(&Replica, usize) -> String);
+type Kind = (&'static str, fn(&mut World, ReplicaId, usize), Option<fn(&Replica, usize) -> String>);
+
+/// A place at the corner of a chair's room.
+fn add_place(world: &mut World, chair: ReplicaId, n: usize) {
+    let area = world.replicas[&chair].area;
+    let id = PlaceId(world.places.keys().next_back().map_or(1, |last| last.0 + 1));
+    let (name, name_en, forms) = (format!("Пост-{n}-{}", id.0), String::new(), Forms::new());
+    let at = Point::new(30.0, 30.0);
+    let place = Place { id, area, name, name_en, at, heading: None, serves: None, forms };
+    world.places.insert(id, place);
+}
+
+/// A chair of another height, as a kind of its own; the chair is one of them now.
+fn add_kind(world: &mut World, chair: ReplicaId, n: usize) {
+    let mut object = world.objects[&world.replicas[&chair].object].clone();
+    object.id = ObjectId(world.objects.keys().next_back().expect("some").0 + 1);
+    (object.key, object.name) = (format!("kind-{n}"), format!("Стул вида {n}"));
+    for item in &mut object.items {
+        let mut part = world.orthoframes[&item.orthoframe].clone();
+        part.id = OrFrId(world.orthoframes.keys().next_back().expect("some").0 + 1);
+        (part.key, part.height) = (format!("part-{}", part.id.0), Cm::of(part.height.get() + 1.0));
+        item.orthoframe = part.id;
+        world.orthoframes.insert(part.id, part);
+    }
+    world.replicas.get_mut(&chair).expect("it is there").object = object.id;
+    world.objects.insert(object.id, object);
+}
+
+fn rename_room(world: &mut World, chair: ReplicaId, n: usize) {
+    let area = world.replicas[&chair].area;
+    world.areas.get_mut(&area).expect("it is there").name = format!("Зал-{n}-{}", area.0);
+}
+
+/// One more ward after the last, linked with the first, with a door of its own.
+fn add_room(world: &mut World, _: ReplicaId, _: usize) {
+    let (last, area) = world.areas.iter().next_back().expect("some");
+    let (number, id) = (last.0 as usize, AreaId(last.0 + 1));
+    let mut area = Area { id, key: format!("new-{}", id.0), ..area.clone() };
+    (area.name, area.name_en) = (format!("Новая палата {}", id.0), String::new());
+    let door = DoorId(world.doors.keys().next_back().expect("some").0 + 1);
+    let twin = world.doors[&area.doors[0].door].clone();
+    let (name, key) = (format!("Новая дверь {}", door.0), format!("new-door-{}", door.0));
+    world.doors.insert(door, orthoframe_map::Door { id: door, name, key, ..twin });
+    area.doors[0].door = door;
+    world.areas.insert(id, area);
+    let map = world.maps.values_mut().next().expect("the hospital is one");
+    let (x, y) = ((number % 45) as f64 * 520.0, (number / 45) as f64 * 420.0);
+    let base = map.items.iter().find(|item| item.is_base).expect("one is").area;
+    let frame = Frame::new(x, y, 0.0, Deg::ZERO);
+    map.items.push(MapItem { area: id, frame, is_base: false });
+    let side = || SideRef { item: "A".to_owned(), side: "A".to_owned() };
+    map.links.push(MapLink {
+        area: id,
+        side: side(),
+        to_area: base,
+        to_side: side(),
+        rel_x: Cm::of(-x),
+        rel_y: Cm::of(-y),
+        rel_z: Cm::ZERO,
+        rel_a: Deg::ZERO,
+    });
+}
+
+/// The last room, with its door.
+fn remove_room(world: &mut World, _: ReplicaId, _: usize) {
+    let id = *world.areas.keys().next_back().expect("some");
+    let area = world.areas.remove(&id).expect("it was there");
+    area.doors.iter().for_each(|mount| drop(world.doors.remove(&mount.door)));
+    let things: Vec<ReplicaId> = world.replicas_in(id).map(|replica| replica.id).collect();
+    things.iter().for_each(|thing| drop(world.replicas.remove(thing)));
+    let map = world.maps.values_mut().next().expect("the hospital is one");
+    map.items.retain(|item| item.area != id);
+    map.links.retain(|link| link.area != id);
+}
 
 fn shifted(frame: &Frame, by: f64, turn: f64) -> Frame {
     Frame::new(frame.x.get(), frame.y.get() + by, frame.z.get(), frame.angle + Deg::of(turn))
 }
 
-const KINDS: [Kind; 7] = [
+const KINDS: [Kind; 12] = [
+    ("new place", add_place, None),
+    ("new kind of things, and one of them", add_kind, None),
+    ("room called otherwise", rename_room, None),
+    ("new room with a door", add_room, None),
+    ("room taken away", remove_room, None),
     (
         "move",
         |world, id, _| {
             let chair = world.replicas.get_mut(&id).expect("it is there");
             chair.frame = shifted(&chair.frame, 1.0, 0.0);
         },
-        |chair, _| format!("move = \"{}\"\nby = [0, -1]\n", chair.name),
+        Some(|chair, _| format!("move = \"{}\"\nby = [0, -1]\n", chair.name)),
     ),
     (
         "turn",
@@ -91,7 +171,7 @@ const KINDS: [Kind; 7] = [
             let chair = world.replicas.get_mut(&id).expect("it is there");
             chair.frame = shifted(&chair.frame, 0.0, 5.0);
         },
-        |chair, _| format!("turn = \"{}\"\nby = -5\n", chair.name),
+        Some(|chair, _| format!("turn = \"{}\"\nby = -5\n", chair.name)),
     ),
     (
         "property",
@@ -99,9 +179,9 @@ const KINDS: [Kind; 7] = [
             let chair = world.replicas.get_mut(&id).expect("it is there");
             chair.properties.insert("ЦВЕТ".to_owned(), format!("Цвет-{n}"));
         },
-        |chair, n| {
+        Some(|chair, n| {
             format!("set = \"{}\"\nproperty = \"ЦВЕТ\"\nvalue = \"Другой-{n}\"\n", chair.name)
-        },
+        }),
     ),
     (
         "rename",
@@ -109,7 +189,9 @@ const KINDS: [Kind; 7] = [
             let chair = world.replicas.get_mut(&id).expect("it is there");
             chair.name = format!("Кресло-{n}-{}", id.0);
         },
-        |chair, n| format!("rename = \"{}\"\nto = \"Табурет-{n}-{}\"\n", chair.name, chair.id.0),
+        Some(|chair, n| {
+            format!("rename = \"{}\"\nto = \"Табурет-{n}-{}\"\n", chair.name, chair.id.0)
+        }),
     ),
     (
         "door",
@@ -118,7 +200,7 @@ const KINDS: [Kind; 7] = [
             let door = world.doors.get_mut(&DoorId(area.0)).expect("each ward has its own");
             door.state = orthoframe_map::DoorState::CLOSED;
         },
-        |chair, _| format!("state = \"Дверь-{}\"\nis = \"open\"\n", chair.area.0),
+        Some(|chair, _| format!("state = \"Дверь-{}\"\nis = \"open\"\n", chair.area.0)),
     ),
     (
         "add",
@@ -129,16 +211,16 @@ const KINDS: [Kind; 7] = [
             let frame = shifted(&chair.frame, 3.0, 0.0);
             world.replicas.insert(new, Replica { id: new, name, frame, ..chair });
         },
-        |chair, n| {
+        Some(|chair, n| {
             let (area, at) = (chair.area.0 - 1, chair.frame.origin());
             let place = format!("object = \"chair\"\narea = \"ward-{area}\"\n");
             format!("place = \"Пуф-{n}-{}\"\n{place}at = [{}, {}]\n", chair.id.0, at.x, at.y - 3.0)
-        },
+        }),
     ),
     (
         "remove",
         |world, id, _| drop(world.replicas.remove(&id)),
-        |chair, _| format!("remove = \"{}\"\n", chair.name),
+        Some(|chair, _| format!("remove = \"{}\"\n", chair.name)),
     ),
 ];
 
@@ -178,6 +260,7 @@ fn measure(wards: usize) {
         }
         drop(held);
         tell(&format!("{what}, while the state before is asked"), times);
+        let Some(text) = text else { continue };
         let left: Vec<Replica> =
             all.iter().filter_map(|id| engine.world().ok()?.replicas.get(id).cloned()).collect();
         let texts = left.iter().take(8).enumerate().map(|(n, chair)| {

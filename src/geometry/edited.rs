@@ -18,7 +18,7 @@ use super::opening::Opening;
 use super::openings::Openings;
 use super::plan::{Doorways, FloorPlan};
 use super::scene::PlacedArea;
-use super::zone::{PlacedZone, placed};
+use super::zone::{placed, shut_otherwise};
 
 /// What differs between two buildings for the floor of a Map.
 #[derive(Default)]
@@ -244,15 +244,6 @@ impl FloorPlan {
         };
         self.scene.areas.values().filter(is_near).map(|area| area.id).collect()
     }
-}
-
-/// What zones shut that others do not, either way.
-pub(super) fn shut_otherwise(before: &[PlacedZone], after: &[PlacedZone]) -> Vec<Bounds> {
-    let shut = |zones: &[PlacedZone], others: &[PlacedZone]| -> Vec<Bounds> {
-        let news = zones.iter().filter(|z| z.kind.is_shut() && !others.contains(z));
-        news.map(|z| z.bounds().grown(0.2)).collect()
-    };
-    [shut(before, after), shut(after, before)].concat()
 }
 
 #[cfg(test)]

@@ -23,7 +23,6 @@ use super::cells::CellKey;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
-use super::edited::shut_otherwise;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
@@ -34,7 +33,7 @@ use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::site::{DoorStates, SLACK, Site};
 use super::strait::{self, Strait};
-use super::zone::{PlacedZone, placed};
+use super::zone::{PlacedZone, placed, shut_otherwise};
 use super::{Bounds, Passframe, PassframeId, Region};
 
 /// The floor of one Map for one robot.

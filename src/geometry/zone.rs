@@ -82,3 +82,12 @@ pub(super) fn obstacles_of(zones: &[PlacedZone], near: &[Bounds], height: f64) -
         })
         .collect()
 }
+
+/// What zones shut that others do not, either way.
+pub(super) fn shut_otherwise(before: &[PlacedZone], after: &[PlacedZone]) -> Vec<Bounds> {
+    let shut = |zones: &[PlacedZone], others: &[PlacedZone]| -> Vec<Bounds> {
+        let news = zones.iter().filter(|z| z.kind.is_shut() && !others.contains(z));
+        news.map(|z| z.bounds().grown(0.2)).collect()
+    };
+    [shut(before, after), shut(after, before)].concat()
+}
