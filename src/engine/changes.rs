@@ -57,7 +57,7 @@ impl Changes {
                 self.gone.insert(entity, (self.count, departed(before, entity)));
             }
             if ids_are_unique {
-                self.gone.retain(|entity, _| !is_on(after, *entity));
+                self.gone.retain(|entity, _| !after.has(*entity));
             }
             return;
         };
@@ -105,17 +105,6 @@ fn entities_gone(before: &World, after: &World) -> Vec<Entity> {
     gone
 }
 
-fn is_on(world: &World, entity: Entity) -> bool {
-    match entity {
-        Entity::Map(id) => world.maps.contains_key(&id),
-        Entity::Area(id) => world.areas.contains_key(&id),
-        Entity::Door(id) => world.doors.contains_key(&id),
-        Entity::Replica(id) => world.replicas.contains_key(&id),
-        Entity::Place(id) => world.places.contains_key(&id),
-        Entity::Zone(id) => world.zones.contains_key(&id),
-    }
-}
-
 fn departed(world: &World, entity: Entity) -> Departed {
     let (name, english) = (world.name(entity).to_owned(), english_name(world, entity).to_owned());
     Departed { name, english, hints: hints(world, entity) }
@@ -142,7 +131,7 @@ impl State {
             let gone = |thing: Thing| match thing {
                 Thing::Entity(entity) => match changes.gone.get(&entity) {
                     Some((left, departed)) if *left > since.change => Some(departed.clone()),
-                    _ => (!is_on(world, entity)).then(Departed::default),
+                    _ => (!world.has(entity)).then(Departed::default),
                 },
                 Thing::Opening(_) | Thing::Window(_) => {
                     (changes.building > since.change).then(Departed::default)

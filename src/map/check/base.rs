@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
-use crate::units::{Bilingual, Cm, OrFrId, Point};
+use crate::units::{Bilingual, Cm, Point};
 use crate::{BaseVector, Orthoframe, TypeKind};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};
@@ -27,33 +27,24 @@ impl Checker<'_> {
                 };
                 self.fault(error, spot.clone());
             }
-            if self.is_broken(Record::Orthoframe(frame.id)) {
-                continue;
-            }
-            self.sizes(frame, &spot);
-            let faults_before = self.faults.len();
-            self.base(frame, &spot.field("base_vectors"));
-            if self.faults.len() == faults_before {
-                self.sound.insert(frame.id);
+            let record = Record::Orthoframe(frame.id);
+            if self.asks_for(record) && !self.is_broken(record) {
+                let is_sound = self.has_sound_base_at(frame, &spot);
+                self.sound.get_mut().insert(frame.id, is_sound);
             }
         }
     }
 
-    /// Finds which of some Orthoframes can be measured, and says nothing of them.
-    pub(super) fn judge_bases(&mut self, ids: impl Iterator<Item = OrFrId>) {
-        let world = self.world;
+    /// Whether the base can be measured; what is said of it is nobody's.
+    pub(super) fn has_sound_base(mut self, frame: &Orthoframe) -> bool {
+        self.has_sound_base_at(frame, &Spot::of(Record::Orthoframe(frame.id)))
+    }
+
+    fn has_sound_base_at(&mut self, frame: &Orthoframe, spot: &Spot) -> bool {
+        self.sizes(frame, spot);
         let faults_before = self.faults.len();
-        for frame in ids.filter_map(|id| world.orthoframes.get(&id)) {
-            if !self.is_broken(Record::Orthoframe(frame.id)) && !self.sound.contains(&frame.id) {
-                let spot = Spot::of(Record::Orthoframe(frame.id));
-                self.sizes(frame, &spot);
-                self.base(frame, &spot);
-                if self.faults.len() == faults_before {
-                    self.sound.insert(frame.id);
-                }
-                self.faults.truncate(faults_before);
-            }
-        }
+        self.base(frame, &spot.clone().field("base_vectors"));
+        self.faults.len() == faults_before
     }
 
     fn sizes(&mut self, frame: &Orthoframe, spot: &Spot) {

@@ -25,6 +25,9 @@ impl<'w> Checker<'w> {
         for door in self.world.doors.values() {
             let spot = Spot::of(Record::Door(door.id));
             self.key(&mut keys, &door.key, ("Дверь", "Door"), &spot);
+            if !self.asks_for(Record::Door(door.id)) {
+                continue;
+            }
             if !self.is_broken(Record::Door(door.id)) {
                 self.door(door, &spot);
             }
@@ -263,7 +266,7 @@ impl<'w> Checker<'w> {
         let &(map, item) = self.placed.get(&mounted.area)?;
         let frame = self.world.maps[&map].items[item].frame;
         let item = area.item(&mounted.mount.item)?;
-        if !self.sound.contains(&item.orthoframe) {
+        if !self.can_be_measured(item.orthoframe) {
             return None;
         }
         let (_, side) = self.world.orthoframe_of(item).side(&mounted.mount.side)?;

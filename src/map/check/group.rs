@@ -126,7 +126,7 @@ impl<'w> Checker<'w> {
             let record = Record::Object(object.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &object.key, ("Объект", "Object"), &spot);
-            if self.is_broken(record) {
+            if self.is_broken(record) || !self.asks_for(record) {
                 continue;
             }
             let group = Group {
@@ -150,7 +150,7 @@ impl<'w> Checker<'w> {
             let record = Record::Area(area.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &area.key, ("Помещение", "Area"), &spot);
-            if self.is_broken(record) {
+            if self.is_broken(record) || !self.asks_for(record) {
                 continue;
             }
             let group = Group {

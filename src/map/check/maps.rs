@@ -10,8 +10,13 @@ use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 use super::group::{
     Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,
 };
-use super::plane::{bounds, near_pairs};
+use super::plane::{Bounds, bounds, near_pairs};
 use super::{Checker, MOST_OVERLAPS, Short, TOLERANCE, area_title, at};
+
+/// Whether two boxes have a point in common.
+fn meet((low, high): &Bounds, (least, most): &Bounds) -> bool {
+    low.x <= most.x && least.x <= high.x && low.y <= most.y && least.y <= high.y
+}
 
 impl<'w> Checker<'w> {
     pub(super) fn maps(&mut self) {
@@ -29,7 +34,7 @@ impl<'w> Checker<'w> {
                     self.fault(MapError::AreaTwice { area }, spot.clone().field("items").index(i));
                 }
             }
-            if !self.is_broken(record) {
+            if !self.is_broken(record) && self.asks_for(record) {
                 self.map(map, &spot);
             }
         }
@@ -65,7 +70,11 @@ impl<'w> Checker<'w> {
         if !all_there {
             return;
         }
-        for (i, link) in map.links.iter().enumerate() {
+        let is_meant = |(i, link): &(usize, &MapLink)| {
+            self.scope.is_none_or(|scope| scope.has_link(map, *i, link))
+        };
+        let links: Vec<_> = map.links.iter().enumerate().filter(is_meant).collect();
+        for (i, link) in links {
             self.map_link(map, &title, link, spot.clone().field("links").index(i));
         }
         self.map_origin(map, &title, spot);
@@ -81,7 +90,7 @@ impl<'w> Checker<'w> {
         for (i, item) in map.items.iter().enumerate().filter(|(_, item)| item.is_base) {
             let area = &self.world.areas[&item.area];
             let Some(base) = area.items.iter().find(|item| item.is_base) else { continue };
-            if self.is_broken(Record::Area(area.id)) || !self.sound.contains(&base.orthoframe) {
+            if self.is_broken(Record::Area(area.id)) || !self.can_be_measured(base.orthoframe) {
                 continue;
             }
             let frame = item.frame.compose(&base.frame);
@@ -140,8 +149,7 @@ impl<'w> Checker<'w> {
             is_area: true,
         };
         let (inner, vector) = self.side(&group, side, spot.clone())?;
-        self.sound
-            .contains(&inner.orthoframe)
+        self.can_be_measured(inner.orthoframe)
             .then(|| (vector, item.frame.compose(&inner.frame), index))
     }
 
@@ -198,10 +206,31 @@ impl<'w> Checker<'w> {
         bodies
     }
 
+    /// A box round an Area where it stands on the Map.
+    fn bounds_of(&self, item: &MapItem) -> Option<Bounds> {
+        let items = &self.world.areas.get(&item.area)?.items;
+        let frames = items.iter().filter_map(|own| {
+            Some((self.world.orthoframes.get(&own.orthoframe)?, item.frame.compose(&own.frame)))
+        });
+        let mut corners =
+            frames.flat_map(|(part, frame)| part.corners().map(move |p| frame.apply(p))).peekable();
+        corners.peek()?;
+        Some(bounds(corners))
+    }
+
     fn area_overlaps(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         let mut owners = Vec::new();
         let mut bodies = Vec::new();
-        for (i, item) in map.items.iter().enumerate() {
+        // Two Areas that stand as they did overlap as they did.
+        let is_changed =
+            |item: &MapItem| self.scope.is_none_or(|scope| scope.moved.contains(&item.area));
+        let changed: Vec<_> = map.items.iter().filter(|item| is_changed(item)).collect();
+        let boxes: Vec<Bounds> = changed.iter().filter_map(|item| self.bounds_of(item)).collect();
+        let is_near = |item: &MapItem| {
+            let meets = |own: Bounds| boxes.iter().any(|b| meet(&own, b));
+            self.scope.is_none() || self.bounds_of(item).is_some_and(meets)
+        };
+        for (i, item) in map.items.iter().enumerate().filter(|(_, item)| is_near(item)) {
             let placed = self.placed_bodies(item);
             owners.extend(std::iter::repeat_n(i, placed.len()));
             bodies.extend(placed);
@@ -211,6 +240,7 @@ impl<'w> Checker<'w> {
         near_pairs(&boxes, 0.0, |i, j| {
             let pair = (owners[i].min(owners[j]), owners[i].max(owners[j]));
             if pair.0 != pair.1
+                && (is_changed(&map.items[pair.0]) || is_changed(&map.items[pair.1]))
                 && !overlaps.contains_key(&pair)
                 && let Some(p) = overlap(&bodies[i], &bodies[j])
             {

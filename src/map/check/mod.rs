@@ -11,14 +11,17 @@ mod names;
 mod news;
 mod placed;
 pub mod plane;
+mod scope;
 mod zones;
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
 
 pub use doubts::doubts;
 pub use news::news;
+use scope::Scope;
 
 use super::fault::{COORDINATE, Fault, MapError, Record, Spot, WITHIN};
 use super::{Item, TypeKind, World};
@@ -51,42 +54,51 @@ pub fn check(world: &World) -> Vec<Fault> {
 
 /// [`check`] for a world of which some records are known to be faulty already.
 pub(super) fn check_except(world: &World, broken: &BTreeSet<Record>) -> Vec<Fault> {
-    let mut placed = BTreeMap::new();
-    for map in world.maps.values() {
-        for (index, item) in map.items.iter().enumerate() {
-            placed.entry(item.area).or_insert((map.id, index));
-        }
-    }
-    let mut checker = Checker::new(world, broken);
-    checker.placed = placed;
-    checker.bases();
-    checker.groups();
-    checker.doors();
-    checker.maps();
-    checker.domain();
-    checker.replicas();
-    checker.places(|_| true);
-    checker.zones();
-    checker.robot();
-    checker.names();
-    checker.faults
+    Checker::new(world, broken).all()
 }
 
 struct Checker<'w> {
     world: &'w World,
     /// Records with faults of their own, found before.
     broken: &'w BTreeSet<Record>,
+    /// What alone is looked at; all where there is none.
+    scope: Option<&'w Scope<'w>>,
     /// Where each Area stands: its Map, and which of the Map's items it is.
     placed: BTreeMap<AreaId, (MapId, usize)>,
-    /// Orthoframes whose bases can be measured.
-    sound: BTreeSet<OrFrId>,
+    /// Of Orthoframes whether their bases can be measured, as far as it is known.
+    sound: RefCell<BTreeMap<OrFrId, bool>>,
     faults: Vec<Fault>,
 }
 
 impl<'w> Checker<'w> {
     fn new(world: &'w World, broken: &'w BTreeSet<Record>) -> Self {
-        let (placed, sound) = (BTreeMap::new(), BTreeSet::new());
-        Self { world, broken, placed, sound, faults: Vec::new() }
+        let (placed, sound) = (BTreeMap::new(), RefCell::default());
+        Self { world, broken, scope: None, placed, sound, faults: Vec::new() }
+    }
+
+    /// All faults, or those within the scope.
+    fn all(mut self) -> Vec<Fault> {
+        for map in self.world.maps.values() {
+            for (index, item) in map.items.iter().enumerate() {
+                self.placed.entry(item.area).or_insert((map.id, index));
+            }
+        }
+        self.bases();
+        self.groups();
+        self.doors();
+        self.maps();
+        self.domain();
+        self.replicas();
+        self.places();
+        self.zones();
+        self.robot();
+        self.names();
+        self.faults
+    }
+
+    /// Whether a record is to be looked at.
+    fn asks_for(&self, record: Record) -> bool {
+        self.scope.is_none_or(|scope| scope.records.contains(&record))
     }
 }
 
@@ -153,7 +165,20 @@ impl Checker<'_> {
 
     /// Whether all items can be measured.
     fn is_sound(&self, items: &[Item]) -> bool {
-        items.iter().all(|item| self.sound.contains(&item.orthoframe))
+        items.iter().all(|item| self.can_be_measured(item.orthoframe))
+    }
+
+    /// Whether the base of an Orthoframe is in order.
+    fn can_be_measured(&self, id: OrFrId) -> bool {
+        if let Some(is_sound) = self.sound.borrow().get(&id) {
+            return *is_sound;
+        }
+        let is_sound = self.world.orthoframes.get(&id).is_some_and(|frame| {
+            !self.is_broken(Record::Orthoframe(id))
+                && Checker::new(self.world, self.broken).has_sound_base(frame)
+        });
+        self.sound.borrow_mut().insert(id, is_sound);
+        is_sound
     }
 }
 

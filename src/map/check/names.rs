@@ -3,14 +3,18 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{Bilingual, ReplicaId, name_key};
-use crate::{Entity, NameIndex, TypeKind, World};
+use crate::units::{Bilingual, name_key};
+use crate::{Entity, TypeKind, World};
 
-use super::Checker;
+use super::{Checker, Scope};
 
 impl Checker<'_> {
     pub(super) fn names(&mut self) {
         let world = self.world;
+        if let Some(scope) = self.scope {
+            self.some_names(scope);
+            return TypeKind::ALL.into_iter().for_each(|kind| self.type_names(kind));
+        }
         let mut bearers: HashMap<String, Entity> = HashMap::new();
         for (entity, name) in world.names() {
             let first = *bearers.entry(name_key(name)).or_insert(entity);
@@ -24,14 +28,10 @@ impl Checker<'_> {
         }
     }
 
-    /// The same of these names, and of these things, where all others are known to be in order or as they were.
-    pub(super) fn some_names(
-        &mut self,
-        spoken: &BTreeSet<&str>,
-        bearers: &NameIndex,
-        ids: &BTreeSet<ReplicaId>,
-    ) {
+    /// The same of the names in a scope, where all others are known to be in order or as they were.
+    fn some_names(&mut self, scope: &Scope<'_>) {
         let world = self.world;
+        let Some((spoken, bearers)) = &scope.names else { return };
         let keys: BTreeSet<String> = spoken.iter().map(|name| name_key(name)).collect();
         let mut twice = Vec::new();
         for key in &keys {
@@ -48,9 +48,9 @@ impl Checker<'_> {
         for (entity, _, name, first) in twice {
             self.borne_twice(name, first, entity);
         }
-        for id in ids {
-            if world.replicas.get(id).is_some_and(|r| r.name.trim().is_empty()) {
-                self.has_no_name(Entity::Replica(*id));
+        for &entity in &scope.entities {
+            if world.has(entity) && world.name(entity).trim().is_empty() {
+                self.has_no_name(entity);
             }
         }
     }

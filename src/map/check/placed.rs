@@ -1,10 +1,10 @@
 //! What stands in an Area (M4): replicas within its walls, places on its floor; and the robot's own numbers.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
-use crate::units::{AreaId, Bilingual, Cm, Frame, Point, ReplicaId};
-use crate::{Place, Replica, RobotProfile, World};
+use crate::units::{AreaId, Bilingual, Cm, Frame, Point};
+use crate::{Replica, RobotProfile, World};
 
 use super::group::Body;
 use super::plane::{
@@ -39,18 +39,18 @@ impl Checker<'_> {
     }
 
     pub(super) fn replicas(&mut self) {
-        let rooms: BTreeMap<_, _> =
-            self.world.areas.keys().filter_map(|&id| Some((id, self.room(id)?))).collect();
-        for replica in self.world.replicas.values() {
-            self.replica(replica, rooms.get(&replica.area));
+        let world = self.world;
+        match self.scope {
+            None => self.some_replicas(world.replicas.values()),
+            Some(scope) => {
+                self.some_replicas(scope.replicas.iter().filter_map(|id| world.replicas.get(id)));
+            }
         }
     }
 
-    /// The same of these replicas alone.
-    pub(super) fn some_replicas(&mut self, ids: &BTreeSet<ReplicaId>) {
-        let world = self.world;
+    fn some_replicas<'r>(&mut self, replicas: impl Iterator<Item = &'r Replica>) {
         let mut rooms = BTreeMap::new();
-        for replica in ids.iter().filter_map(|id| world.replicas.get(id)) {
+        for replica in replicas {
             let area = replica.area;
             let room = rooms.entry(area).or_insert_with(|| self.room(area));
             self.replica(replica, room.as_ref());
@@ -153,8 +153,11 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn places(&mut self, is_meant: impl Fn(&Place) -> bool) {
-        for place in self.world.places.values().filter(|place| is_meant(place)) {
+    pub(super) fn places(&mut self) {
+        for place in self.world.places.values() {
+            if self.scope.is_some_and(|scope| !scope.has_place(place)) {
+                continue;
+            }
             let spot = Spot::of(Record::Place(place.id));
             let owner = Bilingual::named(("место", "place"), &place.name);
             let area = self.world.areas.get(&place.area);

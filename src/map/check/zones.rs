@@ -21,7 +21,7 @@ impl Checker<'_> {
             let record = Record::Zone(zone.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &zone.key, ("Зона", "Zone"), &spot);
-            if !self.is_broken(record) {
+            if !self.is_broken(record) && self.asks_for(record) {
                 self.zone(zone, &spot);
             }
         }

@@ -1,0 +1,218 @@
+//! What an edit may have made faulty: the records that differ, and those whose faults tell of them.
+//!
+//! Handles, the robot's numbers, the names of types and how the Maps make a Domain are looked at in any case: that costs less
+//! than to find out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::fault::Record;
+use crate::units::{AreaId, MapId, OrFrId, ReplicaId};
+use crate::{
+    Area, Door, DoorMount, Entity, Extent, Item, Map, MapLink, NameIndex, Object, Place, TypeKind,
+    World,
+};
+
+/// The part of a map that is to be checked, in the map before an edit and in that after it.
+#[derive(Default)]
+pub(super) struct Scope<'w> {
+    pub(super) records: BTreeSet<Record>,
+    pub(super) replicas: BTreeSet<ReplicaId>,
+    /// What may have no name.
+    pub(super) entities: BTreeSet<Entity>,
+    /// Areas with other borders, or that stand elsewhere.
+    pub(super) moved: BTreeSet<AreaId>,
+    /// Areas that differ in whatever they do.
+    areas: BTreeSet<AreaId>,
+    /// Of Maps how many links at the beginning and at the end are as they were.
+    links: BTreeMap<MapId, (usize, usize)>,
+    /// Names that something bore or bears now, and who bears them; none where no name changed.
+    pub(super) names: Option<(BTreeSet<&'w str>, NameIndex)>,
+}
+
+impl<'w> Scope<'w> {
+    /// None where all is to be checked.
+    pub(super) fn between(before: &'w World, after: &'w World) -> Option<Self> {
+        for kind in TypeKind::ALL {
+            let [was, is] = [before, after].map(|world| &world.types.list(kind).entries);
+            if was.keys().any(|id| !is.contains_key(id)) {
+                return None;
+            }
+        }
+        let mut scope = Self::default();
+        let parts: BTreeSet<OrFrId> =
+            before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).collect();
+        scope.records.extend(parts.iter().map(|id| Record::Orthoframe(*id)));
+        let doors = before.doors.changes(&after.doors);
+        // A door that stands otherwise is no other door.
+        let is_other = |was: Option<&Door>, is: Option<&Door>| {
+            was.zip(is).is_none_or(|(was, is)| *is != Door { state: is.state, ..was.clone() })
+        };
+        let hung: BTreeSet<_> =
+            doors.iter().filter(|(_, was, is)| is_other(*was, *is)).map(|(id, ..)| *id).collect();
+        for (id, ..) in doors {
+            scope.records.insert(Record::Door(id));
+            scope.entities.insert(Entity::Door(id));
+        }
+        let tells = |items: &[Item], mounts: &[DoorMount]| {
+            items.iter().any(|item| parts.contains(&item.orthoframe))
+                || mounts.iter().any(|mount| hung.contains(&mount.door))
+        };
+        scope.add_objects(before, after, &tells);
+        scope.add_areas(before, after, &tells);
+        scope.add_maps(before, after);
+        for (id, was, is) in before.zones.changes(&after.zones) {
+            let _ = (was, is);
+            scope.records.insert(Record::Zone(id));
+            scope.entities.insert(Entity::Zone(id));
+        }
+        for zone in before.zones.values().chain(after.zones.values()) {
+            let is_met = match &zone.extent {
+                Extent::Areas(areas) => areas.iter().any(|area| scope.areas.contains(area)),
+                Extent::Polygon { map, .. } => scope.records.contains(&Record::Map(*map)),
+            };
+            if is_met {
+                scope.records.insert(Record::Zone(zone.id));
+            }
+        }
+        for (id, ..) in before.places.changes(&after.places) {
+            scope.records.insert(Record::Place(id));
+            scope.entities.insert(Entity::Place(id));
+        }
+        for (id, ..) in before.replicas.changes(&after.replicas) {
+            scope.replicas.insert(id);
+            scope.entities.insert(Entity::Replica(id));
+        }
+        scope.add_standing(before, after);
+        Some(scope)
+    }
+
+    fn add_objects(
+        &mut self,
+        before: &World,
+        after: &World,
+        tells: &impl Fn(&[Item], &[DoorMount]) -> bool,
+    ) {
+        let changed = before.objects.changes(&after.objects).into_iter();
+        let changed: Vec<_> = changed.map(|(id, ..)| id).collect();
+        let telling = |o: &&Object| tells(&o.items, &o.doors);
+        let all = before.objects.values().chain(after.objects.values()).filter(telling);
+        let all = all.map(|object| object.id).chain(changed).map(Record::Object);
+        self.records.extend(all.collect::<Vec<_>>());
+        for object in before.objects.values().chain(after.objects.values()) {
+            if self.records.contains(&Record::Object(object.id)) {
+                self.records.extend(object.doors.iter().map(|mount| Record::Door(mount.door)));
+            }
+        }
+    }
+
+    fn add_areas(
+        &mut self,
+        before: &World,
+        after: &World,
+        tells: &impl Fn(&[Item], &[DoorMount]) -> bool,
+    ) {
+        for (id, ..) in before.areas.changes(&after.areas) {
+            self.areas.insert(id);
+            self.entities.insert(Entity::Area(id));
+        }
+        let telling = |a: &&Area| tells(&a.items, &a.doors);
+        let all = before.areas.values().chain(after.areas.values()).filter(telling);
+        self.areas.extend(all.map(|area| area.id));
+        self.moved.extend(&self.areas);
+        if before.maps != after.maps {
+            let [was, is] = [before, after].map(World::placements);
+            let all = was.keys().chain(is.keys()).filter(|id| was.get(id) != is.get(id));
+            self.moved.extend(all);
+        }
+        for area in before.areas.values().chain(after.areas.values()) {
+            if self.areas.contains(&area.id) {
+                self.records.insert(Record::Area(area.id));
+            }
+            if self.moved.contains(&area.id) {
+                self.records.extend(area.doors.iter().map(|mount| Record::Door(mount.door)));
+            }
+        }
+    }
+
+    fn add_maps(&mut self, before: &World, after: &World) {
+        for (id, was, is) in before.maps.changes(&after.maps) {
+            self.records.insert(Record::Map(id));
+            self.entities.insert(Entity::Map(id));
+            if let Some((was, is)) = was.zip(is) {
+                let same = |(a, b): &(&MapLink, &MapLink)| a == b;
+                let first = was.links.iter().zip(&is.links).take_while(same).count();
+                let (was, is) = (&was.links[first..], &is.links[first..]);
+                let last = was.iter().rev().zip(is.iter().rev()).take_while(same).count();
+                self.links.insert(id, (first, last));
+            }
+        }
+        for map in before.maps.values().chain(after.maps.values()) {
+            if map.items.iter().any(|item| self.moved.contains(&item.area)) {
+                self.records.insert(Record::Map(map.id));
+                self.links.entry(map.id).or_insert((map.links.len(), 0));
+            }
+        }
+    }
+
+    /// What stands in Areas of the scope, is of a kind of it, or is served from a place of it.
+    fn add_standing(&mut self, before: &World, after: &World) {
+        let has_kind = self.records.iter().any(|record| matches!(record, Record::Object(_)));
+        if !has_kind && self.areas.is_empty() {
+            return;
+        }
+        for replica in before.replicas.values().chain(after.replicas.values()) {
+            let is_of_kind = has_kind && self.records.contains(&Record::Object(replica.object));
+            if is_of_kind || self.areas.contains(&replica.area) {
+                self.replicas.insert(replica.id);
+            }
+        }
+    }
+
+    /// The names, Russian and English, of all that is called otherwise than it was.
+    pub(super) fn renamed(before: &'w World, after: &'w World) -> BTreeSet<&'w str> {
+        let mut spoken = BTreeSet::new();
+        macro_rules! note {
+            ($($records:ident)*) => {$(
+                for (_, was, is) in before.$records.changes(&after.$records) {
+                    let [old, new] = [was, is].map(|r| r.map(|r| [r.name.as_str(), r.name_en.as_str()]));
+                    if old != new {
+                        spoken.extend(old.into_iter().chain(new).flatten());
+                    }
+                }
+            )*};
+        }
+        note!(maps areas doors replicas places zones);
+        spoken
+    }
+
+    /// Adds the things that bore one of these names.
+    pub(super) fn add_twins(
+        &mut self,
+        before: &World,
+        names: &BTreeSet<&str>,
+        bearers: &NameIndex,
+    ) {
+        for name in names {
+            for entity in bearers.find(before, name) {
+                match entity {
+                    Entity::Replica(id) if before.replicas[&id].name == *name => {
+                        self.replicas.insert(id);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    pub(super) fn has_place(&self, place: &Place) -> bool {
+        self.records.contains(&Record::Place(place.id))
+            || self.areas.contains(&place.area)
+            || place.serves.is_some_and(|id| self.replicas.contains(&id))
+    }
+
+    pub(super) fn has_link(&self, map: &Map, at: usize, link: &MapLink) -> bool {
+        let (first, last) = self.links.get(&map.id).copied().unwrap_or_default();
+        let is_new = at >= first && at + last < map.links.len();
+        is_new || self.moved.contains(&link.area) || self.moved.contains(&link.to_area)
+    }
+}
