@@ -182,8 +182,8 @@ impl Engine {
         Ok(Edited { differences, warnings, left_behind: Vec::new(), report })
     }
 
-    /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
-    /// else it is derived anew when it is asked for.
+    /// Takes over a new state of the map. What was derived follows what changed; where too much did, it is derived anew when
+    /// it is asked for.
     pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
         self.next();
         let state = Arc::get_mut(&mut self.state).expect("made so by the line before");
@@ -266,7 +266,8 @@ impl State {
         // A door that stands otherwise may be spoken of in other words.
         let things = changed.as_ref().filter(|(_, doors)| doors.is_empty()).map(|(ids, _)| &**ids);
         Arc::make_mut(&mut self.changes).note(&before, &after, things, ids_are_unique);
-        Arc::make_mut(surveyed).follow(&before, &after, changed.map(|(ids, _)| ids), spares);
+        let things = changed.as_ref().map(|(ids, _)| &**ids);
+        Arc::make_mut(surveyed).follow(&before, &after, things, spares);
     }
 }
 
@@ -276,11 +277,11 @@ impl Known {
         &mut self,
         before: &Arc<World>,
         after: &Arc<World>,
-        things: Option<Vec<ReplicaId>>,
+        things: Option<&[ReplicaId]>,
         spares: &mut Spares,
     ) {
         let told_alike = before.doors == after.doors
-            && things.as_ref().is_some_and(|ids| {
+            && things.is_some_and(|ids| {
                 ids.iter().all(|id| is_told_alike(before.replicas.get(id), after.replicas.get(id)))
             });
         if let Some(mind) = self.mind.take().filter(|_| told_alike) {
@@ -329,7 +330,8 @@ impl Known {
         let of = Spare::own(&mut spares.floors, floors, before, after);
         let through = if Arc::ptr_eq(&of, before) { led } else { was_led };
         let now = self.relations.get().map(|relations| relations.openings());
-        let floors = Arc::get_mut(floors).expect("made one's own by the line before").values_mut();
+        let mut floors =
+            Arc::get_mut(floors).expect("made one's own by the line before").values_mut();
         let leads_as_before = match (&through, now) {
             (Some(through), Some(now)) => Arc::ptr_eq(through, now) || through == now,
             (_, now) => now.is_none(),
@@ -339,7 +341,7 @@ impl Known {
             return true;
         }
         let Some(now) = now else { return false };
-        floors.map(|floor| floor.follow_building(&of, after, now)).all(|follows| follows)
+        floors.all(|floor| floor.follow_building(&of, after, now))
     }
 }
 
