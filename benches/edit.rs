@@ -135,7 +135,7 @@ fn add_room(world: &mut World, _: ReplicaId, _: usize) {
     });
 }
 
-/// The last room, with its door.
+/// The last room, with its things and its door.
 fn remove_room(world: &mut World, _: ReplicaId, _: usize) {
     let id = *world.areas.keys().next_back().expect("some");
     let area = world.areas.remove(&id).expect("it was there");

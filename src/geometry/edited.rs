@@ -274,7 +274,7 @@ mod tests {
         Frame::new(frame.x.get() + x, frame.y.get() + y, frame.z.get(), frame.angle)
     }
 
-    /// A room like another, somewhere else, with a door of its own to it where `joined`.
+    /// A room like another, somewhere else, with doors of its own.
     fn add_room(world: &mut World, throw: &mut impl FnMut(usize) -> usize, by: (f64, f64)) {
         let last = world.areas.keys().next_back().expect("some").0;
         let twin = any!(throw, world.areas).clone();
