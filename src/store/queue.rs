@@ -125,7 +125,7 @@ mod tests {
             Queue::default(),
         ];
         for (n, queue) in queues.iter().enumerate() {
-            let mut store = Store::open(&path).expect("opens");
+            let (mut store, _) = Store::open(&path).expect("opens");
             if n > 0 {
                 assert_eq!(store.reader().queue().expect("reads"), queues[n - 1]);
             }
