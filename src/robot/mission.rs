@@ -549,9 +549,9 @@ impl<'r> Mission<'r> {
                 news
             }
             Known::NoReturn(area, door) => self.belief.no_return_by(area, door),
-            Known::NoRoom(thing, on) => {
+            Known::NoRoom(both) => {
                 self.domain.predicate(predicate::NO_ROOM).is_some()
-                    && self.belief.no_room.insert((thing, on))
+                    && self.belief.no_room.insert(*both)
             }
             Known::Stays(thing) => self.belief.stays(thing),
             Known::Nothing => false,

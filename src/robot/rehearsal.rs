@@ -23,7 +23,7 @@ pub(super) enum Known {
     /// From within an Area a door could not be opened again.
     NoReturn(AreaId, String),
     /// A thing has no place on another.
-    NoRoom(String, String),
+    NoRoom(Box<(String, String)>),
     /// What was to be pushed aside is not to be.
     Stays(ReplicaId),
     /// Nothing that the rules could be told.
@@ -65,7 +65,7 @@ pub(super) fn rehearse(
         Surprise::Refused { refusal: Refusal::NoRoom(support), .. } => match &trial.belief.held {
             Some(held) if held.id != *support => {
                 let on = trial.belief.world.name(Entity::Replica(*support)).to_owned();
-                Known::NoRoom(held.name.clone(), on)
+                Known::NoRoom(Box::new((held.name.clone(), on)))
             }
             _ => Known::Nothing,
         },

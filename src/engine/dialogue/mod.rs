@@ -26,7 +26,7 @@ mod substitute;
 mod waiting;
 
 pub use heard::{Event, Heard, Outcome, Reply};
-pub use waiting::queue_in_words;
+pub(crate) use waiting::queue_in_words;
 
 use crate::language::Language;
 use crate::language::command::{

@@ -160,7 +160,7 @@ impl Hearing<'_, '_> {
 
 /// «В очереди 2 задания …», a task a line.
 #[must_use]
-pub fn queue_in_words(queue: &Queue, language: Language) -> String {
+pub(crate) fn queue_in_words(queue: &Queue, language: Language) -> String {
     if queue.tasks.is_empty() {
         return language.pick("В очереди ничего нет.", "Nothing is waiting.").to_owned();
     }
