@@ -97,6 +97,9 @@ fn a_relation_of_ones_own_is_asked_in_its_own_words() {
     let (text, _) = ask(&engine, "Что на расстоянии руки от Кровати-1?").unwrap();
     assert!(text.contains("Лекарство"), "{text}");
     assert!(ask(&engine, "Тахта в Комнате-В?").unwrap().0.starts_with("Да"));
+    // A folder is a language.
+    assert_eq!(ask(&engine, "Gibt es einen Stuhl in Room Y?").unwrap().0, "Nein.");
+    assert_eq!(ask(&engine, "Welche Farbe hat das Sofa?").unwrap().0, "braun.");
     // A fault of a grammar file is told with its place.
     std::fs::write(words.join("own.lang"), "Prep <- под рукой у[gen] = at_hand\n").unwrap();
     let fault = Rules::read(Some(rules.path())).unwrap_err();

@@ -11,7 +11,7 @@ use super::say::SENTENCES;
 use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
 use crate::language::question::Property;
-use crate::language::{Case, Language, NounPhrase, Number, Readings, WordHints, english};
+use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
 use crate::units::Source;
 
 /// A language while its statements are checked.
@@ -200,6 +200,7 @@ impl<'g> Building<'g> {
         let meaning = self.meaning(rule, &[], of, name)?;
         let mut keys: Vec<(String, Features)> = vec![(String::new(), Features::ALL)];
         for word in words {
+            check_forms(word)?;
             let forms = forms_of(word);
             let joined = |(key, features): &(String, Features),
                           (form, own): &(String, Features)| {
@@ -317,6 +318,7 @@ impl<'g> Building<'g> {
         for element in pattern {
             let slot = match &element.kind {
                 ElementKind::Words(choices) => {
+                    choices.iter().flatten().try_for_each(check_forms)?;
                     let keys = |run: &Vec<Word>| {
                         run.iter().fold(vec![Vec::new()], |runs: Vec<Vec<String>>, word| {
                             let forms = forms_of(word);
@@ -538,6 +540,19 @@ fn place_of(element: &Element) -> std::ops::Range<usize> {
         ElementKind::Words(choices) => choices[0][0].name.at.clone(),
         ElementKind::Part { category, .. } => category.at.clone(),
     }
+}
+
+/// Whether a word that stands for all its forms has forms that are known and not guessed by its ending.
+fn check_forms(word: &Word) -> Checked<()> {
+    let text = &word.name.text;
+    let is_guessed = word.declines
+        && Language::of(text) == Language::Russian
+        && Features::of_adjective(text).is_empty()
+        && NounPhrase::parse(text, &WordHints::default()).evidence() == Evidence::Guess;
+    if is_guessed {
+        return Err(LangError::Forms { word: text.clone(), at: word.name.at.clone().into() });
+    }
+    Ok(())
 }
 
 /// The forms that a word of a file stands for, with what each may be.

@@ -60,6 +60,16 @@ pub enum LangError {
         #[label("здесь")]
         at: SourceSpan,
     },
+    #[error("форм слова «{word}» никто не знает")]
+    #[diagnostic(
+        code(language::forms),
+        help("выпишите его формы: один[nom m] | одна[nom f] | одного[gen m n]")
+    )]
+    Forms {
+        word: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     #[error("в обороте нет ничего обязательного")]
     #[diagnostic(
         code(language::nothing_required),

@@ -289,7 +289,7 @@ mod tests {
             "role on(x: Thing, y: Thing) = ON(x, y)\nrole in(x: Thing, y: Hall) = IN(x, y)\n";
         let words = "reserved Not\nNot <- не\nPos <- стоит\nPrep <- на[loc] = on\nPrep <- под[ins] = over\nNP <- n:Noun = n\n\
                      NP <- a:Adj n:Noun = n\nNP <- n:Nuon = n\nPP <- r:Prep n:NP {agree r n} = n & r\n\
-                     place(x) <- где не стоит x:NP\nplace(x) <- Pos? x:NP?\nlist(x) <- где x:NP\ncount(x) <- где x:NP\nplace(x) <- (где x:NP\n";
+                     place(x) <- где не стоит x:NP\nplace(x) <- Pos? x:NP?\nlist(x) <- где x:NP\ncount(x) <- где x:NP\nplace(x) <- (где x:NP\nWhich <- ~брын\nWhich <- ~который | ~комната\n";
         let files = [
             ("forms.lang", Source::new("forms.lang", roles)),
             ("ru/a.lang", Source::new("ru/a.lang", words)),
@@ -318,6 +318,7 @@ mod tests {
                 "11:1 language::nothing_required",
                 "13:1 language::twice",
                 "14:22 language::syntax",
+                "15:11 language::forms",
             ]
         );
         assert_eq!(all.len(), told.len() + 1, "the type of a role is unknown too");

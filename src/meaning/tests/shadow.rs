@@ -274,7 +274,7 @@ fn golden_questions_come_to_the_same() {
 }
 
 /// Golden questions that the new way answers as the old one does; the number may only rise.
-const LEAST_SAME: usize = 809;
+const LEAST_SAME: usize = 828;
 
 /// How an answer fares against what the data say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
