@@ -19,6 +19,7 @@ impl InEnglish for LangFault {
             LangError::Reserved { word, .. } => {
                 format!("“{word}” has a meaning of its own, and cannot be a mere word of a phrase")
             }
+            LangError::Forms { word, .. } => format!("nobody knows the forms of the word “{word}”"),
             LangError::NothingRequired { .. } => "nothing in the phrase is required".to_owned(),
             LangError::Twice { .. } => {
                 "the same phrase is described already, with another meaning".to_owned()
@@ -41,6 +42,9 @@ impl InEnglish for LangFault {
             }
             LangError::Reserved { .. } => {
                 "name its category, so that negation, number or degree enter the meaning"
+            }
+            LangError::Forms { .. } => {
+                "write them out: один[nom m] | одна[nom f] | одного[gen m n]"
             }
             LangError::NothingRequired { .. } => "remove “?” or “*” from one part at least",
             LangError::Twice { .. } => "keep one of the two lines",

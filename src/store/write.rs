@@ -1,11 +1,13 @@
 //! World → records (paper 2 §§2-7).
 
+use std::collections::BTreeSet;
+
 use crate::map::{
     Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Extent, Face, Forms, Gender,
     HingeSide, Item, ItemLink, Map, Object, OpensTo, Orthoframe, Place, Profile, Properties,
     Replica, TypeList, World, Zone, ZoneKind,
 };
-use crate::units::{Frame, Timestamp, TypeId};
+use crate::units::{Frame, OrFrId, Timestamp, TypeId};
 
 use super::error::Result;
 use super::sheet::Sheet;
@@ -123,10 +125,6 @@ pub(super) fn records(world: &World) -> Result<Sheet> {
 /// The records in which two worlds may differ, of the one and of the other: rows that are in neither are the same in both.
 /// Where most of a world is shared with the one that it was made from, few are.
 pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet; 2]> {
-    // Sizes of Objects, Areas and Maps are made of these.
-    if before.orthoframes != after.orthoframes {
-        return Ok([records(before)?, records(after)?]);
-    }
     let mut sheets = [Sheet::default(), Sheet::default()];
     let [old, new] = &mut sheets;
     macro_rules! put {
@@ -141,13 +139,39 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
             }
         };
     }
+    put!(orthoframes, |sheet, world, orthoframe| put_orthoframe(sheet, orthoframe));
     put!(doors, |sheet, world, door| put_door(sheet, door));
     put!(objects, |sheet, world, object| put_object(sheet, world, object));
     put!(areas, |sheet, world, area| put_area(sheet, world, area));
     put!(replicas, |sheet, world, replica| put_replica(sheet, replica));
     put!(places, |sheet, world, place| put_place(sheet, place));
     put!(zones, |sheet, world, zone| put_zone(sheet, zone));
-    if before.areas == after.areas {
+    // Sizes of Objects, Areas and Maps are made of those of Orthoframes.
+    let parts = before.orthoframes.changes(&after.orthoframes).into_iter();
+    let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).collect();
+    let uses = |items: &[Item]| items.iter().any(|item| parts.contains(&item.orthoframe));
+    macro_rules! put_users {
+        ($groups:ident, $put:ident) => {{
+            let using = |world: &World| -> BTreeSet<_> {
+                world.$groups.values().filter(|g| uses(&g.items)).map(|g| g.id).collect()
+            };
+            let all = &using(before) | &using(after);
+            for id in &all {
+                let [was, is] = [before.$groups.get(id), after.$groups.get(id)];
+                if let (Some(was), true) = (was, was == is) {
+                    $put(old, before, was)?;
+                    $put(new, after, was)?;
+                }
+            }
+        }};
+    }
+    let are_made_alike = |area: &Area| !uses(&area.items);
+    let are_same_areas = before.areas == after.areas && after.areas.values().all(are_made_alike);
+    if !parts.is_empty() {
+        put_users!(objects, put_object);
+        put_users!(areas, put_area);
+    }
+    if are_same_areas {
         put!(maps, |sheet, world, map| put_map(sheet, world, map));
     } else {
         for (sheet, world) in [(&mut *old, before), (&mut *new, after)] {
