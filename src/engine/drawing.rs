@@ -61,7 +61,11 @@ impl State {
             scene: floor.scene(),
             only,
             doors: door_glyphs(world, floor, only),
-            floor: if drawing.floor { floor_layer(floor, only) } else { FloorLayer::default() },
+            floor: if drawing.floor {
+                floor_layer(floor, only, drawing.language)
+            } else {
+                FloorLayer::default()
+            },
             network: if drawing.network {
                 NetworkLayer::of(floor, only)
             } else {
@@ -227,14 +231,14 @@ fn outer_doors(floor: &FloorPlan, only: Option<AreaId>) -> impl Iterator<Item = 
     })
 }
 
-fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {
+fn floor_layer(floor: &FloorPlan, only: Option<AreaId>, language: Language) -> FloorLayer {
     let mut layer = FloorLayer::default();
     for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
         layer.passframes.extend(
             fragment
                 .passframes()
                 .iter()
-                .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name()))),
+                .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name(language)))),
         );
         layer.dead_zones.extend(fragment.dead_zones().iter().cloned());
     }

@@ -1,7 +1,7 @@
 //! What a scan shows of the floor, beside the map (SPEC L1): the operative model, its Passframes and what bounds them.
 
 use crate::draw::{SightDrawing, SightLine, SightSign, beside, sight_svg};
-use crate::geometry::{Blocker, PassframeKind};
+use crate::geometry::Blocker;
 use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::{Entity, World};
@@ -99,13 +99,6 @@ impl State {
             }
         }
         let fragment = seen.operative.plan().fragments().next();
-        let kind = |kind: PassframeKind| match (kind, language) {
-            (kind, Language::Russian) => kind.name(),
-            (PassframeKind::Closed, _) => "Closed zone",
-            (PassframeKind::Boundary, _) => "Boundary",
-            (PassframeKind::DeadEnd, _) => "Dead end",
-            (PassframeKind::Passage, _) => "Passage",
-        };
         let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
         let drawing = SightDrawing {
             title: pick("Оперативная модель", "Operative model"),
@@ -116,7 +109,7 @@ impl State {
                 .map(|frame| {
                     (
                         frame.polygon.clone(),
-                        format!("{} {}", frame.id, kind(seen.operative.kind(frame))),
+                        format!("{} {}", frame.id, seen.operative.kind(frame).name(language)),
                     )
                 })
                 .collect(),

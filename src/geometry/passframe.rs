@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::fmt;
 
 use crate::map::Permeability;
-use crate::units::{AreaId, DoorId, Point};
+use crate::units::{AreaId, DoorId, Language, Point};
 
 use super::blocker::Blocker;
 use super::buckets::Buckets;
@@ -50,12 +50,12 @@ pub enum PassframeKind {
 impl PassframeKind {
     /// The paper's word.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
-            Self::Closed => "Закрытая зона",
-            Self::Boundary => "Граница видимости",
-            Self::DeadEnd => "Тупик",
-            Self::Passage => "Проход",
+            Self::Closed => language.pick("Закрытая зона", "Closed zone"),
+            Self::Boundary => language.pick("Граница видимости", "Boundary"),
+            Self::DeadEnd => language.pick("Тупик", "Dead end"),
+            Self::Passage => language.pick("Проход", "Passage"),
         }
     }
 }

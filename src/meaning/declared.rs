@@ -49,8 +49,10 @@ pub fn words_beside(rules: &Source) -> Vec<(String, Source)> {
         put("", role);
         put(&format!("{language}/"), format!("{before}{words} = {name}"));
     }
+    // Within the folder of its language, wherever the rules lie.
+    let named = rules.name().rsplit(['/', '\\']).next().unwrap_or_default();
     let file = |(folder, lines): (String, Vec<String>)| {
-        let path = format!("{folder}{}.lang", rules.name());
+        let path = format!("{folder}{named}.lang");
         (path, Source::new(rules.name(), lines.join("\n")))
     };
     files.into_iter().map(file).collect()

@@ -173,7 +173,7 @@ fn a_datalog_run_explains_its_joins() {
         "1 run, 2 found",
         "p: new rows",
         "e by a: 2 rows",
-        "is never used",
+        "is used nowhere",
         "never fires",
         "all pairs",
     ] {

@@ -47,7 +47,7 @@ pub fn waiting(line: &str) -> Option<Waiting<'_>> {
     {
         return Some(Waiting::Add(order.trim()));
     }
-    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric()));
+    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric())).replace(['\'', '’'], " ");
     let lists = [
         (PAUSE, Waiting::Pause),
         (RESUME, Waiting::Resume),

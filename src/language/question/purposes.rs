@@ -2,7 +2,7 @@
 //!
 //! After the hypernyms of everyday nouns. Invariant: a sort consists of kinds that the map has; a word that the map
 //! itself uses is never taken from it. Which there are, and what is done
-//! with the things of each, stands in `rules/language/things.txt`.
+//! with the things of each, stands in `things.txt`.
 
 use std::collections::HashSet;
 use std::sync::OnceLock;

@@ -10,7 +10,7 @@ use crate::report::Detail;
 use crate::units::name_key;
 use crate::words::things;
 
-static TEXT: &str = include_str!("../../../rules/language/marks.txt");
+static TEXT: &str = include_str!("marks.txt");
 
 /// Every mark that words may have; in the file they go by their names here.
 const MARKS: &[Mark] = &[

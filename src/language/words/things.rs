@@ -1,4 +1,4 @@
-//! What `rules/language/things.txt` says: words for one sort of thing, sorts of things, and what people do with them.
+//! What `things.txt` says: words for one sort of thing, sorts of things, and what people do with them.
 //!
 //! Invariant: every line reads (a test parses all of them); sorts and deeds keep the order of the file, which settles
 //! what goes before.
@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use super::list::Language;
 
-static TEXT: &str = include_str!("../../../rules/language/things.txt");
+static TEXT: &str = include_str!("things.txt");
 
 /// What part things of a sort have in what is done, after the thematic roles of verbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
