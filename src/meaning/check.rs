@@ -490,8 +490,8 @@ impl<'g> Building<'g> {
 fn mismatch(name: &Name, found: Type, wanted: Type) -> LangError {
     LangError::Type {
         name: name.text.clone(),
-        found: found.word().into(),
-        wanted: wanted.word().into(),
+        found: found.word(),
+        wanted: wanted.word(),
         at: (name.at.start, name.at.len()).into(),
     }
 }

@@ -13,7 +13,7 @@ impl InEnglish for LangFault {
             LangError::Syntax { expected, .. } => format!("{} is expected here", en(expected)),
             LangError::Unknown { what, name, .. } => format!("unknown: {} “{name}”", en(what)),
             LangError::Type { name, found, wanted, .. } => {
-                format!("“{name}”: {}, and {} is needed", en(found), en(wanted))
+                format!("“{name}”: {}, and {} is needed", found.1, wanted.1)
             }
             LangError::OneSide { name, .. } => format!("“{name}” stands on one side of “<-” only"),
             LangError::Reserved { word, .. } => {

@@ -28,15 +28,16 @@ pub enum LangError {
         #[label("здесь")]
         at: SourceSpan,
     },
-    #[error("«{name}»: {found}, а нужно {wanted}")]
+    #[error("«{name}»: {}, а нужно {}", found.0, wanted.0)]
     #[diagnostic(
         code(language::type_mismatch),
         help("сверьте с тем, что даёт эта категория в других строках")
     )]
     Type {
         name: String,
-        found: Bilingual,
-        wanted: Bilingual,
+        /// In Russian and in English.
+        found: (&'static str, &'static str),
+        wanted: (&'static str, &'static str),
         #[label("здесь")]
         at: SourceSpan,
     },

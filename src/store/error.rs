@@ -91,7 +91,7 @@ pub enum StoreError {
         code(store::both_corrupt),
         help("проверьте диск и восстановите хранилище из резервной копии: ortho restore КОПИЯ")
     )]
-    BothCorrupt { dir: String, journal: Bilingual, tables: Bilingual },
+    BothCorrupt { dir: String, journal: Box<Bilingual>, tables: Box<Bilingual> },
 
     /// A record's bytes do not match their checksum, or its cells do not fit.
     #[error("таблица {table}: запись {key} испорчена")]

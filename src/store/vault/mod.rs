@@ -230,7 +230,7 @@ impl Vault {
             not_told => {
                 let Found { brought, trees } = find(&files, || shelf.look())?;
                 report.read_from_tables = match not_told {
-                    Some(Err(StoreError::BothCorrupt { journal, .. })) => Some(journal),
+                    Some(Err(StoreError::BothCorrupt { journal, .. })) => Some(*journal),
                     Some(Err(other)) => Some(Bilingual::of(&other)),
                     _ if trees.is_ok() => journal_fault(&*disk, dir, &log, brought.state.lsn)?,
                     _ => None,

@@ -227,7 +227,7 @@ fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError)
     let journal = log.fault.as_ref().unwrap_or(rebuild);
     StoreError::BothCorrupt {
         dir: dir.display().to_string(),
-        journal: Bilingual::of(journal),
-        tables: Bilingual::of(trees),
+        journal: Box::new(Bilingual::of(journal)),
+        tables: Box::new(Bilingual::of(trees)),
     }
 }
