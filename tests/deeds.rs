@@ -175,6 +175,22 @@ fn what_lies_on_the_tray_is_on_the_table() {
     assert_eq!(told(&engine, "What is Cup 1 on?"), "Cup 1 is on Tray 1.");
 }
 
+/// What stands on another thing and is not made to bear is no place to put things, even where there is no other.
+#[test]
+fn nothing_is_put_onto_what_stands_on_another_thing() {
+    let dir = tempfile::tempdir().unwrap();
+    let toaster = "{ name = \"Toaster 1\", object = \"toaster\", at = [21, 351, 75] },";
+    let text = HOME
+        .replace("  { name = \"Hall table\", object = \"table\", at = [150, 20] },\n", "")
+        .replace("{ name = \"Mat 1\", object = \"mat\", at = [20, 350, 75], move_prob = 90 },", toaster)
+        .replace("{ name = \"egg\",", "{ name = \"toaster\", traits = [\"device\"] },\n  { name = \"egg\",")
+        .replace("[object]\n", "toaster = { name = \"Toaster body\", rect = [38, 38], height = 20 }\n[object]\ntoaster = { name = \"Toaster\", type = \"toaster\", items = [{ id = \"A\", orthoframe = \"toaster\" }] }\n");
+    let mut engine = home(&dir, &text);
+    let refused = order(&mut engine, "Put Cup 1 in the hall").unwrap_err().to_string();
+    assert!(refused.contains("некуда положить"), "{refused}");
+    done(&mut engine, "Put Cup 1 on Cabinet 1");
+}
+
 /// The cups travel with the tray and the ball with the box: in the hand, in the world, in relations and in answers.
 #[test]
 fn what_lies_on_the_tray_goes_with_it() {

@@ -168,8 +168,13 @@ impl State {
                 .into_iter()
                 .collect());
         }
-        let bears =
-            |id: ReplicaId| !now.world.has_trait(id, "portable") && self.takes(id, thing, now);
+        // What stands on another thing, as a toaster does, bears things where it is made for that.
+        let serves = |id: ReplicaId| {
+            now.world.has_trait(id, "support") || relations.support_of(id).is_none()
+        };
+        let bears = |id: ReplicaId| {
+            !now.world.has_trait(id, "portable") && serves(id) && self.takes(id, thing, now)
+        };
         let reached = |id: ReplicaId| {
             let support = world.name(Entity::Replica(id));
             facts
