@@ -7,8 +7,8 @@
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
 use crate::map::Entity;
-use crate::semantics::{Relations, Subject, on_demand, robot_eye, things_in_view};
-use crate::units::{Cm, Deg, Pose, ReplicaId, Source};
+use crate::semantics::{OnDemand, Subject, length, on_demand, robot_eye, things_in_view};
+use crate::units::{Deg, Pose, Source};
 
 use super::known::Known;
 use super::{Error, State};
@@ -51,16 +51,9 @@ impl State {
     ) -> Result<QueryAnswer, Error> {
         let around = self.around()?;
         let relations = around.relations()?;
-        let asked = |name, columns, ways, rows| Asked {
-            declaration: Source::new(name, format!(".decl {columns}")),
-            ways,
-            around,
-            relations,
-            rows,
-        };
         let computed = [
-            asked("seen_from", SEEN, vec![(0b01, 30.0)], seen),
-            asked("way_length", WAY, vec![(0b11, 1.0)], way),
+            Asked::new(SEEN, vec![(0b01, 30.0)], (around, relations), seen),
+            Asked::new(WAY, vec![(0b11, 1.0)], (around, relations), way),
         ];
         let measured = on_demand(around.world(), relations);
         let measured = measured.iter().map(|one| one as &dyn Computed);
@@ -92,53 +85,17 @@ const SEEN: &str = "ВИДНО_ОТ(место: symbol, x: Thing) = seen_from";
 /// In tenths of a millimetre, from where one stands at the one to the other, by doors that stand open.
 const WAY: &str = "ДЛИНА_ПУТИ(a: symbol, b: symbol, d: number) = way_length";
 
-type Rows = fn(&Asked<'_>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option<()>;
+type Asked<'e> = OnDemand<'e, Known>;
 
-/// A relation that geometry computes.
-struct Asked<'e> {
-    declaration: Source,
-    ways: Vec<(u32, f64)>,
-    around: &'e Known,
-    relations: &'e Relations,
-    rows: Rows,
-}
-
-impl Computed for Asked<'_> {
-    fn declaration(&self) -> &Source {
-        &self.declaration
+fn entity(asked: &Asked<'_>, value: Option<&Value>) -> Option<Entity> {
+    match asked.subject(value)? {
+        Subject::Entity(entity) => Some(entity),
+        Subject::Object(_) | Subject::Part(_) => None,
     }
-
-    fn ways(&self) -> &[(u32, f64)] {
-        &self.ways
-    }
-
-    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
-        // Of what has no place nothing is computed.
-        let _ = (self.rows)(self, known, tell);
-    }
-}
-
-impl Asked<'_> {
-    fn entity(&self, value: Option<&Value>) -> Option<Entity> {
-        let Some(Value::Symbol(symbol)) = value else { return None };
-        match self.relations.symbols().subject(symbol)? {
-            Subject::Entity(entity) => Some(entity),
-            Subject::Object(_) | Subject::Part(_) => None,
-        }
-    }
-
-    fn symbol(&self, thing: ReplicaId) -> Option<Value> {
-        let symbol = self.relations.symbols().known(Subject::Entity(Entity::Replica(thing)))?;
-        Some(Value::Symbol(symbol.clone()))
-    }
-}
-
-fn length(cm: f64) -> Option<Value> {
-    Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
 }
 
 fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {
-    let place = asked.entity(known[0].as_ref())?;
+    let place = entity(asked, known[0].as_ref())?;
     let (world, located) = (asked.around.world(), asked.around.locate_entity(place).ok()?);
     let floor = asked.around.floor(located.map).ok()?;
     let pose = Pose { at: located.at, heading: Deg::ZERO };
@@ -152,7 +109,7 @@ fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value
 }
 
 fn way(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) -> Option<()> {
-    let ends = [asked.entity(known[0].as_ref())?, asked.entity(known[1].as_ref())?];
+    let ends = [entity(asked, known[0].as_ref())?, entity(asked, known[1].as_ref())?];
     let around = &asked.around;
     let (from, to) = (around.locate_entity(ends[0]).ok()?, around.locate_entity(ends[1]).ok()?);
     if from.map != to.map {

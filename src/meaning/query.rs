@@ -3,7 +3,9 @@
 //! A description becomes premises about a variable; a definite one is looked for first and stands as a constant, so that
 //! what runs begins with what is known. Negation and what all must have get a relation of the question's own.
 
-use std::collections::BTreeSet;
+mod measures;
+mod values;
+
 use std::fmt::Write as _;
 
 use super::answer::NoAnswer;
@@ -13,7 +15,7 @@ use super::sense::{Signatures, taking};
 use super::term::{Desc, Dimension, Head, Measure, Mod, Quant, RoleId, Sorts};
 use crate::facts::Value;
 use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
-use crate::map::{DoorStatus, Entity};
+use crate::map::Entity;
 use crate::semantics::Subject;
 
 /// The rows of a question of the rules' language, or why there are none.
@@ -513,148 +515,6 @@ impl Asking<'_> {
         } else {
             Ok(either(&choices))
         }
-    }
-
-    fn value(&self, value: ValueId, x: &str, sorts: Sorts) -> Result<Vec<String>, NoAnswer> {
-        const STATES: [(DoorStatus, &str); 3] = [
-            (DoorStatus::Open, "open"),
-            (DoorStatus::Closed, "closed"),
-            (DoorStatus::Locked, "locked"),
-        ];
-        let values = &self.map.lexicon.values;
-        if values.entry(value).is_emptiness() {
-            return Err(NoAnswer::Unfit("empty and full"));
-        }
-        let of_doors = STATES
-            .iter()
-            .filter(|(status, _)| values.of_door(*status).is_some_and(|own| values.is(own, value)));
-        let mut choices: Vec<String> =
-            of_doors.map(|(_, word)| format!("DOOR_IS({x}, \"{word}\")")).collect();
-        // The rules' types keep doors and things apart.
-        if sorts.meets(Sorts::THING) {
-            choices.clear();
-        }
-        for spelling in self.spellings(value) {
-            choices.push(format!("HAS({x}, _, {})", quoted(&spelling)));
-        }
-        if choices.is_empty() {
-            choices.push(FALSE.to_owned());
-        }
-        Ok(choices)
-    }
-
-    /// That a thing has some value where it might have this one; none where the property has no facts.
-    pub(crate) fn property_known(&self, value: ValueId, x: &str, sorts: Sorts) -> Option<String> {
-        self.property_told(&self.map.lexicon.values.entry(value).property, x, sorts)
-    }
-
-    /// That a thing has some value of a property; none where the property has no facts.
-    pub(crate) fn property_told(
-        &self,
-        property: &Property,
-        x: &str,
-        sorts: Sorts,
-    ) -> Option<String> {
-        let mut known: Vec<String> = self
-            .names_of(property)
-            .into_iter()
-            .map(|name| format!("HAS({x}, {}, _)", quoted(&name)))
-            .collect();
-        if *property == Property::State && !sorts.meets(Sorts::THING) {
-            known.push(format!("DOOR_IS({x}, _)"));
-        }
-        (!known.is_empty()).then(|| either(&known))
-    }
-
-    /// What the facts call a property.
-    pub(crate) fn names_of(&self, property: &Property) -> Vec<String> {
-        self.of_facts(1, |name| Property::of(name) == *property)
-    }
-
-    /// How the facts write a value, or one that counts as it.
-    fn spellings(&self, value: ValueId) -> Vec<String> {
-        let values = &self.map.lexicon.values;
-        self.of_facts(2, |text| values.meaning(text).is_some_and(|own| values.is(own, value)))
-    }
-
-    /// What stands in a column of `HAS` and fits, sorted, each once.
-    fn of_facts(&self, column: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
-        let tuples = self.map.relations.derived().tuples("HAS").into_iter().flatten();
-        let texts: BTreeSet<String> =
-            tuples.filter_map(|tuple| tuple.symbol(column).map(str::to_owned)).collect();
-        texts.into_iter().filter(|text| fits(text)).collect()
-    }
-
-    /// The premise by which a superlative measures a thing, the variable of the measure, and whether more of it wins.
-    fn measured(
-        &mut self,
-        x: &str,
-        best: &Mod,
-        sorts: Sorts,
-        body: &mut Body,
-    ) -> Result<(String, String, bool), NoAnswer> {
-        let v = body.variable();
-        match best {
-            Mod::Best(Measure { of: Dimension::Distance, most }, Some(to), _) => {
-                let to = self.one(to, false)?;
-                Ok((format!("distance_between({x}, {}, {v})", quoted(&to)), v, *most))
-            }
-            Mod::Best(Measure { of: Dimension::Level, most }, None, _) => {
-                let foot = amount(Dimension::Level, x, sorts, &v)?;
-                let premises = body.premises.join(", ");
-                let rule =
-                    format!("{}\n?- answer({v}) :- {premises}, {foot}", body.helpers.join("\n"));
-                let feet: Vec<i64> =
-                    self.rows(rule.trim())?.iter().filter_map(|r| number(r, 0)).collect();
-                let spread = feet.iter().max().zip(feet.iter().min()).map_or(0, |(a, b)| a - b);
-                let of =
-                    if spread > self.level_equal() { Dimension::Level } else { Dimension::Height };
-                Ok((amount(of, x, sorts, &v)?, v, *most))
-            }
-            Mod::Best(Measure { of, most }, None, _) => Ok((amount(*of, x, sorts, &v)?, v, *most)),
-            Mod::MostOf { role, what, most } => {
-                let before = std::mem::take(&mut body.premises);
-                let y = body.variable();
-                let is_loose = std::mem::replace(&mut body.is_loose, true);
-                self.describe(&Desc { quant: Quant::Some, ..what.clone() }, &y, body)?;
-                let terms = [(y.clone(), what.sorts), (x.to_owned(), sorts)];
-                let premise = self.role(*role, &terms, body)?;
-                body.is_loose = is_loose;
-                let premises = std::mem::replace(&mut body.premises, before).join(", ");
-                let name = format!("of_it_{}", body.helpers.len() + 1);
-                body.helpers.push(format!(
-                    ".decl {name}(y: Any, x: Any)\n{name}({y}, {x}) :- {premises}, {premise}."
-                ));
-                Ok((format!("{v} = count : {{ {name}(_, {x}) }}"), v, *most))
-            }
-            _ => Err(NoAnswer::Unfit("such a measure")),
-        }
-    }
-
-    /// Levels nearer to each other are one, tenths of a millimetre.
-    pub(crate) fn level_equal(&self) -> i64 {
-        (self.map.relations.thresholds().level_equal * 100.0).round() as i64
-    }
-
-    /// The measures of two things, of which the greater has more; of levels nearly equal their heights.
-    pub(crate) fn amounts(
-        &mut self,
-        (a, b): (&str, &str),
-        of: Dimension,
-        sorts: Sorts,
-    ) -> Result<(i64, i64), NoAnswer> {
-        let first = amount(of, &quoted(a), sorts, "A")?;
-        let second = amount(of, &quoted(b), sorts, "B")?;
-        let rows = self.rows(&format!("?- answer(A, B) :- {first}, {second}"))?;
-        let pair = rows.first().and_then(|row| Some((number(row, 0)?, number(row, 1)?)));
-        let (x, y) = pair.ok_or(NoAnswer::Unfit("the measures of such things"))?;
-        if of == Dimension::Level && (x - y).abs() <= self.level_equal() {
-            return self.amounts((a, b), Dimension::Height, sorts);
-        }
-        // What is told to be as much is not more: floors are told in hundredths of m², lengths in cm.
-        let told =
-            |v: i64| if of == Dimension::Size && sorts != Sorts::AREA { v } else { (v + 50) / 100 };
-        Ok((told(x), told(y)))
     }
 }
 

@@ -1,12 +1,12 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{NoRoute, Remedy, Route, Target};
+use crate::geometry::{NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{Entity, World};
-use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
+use crate::semantics::planning::{InitialFact, PlanPlace};
 use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts, predicate};
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
-use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId, Stop};
+use crate::units::{AreaId, DoorId, MapId, Pose, Stop};
 
 use std::collections::BTreeMap;
 
@@ -15,8 +15,9 @@ use thiserror::Error;
 
 mod acts;
 mod aside;
+mod names;
 
-use super::belief::{Belief, Station};
+use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::idle::without_idle;
 use super::rehearsal::{Known, rehearse};
@@ -556,81 +557,6 @@ impl<'r> Mission<'r> {
             Known::Stays(thing) => self.belief.stays(thing),
             Known::Nothing => false,
         }
-    }
-
-    pub(super) fn name_this_point(&mut self) {
-        let Some((area, _)) = self.belief.floor().locate(self.belief.pose.at) else { return };
-        self.belief.area = area;
-        let name = format!("Остановка-{}", self.belief.spots.len() + 1);
-        self.belief.spots.push(super::belief::Spot {
-            name: name.clone(),
-            area,
-            pose: self.belief.pose,
-            looks: false,
-        });
-        self.belief.station = Station::Place(name);
-    }
-
-    pub(super) fn place_target(&self, name: &str) -> Result<Target, Surprise> {
-        if let Some(spot) = self.belief.spots.iter().find(|s| s.name == name) {
-            return Ok(Target::Point(spot.pose.at));
-        }
-        let place = self.places.iter().find(|p| p.name == name);
-        match place.map(|p| p.source) {
-            Some(PlaceSource::Named(id)) => Ok(Target::Place(id)),
-            Some(PlaceSource::Before(id)) => Ok(Target::Replica(id)),
-            Some(PlaceSource::Robot) | None => Err(Surprise::Unknown { name: name.to_owned() }),
-        }
-    }
-
-    /// Where the robot stands at a door or passage on the side of `side`, coming from `from`.
-    fn door_target(&self, name: &str, from: AreaId, side: AreaId) -> Result<Target, Surprise> {
-        /// How far before a passage one stands that has no leaf, in radii of the robot.
-        const BEFORE: f64 = 1.2;
-        if let Some(door) = self.opening(name)? {
-            return Ok(Target::Door { door, area: side });
-        }
-        let unknown = || Surprise::Unknown { name: name.to_owned() };
-        let join = self.joins.iter().find(|j| j.opening == name && j.from == from);
-        let passage = join.and_then(|join| join.id);
-        let mut doorways = self.belief.floor().doorways().iter();
-        let doorway = doorways.find(|d| Some(d.id) == passage).ok_or_else(unknown)?;
-        let before = self.belief.world.robot.radius.get() * BEFORE;
-        let side = doorway.index_of(side).ok_or_else(unknown)?;
-        Ok(Target::Point(doorway.before(side, before)))
-    }
-
-    /// The door of this name; none where it is a passage that has no name of its own on the Map.
-    fn opening(&self, name: &str) -> Result<Option<DoorId>, Surprise> {
-        match self.joins.iter().find(|join| join.opening == name) {
-            Some(join) => Ok(join.door),
-            None => self.door(name).map(Some),
-        }
-    }
-
-    fn area(&self, name: &str) -> Result<AreaId, Surprise> {
-        self.entity(name, |e| if let Entity::Area(id) = e { Some(id) } else { None })
-    }
-
-    fn door(&self, name: &str) -> Result<DoorId, Surprise> {
-        self.entity(name, |e| if let Entity::Door(id) = e { Some(id) } else { None })
-    }
-
-    pub(super) fn replica(&self, name: &str) -> Result<ReplicaId, Surprise> {
-        self.entity(name, |e| if let Entity::Replica(id) = e { Some(id) } else { None })
-    }
-
-    fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Result<T, Surprise> {
-        self.belief.entity(name, pick).ok_or_else(|| Surprise::Unknown { name: name.to_owned() })
-    }
-
-    fn held(&self, name: &str) -> Result<ReplicaId, Surprise> {
-        self.belief
-            .held
-            .as_ref()
-            .filter(|r| r.name == name)
-            .map(|r| r.id)
-            .ok_or_else(|| Surprise::Unknown { name: name.to_owned() })
     }
 }
 

@@ -7,12 +7,11 @@
 //! from. Time is simulated; nothing is random, so a run repeats itself.
 
 use std::collections::BTreeSet;
-use std::f64::consts::TAU;
 use std::sync::{Arc, LazyLock};
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
-use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
-use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
+use parry2d_f64::query::intersection_test;
+use parry2d_f64::shape::Segment;
 
 use crate::geometry::{
     Bounds, LIFT_WAIT, Leaves, Opening, Openings, Owner, Polygon, Prism, Ride, STEP_REACH, Scene,
@@ -23,7 +22,7 @@ use crate::map::{
     switch,
 };
 use crate::semantics::{RelationRules, cargo, shut_around};
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::belief::frame_aboard;
 use super::eye::View;
@@ -32,9 +31,12 @@ use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
 
+mod contact;
 mod laser;
 mod people;
 pub(super) mod senses;
+
+use contact::placed;
 
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
@@ -265,103 +267,6 @@ impl Simulator {
         prism.bottom < self.profile.height.get() && prism.top > self.profile.step.get()
     }
 
-    /// The corners of the robot's footprint, less the skin; none of a disc.
-    fn outline(&self) -> Vec<Point> {
-        let corners = &self.profile.footprint;
-        let n = corners.len();
-        let inward = |i: usize| {
-            let along = (corners[(i + 1) % n] - corners[i % n]).normalize();
-            Vector::new(-along.y, along.x)
-        };
-        let inset = |i: usize| {
-            let (before, after) = (inward(i + n - 1), inward(i));
-            corners[i] + (before + after) * (SKIN / (1.0 + before.dot(&after)))
-        };
-        let outline: Vec<Point> = (0..n).map(inset).collect();
-        let keeps_its_way = (0..n).all(|i| {
-            let (was, is) = (corners[(i + 1) % n] - corners[i], outline[(i + 1) % n] - outline[i]);
-            was.dot(&is) > 0.0
-        });
-        // What is thinner than two skins has none.
-        if keeps_its_way { outline } else { corners.clone() }
-    }
-
-    /// The robot's body, less the skin.
-    fn body(&self) -> Box<dyn Shape> {
-        let corners = self.outline().iter().map(|p| ShapeVector::new(p.x, p.y)).collect();
-        match ConvexPolygon::from_convex_polyline(corners) {
-            Some(polygon) if !self.profile.footprint.is_empty() => Box::new(polygon),
-            _ => Box::new(Ball::new(self.profile.radius.get() - SKIN)),
-        }
-    }
-
-    /// The first contact of the robot on its way from here to `goal`: how far it gets, and against what.
-    fn first_contact(&self, goal: Point) -> Option<(f64, Obstruction)> {
-        let way = goal - self.pose.at;
-        let length = way.norm();
-        let radius = self.profile.radius.get() - SKIN;
-        let swept = Bounds::of([self.pose.at, goal]).grown(radius);
-        let body = self.body();
-        let from = placed(self.pose);
-        // Unit speed, so that time is distance.
-        let velocity = ShapeVector::new(way.x / length, way.y / length);
-        let options = ShapeCastOptions { max_time_of_impact: length, ..Default::default() };
-        self.edges
-            .iter()
-            .filter(|e| Bounds::of([e.a, e.b]).meets(&swept))
-            .filter_map(|e| {
-                let edge =
-                    Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
-                let hit = cast_shapes(
-                    &from,
-                    velocity,
-                    &*body,
-                    &ShapePose::identity(),
-                    ShapeVector::ZERO,
-                    &edge,
-                    options,
-                )
-                .expect("parry casts a ball or a polygon against a segment")?;
-                Some((hit.time_of_impact, e.of))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-    }
-
-    /// The first contact of the robot when it turns by so many degrees: how far it gets, and against what. A corner
-    /// of the outline meets an edge, or an edge's end meets the outline, where a circle about the centre cuts it.
-    fn contact_in_turn(&self, turn: f64) -> Option<(f64, Obstruction)> {
-        let Pose { at, heading } = self.pose;
-        let outline = Polygon::new(self.outline());
-        let near = Bounds::of([at]).grown(self.profile.radius.get());
-        let toward = |p: Point| p.y.atan2(p.x);
-        let mut first: Option<(f64, Obstruction)> = None;
-        for edge in self.edges.iter().filter(|e| Bounds::of([e.a, e.b]).meets(&near)) {
-            // As seen from the robot before it turns.
-            let seen = |p: Point| {
-                let (sin, cos) = heading.radians().sin_cos();
-                let v = p - at;
-                Point::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin)
-            };
-            let (a, b) = (seen(edge.a), seen(edge.b));
-            let corners = outline.corners.iter().flat_map(|&corner| {
-                at_distance(corner.coords.norm(), a, b).map(move |met| (corner, met))
-            });
-            let ends = [a, b].into_iter().flat_map(|end| {
-                let sides = outline.edges();
-                let met = sides.flat_map(move |(u, v)| at_distance(end.coords.norm(), u, v));
-                met.map(move |met| (met, end))
-            });
-            for (from, to) in corners.chain(ends) {
-                let angle = (toward(to) - toward(from)) * turn.signum();
-                let angle = angle.rem_euclid(TAU).to_degrees();
-                if angle <= turn.abs() && first.is_none_or(|f| (angle, edge.of) < f) {
-                    first = Some((angle, edge.of));
-                }
-            }
-        }
-        first
-    }
-
     /// Turns on the spot, by the shorter way.
     fn turn_to(&mut self, heading: Deg, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         let turn = (heading - self.pose.heading).signed();
@@ -438,21 +343,6 @@ impl Simulator {
         );
         Ok((nearest - self.pose.at).norm() <= self.profile.radius.get() + ARM_REACH)
     }
-}
-
-/// The places on a segment that are so far from the origin.
-fn at_distance(radius: f64, a: Point, b: Point) -> impl Iterator<Item = Point> {
-    let along = b - a;
-    // |a + t along|² = radius²
-    let (square, half) = (along.norm_squared(), a.coords.dot(&along));
-    let root = (half * half - square * (a.coords.norm_squared() - radius * radius)).sqrt();
-    let places = [-root, root].map(|root| (root - half) / square);
-    places.into_iter().filter(|t| (0.0..=1.0).contains(t)).map(move |t| a + along * t)
-}
-
-/// A pose as parry has it.
-fn placed(pose: Pose) -> ShapePose {
-    ShapePose::new(ShapeVector::new(pose.at.x, pose.at.y), pose.heading.radians())
 }
 
 impl Simulator {

@@ -16,35 +16,48 @@ const DISTANCE: &str = "РАССТОЯНИЕ_МЕЖДУ(x: Any, y: Any, d: numbe
 /// the zero of its Map), base or volume; of an Area all but foot and thickness; of a door width.
 const SIZE: &str = "РАЗМЕР(x: Any, what: symbol, v: number) = size_of";
 
-/// A relation that geometry computes.
-pub struct OnDemand<'w> {
+/// A relation that geometry computes when asked, of `W`: a World, or what knows more than that.
+pub struct OnDemand<'w, W> {
     declaration: Source,
     ways: Vec<(u32, f64)>,
-    world: &'w World,
-    relations: &'w Relations,
-    rows: Rows,
+    pub around: &'w W,
+    pub relations: &'w Relations,
+    rows: Rows<W>,
 }
 
-type Rows = fn(&OnDemand<'_>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option<()>;
+/// Tells the rows that have these values in the columns that are known; none of what has no place.
+pub type Rows<W> = fn(&OnDemand<'_, W>, &[Option<Value>], &mut dyn FnMut(&[Value])) -> Option<()>;
 
-/// The relations of this file, over a world: `distance_between(+x, y, d)` or `(x, +y, d)`, and `size_of(+x, what, v)`.
-#[must_use]
-pub fn on_demand<'w>(world: &'w World, relations: &'w Relations) -> [OnDemand<'w>; 2] {
-    let one = |name, columns, ways, rows| OnDemand {
-        declaration: Source::new(name, format!(".decl {columns}")),
-        ways,
-        world,
-        relations,
-        rows,
-    };
-    let pairs = vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)];
-    [
-        one("distance_between", DISTANCE, pairs, distances),
-        one("size_of", SIZE, vec![(0b11, 1.0), (0b01, 9.0)], sizes),
-    ]
+impl<'w, W> OnDemand<'w, W> {
+    /// By its declaration without `.decl`; for the ways see [`Computed::ways`].
+    #[must_use]
+    pub fn new(
+        declaration: &str,
+        ways: Vec<(u32, f64)>,
+        (around, relations): (&'w W, &'w Relations),
+        rows: Rows<W>,
+    ) -> Self {
+        let name = declaration.rsplit(' ').next().unwrap_or_default();
+        let declaration = Source::new(name, format!(".decl {declaration}"));
+        Self { declaration, ways, around, relations, rows }
+    }
+
+    /// What the rules call a thing.
+    #[must_use]
+    pub fn symbol(&self, thing: ReplicaId) -> Option<Value> {
+        let symbol = self.relations.symbols().known(Subject::Entity(Entity::Replica(thing)))?;
+        Some(Value::Symbol(symbol.clone()))
+    }
+
+    /// What the rules call so.
+    #[must_use]
+    pub fn subject(&self, value: Option<&Value>) -> Option<Subject> {
+        let Some(Value::Symbol(symbol)) = value else { return None };
+        self.relations.symbols().subject(symbol)
+    }
 }
 
-impl Computed for OnDemand<'_> {
+impl<W> Computed for OnDemand<'_, W> {
     fn declaration(&self) -> &Source {
         &self.declaration
     }
@@ -54,9 +67,24 @@ impl Computed for OnDemand<'_> {
     }
 
     fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
-        // Of what has no place nothing is computed.
         let _ = (self.rows)(self, known, tell);
     }
+}
+
+/// A length of so many cm, as the rules count it.
+#[must_use]
+pub fn length(cm: f64) -> Option<Value> {
+    Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
+}
+
+/// The relations of this file, over a world: `distance_between(+x, y, d)` or `(x, +y, d)`, and `size_of(+x, what, v)`.
+#[must_use]
+pub fn on_demand<'w>(world: &'w World, relations: &'w Relations) -> [OnDemand<'w, World>; 2] {
+    let pairs = vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)];
+    [
+        OnDemand::new(DISTANCE, pairs, (world, relations), distances),
+        OnDemand::new(SIZE, vec![(0b11, 1.0), (0b01, 9.0)], (world, relations), sizes),
+    ]
 }
 
 /// What has a place of its own.
@@ -67,10 +95,10 @@ enum Placed {
     Opening(OpeningId),
 }
 
-impl OnDemand<'_> {
+impl OnDemand<'_, World> {
     fn placed(&self, value: Option<&Value>) -> Option<Placed> {
         let Some(Value::Symbol(symbol)) = value else { return None };
-        match self.relations.symbols().subject(symbol) {
+        match self.subject(value) {
             Some(Subject::Entity(Entity::Replica(id))) => Some(Placed::Thing(id)),
             Some(Subject::Entity(Entity::Area(id))) => Some(Placed::Area(id)),
             Some(Subject::Entity(Entity::Door(_))) | None => {
@@ -79,11 +107,6 @@ impl OnDemand<'_> {
             }
             Some(_) => None,
         }
-    }
-
-    fn symbol(&self, thing: ReplicaId) -> Option<Value> {
-        let symbol = self.relations.symbols().known(Subject::Entity(Entity::Replica(thing)))?;
-        Some(Value::Symbol(symbol.clone()))
     }
 
     /// cm
@@ -105,12 +128,8 @@ impl OnDemand<'_> {
     }
 }
 
-fn length(cm: f64) -> Option<Value> {
-    Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
-}
-
 fn distances(
-    asked: &OnDemand<'_>,
+    asked: &OnDemand<'_, World>,
     known: &[Option<Value>],
     tell: &mut dyn FnMut(&[Value]),
 ) -> Option<()> {
@@ -133,12 +152,12 @@ fn distances(
         },
         (Some(first), None) => {
             let other = ends[0]?;
-            let all = asked.world.replicas.keys();
+            let all = asked.around.replicas.keys();
             all.for_each(|thing| tell_of(*thing, other, first.clone(), false));
         }
         (None, Some(second)) => {
             let other = ends[1]?;
-            let all = asked.world.replicas.keys();
+            let all = asked.around.replicas.keys();
             all.for_each(|thing| tell_of(*thing, other, second.clone(), true));
         }
         (None, None) => return None,
@@ -147,7 +166,7 @@ fn distances(
 }
 
 fn sizes(
-    asked: &OnDemand<'_>,
+    asked: &OnDemand<'_, World>,
     known: &[Option<Value>],
     tell: &mut dyn FnMut(&[Value]),
 ) -> Option<()> {
