@@ -86,6 +86,13 @@ impl<'s, 't> Frame<'s, 't> {
                         frame.marks.push((Mark::Not, at));
                     }
                 }
+                // "within reach of the bed": in or on what goes nothing lies; the verb is a noun that is not known.
+                Item::Mark(Mark::Move)
+                    if at > 0
+                        && matches!(items[at - 1], Item::Link(Rel::In | Rel::On | Rel::Under)) =>
+                {
+                    return Err(Doubt::not_understood(sentence.text));
+                }
                 Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
                 // «Назови комнаты и их площади»: their own, of what stands before.

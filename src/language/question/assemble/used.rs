@@ -129,15 +129,6 @@ impl Frame<'_, '_> {
         if self.negated && matches!(query, Query::Property { .. } | Query::Size { .. }) {
             return Some(self.sentence.text.to_owned());
         }
-        // "within reach of the bed": the noun is no verb of a way, and no relation of the older reading.
-        if self
-            .sentence
-            .keys
-            .windows(2)
-            .any(|two| two == ["within", "reach"] || two == ["reach", "of"])
-        {
-            return Some(self.sentence.text.to_owned());
-        }
         if self.negated && lost_its_denial(query) {
             return Some(self.sentence.text.to_owned());
         }
