@@ -2,11 +2,11 @@
 //!
 //! Invariant: a question that names anything else than the way, its rooms and doors goes on from nothing here.
 
-use super::grammar::{Item, Sentence};
+use super::grammar::{Item, Phrase, Sentence};
 use super::lexicon::Extension;
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Detail, Dimension, Noun, Passing, Query, Rel, Thing};
-use crate::words::word_keys;
+use crate::words::{Case, Number, word_keys};
 
 /// What is asked of a way that was told.
 #[derive(Default)]
@@ -40,6 +40,9 @@ impl Asker<'_> {
         };
         if is_back(text) {
             return turned_round(last.clone());
+        }
+        if let Some(query) = self.other_ends(text, last) {
+            return Some(query);
         }
         let asked = self.asked_of_way(text)?;
         let (from, to) = (from.clone(), to.clone());
@@ -76,10 +79,64 @@ impl Asker<'_> {
         Some(Query::Passing { from, to, through: Vec::new(), avoiding: Vec::new(), asks })
     }
 
+    /// «А в кухню?», "And from the hall?", "What about from here to the kitchen?": the same way with other ends.
+    fn other_ends(&self, text: &str, last: &Query) -> Option<Query> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let keys: Vec<&str> = sentence.keys.iter().map(String::as_str).collect();
+        let goes_on = matches!(keys[..], ["and" | "а" | "и", ..] | ["what" | "how", "about", ..]);
+        if !goes_on {
+            return None;
+        }
+        let (mut starts, mut ends) = (None, None);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::And | Mark::What | Mark::How | Mark::The | Mark::Filler) => {}
+                Item::Place { rel, nouns, either: false } => {
+                    let [phrase] = &nouns[..] else { return None };
+                    if phrase.pronoun.is_some() || phrase.person.is_some() {
+                        return None;
+                    }
+                    let end = match rel {
+                        Rel::From => &mut starts,
+                        Rel::To => &mut ends,
+                        // «в кухню», «на кухню» say whither, «в кухне» where.
+                        Rel::In | Rel::On if is_whither(phrase) => &mut ends,
+                        _ => return None,
+                    };
+                    if end.replace(phrase.noun.clone()).is_some() {
+                        return None;
+                    }
+                }
+                _ => return None,
+            }
+        }
+        if starts.is_none() && ends.is_none() {
+            return None;
+        }
+        let mut query = last.clone();
+        let (Query::Way { from, to, .. }
+        | Query::CanReach { from, to }
+        | Query::Duration { from, to }
+        | Query::Distance { from, to }
+        | Query::Passing { from, to, .. }) = &mut query
+        else {
+            return None;
+        };
+        if let Some(start) = starts {
+            *from = Some(start);
+        }
+        if let Some(end) = ends {
+            *to = end;
+        }
+        Some(query)
+    }
+
     fn asked_of_way(&self, text: &str) -> Option<Asked> {
         let text = self.plain(text);
         let mut asked = Asked::default();
-        for item in Sentence::new(&text, &self.mind.lexicon).items() {
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        for item in sentence.items() {
             match item {
                 Item::Mark(Mark::HowLong) => asked.in_time = Some(true),
                 Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
@@ -117,6 +174,7 @@ impl Asker<'_> {
                 _ => return None,
             }
         }
+        asked.passes |= sentence.points();
         Some(asked)
     }
 
@@ -131,6 +189,14 @@ impl Asker<'_> {
             }
         })
     }
+}
+
+/// Whether a noun behind a Russian preposition stands in the accusative, and not in the prepositional: «на кухню».
+fn is_whither(phrase: &Phrase) -> bool {
+    let has = |case| {
+        phrase.cases.iter().any(|r| r.has(Number::Singular, case) || r.has(Number::Plural, case))
+    };
+    has(Case::Accusative) && !has(Case::Prepositional)
 }
 
 fn is_back(text: &str) -> bool {

@@ -7,6 +7,7 @@
 use std::collections::HashSet;
 
 use super::everyday;
+use super::grammar::points;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId, Meaning};
 use super::mark::{Mark, Pronoun};
@@ -161,8 +162,19 @@ impl Knowledge<'_> {
             self.focus_places(&mut noun.restrictions);
             self.this_room(&mut noun.restrictions);
             // "the bigger one" of several that were told
-            let one = word_keys(&noun.text).last().is_some_and(|word| word == "one");
-            if one && noun.head.anything && self.memory.listed.len() > 1 {
+            let one = points(noun);
+            if one && noun.head.anything && noun.other {
+                if let Some(rest) = self.complement() {
+                    noun.head = Head { things: Some(rest), ..Head::default() };
+                    noun.other = false;
+                }
+            } else if one && noun.head.anything && self.memory.listed.len() < 2 {
+                // "Is there a window in the hall? So which rooms don't have one?"
+                let sought = self.memory.query.as_ref().and_then(Query::sought);
+                if let Some(sought) = sought.filter(|sought| !sought.head.anything) {
+                    noun.head = Head { things: None, ..sought.head.clone() };
+                }
+            } else if one && noun.head.anything && self.memory.listed.len() > 1 {
                 // "Which rooms have a TV? What does the one in the bedroom stand on?"
                 let rooms = self.memory.listed.iter().all(|t| t.area().is_some());
                 let had = self.had_by_rooms().filter(|_| rooms && !noun.restrictions.is_empty());
@@ -226,6 +238,36 @@ impl Knowledge<'_> {
                 let text = std::mem::take(&mut noun.text);
                 *noun = Noun { text, ..Noun::of(vec![only]) };
             }
+        }
+    }
+
+    /// "The other one", «остальные»: what was told together with those that were told last, else the others of the
+    /// kind of what was spoken of.
+    pub(super) fn complement(&self) -> Option<Vec<Thing>> {
+        let told = &self.memory.last;
+        let wider = |exchange: &Exchange| {
+            let all = &exchange.listed;
+            let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
+            (holds && all.len() > told.len())
+                .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
+        };
+        if let Some(rest) = self.memory.exchanges.iter().skip(1).find_map(wider) {
+            return Some(rest);
+        }
+        let others = |thing: &Thing| {
+            let kind = self.kind_of(*thing)?;
+            let all = self.members(&self.lexicon().kind(kind).extension);
+            let rest: Vec<Thing> = all.into_iter().filter(|t| t != thing).collect();
+            (!rest.is_empty()).then_some(rest)
+        };
+        let topics = &self.memory.exchanges.first()?.topics;
+        if let Some(rest) = topics.iter().find_map(others) {
+            return Some(rest);
+        }
+        // Of several that were told at once none is "the other".
+        match told.len() {
+            0 | 1 => self.memory.spoken.iter().find_map(others),
+            _ => self.alike(told).map(|_| told.clone()),
         }
     }
 

@@ -2,12 +2,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::query::Best;
-use super::{
-    Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several, vocabulary,
-};
+use super::{Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several};
 use crate::map::Entity;
-use crate::words::{Gender, Language, word_keys};
+use crate::words::word_keys;
 
 impl Asker<'_> {
     /// «А чайник?» after a question about something else: the same question about the kettle.
@@ -26,6 +23,12 @@ impl Asker<'_> {
             return Some(query);
         }
         if let Some(query) = self.more_of_those(text, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.more_of_counted(text, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.how_many_told(text, memory) {
             return Some(query);
         }
         if let Some(query) = self.another_asked(&key, last, memory) {
@@ -173,75 +176,6 @@ impl Asker<'_> {
         matches!(place.rel, Rel::In | Rel::On) && place.anchors.iter().all(|a| self.is_room(a))
     }
 
-    /// "Which one is bigger?", «Какой из них тяжелее?»: of the several things that the last answer told, or of those that
-    /// its question named, where only they agree («В каких комнатах есть телевизор? Какой из них больше?»).
-    fn more_of_those(&self, text: &str, memory: &Memory) -> Option<Query> {
-        let text = self.plain(text);
-        let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let items = sentence.items();
-        let (mut extreme, mut which) = (None, false);
-        for item in &items {
-            match item {
-                Item::Mark(Mark::More(by) | Mark::Best(by)) if extreme.is_none() => {
-                    extreme = Some(*by);
-                }
-                Item::Mark(Mark::Which) => which = true,
-                Item::Mark(Mark::What | Mark::Be | Mark::The | Mark::One | Mark::And) => {}
-                Item::Noun(phrase) if phrase.noun.head.anything => {
-                    extreme = extreme.or(phrase.noun.best.as_ref().map(|best| best.extreme));
-                }
-                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
-                Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if matches!(&nouns[..], [p] if p.pronoun == Some(Pronoun::They)) =>
-                    {}
-                _ => return None,
-            }
-        }
-        let extreme = extreme.filter(|_| which)?;
-        let knowledge = self.knowledge(sentence.language, memory);
-        let gender = sentence.keys.iter().find_map(|key| match key.as_str() {
-            "какой" | "который" => Some(Gender::Masculine),
-            "какая" | "которая" => Some(Gender::Feminine),
-            "какое" | "которое" => Some(Gender::Neuter),
-            _ => None,
-        });
-        let agree = |things: &[Thing]| {
-            let fits = |t: &Thing| gender.is_none_or(|gender| knowledge.gender(*t).0 == gender);
-            things.len() > 1 && things.iter().any(fits)
-        };
-        let mut named = vec![memory.last.clone()];
-        memory.query.clone()?.each_noun(&mut |noun| {
-            named.extend(knowledge.find(noun, true).ok());
-        });
-        let things = named.into_iter().find(|things| agree(things))?;
-        let best = Some(Best { extreme, anchor: None });
-        Some(Query::Find(Noun { best, indefinite: true, ..Noun::of(things) }))
-    }
-
-    /// «Где третья?», "And the third one?": of those that were listed, in their order.
-    fn counted_of_listed(&self, text: &str, memory: &Memory) -> Option<Query> {
-        let text = self.plain(text);
-        let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let (mut rank, mut asks_where) = (None, false);
-        for n in 0..sentence.keys.len() {
-            match vocabulary::longest(&sentence.keys[n..]) {
-                Some((_, Mark::Rank(told))) if rank.is_none() => rank = Some(told),
-                Some((_, Mark::Where)) => asks_where = true,
-                Some((_, Mark::The | Mark::One | Mark::Be | Mark::And | Mark::What)) => {}
-                _ if ["about", "а", "is", "s", "и"].contains(&sentence.keys[n].as_str()) => {}
-                _ => return None,
-            }
-        }
-        let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
-        let meant = *memory.listed.get(at)?;
-        let noun = Noun::of(vec![meant]);
-        Some(match memory.query.clone()? {
-            query @ (Query::Property { .. } | Query::Size { .. }) if !asks_where => {
-                query.of_another(&noun)
-            }
-            _ => Query::Where(noun),
-        })
-    }
-
     /// «А всего?», "And in the whole flat?": the last question without its place.
     fn altogether(&self, key: &str, last: &Query) -> Option<Query> {
         const ALL: [&str; 24] = [
@@ -292,30 +226,6 @@ impl Asker<'_> {
         Some(query)
     }
 
-    /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
-    fn asks_of_those(&self, text: &str) -> bool {
-        let text = self.plain(text);
-        // "Which is" alone is a small word, as in "the book which is on the table".
-        let which = word_keys(&text).first().is_some_and(|word| word == "which");
-        let items = Sentence::new(&text, &self.mind.lexicon).items();
-        let small = |item: &Item| match item {
-            Item::Mark(mark) => matches!(
-                mark,
-                Mark::Which | Mark::What | Mark::Be | Mark::The | Mark::Best(_) | Mark::One
-            ),
-            Item::Noun(phrase) => {
-                phrase.noun.head.anything && (which || phrase.noun.best.is_some())
-            }
-            Item::Value(_) => true,
-            // "which one is in the kitchen?"
-            Item::Place { .. } => which,
-            _ => false,
-        };
-        let asks = matches!(items.first(), Some(Item::Mark(Mark::Which)));
-        let least = if asks { 2 } else { 1 };
-        (asks || which) && items.len() >= least && items.iter().all(small)
-    }
-
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
         const SMALL: [&str; 14] = [
@@ -356,22 +266,22 @@ impl Asker<'_> {
         if asks_where {
             return Some(Query::Where(noun));
         }
-        Some(last.clone().of_another(&noun))
+        Some(match last {
+            Query::Count(_) => Query::Where(noun),
+            last => last.clone().of_another(&noun),
+        })
     }
 
     /// The other things of the kind of the last one: of several that were just listed, those that were not spoken of
     /// before.
     fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
         let known = memory.topic_among(&memory.last);
-        if known.is_some() || memory.last.len() > 1 {
-            // Of several that were told at once none is "the other".
+        if known.is_some() {
             let others = memory.last.iter().filter(|t| Some(**t) != known).copied();
             return Some(Noun { plural: true, ..Noun::of(others.collect()) });
         }
-        let spoken = memory.spoken.iter().find(|t| t.replica().is_some())?;
-        let kind = self.knowledge(Language::English, memory).kind_of(*spoken)?;
-        let head = Head { kinds: vec![kind], ..Head::default() };
-        Some(Noun { head, plural: true, other: true, ..Noun::default() })
+        let rest = self.knowledge(memory.language, memory).complement()?;
+        Some(Noun { plural: rest.len() > 1, ..Noun::of(rest) })
     }
 
     /// «Что на столе в гостиной? А в спальне?»: on the table there, where only the table's room was told.

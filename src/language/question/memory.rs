@@ -3,7 +3,7 @@
 //! Invariant: it belongs to one state of the map (`outlive`).
 
 use super::outlive::{Departed, Stamp};
-use super::query::{Query, Thing};
+use super::query::{Noun, Query, Thing};
 use super::{Answer, Fact, focus, resolution};
 use crate::units::Bilingual;
 use crate::words::Language;
@@ -28,6 +28,8 @@ pub struct Memory {
     pub(super) said: Option<String>,
     /// The words of the last question: who asked for a «софа» calls a «Диван» «она».
     pub(super) words: String,
+    /// What the last questions counted, the latest first: «А где больше?»
+    pub(super) counted: Vec<Noun>,
     /// What was asked last, for «А чайник?»
     pub(super) query: Option<Query>,
     /// A question that waits for the person to say which thing was meant.
@@ -94,6 +96,12 @@ impl Memory {
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.facts.clone_from(&answer.facts);
             self.said = Some(answer.text.clone());
+            match &answer.query {
+                Query::Count(noun) => self.counted.insert(0, noun.clone()),
+                Query::MoreOf { .. } => {}
+                _ => self.counted.clear(),
+            }
+            self.counted.truncate(2);
             self.query = Some(answer.query.clone());
             self.words.clone_from(&answer.words);
         }

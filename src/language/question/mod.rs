@@ -28,14 +28,17 @@ mod mark;
 mod memory;
 mod nearest;
 mod notation;
+mod of_those;
 mod opening;
 mod orders;
 mod outlive;
+mod premise;
 mod purposes;
 mod query;
 mod rephrase;
 mod resolution;
 mod rest;
+mod salvage;
 mod sentences;
 mod serving;
 mod several;
@@ -321,8 +324,6 @@ impl Asker<'_> {
             memory.miss(&Doubt::TooLong { length }, false);
             return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
         }
-        let from_there = constructions::from_where_i_am(text);
-        let text = from_there.as_deref().unwrap_or(text);
         // A fact in the notation of the rules is one, whatever its commas.
         let is_noted = self.noted(text).is_some();
         let parts = match is_noted {
@@ -352,7 +353,13 @@ impl Asker<'_> {
             if is_noted {
                 return Err(unanswered);
             }
-            self.without_unknown(text, language, memory, &unanswered.0).ok_or(unanswered)
+            let is_unheard = matches!(
+                unanswered.0,
+                Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
+            );
+            let salvaged = || self.salvaged(text, language, memory).filter(|_| is_unheard);
+            let known = self.without_unknown(text, language, memory, &unanswered.0);
+            known.or_else(salvaged).ok_or(unanswered)
         });
         match outcome {
             Ok(answer) => {
@@ -489,6 +496,16 @@ impl Asker<'_> {
         Ok(query)
     }
 
+    /// «Где это лежит?»: what points and names nothing is asked of what was spoken of.
+    fn read_pointing(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let pronoun = Language::of(text).pick("они", "they");
+        let plain = self.plain(text);
+        let points = Sentence::new(&plain, &self.mind.lexicon).points();
+        let whole = format!("{} {pronoun}", text.trim_end_matches(['?', '.', ' ']));
+        let whole = (points && self.lacks_subject(text)).then_some(whole)?;
+        self.read(&whole, memory).ok()
+    }
+
     /// The query as a rule of the relations' Datalog.
     #[must_use]
     pub fn rule(&self, query: &Query, language: Language) -> String {
@@ -549,6 +566,17 @@ impl Asker<'_> {
     }
 
     fn answer(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
+        self.answer_at(None, text, language, memory)
+    }
+
+    /// The answer to a question that is asked at a place, the robot's where none was told.
+    fn answer_at(
+        &self,
+        place: Option<&Noun>,
+        text: &str,
+        language: Language,
+        memory: &Memory,
+    ) -> Outcome {
         if let Some(query) = self.clarified(text, memory) {
             let language = memory.pending.as_ref().map_or(language, |p| p.language);
             let knowledge = self.knowledge(language, memory);
@@ -557,8 +585,16 @@ impl Asker<'_> {
         let continued = || self.continued(text, memory);
         let mut query = match self.noted(text).or_else(continued) {
             Some(query) => query,
-            None => self.read(text, memory).map_err(|doubt| Box::new((doubt, None)))?,
+            None => match self.read(text, memory) {
+                Ok(query) => query,
+                Err(doubt) => {
+                    self.read_pointing(text, memory).ok_or_else(|| Box::new((doubt, None)))?
+                }
+            },
         };
+        if let Some(place) = place {
+            query = query.asked_at(place);
+        }
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);
         let answer = knowledge.answer(&query);

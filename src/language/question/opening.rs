@@ -48,6 +48,14 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     false
 }
 
+/// Whether the first of these words asks by itself: no small word stands before it.
+pub(super) fn asks_at_once(words: &[String]) -> bool {
+    let small = |mark| {
+        matches!(mark, Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And)
+    };
+    longest(words).is_some_and(|(_, mark)| !small(mark)) && begins_question(words)
+}
+
 /// «Скажите, а чайник электрический?»: who begs to be told and asks gives no order.
 pub(super) fn begs_to_tell(text: &str) -> bool {
     let first = word_keys(text).into_iter().next().unwrap_or_default();

@@ -111,7 +111,7 @@ impl Asker<'_> {
     }
 
     /// Whether a question names nothing that it is about: "in which room", «какого цвета».
-    fn lacks_subject(&self, part: &str) -> bool {
+    pub(super) fn lacks_subject(&self, part: &str) -> bool {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let items = sentence.items();
@@ -121,19 +121,21 @@ impl Asker<'_> {
                 && matches!(&items[n], Item::Noun(p) if p.noun.head.kinds.iter().any(|k| self.mind.lexicon.is_area(*k)))
         };
         let small = |n: usize| match &items[n] {
-            Item::Mark(mark) => matches!(
-                mark,
-                Mark::Where
-                    | Mark::Which
-                    | Mark::What
-                    | Mark::Be
-                    | Mark::HowBig(_)
-                    | Mark::MadeOf
-                    | Mark::HowFar
-                    | Mark::HowMany
-                    | Mark::Exists
-                    | Mark::There
-            ),
+            Item::Mark(mark) => {
+                matches!(
+                    mark,
+                    Mark::Where
+                        | Mark::Which
+                        | Mark::What
+                        | Mark::Be
+                        | Mark::HowBig(_)
+                        | Mark::MadeOf
+                        | Mark::HowFar
+                        | Mark::HowMany
+                        | Mark::Exists
+                        | Mark::There
+                ) || (*mark == Mark::The && sentence.points())
+            }
             Item::Link(_) | Item::Property(_) => true,
             Item::Noun(_) => asks_of(n),
             _ => false,
@@ -167,7 +169,12 @@ impl Asker<'_> {
         let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
         let mut after = memory.clone();
         let mut answers = Vec::new();
+        let mut place = None;
         for part in before {
+            if let Some(told) = self.premise(part) {
+                place = Some(told);
+                continue;
+            }
             match self.answer(part, language, &after) {
                 Ok(answer) if part.ends_with('?') => {
                     after.learn(&answer);
@@ -175,6 +182,17 @@ impl Asker<'_> {
                 }
                 _ => self.hear_of(part, &mut after),
             }
+        }
+        if let Some(place) = &place
+            && let Ok(answer) = self.answer_at(Some(place), last, language, &after)
+        {
+            after.learn(&answer);
+            *memory = after;
+            answers.push(answer);
+            return Some(Ok(match answers.len() {
+                1 => answers.remove(0),
+                _ => Answer::joined(answers, language),
+            }));
         }
         match self.ask(last, &mut after) {
             Ok(answer) => {

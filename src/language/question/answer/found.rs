@@ -306,9 +306,15 @@ impl Knowledge<'_> {
             (false, true) => {
                 format!("there is nothing {place}{frame}{}", self.nearest_instead(noun))
             }
+            (true, false) if noun.other => {
+                format!("{place}{frame} больше нет {}", self.none_of(noun))
+            }
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
             (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
             (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
+            (false, false) if noun.other => {
+                format!("there are no other {} {place}{frame}", self.none_of(noun))
+            }
             (false, false) if place.is_empty() => {
                 format!("there are no {} on the map", self.none_of(noun))
             }

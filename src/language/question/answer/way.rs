@@ -3,7 +3,7 @@
 //! Invariant: a way is the one that the robot would drive; how far without a way is said to be a straight line.
 
 use super::Draft;
-use crate::map::Entity;
+use crate::map::{DoorStatus, Entity};
 use crate::question::knowledge::Knowledge;
 use crate::question::query::{Extreme, Noun, Rel, Thing};
 use crate::question::{Doubt, Fact, Said};
@@ -78,6 +78,10 @@ impl Knowledge<'_> {
                     (false, true) => format!("{steps} Длина пути {far}"),
                     (false, false) => format!("{steps} The way is {far} long"),
                 };
+                let text = match self.locked(to) {
+                    Some(shut) => format!("{}; {shut}", text.trim_end_matches('.')),
+                    None => text,
+                };
                 let said = if yes_or_no { Said::Yes } else { Said::Found };
                 Draft::new(said, text).about(&topic).number(way.length)
             }
@@ -94,6 +98,14 @@ impl Knowledge<'_> {
                 Draft::new(Said::No, text).about(&topic)
             }
         })
+    }
+
+    /// «Дверь-3 заперта», of the door that a way leads to: beyond it there is none.
+    fn locked(&self, to: Thing) -> Option<String> {
+        let Thing::Entity(Entity::Door(id)) = to else { return None };
+        let is_locked = self.world.doors.get(&id)?.state.status == DoorStatus::Locked;
+        let is = self.pick("заперта", "is locked");
+        is_locked.then(|| format!("{} {is}", self.name(to)))
     }
 
     /// How long the robot is on its way: at its speed and without stops, but for the lifts that it rides.

@@ -63,6 +63,7 @@ impl<'s, 't> Frame<'s, 't> {
             you: false,
             me: false,
             there: None,
+            nowhere: None,
             negated: false,
             except: Vec::new(),
             undone: None,
@@ -276,6 +277,12 @@ impl<'s, 't> Frame<'s, 't> {
             let meant = referent(Pronoun::There, None);
             frame.there = (!meant.is_empty()).then(|| things(meant, "there"));
         }
+        // «Что у нас там в холодильнике?» names the place itself, "Which rooms are there?" needs none.
+        if let Some(word) = &frame.nowhere
+            && (frame.has(Mark::HowGet) || frame.has(Mark::Move))
+        {
+            return Err(Doubt::NoReferent { word: word.clone() });
+        }
         // "How far is it from here?"
         let it = sentence.keys.iter().any(|key| key == "it");
         if it && frame.has(Mark::HowFar) && frame.nouns.is_empty() && frame.spots.is_empty() {
@@ -423,8 +430,8 @@ impl<'s, 't> Frame<'s, 't> {
             }
             (_, Some(Mark::There)) => {
                 let meant = referent(Pronoun::There, None);
-                let noun = (!meant.is_empty()).then(|| things(meant, &phrase.noun.text));
-                self.there = noun;
+                self.nowhere = meant.is_empty().then(|| phrase.noun.text.clone());
+                self.there = (!meant.is_empty()).then(|| things(meant, &phrase.noun.text));
                 Ok(None)
             }
             (_, Some(_)) => {

@@ -4,6 +4,7 @@
 //! telling a word is («ближе», "how far"), the earlier its rule.
 
 mod about;
+mod account;
 mod attach;
 mod claim;
 mod compare;
@@ -43,6 +44,7 @@ pub(super) fn query(
     match frame.read() {
         Some(mut query) => match frame.left_out(&mut query) {
             Some(words) => Err(Doubt::not_understood(&words)),
+            None if frame.asks_more_than(&mut query) => Err(Doubt::not_understood(sentence.text)),
             None => Ok(query),
         },
         None => Err(frame.not_understood(&items)),
@@ -232,6 +234,8 @@ struct Frame<'s, 't> {
     me: bool,
     /// «там», "there"
     there: Option<Noun>,
+    /// The same word, where nothing was spoken of that it could mean.
+    nowhere: Option<String>,
     negated: bool,
     /// «кроме лампы»
     except: Vec<Noun>,

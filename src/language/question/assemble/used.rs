@@ -56,7 +56,17 @@ impl Used {
 
 /// «Какие вещи не рядом ни с чем?»: whether things are asked for of which nothing is denied.
 fn lost_its_denial(query: &mut Query) -> bool {
-    if !matches!(query, Query::Find(_) | Query::Count(_)) {
+    if !matches!(
+        query,
+        Query::Find(_)
+            | Query::Count(_)
+            | Query::Where(_)
+            | Query::RoomOf(_)
+            | Query::Serving { .. }
+            | Query::Anchor { .. }
+            | Query::Size { .. }
+            | Query::Distance { .. }
+    ) {
         return false;
     }
     let mut denies = false;

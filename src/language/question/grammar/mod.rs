@@ -13,6 +13,7 @@ mod governed;
 mod measures;
 mod modifier;
 mod nearest;
+mod pointing;
 mod relative;
 mod tokens;
 
@@ -37,6 +38,7 @@ use crate::map::Entity;
 use crate::units::name_key;
 use crate::words::{Case, Language, Number, Readings};
 
+pub(super) use pointing::points;
 pub(super) use tokens::number_of;
 
 /// A word or phrase with what it is. `words` counts words of the sentence.
@@ -374,7 +376,9 @@ impl<'t> Sentence<'t> {
             }
             None => {
                 noun.head.anything = true;
-                noun.plural = self.keys[words.end - 1] == "ones";
+                // «те, что на комоде», "the ones on the dresser"
+                const SEVERAL: [&str; 5] = ["те", "тех", "тем", "теми", "ones"];
+                noun.plural = SEVERAL.contains(&self.keys[words.end - 1].as_str());
             }
         }
         // «этаж 2», "floor 2", «2 этаж»

@@ -50,6 +50,11 @@ impl<'t> Sentence<'t> {
             self.tokens.push(Token { from, to, kind: Tok::Value(value) });
             return at + 1;
         }
+        if self.points_ahead(at) {
+            let (from, to) = (at as u32, at as u32 + 1);
+            self.tokens.push(Token { from, to, kind: Tok::Mark(Mark::One) });
+            return at + 1;
+        }
         if let Some(taken) = self.measured(at) {
             return at + taken;
         }

@@ -5,6 +5,7 @@
 use super::Knowledge;
 use crate::map::Entity;
 use crate::question::Doubt;
+use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::units::{AreaId, Vector};
@@ -50,6 +51,11 @@ impl Knowledge<'_> {
             // The map has walls, but no list of them: «нет стен» would be untrue.
             return Err(Doubt::NotUnderstood { words: noun.text.clone() });
         }
+        // "Got one?": one of what was not said.
+        let is_bare = noun.filters.is_empty() && noun.restrictions.is_empty();
+        if points(noun) && is_bare && noun.best.is_none() && noun.sizes.is_empty() {
+            return Err(Doubt::NoReferent { word: noun.text.clone() });
+        }
         let mut found = self.base(&noun.head);
         // "Is anything made of steel?" asks of doors as well.
         if noun.head.anything && !noun.filters.is_empty() {
@@ -91,6 +97,24 @@ impl Knowledge<'_> {
             found.retain(|t| *t != other && same(*t));
         }
         for restriction in &noun.restrictions {
+            // "And to the kitchen?": only doors and rooms lead anywhere.
+            let leads = |t: &Thing| t.area().is_some() || self.opening(*t).is_some();
+            if matches!(restriction.rel, Rel::To | Rel::Through)
+                && !found.is_empty()
+                && !found.iter().any(leads)
+            {
+                let words = restriction.anchors.first().unwrap_or(noun).text.clone();
+                return Err(Doubt::NotUnderstood { words });
+            }
+            // «щётка с пастой»: what holds and bears nothing has nothing.
+            let bears = |t: &Thing| leads(t) || is_map(*t) || self.may_bear(*t);
+            if matches!(restriction.rel, Rel::Has | Rel::Bears)
+                && !found.is_empty()
+                && !found.iter().any(bears)
+            {
+                let words = restriction.anchors.first().unwrap_or(noun).text.clone();
+                return Err(Doubt::NotUnderstood { words });
+            }
             let related = match self.related_to(restriction, loose) {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
                 Ok(related) => related,

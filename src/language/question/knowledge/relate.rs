@@ -36,6 +36,13 @@ impl Knowledge<'_> {
                 let all = self.members(&Extension::Things).into_iter();
                 all.filter(|t| !inside.contains(t)).collect()
             }
+            // "eggs outside the fridge"
+            (Rel::Outside, Thing::Entity(Entity::Replica(_))) => {
+                let inside: HashSet<Thing> =
+                    self.by_relation(Rel::In, anchor).into_iter().collect();
+                let all = self.members(&Extension::Things).into_iter();
+                all.filter(|t| *t != anchor && !inside.contains(t)).collect()
+            }
             (Rel::Near | Rel::NextTo, Thing::Entity(Entity::Area(area))) => {
                 let rooms: BTreeSet<AreaId> =
                     self.openings().iter().flat_map(|g| g.beyond(area)).collect();

@@ -134,7 +134,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether things of its kind take others: of a battery, that nothing lies on it does not say that it is empty.
-    fn may_bear(&self, thing: Thing) -> bool {
+    pub(super) fn may_bear(&self, thing: Thing) -> bool {
         const TAKE: [&str; 4] = ["support", "container", "shelves", "seat"];
         let takes = |id| TAKE.iter().any(|wanted| self.world.has_trait(id, wanted));
         thing.replica().is_some_and(takes) || self.bears_anything(thing)

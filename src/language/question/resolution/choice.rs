@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Settler;
 use crate::question::Doubt;
-use crate::question::grammar::{Item, Phrase};
+use crate::question::grammar::{Item, Phrase, points};
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 
@@ -15,6 +15,18 @@ impl Settler<'_, '_> {
         within: &[Restriction],
     ) -> Result<Vec<Thing>, Doubt> {
         let knowledge = self.knowledge;
+        // «те, что на комоде», "the one in the hall": of those that were spoken of.
+        if points(noun) {
+            let spoken = match knowledge.memory.listed.is_empty() {
+                true => &knowledge.memory.spoken,
+                false => &knowledge.memory.listed,
+            };
+            if spoken.is_empty() {
+                return Err(Doubt::NoReferent { word: noun.text.clone() });
+            }
+            let head = Head { things: Some(spoken.clone()), ..Head::default() };
+            return self.candidates(&Noun { head, ..noun.clone() }, within);
+        }
         if let Some(at) = within.iter().position(|r| r.rel == Rel::Has) {
             return self.bearing(noun, within, at);
         }

@@ -86,6 +86,14 @@ impl Asker<'_> {
         if let Some(words) = self.dropped(text, &gathered, &not_meant) {
             return Err(misread(Doubt::not_understood(&words)));
         }
+        // «Унеси те, что на комоде»: several of those that were spoken of, never the last one alone.
+        let several = |pair: &[String]| {
+            ["те", "тех"].contains(&pair[0].as_str())
+                && (pair[1] == "что" || pair[1].starts_with("котор"))
+        };
+        if let Some(pair) = word_keys(text).windows(2).find(|pair| several(pair)) {
+            return Err(misread(Doubt::not_understood(&pair.join(" "))));
+        }
         let said = word_keys(&gathered);
         let text = self.with_kind(self.plain(&gathered), memory);
         let text = self.with_noun(text, memory);

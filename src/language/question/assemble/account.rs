@@ -1,0 +1,288 @@
+//! Which words a sort of query answers: a word that asks something else than what was read makes the reading invalid.
+//!
+//! Invariant: the table is by the words' parts in a question, never by sentences. What it does not let through is said
+//! not to be understood, however well the rest of the sentence was read.
+
+use super::Frame;
+use crate::question::mark::Mark;
+use crate::question::query::{Best, Claim, Extreme, Noun, Quantity, Query, Rel, Thing};
+use crate::words::Language;
+
+/// What the nouns of a query tell by comparing, counting and pointing.
+#[derive(Default)]
+struct Told {
+    best: bool,
+    /// A superlative among things that are named, of a kind, or were spoken of.
+    best_of_some: bool,
+    rank: bool,
+    beyond: bool,
+    like: bool,
+    other: bool,
+    counted: bool,
+    referent: bool,
+    either: bool,
+    /// A superlative of how many.
+    most: bool,
+    /// Something stands in a relation to something.
+    inward: bool,
+}
+
+impl Told {
+    fn of(query: &mut Query) -> Self {
+        let mut told = Self::default();
+        if let Query::Holds { claims, .. } | Query::Choice { claims, .. } = &*query {
+            for claim in claims {
+                if let Claim::Value(filter) = claim {
+                    told.either |= !filter.or.is_empty();
+                }
+            }
+        }
+        query.each_noun(&mut |noun| told.add(noun));
+        told
+    }
+
+    fn add(&mut self, noun: &Noun) {
+        let head = &noun.head;
+        let some = !head.kinds.is_empty() || !head.named.is_empty() || head.things.is_some();
+        self.best |= noun.best.is_some();
+        self.best_of_some |= noun.best.is_some() && (some || !noun.restrictions.is_empty());
+        self.rank |= noun.rank.is_some();
+        self.beyond |= noun.beyond.is_some();
+        self.like |= noun.like.is_some() || noun.same;
+        self.other |= noun.other || !noun.except.is_empty();
+        self.counted |= noun.count.is_some() || noun.quantity != Quantity::Exactly;
+        self.referent |= head.things.is_some();
+        self.either |= noun.filters.iter().any(|filter| !filter.or.is_empty())
+            || noun.restrictions.iter().any(|place| place.anchors.len() > 1);
+        self.inward |= !noun.restrictions.is_empty();
+        let most = |best: &Best| matches!(best.extreme, Extreme::Most | Extreme::Fewest);
+        self.most |= noun.best.as_ref().is_some_and(most);
+    }
+}
+
+impl Frame<'_, '_> {
+    /// Whether a word of the sentence asks for what the query does not answer.
+    pub(super) fn asks_more_than(&self, query: &mut Query) -> bool {
+        let told = Told::of(query);
+        let query = &*query;
+        // «Какие картины или картины …?», where two words mean the same
+        let twice = self.nouns.windows(2).any(|pair| pair[0].noun.head == pair[1].noun.head);
+        let asks = |(mark, _): &(Mark, usize)| {
+            !(answers(query, *mark, &told) || twice && *mark == Mark::Or)
+        };
+        // «Для чего он нужен?»: nothing lies to anything as a way leads.
+        let leads = matches!(query, Query::Anchor { rel: Rel::To | Rel::Through, .. });
+        // "Which room has more?" asks of what was counted, not for the biggest room.
+        let has_more = matches!(query, Query::Find(_))
+            && self.has(Mark::Have)
+            && !told.most
+            && !told.inward
+            && self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
+        leads
+            || has_more
+            || self.marks.iter().any(asks)
+            || self.points(&told, query)
+            || self.is_piece(query)
+    }
+
+    /// "How many things is that?", «Сколько это?»: what is pointed at must be in the query.
+    fn points(&self, told: &Told, query: &Query) -> bool {
+        let takes = matches!(
+            query,
+            Query::Why { .. }
+                | Query::Several(_)
+                | Query::WhereAreYou(_)
+                | Query::Way { .. }
+                | Query::Passing { .. }
+                | Query::CanReach { .. }
+        );
+        let robot = [Thing::Robot];
+        let spoken_of =
+            |noun: &Noun| noun.head.things.as_deref().is_some_and(|things| things != robot);
+        // "Which room has nothing in it?" means the room.
+        let own = self.nouns.iter().any(|subject| !spoken_of(&subject.noun));
+        let places = self.spots.iter().filter(|_| !own).flat_map(|spot| &spot.nouns);
+        let mut said = self.nouns.iter().map(|subject| &subject.noun).chain(places);
+        // «Дойти от дивана до холодильника – это сколько?» points at what it names itself.
+        let names_nothing = self.spots.is_empty()
+            && (self.sentence.language == Language::English || self.nouns.is_empty());
+        // "Which fruit isn't there?", but "Which rooms are there?"
+        let there = self.there.is_some() && self.negated;
+        !takes
+            && !told.referent
+            && (there || said.any(spoken_of) || self.sentence.points() && names_nothing)
+    }
+
+    /// "And to the kitchen?" by itself: a piece of a question that nothing before completes.
+    fn is_piece(&self, query: &Query) -> bool {
+        let begins = |n: usize| self.sentence.keys.get(n).map(String::as_str);
+        let about = matches!((begins(0), begins(1)), (Some("what" | "how"), Some("about")));
+        let goes_on = about || matches!(begins(0), Some("and" | "а" | "и"));
+        let small = |mark: &Mark| {
+            matches!(mark, Mark::And | Mark::The | Mark::A | Mark::Filler | Mark::One | Mark::Be)
+                || about && matches!(mark, Mark::What | Mark::How)
+        };
+        let asks = |(mark, _): &(Mark, usize)| !small(mark);
+        goes_on
+            && matches!(query, Query::Find(_) | Query::Exists { .. })
+            && !self.marks.iter().any(asks)
+    }
+}
+
+/// Whether a query of this sort takes up a word.
+fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
+    use Query as Q;
+    // Yes or no.
+    let polar = matches!(
+        query,
+        Q::Exists { .. }
+            | Q::Holds { .. }
+            | Q::CanReach { .. }
+            | Q::Closer { .. }
+            | Q::Larger { by: false, .. }
+            | Q::MoreOf { asks: false, by: false, .. }
+            | Q::Together { .. }
+            | Q::Same { .. }
+            | Q::SameAll { .. }
+            | Q::Sees(_)
+    );
+    // "Why is it smaller?" asks of more than the last answer.
+    if matches!(query, Q::Why { about: None, .. }) {
+        let compares = matches!(
+            mark,
+            Mark::More(_) | Mark::Best(_) | Mark::BestTo(_) | Mark::Nearer(_) | Mark::HowMany
+        );
+        return !compares;
+    }
+    let whole = matches!(query, Q::Several(_) | Q::Why { .. } | Q::Help | Q::Differ { .. });
+    if whole {
+        return true;
+    }
+    match mark {
+        // «больше, чем»
+        Mark::What if matches!(query, Q::MoreOf { .. } | Q::Larger { .. } | Q::Closer { .. }) => {
+            true
+        }
+        Mark::What | Mark::Which => !polar,
+        Mark::HowMany => matches!(
+            query,
+            Q::Count(_)
+                | Q::MoreOf { .. }
+                | Q::Passing { .. }
+                | Q::Serving { .. }
+                | Q::Kinds { .. }
+                | Q::Free(_)
+                | Q::Larger { by: true, .. }
+                | Q::Size { .. }
+                | Q::Distance { .. }
+                | Q::Duration { .. }
+                | Q::People
+        ),
+        Mark::HowFar => matches!(
+            query,
+            Q::Distance { .. } | Q::WhichWay { .. } | Q::Way { .. } | Q::Duration { .. }
+        ),
+        Mark::HowLong => matches!(query, Q::Duration { .. } | Q::Passing { .. }),
+        Mark::When => matches!(query, Q::LastSeen(_) | Q::Before(_)),
+        Mark::LastSeen => matches!(query, Q::LastSeen(_)),
+        Mark::Before => matches!(query, Q::Before(_) | Q::LastSeen(_)),
+        Mark::Where => {
+            !polar
+                && !matches!(
+                    query,
+                    Q::Count(_)
+                        | Q::Property { .. }
+                        | Q::Size { .. }
+                        | Q::Distance { .. }
+                        | Q::Duration { .. }
+                        | Q::Parts(_)
+                )
+        }
+        Mark::Whither => matches!(
+            query,
+            Q::Where(_)
+                | Q::Place { .. }
+                | Q::Serving { .. }
+                | Q::Leads(_)
+                | Q::Find(_)
+                | Q::Free(_)
+                | Q::WhereAreYou(_)
+        ),
+        Mark::HowBig(_) => matches!(
+            query,
+            Q::Size { .. }
+                | Q::Larger { .. }
+                | Q::WhichMore { .. }
+                | Q::Free(_)
+                | Q::Find(_)
+                | Q::Property { .. }
+        ),
+        Mark::Describe => matches!(query, Q::Describe(_) | Q::Way { .. } | Q::Passing { .. }),
+        Mark::See => matches!(
+            query,
+            Q::WhatDoYouSee | Q::Sees(_) | Q::Find(_) | Q::Exists { .. } | Q::Count(_)
+        ),
+        Mark::Or => {
+            told.either
+                || matches!(
+                    query,
+                    Q::Choice { .. }
+                        | Q::WhichMore { .. }
+                        | Q::MoreOf { .. }
+                        | Q::Exists { .. }
+                        | Q::WhichWay { .. }
+                        | Q::Together { .. }
+                )
+        }
+        Mark::Than | Mark::ThanTo => {
+            told.beyond
+                || told.counted
+                || matches!(query, Q::MoreOf { .. } | Q::Larger { .. } | Q::Closer { .. })
+        }
+        Mark::Nearer(_) => {
+            told.best || matches!(query, Q::Closer { .. } | Q::WhichMore { .. } | Q::Larger { .. })
+        }
+        // Of two, or of those that are named: never of all that there is.
+        Mark::More(_) => {
+            told.beyond
+                || told.best_of_some
+                || told.counted
+                || matches!(
+                    query,
+                    Q::WhichMore { .. }
+                        | Q::Larger { .. }
+                        | Q::MoreOf { .. }
+                        | Q::WhichWay { .. }
+                        | Q::Anchor { .. }
+                )
+        }
+        Mark::Best(_) | Mark::BestTo(_) => {
+            told.best || matches!(query, Q::WhichMore { .. } | Q::Size { .. } | Q::WhichWay { .. })
+        }
+        Mark::Rank(_) => told.rank || told.referent,
+        Mark::Other => {
+            told.other
+                || told.like
+                || told.referent
+                || matches!(query, Q::Place { .. } | Q::Passing { .. })
+        }
+        Mark::Same | Mark::As => {
+            told.like
+                || told.inward
+                || matches!(
+                    query,
+                    Q::Same { .. } | Q::SameAll { .. } | Q::Together { .. } | Q::Holds { .. }
+                )
+        }
+        Mark::Kinds => matches!(query, Q::Kinds { .. }),
+        Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
+        Mark::Differ | Mark::Alike => false,
+        Mark::Number(_) | Mark::OnlyOne => {
+            told.counted || matches!(query, Q::MoreOf { .. } | Q::Count(_))
+        }
+        Mark::Without | Mark::Avoiding | Mark::Unopened | Mark::Directly | Mark::Must => {
+            told.inward || matches!(query, Q::Passing { .. } | Q::Way { .. } | Q::CanReach { .. })
+        }
+        _ => true,
+    }
+}

@@ -1,0 +1,48 @@
+//! Words that point: "that" without a noun, «те, что на комоде», "the one on the left".
+//!
+//! Invariant: what points means what was spoken of, never all that there is.
+
+use super::{Sentence, Tok};
+use crate::question::mark::Mark;
+use crate::question::query::Noun;
+use crate::words::word_keys;
+
+/// Words that stand for a noun and point at one of those that were spoken of.
+const POINTING: [&str; 16] = [
+    "тот", "та", "то", "те", "ту", "того", "той", "тех", "тем", "теми", "тому", "том", "тою",
+    "one", "ones", "those",
+];
+
+/// Whether a description is of what a pointing word means: "the one on the left", «те, что на комоде».
+pub(in super::super) fn points(noun: &Noun) -> bool {
+    let said = |word: &String| POINTING.contains(&word.as_str());
+    noun.head.anything && word_keys(&noun.text).last().is_some_and(said)
+}
+
+impl Sentence<'_> {
+    /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
+    pub(in super::super) fn points(&self) -> bool {
+        const THESE: [&str; 6] = ["this", "that", "these", "those", "это", "эти"];
+        self.tokens.iter().enumerate().any(|(at, token)| {
+            let said = &self.keys[token.from as usize..token.to as usize];
+            let pointed = matches!(said, [word] if THESE.contains(&word.as_str()));
+            let next = self.tokens.get(at + 1).map(|next| next.kind);
+            // "everything that is red"
+            let before = at.checked_sub(1).map(|before| self.tokens[before].kind);
+            let tells = matches!(
+                before,
+                Some(Tok::Noun(_) | Tok::Mark(Mark::All | Mark::Anything | Mark::One))
+            );
+            let ends =
+                matches!(next, None | Some(Tok::Mark(Mark::Be | Mark::HowMany | Mark::HowFar)));
+            pointed && !tells && token.kind == Tok::Mark(Mark::The) && ends
+        })
+    }
+
+    /// «те, что на комоде», «та, которая у окна»: a pointing word in the place of a noun, told by a clause.
+    pub(super) fn points_ahead(&self, at: usize) -> bool {
+        let next = self.keys.get(at + 1).map_or("", String::as_str);
+        let clause = next == "что" || next.starts_with("котор");
+        clause && POINTING.contains(&self.keys[at].as_str()) && self.comma_between(at + 1, at + 1)
+    }
+}

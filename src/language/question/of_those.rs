@@ -1,0 +1,172 @@
+//! Of those that were told: how many they are, which is the biggest or the third, which of two counts is more.
+//!
+//! Invariant: of all that there is nothing is asked here; where nothing was told there is no such question.
+
+use super::grammar::{Item, Sentence};
+use super::mark::{Mark, Pronoun};
+use super::query::{Best, Extreme};
+use super::{Asker, Memory, Noun, Query, Rel, Thing, focus, vocabulary};
+use crate::words::{Gender, Language, word_keys};
+
+impl Asker<'_> {
+    /// "Which one is bigger?", «Какой из них тяжелее?»: of the several things that the last answer told, or of those that
+    /// its question named, where only they agree («В каких комнатах есть телевизор? Какой из них больше?»).
+    pub(super) fn more_of_those(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let items = sentence.items();
+        let (mut extreme, mut which) = (None, false);
+        for item in &items {
+            match item {
+                Item::Mark(Mark::More(by) | Mark::Best(by)) if extreme.is_none() => {
+                    extreme = Some(*by);
+                }
+                Item::Mark(Mark::Which) => which = true,
+                Item::Mark(Mark::What | Mark::Be | Mark::The | Mark::One | Mark::And) => {}
+                Item::Noun(phrase) if phrase.noun.head.anything => {
+                    extreme = extreme.or(phrase.noun.best.as_ref().map(|best| best.extreme));
+                }
+                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
+                Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if matches!(&nouns[..], [p] if p.pronoun == Some(Pronoun::They)) =>
+                    {}
+                _ => return None,
+            }
+        }
+        let extreme = extreme.filter(|_| which)?;
+        let knowledge = self.knowledge(sentence.language, memory);
+        let gender = sentence.keys.iter().find_map(|key| match key.as_str() {
+            "какой" | "который" => Some(Gender::Masculine),
+            "какая" | "которая" => Some(Gender::Feminine),
+            "какое" | "которое" => Some(Gender::Neuter),
+            _ => None,
+        });
+        let agree = |things: &[Thing]| {
+            let fits = |t: &Thing| gender.is_none_or(|gender| knowledge.gender(*t).0 == gender);
+            things.len() > 1 && things.iter().any(fits)
+        };
+        let mut named = vec![memory.last.clone()];
+        memory.query.clone()?.each_noun(&mut |noun| {
+            named.extend(knowledge.find(noun, true).ok());
+        });
+        named.extend(self.alike_spoken_of(memory));
+        let things = named.into_iter().find(|things| agree(things))?;
+        let best = Some(Best { extreme, anchor: None });
+        Some(Query::Find(Noun { best, indefinite: true, ..Noun::of(things) }))
+    }
+
+    /// Several things of one kind that the last exchanges named, each by itself.
+    fn alike_spoken_of(&self, memory: &Memory) -> Option<Vec<Thing>> {
+        let knowledge = self.knowledge(memory.language, memory);
+        let mut spoken: Vec<Thing> = Vec::new();
+        for thing in memory.exchanges.iter().flat_map(focus::Exchange::things) {
+            if !spoken.contains(thing) {
+                spoken.push(*thing);
+            }
+        }
+        spoken.iter().find_map(|first| {
+            let kind = knowledge.kind_of(*first)?;
+            let alike = spoken.iter().filter(|t| knowledge.kind_of(**t) == Some(kind)).copied();
+            let alike: Vec<Thing> = alike.collect();
+            (alike.len() > 1).then_some(alike)
+        })
+    }
+
+    /// "How many things is that?", «Сколько это?»: of those that were told.
+    pub(super) fn how_many_told(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let mut counts = false;
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::HowMany) => counts = true,
+                Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Filler) => {}
+                Item::Noun(phrase) if self.is_bare_thing(&phrase.noun) => {}
+                _ => return None,
+            }
+        }
+        let told = &memory.last;
+        (counts && sentence.points() && told.len() > 1)
+            .then(|| Query::Count(Noun { plural: true, ..Noun::of(told.clone()) }))
+    }
+
+    /// «Сколько стульев на кухне? А в гостиной? Где больше?»: of the two that were counted.
+    pub(super) fn more_of_counted(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let [later, earlier] = &memory.counted[..] else { return None };
+        let plain = self.plain(text);
+        let (mut extreme, mut asks) = (None, false);
+        for item in Sentence::new(&plain, &self.mind.lexicon).items() {
+            match item {
+                Item::Mark(Mark::More(of)) if extreme.is_none() => extreme = Some(of),
+                Item::Mark(Mark::Where | Mark::Which | Mark::What) => asks = true,
+                Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Have | Mark::Exists) => {}
+                Item::Link(Rel::In | Rel::On) => {}
+                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
+                Item::Noun(phrase)
+                    if self.is_room(&phrase.noun) && phrase.noun.head.named.is_empty() => {}
+                _ => return None,
+            }
+        }
+        let extreme = match extreme.filter(|_| asks)? {
+            Extreme::Biggest | Extreme::Most => Extreme::Most,
+            Extreme::Smallest | Extreme::Fewest => Extreme::Fewest,
+            _ => return None,
+        };
+        let of = [earlier.clone(), later.clone()];
+        Some(Query::MoreOf { of, extreme, asks: true, by: false })
+    }
+
+    /// "Things" and no more.
+    fn is_bare_thing(&self, noun: &Noun) -> bool {
+        let plain = noun.filters.is_empty() && noun.restrictions.is_empty() && noun.best.is_none();
+        plain && self.knowledge(Language::English, &Memory::default()).is_anything(&noun.head)
+    }
+
+    /// «Где третья?», "And the third one?": of those that were listed, in their order.
+    pub(super) fn counted_of_listed(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let (mut rank, mut asks_where) = (None, false);
+        for n in 0..sentence.keys.len() {
+            match vocabulary::longest(&sentence.keys[n..]) {
+                Some((_, Mark::Rank(told))) if rank.is_none() => rank = Some(told),
+                Some((_, Mark::Where)) => asks_where = true,
+                Some((_, Mark::The | Mark::One | Mark::Be | Mark::And | Mark::What)) => {}
+                _ if ["about", "а", "is", "s", "и"].contains(&sentence.keys[n].as_str()) => {}
+                _ => return None,
+            }
+        }
+        let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
+        let meant = *memory.listed.get(at)?;
+        let noun = Noun::of(vec![meant]);
+        Some(match memory.query.clone()? {
+            query @ (Query::Property { .. } | Query::Size { .. }) if !asks_where => {
+                query.of_another(&noun)
+            }
+            _ => Query::Where(noun),
+        })
+    }
+
+    /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
+    pub(super) fn asks_of_those(&self, text: &str) -> bool {
+        let text = self.plain(text);
+        // "Which is" alone is a small word, as in "the book which is on the table".
+        let which = word_keys(&text).first().is_some_and(|word| word == "which");
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        let small = |item: &Item| match item {
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Which | Mark::What | Mark::Be | Mark::The | Mark::Best(_) | Mark::One
+            ),
+            Item::Noun(phrase) => {
+                phrase.noun.head.anything && (which || phrase.noun.best.is_some())
+            }
+            Item::Value(_) => true,
+            // "which one is in the kitchen?"
+            Item::Place { .. } => which,
+            _ => false,
+        };
+        let asks = matches!(items.first(), Some(Item::Mark(Mark::Which)));
+        let least = if asks { 2 } else { 1 };
+        (asks || which) && items.len() >= least && items.iter().all(small)
+    }
+}
