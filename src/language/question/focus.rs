@@ -11,7 +11,7 @@ use super::grammar::points;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId, Meaning};
 use super::mark::{Mark, Pronoun};
-use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Answer, Doubt, Memory, vocabulary};
 use crate::map::Entity;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
@@ -271,6 +271,34 @@ impl Knowledge<'_> {
         }
     }
 
+    /// What a question word without a noun asks among: those that were told, else what was asked for.
+    pub(super) fn elided(&self) -> Option<Head> {
+        let last = &self.memory.last;
+        let query = self.memory.query.as_ref()?;
+        let counted = |noun: &Noun| match &noun.best {
+            Some(best) if matches!(best.extreme, Extreme::Most | Extreme::Fewest) => {
+                best.anchor.as_deref().cloned()
+            }
+            _ => Some(noun.clone()),
+        };
+        let sought = query.sought().and_then(counted).map(|noun| noun.head);
+        let sought = sought.filter(|head| !head.kinds.is_empty());
+        let things = last.iter().all(|t| t.replica().is_some());
+        let told = (last.len() > 1 && things && self.alike(last).is_some())
+            .then(|| Head { things: Some(last.clone()), ..Head::default() });
+        // "Is the kitchen bigger than the hall? Which is the smallest of all?"
+        let rooms = || {
+            let (mut all, mut any) = (true, false);
+            query.clone().each_noun(&mut |noun| {
+                any = true;
+                all &= self.base(&noun.head).iter().all(|t| t.area().is_some());
+            });
+            let kind = self.lexicon().kind_of(&Extension::Rooms).filter(|_| all && any)?;
+            Some(Head { kinds: vec![kind], ..Head::default() })
+        };
+        sought.or(told).or_else(rooms)
+    }
+
     /// The one kind of some things.
     pub(super) fn alike(&self, things: &[Thing]) -> Option<KindId> {
         let kind = self.kind_of(*things.first()?)?;
@@ -298,6 +326,20 @@ impl Knowledge<'_> {
     }
 
     fn focus_places(&self, restrictions: &mut [Restriction]) {
+        // "Which sofa …? What is on it? And on the first one?": of those that can have something on them.
+        for place in restrictions.iter_mut() {
+            let rel = place.rel;
+            let bear = |e: &&Exchange| {
+                e.listed.len() > 1 && e.listed.iter().all(|t| self.may_be_anchor(rel, *t))
+            };
+            let told = self.memory.exchanges.iter().find(bear);
+            for anchor in place.anchors.iter_mut().filter(|a| points(a) && !a.other) {
+                if let Some(told) = told {
+                    let things = Some(told.listed.clone());
+                    anchor.head = Head { things, ..Head::default() };
+                }
+            }
+        }
         for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
             let found = is_one(anchor).then(|| self.find(anchor, false).ok()).flatten();
             if let Some(meant) = found.filter(|f| f.len() > 1).and_then(|f| self.in_focus(&f)) {

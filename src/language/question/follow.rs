@@ -268,6 +268,11 @@ impl Asker<'_> {
         }
         Some(match last {
             Query::Count(_) => Query::Where(noun),
+            // "Which of them is open? And the other one?"
+            Query::Find(asked) if !asked.filters.is_empty() => {
+                let claims = asked.filters.iter().cloned().map(Claim::Value).collect();
+                Query::Holds { subject: noun, claims, negated: false }
+            }
             last => last.clone().of_another(&noun),
         })
     }
@@ -380,7 +385,9 @@ impl Asker<'_> {
                 noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a)));
             let room =
                 asked.restrictions.iter().find(|r| r.anchors.iter().any(|a| self.is_room(a)));
-            let room = room.filter(|_| !names_room).cloned();
+            // "And on the other side table?" may be in another room.
+            let other = noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| a.other));
+            let room = room.filter(|_| !names_room && !other).cloned();
             asked.restrictions = noun.restrictions;
             asked.restrictions.extend(room);
         } else {

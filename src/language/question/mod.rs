@@ -480,7 +480,8 @@ impl Asker<'_> {
             let had = || knowledge.had_by_rooms().filter(|_| pronoun == Pronoun::They && rooms);
             had().unwrap_or_else(|| knowledge.referent(pronoun, rel))
         };
-        let mut query = assemble::query(&sentence, &self.mind.lexicon, &referent)?;
+        let mut query =
+            assemble::query(&sentence, &self.mind.lexicon, &referent, knowledge.elided())?;
         // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not"; the truth of a denial is not.
         if sentence.language == Language::English
             && !(0..sentence.keys.len()).any(|at| {

@@ -46,6 +46,9 @@ impl Asker<'_> {
                 if self.says_something(&span[..begin]) {
                     continue;
                 }
+                if !self.asks_of_something(asked) {
+                    continue;
+                }
                 // A pronoun may mean what was not understood.
                 if self.has_pronoun(asked) {
                     continue;
@@ -83,6 +86,22 @@ impl Asker<'_> {
     fn asks(&self, text: &str) -> bool {
         let words = word_keys(text);
         opening::begins_question(&words) || (several::asks_in(text) && text.trim().ends_with('?'))
+    }
+
+    /// Whether a question names what it is about beside the noun of its question word, or what is done.
+    fn asks_of_something(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        (0..items.len()).any(|n| match &items[n] {
+            Item::Noun(phrase) if phrase.person.is_none() => {
+                !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
+            }
+            Item::Place { .. } => n > 0,
+            Item::Mark(mark) => {
+                matches!(mark, Mark::Deed(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
+            }
+            _ => false,
+        })
     }
 
     /// Whether words before a question belong to it: anything but small and unknown ones.

@@ -524,6 +524,8 @@ impl Knowledge<'_> {
             let other = if but { self.pick("других ", "other ") } else { "" };
             let none = format!("{other}{}", self.none_of(noun));
             return match (self.is_russian(), noun.head.anything && noun.filters.is_empty()) {
+                (true, true) if but => format!("{blank}больше ничего нет"),
+                (false, true) if but => format!("there is nothing else {place}"),
                 (true, true) => format!("{blank}ничего нет"),
                 (false, true) => format!("there is nothing {place}"),
                 (true, false) if place.is_empty() => format!("на карте нет {none}"),

@@ -72,6 +72,11 @@ impl Frame<'_, '_> {
         };
         // «Для чего он нужен?»: nothing lies to anything as a way leads.
         let leads = matches!(query, Query::Anchor { rel: Rel::To | Rel::Through, .. });
+        // "And which has the fewest?"
+        let counts = |mark: &Mark| matches!(mark, Mark::Best(Extreme::Most | Extreme::Fewest));
+        let fewest = matches!(query, Query::Find(_))
+            && !told.most
+            && self.marks.iter().any(|(mark, _)| counts(mark));
         // "Which room has more?" asks of what was counted, not for the biggest room.
         let has_more = matches!(query, Query::Find(_))
             && self.has(Mark::Have)
@@ -80,6 +85,7 @@ impl Frame<'_, '_> {
             && self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
         leads
             || has_more
+            || fewest
             || self.marks.iter().any(asks)
             || self.points(&told, query)
             || self.is_piece(query)
@@ -164,6 +170,10 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             true
         }
         Mark::What | Mark::Which => !polar,
+        // "How many does the kitchen have?" counts no kitchens.
+        Mark::HowMany if matches!(query, Q::Count(noun) if !noun.plural && !noun.head.named.is_empty()) => {
+            false
+        }
         Mark::HowMany => matches!(
             query,
             Q::Count(_)

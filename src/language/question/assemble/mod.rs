@@ -9,6 +9,7 @@ mod attach;
 mod claim;
 mod compare;
 mod deed;
+mod elided;
 mod frame;
 mod passing;
 mod together;
@@ -31,6 +32,7 @@ pub(super) fn query(
     sentence: &Sentence<'_>,
     lexicon: &Lexicon,
     referent: &Referent<'_>,
+    elided: Option<Head>,
 ) -> Result<Query, Doubt> {
     let items = sentence.items();
     if items.is_empty() {
@@ -41,13 +43,17 @@ pub(super) fn query(
     if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
         return Ok(Query::Several(queries));
     }
-    match frame.read() {
+    let read = match frame.read() {
+        None => return Err(frame.not_understood(&items)),
+        read => read.and_then(|query| frame.filled(query, elided)),
+    };
+    match read {
         Some(mut query) => match frame.left_out(&mut query) {
             Some(words) => Err(Doubt::not_understood(&words)),
             None if frame.asks_more_than(&mut query) => Err(Doubt::not_understood(sentence.text)),
             None => Ok(query),
         },
-        None => Err(frame.not_understood(&items)),
+        None => Err(Doubt::not_understood(sentence.text)),
     }
 }
 

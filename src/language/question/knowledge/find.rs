@@ -106,6 +106,15 @@ impl Knowledge<'_> {
                 let words = restriction.anchors.first().unwrap_or(noun).text.clone();
                 return Err(Doubt::NotUnderstood { words });
             }
+            // «А оттуда на улицу?»: nothing lies on a door, in it or under it.
+            if matches!(restriction.rel, Rel::On | Rel::In | Rel::Under | Rel::Above)
+                && let Some(anchor) = restriction.anchors.first()
+                && let base = self.base(&anchor.head)
+                && !base.is_empty()
+                && base.iter().all(|t| self.opening(*t).is_some())
+            {
+                return Err(Doubt::NotUnderstood { words: anchor.text.clone() });
+            }
             // «щётка с пастой»: what holds and bears nothing has nothing.
             let bears = |t: &Thing| leads(t) || is_map(*t) || self.may_bear(*t);
             if matches!(restriction.rel, Rel::Has | Rel::Bears)

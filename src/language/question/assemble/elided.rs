@@ -1,0 +1,48 @@
+//! A question word without its noun: "which is in the living room?", «А какие в спальне?», "How many does the kitchen have?"
+//!
+//! Invariant: it asks among what was spoken of, never among all that there is; where nothing was, it is not understood.
+
+use super::Frame;
+use crate::question::mark::Mark;
+use crate::question::query::{Head, Noun, Query, Rel, Restriction};
+
+impl Frame<'_, '_> {
+    /// The query with the noun that its question word lacks; none where nothing was spoken of that it could be.
+    pub(super) fn filled(&self, query: Query, head: Option<Head>) -> Option<Query> {
+        let counts = self.has(Mark::HowMany);
+        let asks = counts || self.has(Mark::Which) || self.compares();
+        if !asks || !self.values.is_empty() {
+            return Some(query);
+        }
+        match query {
+            // "How many does the kitchen have?" counts no kitchens.
+            Query::Count(room)
+                if counts && self.has(Mark::Have) && self.is_area(&room) && !room.plural =>
+            {
+                let place = Restriction { rel: Rel::In, anchors: vec![room], negated: false };
+                let noun = Noun { plural: true, restrictions: vec![place], ..Noun::default() };
+                Some(Query::Count(Noun { head: head?, ..noun }))
+            }
+            Query::Find(noun) if self.lacks_noun(&noun) => {
+                Some(Query::Find(Noun { head: head?, ..noun }))
+            }
+            Query::Count(noun) if self.lacks_noun(&noun) => {
+                Some(Query::Count(Noun { head: head?, ..noun }))
+            }
+            query => Some(query),
+        }
+    }
+
+    /// «Что ближе?»: between what, nothing says.
+    fn compares(&self) -> bool {
+        let compares = |mark: &Mark| matches!(mark, Mark::Nearer(_) | Mark::More(_));
+        self.spots.is_empty() && self.marks.iter().any(|(mark, _)| compares(mark))
+    }
+
+    fn lacks_noun(&self, noun: &Noun) -> bool {
+        let head = &noun.head;
+        let general = head.kinds.is_empty() && head.named.is_empty() && head.things.is_none();
+        // "Which things", "which one" are read elsewhere.
+        general && self.nouns.is_empty() && noun.text.is_empty() && noun.also.is_empty()
+    }
+}
