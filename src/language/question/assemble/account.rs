@@ -75,6 +75,7 @@ impl Frame<'_, '_> {
         // "And which has the fewest?"
         let counts = |mark: &Mark| matches!(mark, Mark::Best(Extreme::Most | Extreme::Fewest));
         let fewest = matches!(query, Query::Find(_))
+            && self.has(Mark::Have)
             && !told.most
             && self.marks.iter().any(|(mark, _)| counts(mark));
         // "Which room has more?" asks of what was counted, not for the biggest room.
