@@ -49,6 +49,11 @@ impl Exchange {
         self.topics.first().copied()
     }
 
+    /// The members of a list that was told.
+    pub(super) fn members(&self) -> &[Thing] {
+        &self.listed
+    }
+
     /// All that it was about.
     pub(super) fn things(&self) -> impl Iterator<Item = &Thing> {
         self.topics.iter().chain(&self.listed)

@@ -17,7 +17,9 @@ impl Asker<'_> {
             match item {
                 Item::Noun(phrase) if phrase.person == Some(Mark::Me) => me = true,
                 Item::Mark(Mark::Me) => me = true,
-                Item::Mark(Mark::Be | Mark::And | Mark::Filler | Mark::The) => {}
+                Item::Mark(
+                    Mark::Be | Mark::And | Mark::Filler | Mark::The | Mark::Sit | Mark::LieDown,
+                ) => {}
                 Item::Place { rel, nouns, either: false } if place.is_none() => {
                     let here = matches!(rel, Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near);
                     let [phrase] = &nouns[..] else { return None };

@@ -165,7 +165,14 @@ impl Asker<'_> {
         language: Language,
         memory: &mut Memory,
     ) -> Option<Result<Answer, Unanswered>> {
-        let parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        let mut parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        // "I'm on the sofa, what's the nearest bin?"
+        if let [only] = parts[..]
+            && let Some((told, asked)) = only.split_once([',', ';', '–', '—'])
+            && self.premise(told).is_some()
+        {
+            parts = vec![told.trim(), asked.trim()];
+        }
         let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
         let mut after = memory.clone();
         let mut answers = Vec::new();

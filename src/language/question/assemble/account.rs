@@ -84,7 +84,10 @@ impl Frame<'_, '_> {
             && !told.most
             && !told.inward
             && self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
+        // "What if Door 1 is locked?" supposes.
+        let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
+            || supposes
             || has_more
             || fewest
             || self.marks.iter().any(asks)

@@ -26,7 +26,8 @@ impl Knowledge<'_> {
                     found.retain(|t| self.opening(*t).is_some());
                 }
                 // "Which rooms lead to the corridor?"
-                if rel == Rel::To {
+                // "Which rooms can I get to from the kitchen?"
+                if matches!(rel, Rel::To | Rel::From) {
                     found.extend(self.related(Rel::Near, anchor));
                 }
                 found

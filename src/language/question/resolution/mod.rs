@@ -119,6 +119,11 @@ impl Asker<'_> {
         match settled {
             Ok(mut edits) => {
                 edits.sort_by_key(|edit| edit.at.start);
+                if !edits.iter().any(|edit| edit.object)
+                    && let Some(doubt) = self.one_of_listed(&text, &sentence, memory)
+                {
+                    return Err(misread(doubt));
+                }
                 let object = edits.iter().find(|edit| edit.object);
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
                 // «А теперь выключи» names nothing: the command before is what may be amended.
@@ -156,6 +161,25 @@ impl Asker<'_> {
                 Err(Misread(Box::new(unanswered)))
             }
         }
+    }
+
+    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её»: which of several that were told at once, nothing says.
+    fn one_of_listed(&self, text: &str, sentence: &Sentence<'_>, memory: &Memory) -> Option<Doubt> {
+        let exchange = memory.exchanges.first()?;
+        let (reference, pronoun) = sentence.items().into_iter().find_map(|item| match item {
+            Item::Noun(phrase) => Some((phrase.noun.text.clone(), phrase.pronoun?)),
+            _ => None,
+        })?;
+        if matches!(pronoun, Pronoun::They | Pronoun::There) {
+            return None;
+        }
+        let knowledge = self.knowledge(sentence.language, memory);
+        let (_, sort) = *command::clauses(text).first()?;
+        let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
+        let topic = exchange.topic();
+        let candidates: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
+        (topic.as_ref().filter(fits).is_none() && candidates.len() > 1)
+            .then_some(Doubt::Ambiguous { reference, candidates })
     }
 
     /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state
