@@ -66,10 +66,10 @@ impl Evaluation<'_> {
                 self.finished.rows[relation.index()] = Some(rows);
                 Ok(())
             }
-            Err(Unfinished::Rows) => self.check_size(relation, limit + 1),
-            Err(Unfinished::Limit) => {
-                rounds.first().map_or(Ok(()), |(clause, _)| self.check_limits(clause))
-            }
+            Err(unfinished) => rounds.first().map_or(Ok(()), |(clause, _)| match unfinished {
+                Unfinished::Rows => Err(self.program.too_many(clause, limit)),
+                Unfinished::Limit => self.check_limits(clause),
+            }),
         }
     }
 }

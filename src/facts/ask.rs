@@ -231,6 +231,7 @@ impl<'a> Answers<'a> {
         let computed: Vec<&'a dyn Computed> = computed.iter().filter(named).copied().collect();
         let more: Vec<&Source> = computed.iter().map(|by| by.declaration()).collect();
         let question = program.question(source, &more, &mut words)?;
+        let limits = limits.within(question.program.limits);
         let unknown = words.symbols().skip(kept.words.symbols().count()).cloned().collect();
         let relation = |n: usize| RelationId((question.known + n) as u32);
         let computed = computed.iter().enumerate().map(|(n, by)| (relation(n), *by)).collect();

@@ -122,7 +122,7 @@ fn constant_words(clause: &Clause) -> Option<Box<[u32]>> {
 }
 
 /// The pragmas that say how much an evaluation may take.
-fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
+pub(super) fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
     let mut limits = Ceilings::default();
     for item in items {
         let Item::Pragma { name, value, at } = item else { continue };

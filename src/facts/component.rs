@@ -120,6 +120,13 @@ impl Making<'_> {
                 }
             }
         }
+        if let Some(inherited) = inherited(component, &scope, &mut Vec::new()) {
+            for item in &component.items {
+                if let Item::Override(name) = item {
+                    self.check_override(name, inherited.iter().copied());
+                }
+            }
+        }
         for inner in components(&component.items) {
             self.check(inner, &scope);
         }
@@ -231,7 +238,7 @@ impl Making<'_> {
         }
         for item in &component.items {
             if let Item::Override(name) = item {
-                self.check_override(name, &out[start..]);
+                self.check_override(name, out[start..].iter());
             }
         }
         for item in &component.items {
@@ -254,8 +261,8 @@ impl Making<'_> {
         }
     }
 
-    fn check_override(&mut self, name: &Name, inherited: &[Item]) {
-        let declared = inherited.iter().find_map(|item| match item {
+    fn check_override<'a>(&mut self, name: &Name, mut inherited: impl Iterator<Item = &'a Item>) {
+        let declared = inherited.find_map(|item| match item {
             Item::Relation { names, roles, .. } => {
                 let is_it = names.iter().any(|known| known.text == name.text);
                 is_it.then(|| roles.contains(&Role::Overridable))
@@ -282,6 +289,27 @@ impl Making<'_> {
             self.faults.push(name.at, RuleError::Unsupported { what, help, at: name.at.into() });
         }
     }
+}
+
+/// The items of all that a component inherits from; none where that is only known of its instances.
+fn inherited<'a>(
+    component: &'a Component,
+    scope: &Scope<'a>,
+    seen: &mut Vec<&'a Component>,
+) -> Option<Vec<&'a Item>> {
+    let mut items = Vec::new();
+    for base in &component.bases {
+        let is_parameter =
+            component.head.args.iter().any(|parameter| parameter.text == base.name.text);
+        let base = scope.find(&base.name.text).filter(|_| !is_parameter)?;
+        if seen.iter().any(|known| std::ptr::eq(*known, base)) {
+            continue;
+        }
+        seen.push(base);
+        items.extend(&base.items);
+        items.extend(inherited(base, scope, seen)?);
+    }
+    Some(items)
 }
 
 /// Whether a component leads to another by what it inherits or makes.

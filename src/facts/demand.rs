@@ -325,10 +325,18 @@ impl<'a> Demand<'a> {
             let mut head = Head::new(self.program, &planned.clause, limit, rows.as_sink(), &watch);
             self.run(&planned.plan, &mut registers, words, &mut head);
             if self.watch.is_over() {
+                self.watch.found(rows.len());
                 break;
             }
         }
         let rows = rows.sort();
+        let limit = self.watch.limits().rows;
+        if let Some(last) = self.clauses_of(relation).last()
+            && rows.len() > limit
+        {
+            let last = &self.program.clauses[*last];
+            self.fail(AskError::Evaluate(self.program.too_many(last, limit)));
+        }
         let mut flat = Flat::new(columns);
         (0..rows.len()).for_each(|at| flat.push(rows.row(at)));
         Rc::new(flat)

@@ -6,6 +6,7 @@ use super::database::{FactError, RelationKey, Schema, find_word};
 use super::fault::FileFaults;
 use super::kept::Kept;
 use super::program::{Kind, Program, RelationId, RelationInfo};
+use super::record::{self, Texts};
 use super::rows::SharedRows;
 use super::stored::{Starting, Stored};
 use super::syntax::Span;
@@ -227,13 +228,16 @@ impl<'a> Tuple<'a> {
         holds_symbol.then(|| self.words.text(self.row[column]).as_ref())
     }
 
-    /// Appends the text of the value in a column.
-    pub(super) fn write(&self, column: usize, text: &mut String) {
+    /// Appends the text of the value in a column; texts within records in quotes, where that is asked for.
+    pub(super) fn write(&self, column: usize, is_quoted: bool, text: &mut String) {
         use fmt::Write;
         let (word, kind) = (self.row[column], self.info.columns[column].kind);
         match kind {
             Kind::Symbol => text.push_str(self.words.text(word)),
-            Kind::Record(_) => super::record::write(self.words, word, kind, true, text),
+            Kind::Record(_) => {
+                let texts = if is_quoted { Texts::Quoted } else { Texts::Plain };
+                record::write(self.words, word, kind, texts, text);
+            }
             _ => {
                 let _ = write!(text, "{}", self.words.value(word, kind));
             }

@@ -266,8 +266,8 @@ impl InEnglish for FactError {
 impl InEnglish for EvaluateError {
     fn english(&self) -> String {
         match self {
-            Self::TooMany { relation, limit } => {
-                format!("the relation “{relation}” has more than {limit} rows")
+            Self::TooMany { relation, rule, limit } => {
+                format!("{rule}: the relation “{relation}” has more than {limit} rows")
             }
             Self::Time { relation, rule, seconds, rows } => format!(
                 "{rule}: within {seconds} s the relation “{relation}” is not derived, with {rows} rows so far"

@@ -29,14 +29,14 @@ use super::word::{Note, Word};
 #[non_exhaustive]
 pub enum EvaluateError {
     /// A rule that always finds something new, or more than memory should hold.
-    #[error("отношение «{relation}» больше {limit} строк")]
+    #[error("{rule}: отношение «{relation}» больше {limit} строк")]
     #[diagnostic(
         code(facts::too_many),
         help(
             "правило, видимо, порождает новое без конца; ограничьте числа в нём сравнением, задайте .limitsize или дайте больше строк (--row-limit)"
         )
     )]
-    TooMany { relation: String, limit: usize },
+    TooMany { relation: String, rule: String, limit: usize },
     /// It takes longer than it may.
     #[error("{rule}: за {seconds} с отношение «{relation}» не выведено, строк пока {rows}")]
     #[diagnostic(
@@ -119,6 +119,11 @@ impl Program {
         })
     }
 
+    pub(super) fn too_many(&self, clause: &Clause, limit: usize) -> EvaluateError {
+        let (relation, rule) = (self.info(clause.head).name.clone(), self.place(clause.at));
+        EvaluateError::TooMany { relation, rule, limit }
+    }
+
     /// For each relation the number of the last stratum that reads it.
     fn last_readers(&self) -> Vec<usize> {
         let mut last = vec![0; self.relations.len()];
@@ -187,17 +192,12 @@ impl<'a> Evaluation<'a> {
         self.program.info(relation).limit_size.unwrap_or(MAX_ROWS)
     }
 
-    pub(super) fn check_size(
-        &self,
-        relation: RelationId,
-        size: usize,
-    ) -> Result<(), EvaluateError> {
-        let limit = self.finished.watch.limits().rows;
-        if size <= limit {
-            return Ok(());
+    /// The clause is the one that was the last to find something for the relation.
+    pub(super) fn check_size(&self, last: &Clause, size: usize) -> Result<(), EvaluateError> {
+        match self.finished.watch.limits().rows {
+            limit if size > limit => Err(self.program.too_many(last, limit)),
+            _ => Ok(()),
         }
-        let relation = self.program.info(relation).name.clone();
-        Err(EvaluateError::TooMany { relation, limit })
     }
 
     pub(super) fn check_limits(&self, clause: &Clause) -> Result<(), EvaluateError> {
@@ -247,7 +247,9 @@ impl<'a> Evaluation<'a> {
                     self.check_limits(clause)?;
                 }
                 let rows = new.sort_among(self.finished.watch.threads());
-                self.check_size(*relation, rows.len())?;
+                if let Some(last) = clauses.last() {
+                    self.check_size(last, rows.len())?;
+                }
                 rows
             };
             self.finished.rows[relation.index()] = Some(rows);

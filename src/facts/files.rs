@@ -19,6 +19,7 @@ use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo};
 use super::texts::includes;
 use super::trace::{self, RuleTrace};
+use super::value::whole;
 use crate::units::{FileFault, Source, read_text, write_file_with};
 
 /// Why a program over files has no result.
@@ -446,15 +447,7 @@ fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known 
     let value = match column.map(|column| column.kind) {
         Some(Kind::Number) => text.trim().parse().ok().map(|number| loader.number(number)),
         // Soufflé reads 0x and 0b in files for these alone.
-        Some(Kind::Unsigned) => {
-            let text = text.trim();
-            let number = match (text.strip_prefix("0x"), text.strip_prefix("0b")) {
-                (Some(hex), _) => i64::from_str_radix(hex, 16),
-                (_, Some(binary)) => i64::from_str_radix(binary, 2),
-                _ => text.parse(),
-            };
-            number.ok().map(|number| loader.number(number))
-        }
+        Some(Kind::Unsigned) => whole(text).map(|number| loader.number(number)),
         Some(Kind::Float) => {
             let text = text.trim();
             let decimal = text.parse().ok().or_else(|| Decimal::of_powers(text));
@@ -492,10 +485,10 @@ fn lines(
         for n in 0..tuple.arity() {
             text.push_str(if n == 0 { "" } else { delimiter });
             let start = text.len();
-            tuple.write(n, &mut text);
-            let needs_quotes =
-                |value: &str| value.contains(['"', '\n', '\r']) || value.contains(delimiter);
-            if is_quoted(parameters) && needs_quotes(&text[start..]) {
+            let is_quoted = is_quoted(parameters);
+            tuple.write(n, is_quoted, &mut text);
+            // As Soufflé does, numbers alone stand without quotes.
+            if is_quoted && matches!(info.columns[n].kind, Kind::Symbol | Kind::Record(_)) {
                 let value = text.split_off(start).replace('"', "\"\"");
                 let _ = write!(text, "\"{value}\"");
             }
@@ -592,6 +585,35 @@ mod tests {
         std::fs::write(folder.path().join("a.facts"), "x,[1, a,$Leaf,nil\n").unwrap();
         let fault = run_files(&program, folder.path(), folder.path(), Limits::default());
         assert!(matches!(fault, Err(FilesError::Line { line: 1, .. })));
+    }
+
+    /// What is written in quotes is read again as it was: texts with any sign, alone and within records.
+    #[test]
+    fn quoted_files_are_read_as_they_were_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let text = r#"
+            .type P = [n: number, t: symbol, rest: P]
+            .type T = Leaf {} | Node {t: symbol, n: number}
+            .decl a(s: symbol, n: number, p: P, t: T, f: float)
+            .input a(rfc4180=true)
+            .output a(rfc4180=true, filename="out.facts")"#;
+        std::fs::write(at("program.dl"), text).unwrap();
+        let given = r#"x,1,nil,$Leaf,1.5
+"a,""b
+c",-2,"[1, ""]\""\\"", [2, , nil]]","$Node( """" ,3)",0
+"#;
+        std::fs::write(at("a.facts"), given).unwrap();
+        run_files(&at("program.dl"), folder.path(), folder.path(), Limits::default()).unwrap();
+        let written = std::fs::read_to_string(at("out.facts")).unwrap();
+        let all = r#""a,""b
+c",-2,"[1, ""]\""\\"", [2, """", nil]]","$Node("""", 3)",0
+"x",1,"nil","$Leaf",1.5
+"#;
+        assert_eq!(written, all);
+        std::fs::rename(at("out.facts"), at("a.facts")).unwrap();
+        run_files(&at("program.dl"), folder.path(), folder.path(), Limits::default()).unwrap();
+        assert_eq!(std::fs::read_to_string(at("out.facts")).unwrap(), written);
     }
 
     #[test]

@@ -58,6 +58,8 @@ impl Evaluation<'_> {
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);
         let is_any_order = clauses.iter().all(|clause| Makes::of(clause) == Makes::Nothing);
         let mut rounds: Vec<(&Clause, Plan)> = Vec::new();
+        // For each relation the clause that was the last to find something.
+        let mut last: HashMap<RelationId, &Clause> = HashMap::new();
         for clause in clauses {
             let own: Vec<usize> = own_atoms(clause, &is_own).collect();
             if own.is_empty() {
@@ -70,6 +72,7 @@ impl Evaluation<'_> {
                 let parts = no_parts(&plan);
                 self.emit(clause, &plan, &parts, limit, is_any_order, sink.as_sink());
                 self.check_limits(clause)?;
+                last.insert(clause.head, clause);
             }
             self.rounds(clause, &own, &mut rounds);
         }
@@ -120,6 +123,11 @@ impl Evaluation<'_> {
                 break;
             }
             growing.values_mut().for_each(|rows| rows.follow());
+            // Now each row counts once.
+            for relation in &stratum.relations {
+                let clause = last.get(relation);
+                clause.map_or(Ok(()), |clause| self.check_size(clause, growing[relation].len()))?;
+            }
             orders.changed();
             let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
             self.finished.watch.hold(held);
@@ -136,13 +144,23 @@ impl Evaluation<'_> {
                 let held = if is_limited { growing[&clause.head].len() } else { 0 };
                 let room = limit.saturating_sub(held);
                 let parts = parts(plan, orders, &growing);
-                let mut sink = growing[&clause.head].sink();
-                let mut sink = choosing(&mut *sink, choices.get_mut(&clause.head));
-                self.emit(clause, plan, &parts, room, is_any_order, sink.as_sink());
+                let rows = &growing[&clause.head];
+                let (before, found) = {
+                    let mut sink = rows.sink();
+                    let before = sink.len();
+                    let mut choosing = choosing(&mut *sink, choices.get_mut(&clause.head));
+                    self.emit(clause, plan, &parts, room, is_any_order, choosing.as_sink());
+                    (before, sink.len())
+                };
+                if found > before {
+                    last.insert(clause.head, clause);
+                }
+                self.finished.watch.found(rows.len() + found);
                 self.check_limits(clause)?;
-            }
-            for (relation, rows) in &growing {
-                self.check_size(*relation, rows.len() + rows.sink().len())?;
+                // What a sink has no place for is no result.
+                if rows.len() + found > MAX_ROWS {
+                    return Err(program.too_many(clause, MAX_ROWS));
+                }
             }
         }
         // What is put together takes its own memory.

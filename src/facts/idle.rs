@@ -1,11 +1,10 @@
 //! Warnings about rules that never fire: premises that are always empty, or that exclude each other.
 
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::declare::Declared;
 use super::fault::RuleError;
-use super::program::{Atom, Clause, Compare, Expr, Fact, Found, Literal, Term};
+use super::program::{Atom, Clause, Compare, Expr, Fact, Found, Kind, Literal, Term};
 use super::syntax::{Comparison, Span};
 use super::value;
 use super::word::Words;
@@ -88,8 +87,9 @@ fn excluded(body: &[Literal], words: &Words) -> Option<Excluded> {
         let why = ("сравнение всегда ложно", "the comparison is always false");
         return Some((why.into(), compare.at));
     }
-    for (n, compare) in compares.iter().enumerate() {
-        if compares[..n].iter().any(|earlier| exclude(earlier, compare, words)) {
+    let mut order = Order::default();
+    for compare in compares {
+        if !order.takes(compare, words) {
             let why = ("сравнения исключают друг друга", "the comparisons exclude each other");
             return Some((why.into(), compare.at));
         }
@@ -110,48 +110,83 @@ fn is_false(compare: &Compare, words: &Words) -> bool {
     compare.left == compare.right && orders(compare.op).is_some_and(|orders| !orders[1])
 }
 
-/// Whether two comparisons of the same hold for no values together.
-fn exclude(one: &Compare, other: &Compare, words: &Words) -> bool {
-    let turned = |compare: &Compare, left: &Expr| {
-        let Compare { op, .. } = compare;
-        if compare.left == *left {
-            return Some((orders(*op)?, compare.right.clone()));
-        }
-        (compare.right == *left)
-            .then(|| Some((orders(op.mirrored()?)?, compare.left.clone())))
-            .flatten()
-    };
-    [&one.left, &one.right].into_iter().filter(|left| left.has_variables()).any(|left| {
-        let (Some((one_may, one_to)), Some((other_may, other_to))) =
-            (turned(one, left), turned(other, left))
-        else {
-            return false;
+/// Expressions that are compared at most: what a rule compares beyond them is not looked at.
+const MAX_COMPARED: usize = 64;
+
+/// What comparisons say of the order of expressions, all that follows from them included.
+#[derive(Default)]
+struct Order<'a> {
+    of: Vec<(Kind, &'a Expr)>,
+    /// For each two whether the first stands before the second, and whether it may not be equal to it.
+    before: Vec<Vec<Option<bool>>>,
+    unequal: Vec<(usize, usize)>,
+}
+
+impl<'a> Order<'a> {
+    /// Takes a comparison in; false where it cannot hold together with those before.
+    fn takes(&mut self, compare: &'a Compare, words: &Words) -> bool {
+        let Some([less, equal, greater]) = orders(compare.op) else { return true };
+        let (Some(left), Some(right)) = (
+            self.place(compare.kind, &compare.left, words),
+            self.place(compare.kind, &compare.right, words),
+        ) else {
+            return true;
         };
-        // How the one's other side stands to the other's.
-        let stand = match (&one_to, &other_to) {
-            (one, other) if one == other => Ordering::Equal,
-            (Expr::Constant(a), Expr::Constant(b)) => {
-                let is = |op| value::holds(op, one.kind.is_number(), *a, *b, words);
-                match () {
-                    () if is(Comparison::Less) => Ordering::Less,
-                    () if is(Comparison::Greater) => Ordering::Greater,
-                    () => Ordering::Equal,
-                }
+        match (less, greater) {
+            (true, true) => self.unequal.push((left, right)),
+            (true, false) => self.put_before(left, right, !equal),
+            (false, true) => self.put_before(right, left, !equal),
+            (false, false) => {
+                self.put_before(left, right, false);
+                self.put_before(right, left, false);
             }
-            _ => return false,
+        }
+        let is_equal = |(a, b): &(usize, usize)| {
+            self.before[*a][*b].is_some() && self.before[*b][*a].is_some()
         };
-        // Below the lesser, at it, between, at the greater, above it.
-        let places = |[less, equal, greater]: [bool; 3], is_lesser: bool| match is_lesser {
-            true => [less, equal, greater, greater, greater],
-            false => [less, less, less, equal, greater],
-        };
-        let (a, b) = match stand {
-            Ordering::Equal => (places(one_may, true), places(other_may, true)),
-            Ordering::Less => (places(one_may, true), places(other_may, false)),
-            Ordering::Greater => (places(one_may, false), places(other_may, true)),
-        };
-        !a.iter().zip(b).any(|(a, b)| *a && b)
-    })
+        (0..self.of.len()).all(|at| self.before[at][at] == Some(false))
+            && !self.unequal.iter().any(is_equal)
+    }
+
+    fn place(&mut self, kind: Kind, expr: &'a Expr, words: &Words) -> Option<usize> {
+        if let Some(known) = self.of.iter().position(|known| *known == (kind, expr)) {
+            return Some(known);
+        }
+        let at = self.of.len();
+        if at == MAX_COMPARED {
+            return None;
+        }
+        self.of.push((kind, expr));
+        self.before.iter_mut().for_each(|row| row.push(None));
+        self.before.push(vec![None; at + 1]);
+        self.before[at][at] = Some(false);
+        for other in 0..at {
+            let (Expr::Constant(one), (of, Expr::Constant(two))) = (expr, self.of[other]) else {
+                continue;
+            };
+            if of != kind {
+                continue;
+            }
+            let is = |op| value::holds(op, kind.is_number(), *one, *two, words);
+            match kind {
+                Kind::Record(_) => self.unequal.push((at, other)),
+                _ if is(Comparison::Less) => self.put_before(at, other, true),
+                _ => self.put_before(other, at, true),
+            }
+        }
+        Some(at)
+    }
+
+    fn put_before(&mut self, one: usize, other: usize, is_strict: bool) {
+        for a in 0..self.of.len() {
+            let Some(to_one) = self.before[a][one] else { continue };
+            for b in 0..self.of.len() {
+                let Some(from_other) = self.before[other][b] else { continue };
+                let is_strict = is_strict || to_one || from_other;
+                self.before[a][b] = self.before[a][b].max(Some(is_strict));
+            }
+        }
+    }
 }
 
 /// Whether a comparison allows less, equal and greater; none where it is about no order.

@@ -33,6 +33,19 @@ pub(super) struct Ceilings {
     pub(super) on_demand: bool,
 }
 
+impl Ceilings {
+    /// What both allow.
+    pub(super) fn within(self, other: Self) -> Self {
+        let least = |one: Option<u64>, other: Option<u64>| one.into_iter().chain(other).min();
+        Self {
+            seconds: least(self.seconds, other.seconds),
+            megabytes: least(self.megabytes, other.megabytes),
+            rows: least(self.rows, other.rows),
+            on_demand: self.on_demand || other.on_demand,
+        }
+    }
+}
+
 impl Limits {
     /// The narrower of both.
     pub(super) fn within(self, ceilings: Ceilings) -> Self {

@@ -293,9 +293,10 @@ impl Update<'_> {
         }
         for relation in &stratum.relations {
             let size = self.derived.kept.rows(*relation).len();
-            if size >= MAX_ROWS {
-                let relation = self.program.info(*relation).name.clone();
-                return Err(EvaluateError::TooMany { relation, limit: MAX_ROWS });
+            let own = stratum.clauses.iter().map(|n| &self.program.clauses[*n]);
+            let last = own.rev().find(|clause| clause.head == *relation);
+            if let Some(last) = last.filter(|_| size >= MAX_ROWS) {
+                return Err(self.program.too_many(last, MAX_ROWS));
             }
         }
         Ok(())
@@ -366,14 +367,15 @@ impl Update<'_> {
                 }
             }
             added += new.len();
-            if added >= MAX_ROWS {
-                let relation = self.program.info(stratum.relations[0]).name.clone();
-                return Err(EvaluateError::TooMany { relation, limit: MAX_ROWS });
-            }
-            if watch.weigh(added * BYTES_A_TUPLE)
-                && let Some(clause) = stratum.clauses.first()
-            {
-                self.program.check_limits(&self.program.clauses[*clause], &watch)?;
+            if let Some(clause) = stratum.clauses.first() {
+                let clause = &self.program.clauses[*clause];
+                if added >= MAX_ROWS {
+                    return Err(self.program.too_many(clause, MAX_ROWS));
+                }
+                watch.found(added);
+                if watch.weigh(added * BYTES_A_TUPLE) {
+                    self.program.check_limits(clause, &watch)?;
+                }
             }
             if is_recursive {
                 self.follow(stratum, &new, View::After, &mut rising);

@@ -142,7 +142,8 @@ impl Builder<'_> {
             _ => {
                 // X = as(Y, T) reads V = Y, X = V: the new variable has none of Y's types.
                 let variable = self.fresh("", at);
-                self.variables[variable as usize].kind = Some(to);
+                let made = &mut self.variables[variable as usize];
+                (made.kind, made.of) = (Some(to), Some(of));
                 let (left, op) = (Expr::Variable(variable), Comparison::Equal);
                 body.push(Literal::Compare(Compare { op, left, right: value, kind: to, at }));
                 Some(Expr::Variable(variable))

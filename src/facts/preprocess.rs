@@ -38,6 +38,9 @@ impl Choice {
     }
 }
 
+/// Soufflé's name for the bits of a number.
+const WIDTH: &str = "RAM_DOMAIN_SIZE";
+
 struct Macros<'a> {
     source: &'a Source,
     known: HashMap<String, Macro>,
@@ -57,15 +60,17 @@ pub(super) fn expand(
 ) -> Vec<Token> {
     let is_touched = |token: &Token| match &token.word {
         Word::Line(_) => true,
-        Word::Name(name) => name.starts_with("__"),
+        Word::Name(name) => name.starts_with("__") || name == WIDTH,
         _ => false,
     };
     if !tokens.iter().any(is_touched) {
         return tokens;
     }
+    let at = tokens.first().map(|token| token.at).unwrap_or_default();
+    let width = Macro { parameters: None, body: vec![Token { word: Word::Number(64), at }] };
     let mut macros = Macros {
         source,
-        known: HashMap::new(),
+        known: HashMap::from([(WIDTH.to_owned(), width)]),
         open: Vec::new(),
         words: 0,
         name: source.name().to_owned(),

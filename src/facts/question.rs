@@ -21,7 +21,7 @@ use nom::branch::alt;
 use nom::combinator::opt;
 use nom::sequence::preceded;
 
-use super::check::equivalence;
+use super::check::{equivalence, limits};
 use super::clause::{self, Made};
 use super::declare::{Declared, declare_more, kind_name};
 use super::fault::{Faults, RuleError};
@@ -151,7 +151,8 @@ impl Program {
             return None;
         }
         let order = order(asked, &infos[infos.len() - 1], faults)?;
-        let program = self.with(sources, &declared, infos, clauses, faults);
+        let mut program = self.with(sources, &declared, infos, clauses, faults);
+        program.limits = self.limits.within(limits(items, faults));
         Some(Question { program, known, answer, order, limit: asked.limit })
     }
 

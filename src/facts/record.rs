@@ -32,9 +32,19 @@ enum Piece {
     Text(&'static str),
 }
 
-/// Appends a value's text. Texts within records are put in quotes where they could be misread, unless `raw` asks for
-/// Soufflé's own form.
-pub(super) fn write(words: &Words, word: Word, kind: Kind, raw: bool, out: &mut String) {
+/// Which texts within a record stand in quotes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Texts {
+    /// None, as Soufflé writes them.
+    Plain,
+    /// Those that could be misread.
+    Told,
+    /// All, as in Soufflé's files of quoted values.
+    Quoted,
+}
+
+/// Appends a value's text.
+pub(super) fn write(words: &Words, word: Word, kind: Kind, texts: Texts, out: &mut String) {
     let is_inside = matches!(kind, Kind::Record(_));
     let mut open = vec![Piece::Value(word, kind)];
     while let Some(piece) = open.pop() {
@@ -46,10 +56,18 @@ pub(super) fn write(words: &Words, word: Word, kind: Kind, raw: bool, out: &mut 
             Piece::Value(word, kind) => (word, kind),
         };
         match kind {
-            Kind::Symbol if is_inside && !raw && needs_quotes(words.text(word)) => {
-                let _ = write!(out, "{:?}", words.text(word));
+            Kind::Symbol => {
+                let text = words.text(word);
+                let is_quoted = match texts {
+                    Texts::Plain => false,
+                    Texts::Told => needs_quotes(text),
+                    Texts::Quoted => true,
+                };
+                let _ = match is_inside && is_quoted {
+                    true => write!(out, "{text:?}"),
+                    false => write!(out, "{text}"),
+                };
             }
-            Kind::Symbol => out.push_str(words.text(word)),
             Kind::Number | Kind::Unsigned => {
                 let _ = write!(out, "{}", words.to_number(word));
             }

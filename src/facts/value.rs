@@ -71,6 +71,20 @@ fn field(
     row.get(*place as usize).copied()
 }
 
+/// The whole number that a text is, in tens, as `0x1F` or as `0b101`.
+pub(super) fn whole(text: &str) -> Option<i64> {
+    let text = text.trim();
+    let (sign, digits) = text.strip_prefix('-').map_or(("", text), |digits| ("-", digits));
+    let (base, digits) = match (digits.strip_prefix("0x"), digits.strip_prefix("0b")) {
+        (Some(digits), _) => (16, digits),
+        (_, Some(digits)) => (2, digits),
+        _ => return text.parse().ok(),
+    };
+    // A sign behind the mark is none.
+    let is_plain = digits.starts_with(|first: char| first.is_digit(base));
+    i64::from_str_radix(&format!("{sign}{digits}"), base).ok().filter(|_| is_plain)
+}
+
 /// The number that an expression of a number kind stands for.
 pub(super) fn number(
     expr: &Expr,
@@ -84,9 +98,9 @@ pub(super) fn number(
     };
     match (functor, args) {
         (Functor::Length, [a]) => text(a, variable, words).map(|text| text.chars().count() as i64),
-        (Functor::ToNumber, [a]) => text(a, variable, words)?.trim().parse().ok(),
+        (Functor::ToNumber, [a]) => whole(&text(a, variable, words)?),
         (Functor::ToUnsigned, [a]) => {
-            text(a, variable, words)?.trim().parse::<u32>().ok().map(i64::from)
+            whole(&text(a, variable, words)?).filter(|number| u32::try_from(*number).is_ok())
         }
         (Functor::ToDecimal, [a]) => {
             text(a, variable, words)?.trim().parse().ok().map(Decimal::millionths)

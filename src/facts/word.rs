@@ -358,7 +358,7 @@ impl Words {
             Kind::Float => Value::Decimal(Decimal::from_millionths(self.to_number(word))),
             Kind::Record(_) => {
                 let mut text = String::new();
-                record::write(self, word, kind, false, &mut text);
+                record::write(self, word, kind, record::Texts::Told, &mut text);
                 Value::Record(text.into())
             }
         }

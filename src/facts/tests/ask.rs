@@ -5,10 +5,12 @@
 mod facts_naive;
 
 use std::collections::BTreeSet;
+use std::time::Duration;
 
 use facts_naive::{Dice, Facts, Model, Rule, Tuple, random_facts};
+use miette::Diagnostic as _;
 use orthoframe_facts::{
-    Answers, AskError, Because, Computed, Database, Limits, Live, Program, Value,
+    Answers, AskError, Because, Computed, Database, EvaluateError, Limits, Live, Program, Value,
 };
 use orthoframe_units::Source;
 
@@ -340,6 +342,52 @@ fn faults_of_a_question_have_their_places() {
     ] {
         let error = program.ask(&facts, &Source::new("?", question)).expect_err(question);
         assert!(error.to_string().starts_with(expected), "{question}: {error}");
+    }
+}
+
+/// Limits stand in the program, in the question or beside it; the narrowest holds, and the fault says how far it came.
+#[test]
+fn limits_of_a_program_and_of_a_question_hold_for_its_answers() {
+    let endless = "a(1). a(X + 1) :- a(X).";
+    let pairs = "n(X) :- X = range(0, 50). a(X * 50 + Y) :- n(X), n(Y).";
+    let declared = ".decl n(x: number) .decl a(x: number)";
+    let long = Limits::default();
+    for (rules, pragma, limits, code, reached) in [
+        (endless, ".pragma \"time-limit\" \"1\"", long, "facts::time", 100),
+        (endless, "", Limits { time: Duration::from_millis(200), ..long }, "facts::time", 100),
+        (endless, ".pragma \"row-limit\" \"3000\"", long, "facts::too_many", 0),
+        (endless, "", Limits { rows: 3000, ..long }, "facts::too_many", 0),
+        (endless, ".pragma \"memory-limit\" \"1\"", long, "facts::memory", 0),
+        (pairs, ".pragma \"row-limit\" \"2000\"", long, "facts::too_many", 0),
+        (pairs, "", Limits { rows: 2000, ..long }, "facts::too_many", 0),
+    ] {
+        let failed = |program: &str, question: &str, reached: usize| {
+            let program = Program::parse(&Source::new("p.dl", program)).unwrap();
+            let question = Source::new("?", question);
+            let error = program.ask_with(&program.database(), &question, &[], limits).unwrap_err();
+            let told = error.code().map(|code| code.to_string());
+            assert_eq!(told.as_deref(), Some(code), "{pragma} {rules}: {error}");
+            match error {
+                AskError::Evaluate(
+                    EvaluateError::Time { rows, rule, .. }
+                    | EvaluateError::Memory { rows, rule, .. },
+                ) => {
+                    assert!(
+                        rows >= reached && rule.contains(':'),
+                        "{pragma} {rules}: {rows} {rule}"
+                    );
+                }
+                AskError::Evaluate(EvaluateError::TooMany { rule, .. }) => {
+                    assert!(rule.contains(':'), "{rule}");
+                }
+                other => panic!("{other}"),
+            }
+        };
+        // Of pairs a question after one number finds no more than that.
+        let asked = if rules == pairs { "?- a(X), X < 0" } else { "?- a(-5)" };
+        failed(&format!("{declared} {rules} {pragma}"), asked, reached);
+        // Rules of a question may be stopped among the calls that they make.
+        failed("", &format!("{pragma} {declared} {rules} {asked}"), 0);
     }
 }
 

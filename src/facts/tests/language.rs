@@ -616,6 +616,58 @@ fn an_aggregate_may_go_to_a_nameless_variable() {
     );
 }
 
+/// Texts are numbers in tens, sixteens and twos, with one sign at most and in front.
+#[test]
+fn texts_are_numbers_in_three_bases() {
+    check(
+        r#"
+        .decl t(a: symbol)
+        t("12"). t("-12"). t(" 0x1F "). t("-0xcafe"). t("0b101"). t("-0b1"). t("0x-1"). t("0b+1"). t("--0b1").
+        t("0x"). t("0b2"). t("0x8000000000000000"). t("-0x8000000000000000"). t("0xffffffff"). t("0x100000000").
+        .decl n(a: symbol, b: number) .output n
+        n(T, to_number(T)) :- t(T).
+        .decl u(a: symbol, b: unsigned) .output u
+        u(T, to_unsigned(T)) :- t(T)."#,
+        &expect![[r#"
+            n( 0x1F , 31)
+            n(-0b1, -1)
+            n(-0x8000000000000000, -9223372036854775808)
+            n(-0xcafe, -51966)
+            n(-12, -12)
+            n(0b101, 5)
+            n(0x100000000, 4294967296)
+            n(0xffffffff, 4294967295)
+            n(12, 12)
+            u( 0x1F , 31)
+            u(0b101, 5)
+            u(0xffffffff, 4294967295)
+            u(12, 12)
+        "#]],
+    );
+}
+
+/// Numbers have 64 bits: programs written for either width find theirs.
+#[test]
+fn the_preprocessor_knows_how_wide_numbers_are() {
+    check(
+        ".decl n(x: number) .output n
+#if RAM_DOMAIN_SIZE == 32
+n(32).
+#elif RAM_DOMAIN_SIZE == 64
+n(64).
+#endif
+#ifdef RAM_DOMAIN_SIZE
+n(1).
+#endif
+n(RAM_DOMAIN_SIZE / 2).",
+        &expect![[r#"
+            n(1)
+            n(32)
+            n(64)
+        "#]],
+    );
+}
+
 /// What stands in `@[…]` and `@![…]` is for other tools, whatever words it is made of.
 #[test]
 fn annotations_are_left_out() {

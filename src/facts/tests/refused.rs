@@ -394,6 +394,13 @@ a(X) :- c(X), X = count : b(_). b(X) :- a(X).",
 .init a = B",
     ),
     (
+        "comp_override_unmade",
+        ".comp A { .decl x(y:number) overridable .decl z(y:number) x(1). z(1). }
+.comp B : A { x(2). }
+.comp C : B { .override z z(3). }",
+    ),
+    ("comp_override_own_unmade", ".comp A { .decl x(y:number) overridable .override x x(1). }"),
+    (
         "comp_cycle",
         ".comp A : B { }
 .comp B : A { }
@@ -580,6 +587,7 @@ a(1).",
         "ty_neg_atom",
         r#".decl b(x:number) b(1). .decl s(x:symbol) s("a"). .decl a(x:number) a(X) :- b(X), !s(X)."#,
     ),
+    ("ty_as_wider", r#".decl a(x:symbol) a("a"). .decl b(x:S) b(as(X, symbol)) :- a(X)."#),
     ("ty_as_undef", ".decl a(x:number) a(as(1, Foo))."),
     ("ty_functor_undef_ty", ".functor f(Foo):number"),
     (
@@ -646,6 +654,12 @@ a(X,Z) :- a(X,Y), e(Y,Z). .plan 0:(2,1)",
     (
         "ty_neg_atom_sub",
         ".decl b(x:N) b(1). .decl s(x:M) s(1). .decl a(x:number) a(X) :- b(X), !s(X).",
+    ),
+    (
+        "comp_override_of_a_parameter",
+        ".comp A { .decl x(y:number) overridable x(1). }
+.comp B<T> : T { .override x x(2). }
+.init b = B<A>",
     ),
     ("ty_as_ok", ".decl m(x:M) .decl n(x:N) n(1). m(as(X,M)) :- n(X)."),
 ];

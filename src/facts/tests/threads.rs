@@ -181,6 +181,39 @@ fn limits_hold_for_all_threads_together() {
     }
 }
 
+/// A row limit counts rows, not how often they are found; what is said of a limit names the rule and how far it came.
+#[test]
+fn a_row_limit_counts_rows_and_faults_say_how_far_they_came() {
+    // Each pair of 60 is found in several rounds and by both rules.
+    let rules = ".decl e(x: number, y: number) .decl path(x: number, y: number)
+        e(X, (X * 7 + D) % 60) :- X = range(0, 60), D = range(0, 4).
+        path(X, Y) :- e(X, Y).
+        path(X, Z) :- path(X, Y), path(Y, Z).
+        path(X, Z) :- path(X, Y), e(Y, Z).";
+    let dense = Program::parse(&Source::new("dense.dl", rules)).unwrap();
+    for more in [1, 2] {
+        let enough = Limits { rows: 3600, ..threads(more) };
+        let derived = dense.evaluate_within(&dense.database(), enough).unwrap();
+        assert_eq!(derived.len("path"), Ok(3600));
+        let few = Limits { rows: 3599, ..threads(more) };
+        let error = dense.evaluate_within(&dense.database(), few).unwrap_err().to_string();
+        assert!(error.starts_with("dense.dl:") && error.contains("3599"), "{error}");
+    }
+    let rules = ".decl n(x: number)
+        n(1).
+        n(X + 1) :- n(X).";
+    let endless = Program::parse(&Source::new("endless.dl", rules)).unwrap();
+    let few = Limits { rows: 1000, ..threads(1) };
+    let error = endless.evaluate_within(&endless.database(), few).unwrap_err().to_string();
+    assert!(error.starts_with("endless.dl:3:"), "{error}");
+    let short = Limits { time: Duration::from_millis(100), ..threads(1) };
+    let error = endless.evaluate_within(&endless.database(), short).unwrap_err();
+    assert!(matches!(error, EvaluateError::Time { rows, .. } if rows > 100), "{error:?}");
+    let little = Limits { memory_bytes: 1 << 20, ..threads(1) };
+    let error = endless.evaluate_within(&endless.database(), little).unwrap_err();
+    assert!(matches!(error, EvaluateError::Memory { rows, .. } if rows > 100), "{error:?}");
+}
+
 /// Strata that read nothing of each other run beside one another; of those that reach a limit of their own, the first in
 /// order is named, as by one thread.
 #[test]
