@@ -22,7 +22,7 @@ pub(crate) const SNAPSHOT: &[u8; 8] = b"ORTHOSNP";
 pub(crate) const RUN: &[u8; 8] = b"ORTHORUN";
 pub(crate) const FILE_HEADER: usize = 24;
 const FRAME_MAGIC: &[u8; 4] = b"OFJ\x01";
-const FRAME_HEADER: usize = 20;
+pub(crate) const FRAME_HEADER: usize = 20;
 
 /// One record put or removed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -213,6 +213,11 @@ pub(crate) fn scan(bytes: &[u8], magic: &[u8; 8]) -> Result<Scan, HeadError> {
         scan.good = start + length;
     }
     Ok(scan)
+}
+
+/// Sequence number and payload length of the whole frame with which some bytes begin.
+pub(crate) fn decode_frame(bytes: &[u8]) -> Option<(u64, usize)> {
+    frame_at(bytes, 0)
 }
 
 /// Sequence number and payload length of the whole frame that begins here.

@@ -60,6 +60,7 @@ mod robot;
 mod run;
 mod schema;
 mod sheet;
+pub mod shipping;
 mod sides;
 #[cfg(test)]
 mod sim;

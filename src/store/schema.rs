@@ -102,6 +102,13 @@ macro_rules! tables {
                     && match self { $(Self::$record => $record::from_row(row).is_some(),)+ }
             }
 
+            /// The cells of a record with all columns of the table: an older row ends before a column that was added
+            /// later. None when they are no record of it.
+            #[must_use]
+            pub fn full(self, row: &[Cell]) -> Option<Row> {
+                match self { $(Self::$record => $record::from_row(row).map(|r| r.to_row()),)+ }
+            }
+
             #[must_use]
             pub fn columns(self) -> &'static [Column] {
                 match self {

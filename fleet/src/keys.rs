@@ -1,0 +1,66 @@
+//! Buildings, robots and their keys.
+
+use tokio_postgres::Client;
+
+use crate::error::{FleetError, Result};
+
+/// Notes a building under a number of its own.
+///
+/// # Errors
+/// [`FleetError::Database`]: the number is taken, for one.
+pub async fn add_building(client: &Client, building: i64, name: &str) -> Result<()> {
+    client.execute("INSERT INTO fleet.building VALUES ($1, $2)", &[&building, &name]).await?;
+    let centre = "INSERT INTO fleet.robot (building, robot, name) VALUES ($1, 0, '')";
+    client.execute(centre, &[&building]).await?;
+    Ok(())
+}
+
+/// Notes a robot of a building and returns its key, which is not kept.
+///
+/// # Errors
+/// [`FleetError::Database`]: there is such a robot already, for one.
+pub async fn add_robot(client: &Client, building: i64, robot: i64, name: &str) -> Result<String> {
+    if robot <= 0 {
+        return Err(FleetError::content("номер робота больше нуля: ноль – это центр"));
+    }
+    let add = "INSERT INTO fleet.robot (building, robot, name) VALUES ($1, $2, $3)";
+    client.execute(add, &[&building, &robot, &name]).await?;
+    add_key(client, "robot", Some(building), Some(robot), name).await
+}
+
+/// A key of an operator of one building, or of all.
+///
+/// # Errors
+/// [`FleetError::Database`].
+pub async fn add_operator(client: &Client, building: Option<i64>, name: &str) -> Result<String> {
+    add_key(client, "operator", building, None, name).await
+}
+
+/// No key of this name serves any more.
+///
+/// # Errors
+/// [`FleetError::Database`]; [`FleetError::Unknown`] when there is none.
+pub async fn revoke(client: &Client, name: &str) -> Result<()> {
+    let sql = "UPDATE fleet.key SET revoked = now() WHERE name = $1 AND revoked IS NULL";
+    match client.execute(sql, &[&name]).await? {
+        0 => Err(FleetError::Unknown { what: format!("ключ «{name}»") }),
+        _ => Ok(()),
+    }
+}
+
+async fn add_key(
+    client: &Client,
+    kind: &str,
+    building: Option<i64>,
+    robot: Option<i64>,
+    name: &str,
+) -> Result<String> {
+    let mut secret = [0_u8; 32];
+    getrandom::fill(&mut secret)
+        .map_err(|error| FleetError::content(format!("нет случайных чисел: {error}")))?;
+    let key: String = secret.iter().map(|byte| format!("{byte:02x}")).collect();
+    let sql = "INSERT INTO fleet.key (hash, kind, building, robot, name) \
+               VALUES (sha256(convert_to($1, 'UTF8')), $2, $3, $4, $5)";
+    client.execute(sql, &[&key, &kind, &building, &robot, &name]).await?;
+    Ok(key)
+}

@@ -1,0 +1,32 @@
+//! Many robots and many buildings: one centre on an existing PostgreSQL (SPEC F).
+//!
+//! Each robot keeps its own store and works alone. When there is a line it pushes the frames of its journal ([`push`]); the
+//! centre keeps the frames and the records that they write, in one transaction ([`ingest`]), in the tables of paper 2 with
+//! their past (`migrations/`). What the server has is not made again: roles, row security, partitions, backup, replication
+//! are PostgreSQL's.
+//!
+//! # Invariants
+//!
+//! - A transaction of the centre holds a robot's frames and all that they write, or nothing of them; what is acknowledged
+//!   is committed.
+//! - Whatever is done in a robot's name is done under the role `fleet_robot` with its key set: row security decides.
+//! - The embedded store knows nothing of the centre.
+
+use orthoframe_map as map;
+use orthoframe_store as store;
+use orthoframe_units as units;
+
+pub mod db;
+mod english;
+mod error;
+pub mod handout;
+pub mod ingest;
+pub mod keys;
+pub mod migrate;
+pub mod pull;
+pub mod push;
+pub mod rows;
+pub mod serve;
+pub mod sheets;
+
+pub use error::{FleetError, Result};

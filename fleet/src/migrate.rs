@@ -1,0 +1,82 @@
+//! The schema, as numbered files of plain SQL that are run once each, in their order.
+//!
+//! **Invariant**: a file that was run is never changed; its checksum is kept beside its number.
+
+use tokio_postgres::Client;
+
+use crate::error::{FleetError, Result};
+
+struct Migration {
+    name: &'static str,
+    sql: &'static str,
+    /// A server that divides the tables itself does without it.
+    divides: bool,
+}
+
+macro_rules! migration {
+    ($name:literal, $divides:literal) => {
+        Migration {
+            name: $name,
+            sql: include_str!(concat!("../migrations/", $name, ".sql")),
+            divides: $divides,
+        }
+    };
+}
+
+const MIGRATIONS: &[Migration] = &[
+    migration!("0001_fleet", false),
+    migration!("0002_map", false),
+    migration!("0003_log", false),
+    migration!("0004_partitions", true),
+    migration!("0005_views", false),
+    migration!("0006_security", false),
+];
+
+/// What a distributed server takes away from the files; see `docs/fleet.md`.
+const DIVIDED: &str = " PARTITION BY HASH (building)";
+
+const NOTES: &str = "CREATE TABLE IF NOT EXISTS public.fleet_migration (
+    number bigint PRIMARY KEY, name text NOT NULL, checksum bigint NOT NULL, ran timestamptz NOT NULL DEFAULT now())";
+
+/// Runs what was not run yet, each file in a transaction of its own; returns their names.
+///
+/// # Errors
+/// The database refused; or a file that was run before is not the one of this program.
+pub async fn migrate(client: &mut Client, undivided: bool) -> Result<Vec<&'static str>> {
+    // Two at once would run a file twice; the lock goes with the connection.
+    client.execute("SELECT pg_advisory_lock(33)", &[]).await?;
+    let done = run(client, undivided).await;
+    client.execute("SELECT pg_advisory_unlock(33)", &[]).await?;
+    done
+}
+
+async fn run(client: &mut Client, undivided: bool) -> Result<Vec<&'static str>> {
+    client.batch_execute(NOTES).await?;
+    let mut ran = Vec::new();
+    for (number, migration) in (1_i64..).zip(MIGRATIONS) {
+        let checksum = i64::from(crc32fast::hash(migration.sql.as_bytes()));
+        let known = client
+            .query_opt("SELECT checksum FROM public.fleet_migration WHERE number = $1", &[&number])
+            .await?;
+        match known.map(|row| row.get::<_, i64>(0)) {
+            Some(before) if before == checksum => continue,
+            Some(_) => {
+                let what = format!("шаг {} уже сделан, но был другим", migration.name);
+                return Err(FleetError::Database { what });
+            }
+            None => {}
+        }
+        let transaction = client.transaction().await?;
+        if !(undivided && migration.divides) {
+            let sql = migration.sql.to_owned();
+            let sql = if undivided { sql.replace(DIVIDED, "") } else { sql };
+            transaction.batch_execute(&sql).await?;
+        }
+        let note =
+            "INSERT INTO public.fleet_migration (number, name, checksum) VALUES ($1, $2, $3)";
+        transaction.execute(note, &[&number, &migration.name, &checksum]).await?;
+        transaction.commit().await?;
+        ran.push(migration.name);
+    }
+    Ok(ran)
+}
