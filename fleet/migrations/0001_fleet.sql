@@ -104,6 +104,13 @@ CREATE TABLE fleet.fact (
 CREATE INDEX fact_object ON fleet.fact (relation, object, building) WHERE revision_to IS NULL;
 CREATE INDEX fact_subject ON fleet.fact (relation, subject, building) WHERE revision_to IS NULL;
 
+-- The kinds of things of a building, and what they are called: the objects of IS_A.
+CREATE TABLE fleet.kind (
+    building bigint NOT NULL,
+    kind text NOT NULL,
+    PRIMARY KEY (building, kind)
+) PARTITION BY HASH (building);
+
 -- Maps that are to be derived; anew: what was derived before is of another past. Not divided: SELECT ... FOR UPDATE SKIP LOCKED asks for one place.
 CREATE TABLE fleet.work (
     building bigint NOT NULL,

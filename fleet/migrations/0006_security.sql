@@ -905,3 +905,12 @@ CREATE POLICY robot_reads ON fleet.fact FOR SELECT TO fleet_robot USING (buildin
 CREATE POLICY operator_reads ON fleet.fact FOR SELECT TO fleet_operator
     USING ((SELECT fleet.sees_all()) OR building = (SELECT fleet.my_building()));
 CREATE POLICY worker_works ON fleet.fact TO fleet_worker USING (true) WITH CHECK (true);
+
+GRANT SELECT ON fleet.kind TO fleet_robot;
+GRANT SELECT ON fleet.kind TO fleet_operator;
+GRANT SELECT, INSERT, UPDATE, DELETE ON fleet.kind TO fleet_worker;
+ALTER TABLE fleet.kind ENABLE ROW LEVEL SECURITY;
+CREATE POLICY robot_reads ON fleet.kind FOR SELECT TO fleet_robot USING (building = (SELECT fleet.my_building()));
+CREATE POLICY operator_reads ON fleet.kind FOR SELECT TO fleet_operator
+    USING ((SELECT fleet.sees_all()) OR building = (SELECT fleet.my_building()));
+CREATE POLICY worker_works ON fleet.kind TO fleet_worker USING (true) WITH CHECK (true);

@@ -92,7 +92,8 @@ impl From<deadpool_postgres::PoolError> for FleetError {
 }
 
 impl FleetError {
-    pub(crate) fn content(what: impl Into<String>) -> Self {
+    /// What came cannot be used, and why.
+    pub fn content(what: impl Into<String>) -> Self {
         Self::Content { what: what.into() }
     }
 }

@@ -12,11 +12,17 @@
 //! - Whatever is done in a robot's name is done under the role `fleet_robot` with its key set: row security decides.
 //! - The embedded store knows nothing of the centre.
 
+use orthoframe_facts as facts;
+use orthoframe_language as language;
 use orthoframe_map as map;
+use orthoframe_semantics as semantics;
 use orthoframe_store as store;
 use orthoframe_units as units;
 
+pub mod ask;
+mod console;
 pub mod db;
+pub mod derive;
 mod english;
 mod error;
 pub mod handout;
@@ -25,6 +31,7 @@ pub mod keys;
 pub mod migrate;
 pub mod pull;
 pub mod push;
+pub mod query;
 pub mod rows;
 pub mod serve;
 pub mod sheets;

@@ -3,14 +3,18 @@
 #![expect(clippy::print_stdout, reason = "a command tells what it did")]
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{Parser, Subcommand};
+use orthoframe_fleet::pull::Pulled;
 use orthoframe_fleet::push::Line;
 use orthoframe_fleet::serve::{Tls, serve};
-use orthoframe_fleet::{FleetError, Result, db, keys, migrate};
+use orthoframe_fleet::{FleetError, Result, db, derive, handout, keys, migrate};
+use orthoframe_map::World;
+use orthoframe_semantics::RelationRules;
+use orthoframe_store::Change;
 
 /// Many robots, many buildings: one centre on PostgreSQL.
 #[derive(Parser)]
@@ -32,12 +36,28 @@ struct ToCentre {
     /// The centre's address.
     #[arg(long, env = "ORTHO_FLEET_URL")]
     to: String,
-    /// The robot's key.
+    /// The key of the robot, or of the operator.
     #[arg(long, env = "ORTHO_FLEET_KEY", hide_env_values = true)]
     key: String,
     /// The authority that signed the centre's certificate (PEM), where it is none of the usual ones.
     #[arg(long)]
     authority: Option<PathBuf>,
+}
+
+#[derive(clap::Args)]
+struct By {
+    /// Who makes the revision.
+    #[arg(long, default_value = "operator")]
+    user: String,
+    /// Why.
+    #[arg(long, default_value = "")]
+    reason: String,
+}
+
+impl By {
+    fn change(self) -> Change {
+        Change::new(self.user, handout::now(), self.reason)
+    }
 }
 
 #[derive(Subcommand)]
@@ -51,6 +71,25 @@ enum Command {
         /// Goes on, with so many seconds between; a line that is cut is waited for.
         #[arg(long)]
         every: Option<u64>,
+    },
+    /// The robot: takes the centre's map, if its own was not changed meanwhile; else tells what went apart (exit code 1).
+    Pull {
+        #[command(flatten)]
+        centre: ToCentre,
+        #[arg(long, env = "ORTHO_STORE", default_value = "ortho-store")]
+        store: PathBuf,
+    },
+    /// The operator: a question in words over all buildings.
+    Ask {
+        #[command(flatten)]
+        centre: ToCentre,
+        question: String,
+    },
+    /// The operator: a question in the rules' language over all buildings: '?- ON_TOP_OF(X, "Стол-1")'.
+    Query {
+        #[command(flatten)]
+        centre: ToCentre,
+        question: String,
     },
     #[command(flatten)]
     AtCentre(AtCentre),
@@ -95,6 +134,40 @@ enum AtCentre {
         database: Database,
         name: String,
     },
+    /// Makes the centre's map of a building that of a map file; prints its revision.
+    Revise {
+        #[command(flatten)]
+        database: Database,
+        building: i64,
+        #[arg(long)]
+        map: PathBuf,
+        #[command(flatten)]
+        by: By,
+    },
+    /// Makes the centre's map of a building that of one of its robots; prints its revision.
+    Adopt {
+        #[command(flatten)]
+        database: Database,
+        building: i64,
+        robot: i64,
+        #[command(flatten)]
+        by: By,
+    },
+    /// Settles a conflict for the centre's map: the robot takes it, unless it changes its own once more.
+    Insist {
+        #[command(flatten)]
+        database: Database,
+        building: i64,
+        robot: i64,
+    },
+    /// A worker: derives what follows from maps that came, until it is stopped; several may work, on several machines.
+    Work {
+        #[command(flatten)]
+        database: Database,
+        /// Ends when nothing waits any more.
+        #[arg(long)]
+        once: bool,
+    },
     /// The centre: takes what robots send.
     Serve {
         #[command(flatten)]
@@ -113,10 +186,17 @@ enum AtCentre {
     },
 }
 
+/// What a command came to: the answer may be "no".
+enum Came {
+    Through,
+    No,
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match run(arguments.command) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(Came::Through) => ExitCode::SUCCESS,
+        Ok(Came::No) => ExitCode::from(1),
         Err(error) => {
             eprintln!("{}", told(&error));
             ExitCode::from(match error {
@@ -140,9 +220,24 @@ fn told(error: &FleetError) -> String {
     }
 }
 
-fn run(command: Command) -> Result<()> {
+fn run(command: Command) -> Result<Came> {
     let command = match command {
         Command::Push { centre, store, every } => return push(&centre, &store, every),
+        Command::Pull { centre, store } => return pull(&centre, &store),
+        Command::Ask { centre, question } => {
+            let answer = line(&centre)?.ask(&question)?;
+            println!("{}", answer.text);
+            if let Some(rule) = answer.rule {
+                println!("\n{rule}");
+            }
+            return Ok(Came::Through);
+        }
+        Command::Query { centre, question } => {
+            let table = line(&centre)?.query(&question)?;
+            println!("{}", table.columns.join("\t"));
+            table.rows.iter().for_each(|row| println!("{}", row.join("\t")));
+            return Ok(if table.rows.is_empty() { Came::No } else { Came::Through });
+        }
         Command::AtCentre(command) => command,
     };
     let runtime = tokio::runtime::Runtime::new()
@@ -150,7 +245,7 @@ fn run(command: Command) -> Result<()> {
     runtime.block_on(at_the_centre(command))
 }
 
-async fn at_the_centre(command: AtCentre) -> Result<()> {
+async fn at_the_centre(command: AtCentre) -> Result<Came> {
     match command {
         AtCentre::Migrate { database, undivided } => {
             let mut client = db::connect(&database.db).await?;
@@ -172,6 +267,37 @@ async fn at_the_centre(command: AtCentre) -> Result<()> {
         AtCentre::Revoke { database, name } => {
             keys::revoke(&db::connect(&database.db).await?, &name).await?;
         }
+        AtCentre::Revise { database, building, map, by } => {
+            let world =
+                World::load(&map).map_err(|faults| FleetError::content(faults.to_string()))?;
+            let mut client = db::pool(&database.db, 1)?.get().await?;
+            println!("{}", handout::revise(&mut client, building, &world, &by.change()).await?);
+        }
+        AtCentre::Adopt { database, building, robot, by } => {
+            let mut client = db::pool(&database.db, 1)?.get().await?;
+            println!("{}", handout::adopt(&mut client, building, robot, &by.change()).await?);
+        }
+        AtCentre::Insist { database, building, robot } => {
+            let mut client = db::pool(&database.db, 1)?.get().await?;
+            handout::insist(&mut client, building, robot).await?;
+        }
+        AtCentre::Work { database, once } => {
+            let pool = db::pool(&database.db, 1)?;
+            let rules = RelationRules::standard();
+            loop {
+                match derive::work_once(&mut pool.get().await?, &rules).await {
+                    Ok(true) => continue,
+                    Ok(false) if once => break,
+                    Ok(false) => {}
+                    // The server may come back.
+                    Err(error @ FleetError::Database { .. }) if !once => {
+                        eprintln!("{}", told(&error))
+                    }
+                    Err(error) => return Err(error),
+                }
+                tokio::time::sleep(Duration::from_secs(1)).await;
+            }
+        }
         AtCentre::Serve { database, listen, cert, tls_key, connections } => {
             let tls = cert.zip(tls_key).map(|(certificate, key)| Tls { certificate, key });
             let scheme = if tls.is_some() { "https" } else { "http" };
@@ -179,11 +305,15 @@ async fn at_the_centre(command: AtCentre) -> Result<()> {
             serve(pool, listen, tls, |address| println!("{scheme}://{address}")).await?;
         }
     }
-    Ok(())
+    Ok(Came::Through)
 }
 
-fn push(centre: &ToCentre, store: &std::path::Path, every: Option<u64>) -> Result<()> {
-    let line = Line::new(&centre.to, &centre.key, centre.authority.as_deref())?;
+fn line(centre: &ToCentre) -> Result<Line> {
+    Line::new(&centre.to, &centre.key, centre.authority.as_deref())
+}
+
+fn push(centre: &ToCentre, store: &Path, every: Option<u64>) -> Result<Came> {
+    let line = line(centre)?;
     loop {
         let done = line.push(store);
         match (&done, every) {
@@ -196,9 +326,33 @@ fn push(centre: &ToCentre, store: &std::path::Path, every: Option<u64>) -> Resul
             }
             // The line will come back; a key will not.
             (Err(error @ FleetError::Line { .. }), Some(_)) => eprintln!("{}", told(error)),
-            (Err(_), _) => return done.map(|_| ()),
+            (Err(_), _) => return done.map(|_| Came::Through),
         }
-        let Some(seconds) = every else { return Ok(()) };
+        let Some(seconds) = every else { return Ok(Came::Through) };
         std::thread::sleep(Duration::from_secs(seconds.max(1)));
     }
+}
+
+fn pull(centre: &ToCentre, store: &Path) -> Result<Came> {
+    match line(centre)?.pull(store)? {
+        Pulled::Nothing => println!("Нового в центре нет."),
+        Pulled::Same { centre } => println!("Карта уже такая, как в центре (ревизия {centre})."),
+        Pulled::Taken { centre, revision } => {
+            println!("Принята карта центра, ревизия {centre}; здесь это ревизия {revision}.");
+        }
+        Pulled::Apart(conflict) => {
+            println!("Карта центра (ревизия {}) и своя разошлись; остались обе:", conflict.centre);
+            for apart in conflict.things {
+                println!("{}", apart.thing);
+                for (side, told) in [("в центре", apart.centre), ("здесь", apart.robot)]
+                {
+                    if !told.is_empty() {
+                        println!("     {side}: {told}");
+                    }
+                }
+            }
+            return Ok(Came::No);
+        }
+    }
+    Ok(Came::Through)
 }

@@ -7,9 +7,11 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::time::Duration;
 
+use crate::ask::Answer;
 use crate::error::{FleetError, Result};
 use crate::handout::{Conflict, Handout};
 use crate::ingest::Position;
+use crate::query::Table;
 use crate::serve::Refusal;
 use crate::store::shipping::{Following, Frame, frames_after, whole};
 
@@ -74,9 +76,8 @@ impl Line {
     /// # Errors
     /// [`FleetError::Line`], and whatever the centre refuses.
     pub fn position(&self) -> Result<Position> {
-        let answer = self.agent.get(format!("{}/v1/position", self.url));
-        let answer = answer.header("Authorization", self.bearer()).call();
-        self.heard(answer)
+        let told = self.get("/v1/position")?;
+        serde_json::from_slice(&told).map_err(|error| self.fault(error))
     }
 
     /// Sends frames and hears how far the journal is there then.
@@ -135,8 +136,7 @@ impl Line {
     /// # Errors
     /// [`FleetError::Line`], and whatever the centre refuses.
     pub(crate) fn handout(&self) -> Result<(Handout, Option<Vec<u8>>)> {
-        let request = self.agent.get(format!("{}/v1/map", self.url));
-        let body = self.heard_bytes(request.header("Authorization", self.bearer()).call())?;
+        let body = self.get("/v1/map")?;
         let end = body.iter().position(|byte| *byte == b'\n').unwrap_or(body.len());
         let told = serde_json::from_slice(&body[..end]).map_err(|error| self.fault(error))?;
         let packed = body.get(end + 1..).filter(|rest| !rest.is_empty());
@@ -154,10 +154,43 @@ impl Line {
     }
 
     pub(crate) fn note_conflict(&self, conflict: &Conflict) -> Result<()> {
-        let told = serde_json::to_vec(conflict).map_err(|error| self.fault(error))?;
-        let request = self.agent.post(format!("{}/v1/conflict", self.url));
+        self.post_json("/v1/conflict", conflict)
+    }
+
+    fn post_json<T: serde::de::DeserializeOwned>(
+        &self,
+        path: &str,
+        body: &impl serde::Serialize,
+    ) -> Result<T> {
+        let told = serde_json::to_vec(body).map_err(|error| self.fault(error))?;
+        let request = self.agent.post(format!("{}{path}", self.url));
         let request = request.header("Authorization", self.bearer());
         self.heard(request.header("Content-Type", "application/json").send(&told[..]))
+    }
+
+    /// What stands at a path of the centre.
+    ///
+    /// # Errors
+    /// [`FleetError::Line`], and whatever the centre refuses.
+    pub fn get(&self, path: &str) -> Result<Vec<u8>> {
+        let request = self.agent.get(format!("{}{path}", self.url));
+        self.heard_bytes(request.header("Authorization", self.bearer()).call())
+    }
+
+    /// A question in words, in an operator's name.
+    ///
+    /// # Errors
+    /// [`FleetError::Content`] where it is not understood; [`FleetError::Line`], [`FleetError::Forbidden`].
+    pub fn ask(&self, question: &str) -> Result<Answer> {
+        self.post_json("/v1/ask", &serde_json::json!({ "question": question }))
+    }
+
+    /// A question in the rules' language, in an operator's name.
+    ///
+    /// # Errors
+    /// As [`Line::ask`].
+    pub fn query(&self, question: &str) -> Result<Table> {
+        self.post_json("/v1/query", &serde_json::json!({ "question": question }))
     }
 
     /// Sends all that the centre lacks of a store.

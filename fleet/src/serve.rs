@@ -8,6 +8,8 @@
 //! | `GET /v1/map` | robot | the centre's newest map: a line of JSON, then its rows, packed |
 //! | `POST /v1/agreed?centre=N&robot=M` | robot | its revision is the centre's |
 //! | `POST /v1/conflict` | robot | what both changed, thing by thing |
+//! | `GET /` | anybody | the page of the fleet, which asks for an operator's key |
+//! | `GET /v1/fleet`, `/v1/building`, `POST /v1/ask`, `/v1/query` | operator | what the page shows; questions |
 //!
 //! A key comes as `Authorization: Bearer …`. Beyond this machine there is no connection without TLS.
 
@@ -106,6 +108,7 @@ pub fn router(pool: Pool) -> Router {
         .route("/v1/map", get(map))
         .route("/v1/agreed", post(agreed))
         .route("/v1/conflict", post(conflict))
+        .merge(crate::console::router())
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .with_state(Centre { pool })
 }
