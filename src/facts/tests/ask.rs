@@ -1,12 +1,8 @@
 //! Questions on demand against full evaluation and against trying everything, on random programs.
 
-#[path = "../../../tests/facts_naive.rs"]
-#[allow(dead_code, reason = "its other users need the rest")]
-mod facts_naive;
-
 use std::collections::BTreeSet;
 
-use facts_naive::{Dice, Facts, Model, Rule, Tuple, random_facts};
+use super::facts_naive::{self, Dice, Facts, Model, Rule, Tuple, random_facts};
 use orthoframe_facts::{
     Answers, AskError, Because, Computed, Database, Limits, Live, Program, Value,
 };
