@@ -16,9 +16,8 @@ use super::limits::{self, Watch};
 use super::plan::{Plan, Request};
 use super::program::{Clause, Expr, Literal, Program, RelationId, Term};
 use super::rows::{self, Growing, RowSet, SharedRows, Taken};
-use super::run::{Source, run};
+use super::run::{Plain, Source, run};
 use super::shares::shared_out;
-use super::spread::Plain;
 use super::word::{Word, Words};
 
 /// The column that all recursive rules of a relation hand on, if there is one; each must read the relation once.

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use super::kept::column_word;
 use super::program::{Expr, RelationId};
+use super::value::column_word;
 use super::word::{Word, Words};
 
 /// Rows one after the other.

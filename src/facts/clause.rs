@@ -6,11 +6,10 @@ use std::collections::{HashMap, HashSet};
 
 use super::declare::Declared;
 use super::fault::RuleError;
-use super::ground::used_variables;
 use super::pattern::Record;
 use super::program::{
     Aggregate, Atom, Clause, Column, Compare, Expr, Found, Kind, Literal, RelationId, RelationInfo,
-    Term, Variable, VariableId,
+    Term, Variable, VariableId, used_variables,
 };
 use super::syntax::{self, Aggregation, Body, Comparison, Rule, Span};
 use super::word::Words;

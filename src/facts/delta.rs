@@ -14,10 +14,10 @@ use std::sync::Arc;
 
 use super::head::head_variables;
 use super::kept::Kept;
-use super::plan::{Plan, Request, Task, Version, plan};
+use super::plan::{Plan, Request, Task, plan};
 use super::program::{Atom, Clause, Literal, Program, RelationId, Term, VariableId};
-use super::proof::turned;
-use super::rows::{SharedRows, heap};
+use super::rows::{SharedRows, Version, heap};
+use super::turned::turned;
 use super::word::Word;
 
 /// How a premise's changes touch a clause.

@@ -18,8 +18,8 @@ use std::sync::Arc;
 
 use foldhash::fast::RandomState;
 
-use super::ask::{AskError, Computed};
 use super::called::{Called, Flat, Lookup, Mask, columns_of};
+use super::computed::{AskError, Computed};
 use super::finished::Outside;
 use super::finished::share;
 use super::head::Head;
@@ -27,13 +27,13 @@ use super::kept::{Kept, View};
 use super::limits::MAX_ROWS;
 use super::limits::Watch;
 use super::magic::Magic;
-use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, Version, plan_with_cost};
+use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, plan_with_cost};
 use super::program::{Clause, Expr, Program, RelationId, VariableId};
-use super::proof::turned;
-use super::rows::{SharedRows, heap};
+use super::rows::{SharedRows, Version, heap};
 use super::run::{Goal, Source, run};
 use super::strata::reads;
 use super::syntax::Span;
+use super::turned::turned;
 use super::word::{NO_WORD, Word, Words};
 use crate::units::Bilingual;
 
@@ -581,7 +581,7 @@ impl Outside for Demand<'_> {
         relation.index() < self.kinds.len()
     }
 
-    fn index(&self, request: &Request) -> Option<Arc<super::kept::KeptIndex>> {
+    fn index(&self, request: &Request) -> Option<Arc<super::slots::KeptIndex>> {
         match request {
             Request::Index { relation, key, .. } if self.is_stored(*relation) => {
                 self.kept.shared_index(*relation, key)
@@ -593,7 +593,7 @@ impl Outside for Demand<'_> {
     fn source<'s>(
         &'s self,
         request: &'s Request,
-        index: Option<&'s Arc<super::kept::KeptIndex>>,
+        index: Option<&'s Arc<super::slots::KeptIndex>>,
     ) -> Source<'s> {
         let (relation, key, columns) = match request {
             Request::Whole(relation) => (*relation, None, None),

@@ -4,9 +4,10 @@
 use std::time::Duration;
 
 use super::evaluate::Evaluation;
-use super::plan::{Plan, Request, Version};
+use super::plan::{Plan, Request};
 use super::program::{Clause, Expr, Program, RelationId};
-use super::run::Step;
+use super::rows::Version;
+use super::step::Step;
 use super::trace::{Join, RuleTrace, sorted};
 use crate::units::{Bilingual, Language};
 

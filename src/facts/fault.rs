@@ -5,8 +5,8 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
+use super::limits::MAX_TEXT;
 use super::syntax::Span;
-use super::value::MAX_TEXT;
 use super::word::Note;
 use crate::units::{Bilingual, Source};
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::ask::AskError;
+use super::computed::AskError;
 use super::database::{Database, FactError, Known, Loader};
 use super::decimal::Decimal;
 use super::derived::Derived;

@@ -6,13 +6,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::index::Index;
-use super::kept::KeptIndex;
 use super::limits::Watch;
 use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
 use super::program::{Expr, RelationId};
-use super::rows::{RowSet, SharedRows};
-use super::run::{Goal, Source, Step, run};
-use super::spread::Plain;
+use super::rows::{RowSet, SharedRows, distinct};
+use super::run::{Goal, Plain, Source, run};
+use super::slots::KeptIndex;
+use super::step::Step;
 use super::word::{Word, Words};
 
 /// Relations that an evaluation reads and does not hold.
@@ -212,19 +212,4 @@ pub(super) fn share(rows: &dyn RowSet, column: usize, holds: &dyn Fn(Word) -> bo
     }
     // A sample that misses the few that hold does not show that there are none.
     (held as f64 + 0.5) / (f64::from(all) + 1.0)
-}
-
-/// Different words in a column, estimated from a sample where the relation is large.
-pub(super) fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
-    const SAMPLE: usize = 1024;
-    let step = rows.len().div_ceil(SAMPLE).max(1);
-    let mut words: Vec<Word> =
-        (0..rows.len()).step_by(step).map(|at| rows.row(at)[column]).collect();
-    let sampled = words.len().max(1);
-    words.sort_unstable();
-    let unique = words.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).count();
-    words.dedup();
-    // Words seen once in the sample stand for others that were not seen.
-    let unseen = unique as f64 * (rows.len() as f64 / sampled as f64 - 1.0);
-    (words.len() as f64 + unseen).max(1.0)
 }

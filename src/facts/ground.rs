@@ -2,7 +2,7 @@
 
 use super::clause::{Builder, VariableType};
 use super::fault::RuleError;
-use super::program::{Aggregate, Compare, Expr, Literal, Term, VariableId};
+use super::program::{Aggregate, Compare, Expr, Literal, Term, VariableId, used_variables};
 use super::syntax::Comparison;
 
 impl Builder<'_> {
@@ -96,39 +96,5 @@ fn bind(variable: &Expr, value: &Expr, bound: &mut [bool]) -> bool {
             true
         }
         _ => false,
-    }
-}
-
-/// Every variable of a body, those within aggregates included.
-pub(super) fn used_variables(
-    body: &[Literal],
-    value: Option<&Expr>,
-    f: &mut dyn FnMut(VariableId),
-) {
-    if let Some(value) = value {
-        value.for_each_variable(f);
-    }
-    for literal in body {
-        match literal {
-            Literal::Atom(atom) | Literal::Not(atom) => {
-                for term in &atom.args {
-                    if let Term::Variable(v) = term {
-                        f(*v);
-                    }
-                }
-            }
-            Literal::Compare(compare) => {
-                compare.left.for_each_variable(f);
-                compare.right.for_each_variable(f);
-            }
-            Literal::Range(range) => {
-                f(range.target);
-                range.bounds.exprs().for_each(|expr| expr.for_each_variable(f));
-            }
-            Literal::Aggregate(aggregate) => {
-                f(aggregate.target);
-                used_variables(&aggregate.body, aggregate.value.as_ref(), f);
-            }
-        }
     }
 }

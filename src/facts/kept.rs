@@ -4,19 +4,17 @@
 //! edits never touch, and what comes later is found through a table beside it. While an update runs a relation
 //! holds the rows of before and after together; [`View`] says which of the two a plan reads.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::finished::distinct;
-use super::index::Index;
 use super::limits::Watch;
 use super::plan::{Plan, Request, Statistics};
 use super::program::{Expr, RelationId};
-use super::rows::{RowSet, SharedRows};
+use super::rows::{RowSet, SharedRows, distinct};
 use super::run::{Goal, Kept as KeptSource, Source, run};
+use super::slots::KeptIndex;
 use super::stored::{Slot, Stored};
-use super::value;
-use super::word::{NO_WORD, Word, Words};
+use super::word::{Word, Words};
 
 /// What an update has changed in a relation so far.
 #[derive(Debug, Clone, Default)]
@@ -36,56 +34,6 @@ impl Edit {
 pub(super) enum View {
     Before,
     After,
-}
-
-/// Slots by key.
-#[derive(Debug, Clone)]
-pub(super) struct KeptIndex {
-    key: Vec<Expr>,
-    /// Over the base.
-    base: Arc<Index>,
-    later: HashMap<Box<[Word]>, Vec<Slot>>,
-}
-
-impl KeptIndex {
-    fn new(rows: &dyn Stored, key: &[Expr], words: &mut Words) -> Self {
-        let base = Arc::new(Index::new(&*rows.base(), key, words, 1));
-        let mut index = Self { key: key.to_vec(), base, later: HashMap::new() };
-        for slot in rows.later() {
-            index.insert(rows.row(slot), slot, words);
-        }
-        index
-    }
-
-    fn key_of(&self, row: &[Word], words: &mut Words) -> Option<Box<[Word]>> {
-        self.key.iter().map(|part| value::compute(part, &|c| row[c as usize], words)).collect()
-    }
-
-    fn insert(&mut self, row: &[Word], slot: Slot, words: &mut Words) {
-        if let Some(key) = self.key_of(row, words) {
-            self.later.entry(key).or_default().push(slot);
-        }
-    }
-
-    fn remove(&mut self, row: &[Word], slot: Slot, words: &mut Words) {
-        let Some(key) = self.key_of(row, words) else { return };
-        if let Some(slots) = self.later.get_mut(&key) {
-            slots.retain(|known| *known != slot);
-            if slots.is_empty() {
-                self.later.remove(&key);
-            }
-        }
-    }
-
-    /// Slots with the key; those of the base may be gone.
-    pub(super) fn collect(&self, key: &[Word], found: &mut Vec<Slot>) {
-        found.extend(self.base.range(key).map(|at| self.base.row(at) as Slot));
-        if !self.later.is_empty()
-            && let Some(slots) = self.later.get(key)
-        {
-            found.extend(slots);
-        }
-    }
 }
 
 /// All relations of a result, with the indexes that were asked for.
@@ -369,12 +317,4 @@ impl Statistics for Kept {
 
 fn is_natural(key: &[Expr]) -> bool {
     key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32))
-}
-
-/// The word of a column, or of what is computed from a row; [`NO_WORD`] where there is no value.
-pub(super) fn column_word(expr: &Expr, row: &[Word], words: &mut Words) -> Word {
-    match expr {
-        Expr::Variable(column) => row[*column as usize],
-        _ => value::compute(expr, &|c| row[c as usize], words).unwrap_or(NO_WORD),
-    }
 }

@@ -9,6 +9,9 @@ use std::time::{Duration, Instant};
 /// A relation's rows at most, unless `.limitsize` says less.
 pub(super) const MAX_ROWS: usize = 1 << 27;
 
+/// Longer texts are no values: a recursive rule with `cat` would fill the memory.
+pub(super) const MAX_TEXT: usize = 1 << 16;
+
 /// How long an evaluation may go on, how much memory it may hold, and over how many threads it may spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {

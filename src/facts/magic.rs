@@ -20,14 +20,13 @@ use super::called::{Mask, columns_of};
 use super::demand::{Besides, Demand};
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
-use super::ground::used_variables;
 use super::plan::Statistics;
 use super::program::{
-    Atom, Clause, Expr, Literal, Program, RelationId, RelationInfo, Stratum, Term,
+    Atom, Clause, Expr, Literal, Program, RelationId, RelationInfo, Stratum, Term, used_variables,
 };
-use super::proof::turned;
 use super::rows::heap;
 use super::syntax::Comparison;
+use super::turned::turned;
 use super::word::{Word, Words};
 
 /// Ways of calling one group; more are called for all rows.

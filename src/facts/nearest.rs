@@ -7,11 +7,12 @@
 //! rules are gone through once more, each premise in turn left out although something fits it.
 
 use super::kept::View;
-use super::plan::{Task, Version, plan};
+use super::plan::{Task, plan};
 use super::program::{
     Aggregate, Atom, Clause, Compare, Expr, Literal, RelationId, Term, VariableId,
 };
 use super::proof::Explainer;
+use super::rows::Version;
 use super::syntax::{Aggregation, Comparison};
 use super::value;
 use super::word::{NO_WORD, Word, Words};
@@ -201,7 +202,7 @@ impl Explainer {
         let alone = Clause { body: aggregate.body.clone(), ..turned.clone() };
         let versions = vec![Version::Finished; alone.body.len()];
         let mut wanted: Vec<VariableId> = Vec::new();
-        super::ground::used_variables(&alone.body, aggregate.value.as_ref(), &mut |v| {
+        super::program::used_variables(&alone.body, aggregate.value.as_ref(), &mut |v| {
             wanted.push(v)
         });
         let task = Task {

@@ -7,27 +7,15 @@
 use std::collections::HashMap;
 
 use super::filter::ColumnFilter;
-use super::ground::used_variables;
 use super::program::{
     Aggregate, Atom, Clause, Compare, Expr, Literal, NumberRange, RelationId, Term, VariableId,
+    used_variables,
 };
-use super::run::{Scan, Step};
+use super::rows::Version;
+use super::step::{Scan, Step};
 use super::syntax::Comparison;
 use super::value;
 use super::word::{Word, Words};
-
-/// What an atom of the body ranges over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Version {
-    /// A finished relation.
-    Finished,
-    /// A relation of the stratum under evaluation: rows of the last round.
-    Recent,
-    /// Rows from before the last round.
-    Stable,
-    /// Both.
-    All,
-}
 
 /// A source that a plan reads; the evaluation provides it.
 #[derive(Debug, Clone, PartialEq)]

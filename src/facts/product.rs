@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::declare::Declared;
 use super::fault::RuleError;
-use super::ground::used_variables;
-use super::program::{Clause, Compare, Expr, Fact, Found, Literal, Term, VariableId};
+use super::program::{
+    Clause, Compare, Expr, Fact, Found, Literal, Term, VariableId, used_variables,
+};
 use super::syntax::{Aggregation, Comparison};
 
 pub(super) fn warn(

@@ -12,13 +12,12 @@ use super::database::{FactError, RelationKey};
 use super::demand::Demand;
 use super::derived::{Derived, values};
 use super::kept::{Kept, View};
-use super::plan::{Plan, Task, Version, plan};
-use super::program::{
-    Atom, Clause, Column, Compare, Expr, Kind, Literal, Program, RelationId, Term, Variable,
-    VariableId,
-};
+use super::plan::{Plan, Task, plan};
+use super::program::{Atom, Clause, Expr, Literal, Program, RelationId, Term, VariableId};
+use super::rows::Version;
 use super::stored::Stored;
 use super::syntax::{Comparison, Span};
+use super::turned::turned;
 use super::value;
 use super::word::{NO_WORD, Value, Word, Words};
 
@@ -455,43 +454,6 @@ impl Cone {
     }
 }
 
-/// The clause with a variable for every column of its head and every `_` of its atoms.
-pub(super) fn turned(clause: &Clause, columns: &[Column]) -> (Clause, Vec<VariableId>, usize) {
-    let mut turned = clause.clone();
-    let own = turned.body.len();
-    let fresh = |variables: &mut Vec<Variable>| {
-        variables.push(Variable { name: String::new(), kind: Kind::Symbol });
-        (variables.len() - 1) as VariableId
-    };
-    for literal in &mut turned.body {
-        if let Literal::Atom(atom) = literal {
-            for arg in atom.args.iter_mut().filter(|arg| **arg == Term::Any) {
-                *arg = Term::Variable(fresh(&mut turned.variables));
-            }
-        }
-    }
-    let mut head = Vec::new();
-    for (arg, column) in clause.args.iter().zip(columns) {
-        match arg {
-            Expr::Variable(v) if !head.contains(v) => head.push(*v),
-            _ => {
-                let v = fresh(&mut turned.variables);
-                let (op, left) = (Comparison::Equal, Expr::Variable(v));
-                let (right, at) = (arg.clone(), clause.at);
-                turned.body.push(Literal::Compare(Compare {
-                    op,
-                    left,
-                    right,
-                    kind: column.kind,
-                    at,
-                }));
-                head.push(v);
-            }
-        }
-    }
-    (turned, head, own)
-}
-
 pub(super) fn row_of(atom: &Atom, registers: &[Word]) -> Box<[Word]> {
     let word = |term: &Term| match term {
         Term::Variable(v) => registers[*v as usize],
@@ -521,7 +483,7 @@ pub(super) fn rule_instance(
     let mut local = Vec::new();
     for literal in &clause.body {
         if let Literal::Aggregate(aggregate) = literal {
-            super::ground::used_variables(&aggregate.body, aggregate.value.as_ref(), &mut |v| {
+            super::program::used_variables(&aggregate.body, aggregate.value.as_ref(), &mut |v| {
                 if !aggregate.shared.contains(&v) {
                     local.push(v);
                 }

@@ -12,13 +12,25 @@ use std::sync::Arc;
 use datafrog::{Iteration, Relation, Variable};
 
 use super::beside::Beside;
-use super::plan::Version;
 use super::row::Row;
 use super::seen::Seen;
 use super::sorting::{sort_runs, sorted, subtract};
 use super::stored::{Stored, StoredRows};
 use super::together::{Part, gathered, joined};
 use super::word::Word;
+
+/// What an atom of the body ranges over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Version {
+    /// A finished relation.
+    Finished,
+    /// A relation of the stratum under evaluation: rows of the last round.
+    Recent,
+    /// Rows from before the last round.
+    Stable,
+    /// Both.
+    All,
+}
 
 /// Runs an expression with the constant `$n` set to the width that holds `$columns` columns.
 macro_rules! at_width {
@@ -579,4 +591,19 @@ impl<const N: usize> Growing for GrowingRows<N> {
             _ => Arc::new(rows.complete()),
         }
     }
+}
+
+/// Different words in a column, estimated from a sample where the relation is large.
+pub(super) fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
+    const SAMPLE: usize = 1024;
+    let step = rows.len().div_ceil(SAMPLE).max(1);
+    let mut words: Vec<Word> =
+        (0..rows.len()).step_by(step).map(|at| rows.row(at)[column]).collect();
+    let sampled = words.len().max(1);
+    words.sort_unstable();
+    let unique = words.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).count();
+    words.dedup();
+    // Words seen once in the sample stand for others that were not seen.
+    let unseen = unique as f64 * (rows.len() as f64 / sampled as f64 - 1.0);
+    (words.len() as f64 + unseen).max(1.0)
 }

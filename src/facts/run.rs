@@ -11,13 +11,14 @@ use super::called::Called;
 use super::decimal::{self, Decimal};
 use super::filter::{ColumnFilter, choose, narrow, retain};
 use super::index::Index;
-use super::kept::{KeptIndex, column_word};
 use super::limits::Watch;
 use super::program::{Bounds, Compare, Expr, Kind};
 use super::rows::RowSet;
+use super::slots::KeptIndex;
+use super::step::{Scan, Step};
 use super::stored::{Slot, Stored};
 use super::syntax::Aggregation;
-use super::value;
+use super::value::{self, column_word};
 use super::word::{NO_WORD, Note, Word, Words};
 
 /// Where a scan finds its rows.
@@ -78,52 +79,27 @@ impl Kept<'_> {
     }
 }
 
-#[derive(Debug, Clone)]
-pub(super) enum Step {
-    Scan(Scan),
-    Filter(Compare),
-    /// The register takes the expression's value.
-    Let {
-        register: u32,
-        value: Expr,
-    },
-    /// The register takes each of the numbers in turn, or has one of them already.
-    Each {
-        register: u32,
-        bounds: Bounds,
-        is_known: bool,
-    },
-    /// No row of the source has the key.
-    Absent {
-        source: usize,
-        key: Vec<Expr>,
-    },
-    /// The steps behind, up to `end`, find what is counted and end with `Reached`; the run goes on at `end`.
-    Aggregate {
-        function: Aggregation,
-        /// Of the value.
-        kind: Kind,
-        value: Option<Expr>,
-        register: u32,
-        /// The register has a value already, which the aggregate's must equal.
-        is_known: bool,
-        end: usize,
-    },
-    Reached,
+/// A source that threads may share.
+pub(super) enum Plain<'a> {
+    Index(&'a Index),
+    Rows(Vec<&'a dyn RowSet>),
 }
 
-#[derive(Debug, Clone, Default)]
-pub(super) struct Scan {
-    pub(super) source: usize,
-    pub(super) key: Vec<Expr>,
-    /// Columns of the source that must equal a register that an earlier load of this scan has set.
-    pub(super) same: Vec<(usize, u32)>,
-    pub(super) loads: Vec<(usize, u32)>,
-    pub(super) filters: Vec<ColumnFilter>,
-    /// Nothing that is found from here on can be told apart later: one success is enough.
-    pub(super) once: bool,
-    /// Within an aggregate, where each row counts, also one that looks like the row before.
-    pub(super) counts: bool,
+impl<'a> Plain<'a> {
+    pub(super) fn of(source: &Source<'a>) -> Option<Self> {
+        match source {
+            Source::Index(index) => Some(Self::Index(index)),
+            Source::Rows(parts) => Some(Self::Rows(parts.clone())),
+            Source::Kept(_) | Source::Called(_) => None,
+        }
+    }
+
+    pub(super) fn source(&self) -> Source<'a> {
+        match self {
+            Self::Index(index) => Source::Index(index),
+            Self::Rows(parts) => Source::Rows(parts.clone()),
+        }
+    }
 }
 
 /// What a body's solutions are for; true when one was accepted.

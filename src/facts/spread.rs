@@ -20,8 +20,9 @@ use super::limits::Watch;
 use super::plan::Plan;
 use super::program::{Clause, Expr, Literal, Program};
 use super::rows::{Branch, Rename, RowSet, Sink, Taken};
-use super::run::{Source, Step, extent, run, run_window};
+use super::run::{Plain, Source, extent, run, run_window};
 use super::shares::shared_out;
+use super::step::Step;
 use super::syntax::Functor;
 use super::word::{LARGE, Note, Word, Words};
 
@@ -280,29 +281,6 @@ impl Pieces {
         let from = self.rows.start + number.checked_mul(self.size)?;
         let to = self.rows.end.min(from + self.size);
         (number < self.count).then_some((number, from..to))
-    }
-}
-
-/// A source that threads may share.
-pub(super) enum Plain<'a> {
-    Index(&'a super::index::Index),
-    Rows(Vec<&'a dyn RowSet>),
-}
-
-impl<'a> Plain<'a> {
-    fn of(source: &Source<'a>) -> Option<Self> {
-        match source {
-            Source::Index(index) => Some(Self::Index(index)),
-            Source::Rows(parts) => Some(Self::Rows(parts.clone())),
-            Source::Kept(_) | Source::Called(_) => None,
-        }
-    }
-
-    pub(super) fn source(&self) -> Source<'a> {
-        match self {
-            Self::Index(index) => Source::Index(index),
-            Self::Rows(parts) => Source::Rows(parts.clone()),
-        }
     }
 }
 

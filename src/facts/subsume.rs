@@ -11,9 +11,8 @@ use datafrog::Iteration;
 
 use super::declare::{Declared, MAX_COLUMNS};
 use super::fault::RuleError;
-use super::plan::Version;
 use super::program::{Column, Found, RelationId, RelationInfo};
-use super::rows::{Growing, Heap, RowSet, SharedRows, Sink, heap};
+use super::rows::{Growing, Heap, RowSet, SharedRows, Sink, Version, heap};
 use super::syntax::{Atom, Body, Expr, Item, Name, Rule};
 use super::word::Word;
 

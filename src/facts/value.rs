@@ -6,6 +6,7 @@
 use std::cmp::Ordering;
 
 use super::decimal::{self, Decimal};
+use super::limits::MAX_TEXT;
 use super::program::{Bounds, Expr, Kind, VariableId};
 use super::syntax::{Comparison, Functor};
 use super::word::{NO_WORD, Note, Word, Words, is_in_place};
@@ -24,6 +25,14 @@ pub(super) fn compute(
             Some(words.number(number))
         }
         Expr::Call(functor, args) => no_number(*functor, args, expr, variable, words),
+    }
+}
+
+/// The word of a column, or of what is computed from a row; [`NO_WORD`] where there is no value.
+pub(super) fn column_word(expr: &Expr, row: &[Word], words: &mut Words) -> Word {
+    match expr {
+        Expr::Variable(column) => row[*column as usize],
+        _ => compute(expr, &|c| row[c as usize], words).unwrap_or(NO_WORD),
     }
 }
 
@@ -332,9 +341,6 @@ pub(super) fn numbers(
     let count = u64::try_from(count).expect("two numbers of 64 bits are less than 2^64 apart");
     Some(Numbers { from, step, count })
 }
-
-/// Longer texts are no values: a recursive rule with `cat` would fill the memory.
-pub(super) const MAX_TEXT: usize = 1 << 16;
 
 /// Whether two words of one kind compare so.
 pub(super) fn holds(op: Comparison, is_number: bool, a: Word, b: Word, words: &Words) -> bool {

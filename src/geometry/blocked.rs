@@ -19,7 +19,7 @@ use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
 use super::opening::Opening;
 use super::plan::FloorPlan;
-use super::route::things;
+use super::scene::Scene;
 
 /// One thing in the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -592,4 +592,28 @@ impl Blocker {
 fn tenth(cm: f64) -> f64 {
     // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
     (cm * 10.0 + 1e-6).floor() / 10.0
+}
+
+/// The distinct things among blockers, each with its part that is in the way: of several the lowest.
+fn things(scene: &Scene, blockers: &[Blocker]) -> Vec<Blocker> {
+    let bottom = |b: &Blocker| match *b {
+        Blocker::Replica { replica, item } => {
+            let prisms = scene.replicas.get(&replica).map_or(&[][..], |r| &r.prisms);
+            prisms.iter().find(|p| p.item == item).map_or(0.0, |p| p.bottom)
+        }
+        _ => 0.0,
+    };
+    let whole = |b: &Blocker| match *b {
+        Blocker::Replica { replica, .. } => Blocker::Replica { replica, item: 0 },
+        Blocker::DoorLeaf { door, .. } => Blocker::DoorLeaf { door, leaf: 0 },
+        other => other,
+    };
+    let mut parts: BTreeMap<Blocker, Blocker> = BTreeMap::new();
+    for part in blockers {
+        let kept = parts.entry(whole(part)).or_insert(*part);
+        if bottom(part) < bottom(kept) {
+            *kept = *part;
+        }
+    }
+    parts.into_iter().map(|(whole, part)| if bottom(&part) > 0.0 { part } else { whole }).collect()
 }

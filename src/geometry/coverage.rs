@@ -23,7 +23,6 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
-use super::dead_zone::RIM;
 use super::grid::{Contour, Grid, Shapes, difference, intersection, positive};
 use super::offset::shrink;
 use super::site::SLACK;
@@ -207,6 +206,9 @@ fn evened(contour: &Polygon, rim: &[(Point, Point)], tolerance: f64) -> Polygon 
     }
     Polygon::new(kept)
 }
+
+/// What rounding leaves along the walls is less wide than this, in cm, and no zone.
+pub(super) const RIM: f64 = 0.01;
 
 /// Corners nearer to a dead zone's rim, in cm, lie on it.
 const ON_RIM: f64 = 0.05;

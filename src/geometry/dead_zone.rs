@@ -10,6 +10,7 @@ use crate::units::Point;
 
 use super::apart::distance_within;
 use super::blocker::Blocker;
+use super::coverage::RIM;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes, overlay, positive};
 use super::offset::{grow, shrink};
@@ -44,9 +45,6 @@ pub(super) fn dead_zones(grid: &Grid, dead: Shapes) -> Shapes {
     };
     dead.into_iter().flat_map(zone).collect()
 }
-
-/// What rounding leaves along the walls is less wide than this, in cm, and no zone.
-pub(super) const RIM: f64 = 0.01;
 
 /// A disc of this radius, in cm, makes a zone of what holds it, however much hangs on it.
 const LEAST: f64 = 0.03;

@@ -5,10 +5,11 @@
 use crate::map::{DoorKind, World};
 use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
 
+use super::anchor::Anchor;
 use super::blocked::NoRoute;
 use super::opening::Opening;
 use super::plan::FloorPlan;
-use super::route::{Anchor, Target};
+use super::route::Target;
 
 /// A goal with the way to face there.
 #[derive(Debug, Clone, PartialEq)]

@@ -67,6 +67,7 @@
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+mod anchor;
 mod apart;
 mod blocked;
 mod blocker;
@@ -118,6 +119,7 @@ mod taut;
 mod view;
 mod zone;
 
+pub use anchor::Moved;
 pub use blocked::{Barrier, NoRoute};
 pub use blocker::{Blocker, Obstacle};
 pub use chain::Passed;
@@ -134,7 +136,7 @@ pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
 pub use plan::FloorPlan;
 pub use polygon::{Bounds, Polygon, convex_hull, nearest_on_segment};
 pub use remedy::Remedy;
-pub use route::{Method, Moved, Route, Target};
+pub use route::{Method, Route, Target};
 pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};
 pub use seen::FaceInView;
 pub use site::{DoorStates, SLACK};

@@ -12,14 +12,13 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use crate::map::{DoorState, World, Zone, ZoneKind};
 use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
 
+use super::anchor::{Anchor, Moved};
 use super::blocked::{Barrier, NoRoute, explain, single};
-use super::blocker::Blocker;
 use super::cells::CellKey;
 use super::lawful::{Ground, Rules, paces};
 use super::network::{Marks, Walkable};
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
-use super::scene::Scene;
 use super::search::shortest;
 use super::strait;
 use super::zone::PlacedZone;
@@ -53,15 +52,6 @@ pub enum Method {
     Paper,
 }
 
-/// A start or goal where the robot does not fit, and the nearest place where it does.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Moved {
-    pub from: Point,
-    pub to: Point,
-    /// What takes the place, if anything does; else it is a dead zone, a strait or too near to a wall.
-    pub blocker: Option<Blocker>,
-}
-
 thread_local! {
     /// One search after another marks the same list.
     static MARKS: RefCell<Marks> = RefCell::default();
@@ -78,20 +68,6 @@ pub struct Route {
     pub length: f64,
     pub moved_start: Option<Moved>,
     pub moved_goal: Option<Moved>,
-}
-
-/// A place where the robot's centre may be.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Anchor {
-    pub(super) at: Point,
-    pub(super) cell: CellKey,
-    pub(super) moved: Option<Moved>,
-}
-
-impl Anchor {
-    pub(super) fn at(at: Point, cell: CellKey) -> Self {
-        Self { at, cell, moved: None }
-    }
 }
 
 impl FloorPlan {
@@ -594,28 +570,4 @@ impl FloorPlan {
         next.sort_by(|a, b| (b.0 - goal).norm().total_cmp(&(a.0 - goal).norm()));
         next
     }
-}
-
-/// The distinct things among blockers, each with its part that is in the way: of several the lowest.
-pub(super) fn things(scene: &Scene, blockers: &[Blocker]) -> Vec<Blocker> {
-    let bottom = |b: &Blocker| match *b {
-        Blocker::Replica { replica, item } => {
-            let prisms = scene.replicas.get(&replica).map_or(&[][..], |r| &r.prisms);
-            prisms.iter().find(|p| p.item == item).map_or(0.0, |p| p.bottom)
-        }
-        _ => 0.0,
-    };
-    let whole = |b: &Blocker| match *b {
-        Blocker::Replica { replica, .. } => Blocker::Replica { replica, item: 0 },
-        Blocker::DoorLeaf { door, .. } => Blocker::DoorLeaf { door, leaf: 0 },
-        other => other,
-    };
-    let mut parts: BTreeMap<Blocker, Blocker> = BTreeMap::new();
-    for part in blockers {
-        let kept = parts.entry(whole(part)).or_insert(*part);
-        if bottom(part) < bottom(kept) {
-            *kept = *part;
-        }
-    }
-    parts.into_iter().map(|(whole, part)| if bottom(&part) > 0.0 { part } else { whole }).collect()
 }

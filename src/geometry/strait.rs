@@ -34,6 +34,7 @@ use std::f64::consts::PI;
 use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
+use super::anchor::Anchor;
 use super::apart::{distance, segment_distance};
 use super::cells::CellKey;
 use super::coverage::{body, meeting, over, shrunk};
@@ -43,7 +44,6 @@ use super::mesh::Mesh;
 use super::narrows::Narrows;
 use super::network::Piece;
 use super::plan::FloorPlan;
-use super::route::Anchor;
 use super::site::SLACK;
 use super::{Bounds, Polygon};
 

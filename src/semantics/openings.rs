@@ -15,12 +15,17 @@ use super::names::Symbols;
 /// The openings of a world with their names; sides are looked for through walls up to `reach` cm thick.
 pub(super) fn openings(world: &World, reach: f64, symbols: &Symbols) -> Openings {
     let mut openings = Openings::of(world, reach);
+    call(&mut openings, world, symbols);
+    openings
+}
+
+/// Gives openings the names of the doors and Areas of a world.
+pub(super) fn call(openings: &mut Openings, world: &World, symbols: &Symbols) {
     let mut taken = BTreeSet::new();
     openings.name(|opening| match opening.door.filter(|door| world.doors.contains_key(door)) {
         Some(door) => symbols.door(door).to_string(),
         None => new_name(opening, symbols, &mut taken),
     });
-    openings
 }
 
 /// «Проход-А-Б», with a number when there are several.

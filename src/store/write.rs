@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use crate::map::{
     Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Extent, Face, Forms, Gender,
-    HingeSide, Item, ItemLink, Map, Object, OpensTo, Orthoframe, Place, Profile, Properties,
-    Replica, TypeList, World, Zone, ZoneKind,
+    HingeSide, Item, ItemLink, Map, MapItem, MapLink, Object, OpensTo, Orthoframe, Place, Profile,
+    Properties, Replica, TypeList, World, Zone, ZoneKind,
 };
-use crate::units::{Frame, OrFrId, Timestamp, TypeId};
+use crate::units::{AreaId, Frame, MapId, OrFrId, Timestamp, TypeId};
 
 use super::error::Result;
 use super::sheet::Sheet;
@@ -116,7 +116,7 @@ pub(super) fn records(world: &World) -> Result<Sheet> {
         put_zone(&mut sheet, zone)?;
     }
     for map in world.maps.values() {
-        put_map(&mut sheet, world, map)?;
+        put_map(&mut sheet, world, map, None)?;
     }
     put_domain(&mut sheet, world)?;
     Ok(sheet)
@@ -165,17 +165,24 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
             }
         }};
     }
-    let are_made_alike = |area: &Area| !uses(&area.items);
-    let are_same_areas = before.areas == after.areas && after.areas.values().all(are_made_alike);
     if !parts.is_empty() {
         put_users!(objects, put_object);
         put_users!(areas, put_area);
     }
-    if are_same_areas {
-        put!(maps, |sheet, world, map| put_map(sheet, world, map));
-    } else {
-        for (sheet, world) in [(&mut *old, before), (&mut *new, after)] {
-            world.maps.values().try_for_each(|map| put_map(sheet, world, map))?;
+    let others: BTreeSet<AreaId> =
+        before.areas.changes(&after.areas).into_iter().map(|(id, ..)| id).collect();
+    let ids: BTreeSet<MapId> = before.maps.keys().chain(after.maps.keys()).copied().collect();
+    for id in ids {
+        let [was, is] = [before.maps.get(&id), after.maps.get(&id)];
+        if was == is && others.is_empty() && parts.is_empty() {
+            continue;
+        }
+        for (sheet, world, own, other) in
+            [(&mut *old, before, was, is), (&mut *new, after, is, was)]
+        {
+            if let Some(map) = own {
+                put_map(sheet, world, map, other.map(|other| (other, &others)))?;
+            }
         }
     }
     for (sheet, world) in [(old, before), (new, after)] {
@@ -355,13 +362,18 @@ fn properties<T: super::Record>(
 
 /// Overall sizes of a group of items along its own axes, and its height.
 pub(super) fn group_size(world: &World, items: &[Item]) -> (f64, f64, f64) {
+    size_of(world, items.iter().map(|item| (item.orthoframe, item.frame)))
+}
+
+/// Overall sizes of Orthoframes that stand so.
+fn size_of(world: &World, parts: impl Iterator<Item = (OrFrId, Frame)>) -> (f64, f64, f64) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
-    for item in items {
-        let Some(orthoframe) = world.orthoframes.get(&item.orthoframe) else { continue };
-        let bottom = item.frame.z.get();
+    for (orthoframe, frame) in parts {
+        let Some(orthoframe) = world.orthoframes.get(&orthoframe) else { continue };
+        let bottom = frame.z.get();
         for corner in orthoframe.corners() {
-            let p = item.frame.apply(corner);
+            let p = frame.apply(corner);
             for (axis, value) in [(0, p.x), (1, p.y), (2, bottom)] {
                 low[axis] = low[axis].min(value);
                 high[axis] = high[axis].max(value);
@@ -543,7 +555,25 @@ fn item_orthoframe(world: &World, area: crate::units::AreaId, item: &str) -> u32
     world.areas.get(&area).and_then(|a| a.item(item)).map_or(0, |i| i.orthoframe.0)
 }
 
-fn put_map(sheet: &mut Sheet, world: &World, map: &Map) -> Result<()> {
+/// The records of a Map. Beside another one, those of its items and links are left out that it has in common with that, but
+/// for those of some Areas.
+fn put_map(
+    sheet: &mut Sheet,
+    world: &World,
+    map: &Map,
+    beside: Option<(&Map, &BTreeSet<AreaId>)>,
+) -> Result<()> {
+    let is_common = |no: usize, item: &MapItem| {
+        beside.is_some_and(|(other, but)| {
+            other.items.get(no) == Some(item) && !but.contains(&item.area)
+        })
+    };
+    let is_common_link = |no: usize, link: &MapLink| {
+        beside.is_some_and(|(other, but)| {
+            let is_of = |area| but.contains(area);
+            other.links.get(no) == Some(link) && !is_of(&link.area) && !is_of(&link.to_area)
+        })
+    };
     let (size_x, size_y, height) = map_size(world, map);
     sheet.put(&t::Map {
         id: map.id.0,
@@ -557,7 +587,8 @@ fn put_map(sheet: &mut Sheet, world: &World, map: &Map) -> Result<()> {
         name_en: map.name_en.clone(),
         frame: map.frame.clone(),
     })?;
-    for (no, item) in (0..).zip(&map.items) {
+    let items = map.items.iter().enumerate().filter(|(no, item)| !is_common(*no, item));
+    for (no, item) in items {
         let Frame { x, y, z, angle } = item.frame;
         sheet.put(&t::MapItems {
             map_id: map.id.0,
@@ -569,10 +600,11 @@ fn put_map(sheet: &mut Sheet, world: &World, map: &Map) -> Result<()> {
             pos_z: z.get(),
             pos_a: angle.get(),
             base: item.is_base,
-            no,
+            no: no as u32,
         })?;
     }
-    for (no, link) in (0..).zip(&map.links) {
+    let links = map.links.iter().enumerate().filter(|(no, link)| !is_common_link(*no, link));
+    for (no, link) in links {
         sheet.put(&t::MapItemLinks {
             map_id: map.id.0,
             item_id: link.area.0,
@@ -589,22 +621,19 @@ fn put_map(sheet: &mut Sheet, world: &World, map: &Map) -> Result<()> {
             rel_z: link.rel_z.get(),
             area_item_id: link.side.item.clone(),
             area_item_id2: link.to_side.item.clone(),
-            no,
+            no: no as u32,
         })?;
     }
     Ok(())
 }
 
 fn map_size(world: &World, map: &Map) -> (f64, f64, f64) {
-    let items: Vec<Item> = map
-        .items
-        .iter()
-        .filter_map(|placed| Some((placed, world.areas.get(&placed.area)?)))
-        .flat_map(|(placed, area)| {
-            area.items.iter().map(|i| Item { frame: placed.frame.compose(&i.frame), ..i.clone() })
-        })
-        .collect();
-    group_size(world, &items)
+    let areas =
+        map.items.iter().filter_map(|placed| Some((placed, world.areas.get(&placed.area)?)));
+    let parts = areas.flat_map(|(placed, area)| {
+        area.items.iter().map(|item| (item.orthoframe, placed.frame.compose(&item.frame)))
+    });
+    size_of(world, parts)
 }
 
 fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {

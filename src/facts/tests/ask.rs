@@ -1,13 +1,9 @@
 //! Questions on demand against full evaluation and against trying everything, on random programs.
 
-#[path = "../../../tests/facts_naive.rs"]
-#[allow(dead_code, reason = "its other users need the rest")]
-mod facts_naive;
-
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use facts_naive::{Dice, Facts, Model, Rule, Tuple, random_facts};
+use super::facts_naive::{self, Dice, Facts, Model, Rule, Tuple, random_facts};
 use miette::Diagnostic as _;
 use orthoframe_facts::{
     Answers, AskError, Because, Computed, Database, EvaluateError, Limits, Live, Program, Value,

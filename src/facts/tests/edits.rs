@@ -1,12 +1,8 @@
 //! Edits through every construct of the language, against evaluation from scratch, on random programs.
 
-#[path = "../../../tests/facts_naive.rs"]
-#[allow(dead_code, reason = "its other users need the rest")]
-mod facts_naive;
-
 use std::collections::BTreeSet;
 
-use facts_naive::Dice;
+use super::facts_naive::Dice;
 use orthoframe_facts::{Live, Program, Value};
 use orthoframe_units::Source;
 

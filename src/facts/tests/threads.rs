@@ -1,12 +1,8 @@
 //! Joins divided among threads against one thread: the same rows in the same order, the same proofs and notes.
 
-#[path = "../../../tests/facts_naive.rs"]
-#[allow(dead_code, reason = "its other users need the rest")]
-mod facts_naive;
-
 use std::time::Duration;
 
-use facts_naive::{Dice, Model, random_facts};
+use super::facts_naive::{Dice, Model, random_facts};
 use orthoframe_facts::{Database, EvaluateError, Limits, Program, Value};
 use orthoframe_units::Source;
 

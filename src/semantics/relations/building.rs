@@ -14,7 +14,7 @@ use crate::geometry::{OpenSide, Openings};
 use crate::map::{Area, Entity, Item, Object, Orthoframe, World};
 use crate::measure::{Change, Room, asks_of_all};
 use crate::names::Subject;
-use crate::openings::openings;
+use crate::openings::{call, openings};
 use crate::units::{AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId};
 
 use super::follow::Difference;
@@ -36,8 +36,10 @@ struct Touched {
     /// Of the Areas those that are bounded otherwise, stand elsewhere or bear another name.
     rebuilt: BTreeSet<AreaId>,
     places: BTreeMap<AreaId, (MapId, Frame)>,
-    /// Whether openings may be others, or be called otherwise.
+    /// Whether openings may be others.
     opens: bool,
+    /// Whether they may be called otherwise.
+    calls: bool,
 }
 
 impl Touched {
@@ -61,11 +63,14 @@ impl Touched {
         for (id, was, is) in before.doors.changes(&after.doors) {
             touched.doors.insert(id);
             touched.opens |= was.zip(is).is_none_or(|(was, is)| {
-                (&was.name, &was.key, was.width, was.height, was.kind, &was.leaves)
-                    != (&is.name, &is.key, is.width, is.height, is.kind, &is.leaves)
+                (was.width, was.height, was.kind, &was.leaves)
+                    != (is.width, is.height, is.kind, &is.leaves)
             });
+            touched.calls |=
+                was.zip(is).is_none_or(|(was, is)| (&was.name, &was.key) != (&is.name, &is.key));
         }
-        touched.opens |= before.maps != after.maps || !touched.rebuilt.is_empty();
+        touched.opens |= before.maps != after.maps;
+        touched.calls |= !touched.rebuilt.is_empty();
         touched
     }
 
@@ -108,12 +113,13 @@ impl Touched {
             world.areas.values().filter(|a| uses(&a.items)).map(|a| a.id).collect()
         };
         self.rebuilt.extend([before, after].into_iter().flat_map(using));
+        self.opens |= !self.rebuilt.is_empty();
         for id in &self.areas {
-            let same = |(was, is): (&Area, &Area)| {
-                (&was.name, &was.key, &was.items, &was.doors)
-                    == (&is.name, &is.key, &is.items, &is.doors)
-            };
-            if !before.areas.get(id).zip(after.areas.get(id)).is_some_and(same) {
+            let both = before.areas.get(id).zip(after.areas.get(id));
+            let made = |(was, is): (&Area, &Area)| was.items == is.items && was.doors == is.doors;
+            let called = |(was, is): (&Area, &Area)| was.name == is.name && was.key == is.key;
+            self.opens |= !both.is_some_and(made);
+            if !both.is_some_and(|both| made(both) && called(both)) {
                 self.rebuilt.insert(*id);
             }
         }
@@ -178,9 +184,13 @@ impl Relations {
             return Ok(false);
         }
         let mut new = old.iter().filter_map(|(subject, _)| self.symbols.known(*subject));
-        let opens = touched.opens || new.any(is_like_opening);
-        let new = if opens {
+        let calls = touched.calls || new.any(is_like_opening);
+        let new = if touched.opens {
             Arc::new(openings(after, self.rules.step_cm(), &self.symbols))
+        } else if calls {
+            let mut same = Openings::clone(&self.openings);
+            call(&mut same, after, &self.symbols);
+            Arc::new(same)
         } else {
             Arc::clone(&self.openings)
         };
@@ -256,7 +266,7 @@ impl Relations {
         self.settle(&mut rows)?;
         self.live.update()?;
         self.follow();
-        if opens {
+        if touched.opens || calls {
             self.decide_openings();
         }
         self.symbols.retire(&gone, |_| false);

@@ -2,16 +2,13 @@
 
 #![expect(clippy::print_stdout, reason = "a table of what was measured")]
 
-#[path = "../../../benches/vectors/shapes.rs"]
-mod shapes;
-
+use super::shapes::{Kind, normal, thing};
 use fastrand::Rng;
 use nalgebra::{Rotation2, Vector2};
 use orthoframe_vectors::{
     Body, Change, Differential, Equality, Model, Motion, Odometry, Scene, Segment, Transition,
     difference, rigid_parts,
 };
-use shapes::{Kind, normal, thing};
 
 fn transition(x: f64, y: f64, angle: f64) -> Transition<2> {
     Transition::from_parts(Vector2::new(x, y).into(), Rotation2::new(angle))

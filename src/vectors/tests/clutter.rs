@@ -6,10 +6,7 @@ use orthoframe_vectors::scan::{Extractor, Noise, Sensor, cast};
 use orthoframe_vectors::{End, Segment, Truth};
 use proptest::prelude::*;
 
-#[path = "../../../benches/vectors/shapes.rs"]
-mod shapes;
-
-use shapes::normal;
+use super::shapes::normal;
 
 const NOISE: Noise = Noise { range: 1.0, share: 0.0, bearing: 0.0 };
 

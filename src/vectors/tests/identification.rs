@@ -2,16 +2,13 @@
 
 #![expect(clippy::print_stdout, reason = "a table of what was measured")]
 
-#[path = "../../../benches/vectors/shapes.rs"]
-mod shapes;
-
+use super::shapes::{Hiding, Kind, chain, stored, thing, view, view_of_chain};
 use fastrand::Rng;
 use nalgebra::Vector2;
 use orthoframe_vectors::{
     Covariance, Cut, End, Identification, Index, Model, Motion, Options, Placement, Scale, Segment,
     ThingId, exhaustive,
 };
-use shapes::{Hiding, Kind, chain, stored, thing, view, view_of_chain};
 
 type Answer = (ThingId, Vec<(usize, usize, bool)>);
 

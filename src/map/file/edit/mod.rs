@@ -13,10 +13,10 @@
 //! is = "locked"
 //! ```
 //!
-//! The map as it stands is written out as a tree, the text is worked into it, and the whole is read as any map file is.
-//! Of an edit that speaks of things and doors alone, which most do, the tree is that of the records that it names (`part`),
-//! and the map takes over what became of them. What changed is checked. So an edit can do what a file can say, is refused
-//! for what a file is refused for, and every fault has its place in the text of the edits.
+//! The records that the text speaks of are written out as a tree (`part`), the text is worked into it, it is read as any map
+//! file is, and the map takes over what became of them. What changed is checked. So an edit can do what a file can say, is
+//! refused for what a file is refused for, and every fault has its place in the text of the edits. Where it is not sound, it
+//! is worked into the tree of the whole map, so that its faults are told with all the names that there are.
 
 mod part;
 mod steps;
@@ -33,7 +33,7 @@ use crate::{Entity, MapErrors, NameIndex, TypeKind, World, check};
 
 pub use tree::kinds;
 
-use part::{part_of, with_part};
+use part::{Part, into_part, part_of, with_part};
 use steps::Steps;
 use tree::{Kind, Tree};
 
@@ -165,8 +165,8 @@ pub(super) fn edit_judged(
     let work = Work { world, source, edits: &edits, ids, naming, judge };
     // What does not go smoothly is told with all that the map has.
     part_of(world, &edits, &naming)
-        .and_then(|part| work.on(&part, true))
-        .or_else(|| work.on(world, false))
+        .and_then(|part| work.on(Some(&part)))
+        .or_else(|| work.on(None))
         .expect("the whole map is always gone through")
 }
 
@@ -182,25 +182,31 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Works the edits into the tree of the map, or of a part of it; none where they do not go into the part smoothly.
-    fn on(&self, of: &World, is_part: bool) -> Option<EditReading> {
+    fn on(&self, part: Option<&Part>) -> Option<EditReading> {
         let Self { world, source, edits, naming, judge, .. } = *self;
         let text = source.text();
-        let base = node::parse(&write::to_numbered_toml(of), Format::Toml)
-            .expect("what is written can be parsed");
+        let base = node::parse(
+            &write::to_numbered_toml(part.map_or(world, |part| &part.world)),
+            Format::Toml,
+        )
+        .expect("what is written can be parsed");
         let tree = Tree::new(base, text.len());
         let mut steps = Steps::new(tree, world, self.ids.clone(), naming.in_other_words);
         steps.take(edits);
         let Steps { tree, misprints, reason, only, carriers, .. } = steps;
         let root = tree.finish();
-        let Draft { world: edited, faults, origins, broken, left_out } = read::build(&root);
+        let Draft { world: read, faults, origins, broken, left_out } = read::build(&root);
         let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
         all.extend(faults);
         // What a step did not do is missed by others: its own fault is enough.
         let is_whole = all.is_empty();
-        if is_part && !is_whole {
+        if part.is_some() && !is_whole {
             return None;
         }
-        let edited = if is_part { with_part(world, of, &edited) } else { edited };
+        let (edited, part) = match part {
+            Some(part) => (with_part(world, part, &read), Some(read)),
+            None => (read, None),
+        };
         let news = if is_whole {
             crate::news(world, &edited, || naming.exact.clone())
         } else {
@@ -210,7 +216,12 @@ impl Work<'_> {
         };
         let judged = if is_whole { judge(&edited) } else { Vec::new() };
         for mut fault in news.into_iter().chain(judged) {
-            fault.locate(&origins, &left_out);
+            let mut told = fault.clone();
+            if let Some(part) = &part {
+                told.spots.retain_mut(|spot| into_part(spot, &edited, part));
+            }
+            told.locate(&origins, &left_out);
+            fault.spans = told.spans;
             all.push(fault);
         }
         for fault in &mut all {

@@ -48,6 +48,11 @@ const VERBS: &[(&str, &[&str])] = &[
     ("zone", ZONE),
 ];
 
+/// Whether a step may be told by this word.
+pub(super) fn is_verb(word: &str) -> bool {
+    VERBS.iter().any(|(verb, _)| *verb == word)
+}
+
 /// What can be said of a zone, in the words of the map file.
 const ZONE: &[&str] = &[
     "kind",
@@ -140,7 +145,7 @@ impl<'a> Steps<'a> {
             list.node.elements(),
             edits.entries().iter().all(|e| ["edit", "reason", "format"].contains(&e.key.as_str())),
         ) {
-            let verb = only.entries().iter().find(|e| VERBS.iter().any(|(v, _)| *v == e.key));
+            let verb = only.entries().iter().find(|e| is_verb(&e.key));
             self.only = verb.map(|v| v.key_span.start..v.node.span.end.max(v.key_span.end));
         }
     }

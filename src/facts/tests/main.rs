@@ -1,0 +1,13 @@
+//! Datalog programs against evaluation from scratch, the suite of Soufflé, and what is refused, in one program.
+
+mod ask;
+mod computed;
+mod edits;
+#[path = "../../../tests/facts_naive.rs"]
+#[allow(dead_code, reason = "its other users need the rest")]
+mod facts_naive;
+mod language;
+mod refused;
+mod souffle;
+mod threads;
+mod warnings;
