@@ -67,6 +67,10 @@ impl Spoken {
         if verbs.next().is_some() || ["side", "kind"].iter().any(|f| step.entry(f).is_some()) {
             return None;
         }
+        // Where a room stands on its map is not part of it.
+        if step.entry("pose").is_some() {
+            return None;
+        }
         let thing = text(verb)??;
         let bearers = naming.exact.find(world, thing);
         // What comes into a name that is borne already is to be told of with that.
