@@ -97,17 +97,17 @@ impl TryFrom<String> for Vehicle {
 const LARGEST: u64 = 1 << 20;
 const NAME: &str = "ortho.toml";
 
-/// The arguments of this call, with what the settings say where they say nothing.
-///
-/// # Errors
-/// The file that was named, or found, cannot be read.
-pub(super) fn arguments() -> Result<Arguments, (Box<ConfigError>, Arguments)> {
+/// The arguments of this call, with what the settings say where they say nothing; and why a file of settings that was
+/// named, or found, cannot be used.
+pub(super) fn arguments() -> (Arguments, Option<Box<ConfigError>>) {
     let given = Arguments::parse_whole(Arguments::command());
     let found = given.common.config.clone().map_or_else(found, Some);
-    let Some(path) = found else { return Ok(given) };
+    let Some(path) = found else { return (given, None) };
     match Config::read(&path) {
-        Ok(config) => Ok(Arguments::parse_whole(config.laid_under(Arguments::command(), &path))),
-        Err(error) => Err((Box::new(error), given)),
+        Ok(config) => {
+            (Arguments::parse_whole(config.laid_under(Arguments::command(), &path)), None)
+        }
+        Err(error) => (given, Some(Box::new(error))),
     }
 }
 

@@ -43,7 +43,7 @@ use std::process::ExitCode;
 use crate::engine::{Outcome, TaskAnswer, TaskEnding, json};
 use crate::language::question::Said;
 
-use args::{Arguments, Command, Common};
+use args::{Arguments, Command};
 use fault::Failure;
 
 /// What a command came to.
@@ -61,14 +61,11 @@ enum Answer {
 /// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    let arguments = match config::arguments() {
-        Ok(arguments) => arguments,
-        Err((fault, arguments)) => {
-            let Common { json, lang, .. } = arguments.common;
-            return Failure::Config(fault).show(json, lang);
-        }
-    };
+    let (arguments, fault) = config::arguments();
     let common = &arguments.common;
+    if let Some(fault) = fault {
+        return Failure::Config(fault).show(common.json, common.lang);
+    }
     fault::colour(common.color);
     inside::tell(common.verbose);
     // A pipe that is closed early (`ortho relations | head`) ends the output, not the program's good name.
