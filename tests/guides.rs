@@ -1,5 +1,8 @@
 //! What the guides show is so: the pieces of docs/*.md, run.
 
+use std::path::Path;
+use std::process::Command;
+
 use orthoframe::Engine;
 use orthoframe::engine::{Rules, plan_alone};
 use orthoframe_graphplan::{Limits, Outcome};
@@ -8,6 +11,7 @@ use orthoframe_robot::Wanted;
 use orthoframe_strips::Scenario;
 use orthoframe_units::Source;
 
+use crate::files::project;
 use crate::worlds::rb2;
 
 /// The texts of a guide between fences of one language.
@@ -116,4 +120,57 @@ fn the_robot_of_the_guide_to_rules_waters_its_pots() {
     let Outcome::Plan(plan) = &solved.outcome else { panic!("{:?}", solved.outcome) };
     assert_eq!(plan.steps.len(), 8);
     assert!(solved.is_shortest);
+}
+
+/// docs/start.md is walked through in a folder of its own: its files are written, its commands run one after another, and
+/// what they tell is what the guide shows (`UPDATE_EXPECT=1` writes it anew).
+#[test]
+fn the_guide_for_beginners_is_walked_through() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["plan.png", "flat.ifc"] {
+        std::fs::copy(project("docs/start").join(name), folder.path().join(name)).unwrap();
+    }
+    let program = Path::new(env!("CARGO_BIN_EXE_ortho")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let run = |command: &str| {
+        let mut shell = Command::new("bash");
+        shell.args(["-c", &format!("exec 2>&1; {command}")]).current_dir(folder.path());
+        shell.env("PATH", &path).env("HOME", folder.path()).env_remove("XDG_CONFIG_HOME");
+        for name in ["ORTHO_STORE", "ORTHO_RULES", "ORTHO_LANG", "ORTHO_USER", "ORTHO_CONFIG"] {
+            shell.env_remove(name);
+        }
+        let told = shell.stdin(std::process::Stdio::null()).output().unwrap();
+        String::from_utf8(told.stdout).unwrap()
+    };
+    let guide = std::fs::read_to_string(project("docs/start.md")).unwrap();
+    let mut walked = String::new();
+    let mut rest = guide.as_str();
+    let mut commands = 0;
+    while let Some((before, after)) = rest.split_once("\n```") {
+        let (head, body) = after.split_once('\n').unwrap();
+        let (body, next) = body.split_once("\n```\n").unwrap_or_else(|| panic!("no end: {head}"));
+        walked += before;
+        walked += "\n```";
+        walked += head;
+        walked.push('\n');
+        match head.split_once(' ') {
+            Some((_, file)) => {
+                std::fs::write(folder.path().join(file), format!("{body}\n")).unwrap();
+                walked += body;
+            }
+            None => {
+                let asked = body.lines().filter(|line| line.starts_with("$ "));
+                let told = asked.map(|line| {
+                    commands += 1;
+                    format!("{line}\n{}", run(&line[2..]))
+                });
+                walked += told.collect::<String>().trim_end();
+            }
+        }
+        walked += "\n```\n";
+        rest = next;
+    }
+    walked += rest;
+    assert!(commands > 12, "{commands} commands");
+    expect_test::expect_file![project("docs/start.md")].assert_eq(&walked);
 }

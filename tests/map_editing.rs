@@ -348,3 +348,97 @@ fn no_edit_text_makes_the_reader_panic() {
         }
     }
 }
+
+/// `pose` is told in the frame of the Map, however its room is turned and wherever it lies.
+#[test]
+fn what_is_placed_in_the_frame_of_the_map_stands_there() {
+    for turn in [0.0, 90.0, 180.0, 37.0] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = Engine::open(dir.path(), None).unwrap();
+        let room = format!(
+            r#"
+            [orthoframe.floor]
+            rect = [400, 300]
+            height = 250
+            [orthoframe.box]
+            rect = [40, 30]
+            height = 20
+            [object.box]
+            name = "Box"
+            items = [{{ id = "A", orthoframe = "box" }}]
+            [area.room]
+            name = "Room"
+            items = [{{ id = "A", orthoframe = "floor" }}]
+            [map.ground]
+            name = "Ground"
+            items = [{{ area = "room", at = [100, 50], angle = {turn} }}]
+            "#
+        );
+        let mut edit = |text: &str| {
+            engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).map(|_| ())
+        };
+        edit(&room).unwrap();
+        let frame = Frame::new(100.0, 50.0, 0.0, orthoframe_units::Deg::of(turn));
+        let (box_at, spot) = (
+            frame.apply(orthoframe_units::Point::new(200.0, 150.0)),
+            frame.apply(orthoframe_units::Point::new(60.0, 60.0)),
+        );
+        edit(&format!(
+            "[[edit]]\nplace = 'Box 1'\nobject = 'box'\narea = 'Room'\npose = [{}, {}, 20]\nangle = 10\n\
+             [[edit]]\nplace = 'Box 2'\nobject = 'box'\narea = 'Room'\npose = [{}, {}]\n\
+             [[edit]]\npoint = 'Spot'\narea = 'Room'\npose = [{}, {}]\nheading = 30\n",
+            box_at.x, box_at.y, box_at.x, box_at.y, spot.x, spot.y
+        ))
+        .unwrap();
+        for (both, wrong) in [("at = [1, 1]\npose = [1, 1]", "at"), ("pose = 3", "3")] {
+            let text =
+                format!("[[edit]]\nplace = 'Box 3'\nobject = 'box'\narea = 'Room'\n{both}\n");
+            assert!(edit(&text).unwrap_err().to_string().contains(wrong) || both.ends_with('3'));
+        }
+        let world = engine.world().unwrap();
+        let on_map = |name: &str| {
+            let replica = world.replicas.values().find(|r| r.name == name).unwrap();
+            frame.compose(&replica.frame)
+        };
+        let near = |a: f64, b: f64| (a - b).abs() < 0.02;
+        let first = on_map("Box 1");
+        assert!(near(first.x.get(), box_at.x) && near(first.y.get(), box_at.y), "{first:?}");
+        assert!(near(first.z.get(), 20.0) && near(first.angle.get(), 10.0), "{first:?}");
+        assert!(near(on_map("Box 2").angle.get().rem_euclid(360.0), 0.0), "{turn}");
+        let place = world.places.values().find(|p| p.name == "Spot").unwrap();
+        let at = frame.apply(place.at);
+        assert!(near(at.x, spot.x) && near(at.y, spot.y), "{at:?}");
+        let heading = place.heading.unwrap().get() + turn;
+        assert!(near(heading.rem_euclid(360.0), 30.0), "{heading}");
+    }
+}
+
+/// The robot is told of in an edit as in a map file; what is not told stays. A thing that is renamed by its English name has
+/// the new one in both languages.
+#[test]
+fn the_robot_is_edited_and_names_change_in_the_language_in_which_they_are_called() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = rb2(dir.path());
+    let before = engine.world().unwrap().robot.clone();
+    let mut edit =
+        |text: &str| engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).map(|_| ());
+    edit("[robot]\nspeed = 33\nstart = 'Точка-К'\n").unwrap();
+    let refused = edit("[robot]\nspeed = 'fast'\n").unwrap_err();
+    assert!(matches!(refused, Error::Map(_)), "{refused}");
+    assert!(edit("[robot]\nstart = 'nowhere'\n").is_err());
+    assert!(edit("robot = 3\n").is_err());
+    edit("[[edit]]\nrename = 'Sofa 1'\nto = 'Green sofa'\n").unwrap();
+    edit("[[edit]]\nrename = 'Стул-2'\nto = 'Стул у окна'\n").unwrap();
+    edit("[[edit]]\nrename = 'Room Z'\nto = 'Комната Z'\nen = 'Zed'\n").unwrap();
+    let world = engine.world().unwrap();
+    assert_eq!(world.robot.speed, 33.0);
+    assert_eq!((world.robot.radius, world.robot.height), (before.radius, before.height));
+    let english = |name: &str| {
+        let replicas = world.replicas.values().map(|r| (&r.name, &r.name_en));
+        let areas = world.areas.values().map(|a| (&a.name, &a.name_en));
+        replicas.chain(areas).find(|(n, _)| *n == name).map(|(_, en)| en.as_str())
+    };
+    assert_eq!(english("Green sofa"), Some(""));
+    assert_eq!(english("Стул у окна"), Some("Chair 2"));
+    assert_eq!(english("Комната Z"), Some("Zed"));
+}

@@ -595,3 +595,42 @@ fn judged(program: &str, arguments: &[String]) {
         _ => panic!("{told}"),
     }
 }
+
+/// The house of docs/start.md, in the console: an order is driven, a thing is moved, and both stand in the store.
+#[test]
+fn the_house_of_the_guide_is_driven_and_edited_in_the_console() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let store = folder.path().join("store").display().to_string();
+    let plan = root.join("docs/start/plan.png").display().to_string();
+    let run = |arguments: &[&str]| {
+        let mut command = ortho();
+        let told = command.args(["--lang", "en", "--store", &store]).args(arguments).output();
+        let told = told.expect("the program starts");
+        assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+        String::from_utf8_lossy(&told.stdout).into_owned()
+    };
+    run(&["import", &plan, "--pixel", "2"]);
+    let guide = std::fs::read_to_string(root.join("docs/start.md")).expect("the guide");
+    for name in ["names.toml", "furniture.toml"] {
+        let (_, after) = guide.split_once(&format!("```toml {name}\n")).expect("it is shown");
+        let file = folder.path().join(name);
+        std::fs::write(&file, after.split("```").next().expect("a piece")).expect("room");
+        run(&["edit", "--file", &file.display().to_string()]);
+    }
+    let console = Console::start(&["--store", &store, "--pace", "50"]);
+    let operator = console.operator();
+    let said = operator.done("/api/say", &json!({ "text": "Bring the cup", "lang": "en" }));
+    let task = &said["task"];
+    assert_eq!(task["state"], "planned", "{said}");
+    operator.done(&format!("/api/tasks/{}/confirm", task["task"]), &json!({}));
+    assert_eq!(operator.waits()["state"], "done");
+    let revision = operator.get("/api/state")["revision"].clone();
+    let moved = json!({
+        "on": revision, "reason": "closer to the wall", "edit": [{ "move": "Couch", "by": [5, 0] }],
+    });
+    assert_eq!(operator.done("/api/edit", &moved)["outcome"], "edited");
+    drop(console);
+    assert!(run(&["history"]).contains("closer to the wall"));
+    assert!(run(&["ask", "Where is the cup?"]).contains("cup"));
+}

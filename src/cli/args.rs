@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 
 use crate::engine::{ImportFormat, Sighted, When};
 use crate::graphplan::Limits;
@@ -72,6 +72,29 @@ pub(super) struct Common {
         value_name = "NAME"
     )]
     pub user: String,
+    /// Settings; ./ortho.toml when there is one, else ortho/ortho.toml in the folder for settings ($XDG_CONFIG_HOME, ~/.config)
+    #[arg(long, global = true, env = "ORTHO_CONFIG", value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Colours of faults: on a terminal where NO_COLOR is not set, always, or never
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value = "auto",
+        hide_default_value = true,
+        value_name = "WHEN"
+    )]
+    pub color: Color,
+    /// Tell on standard error what is done inside and how long it takes; -vv and -vvv tell more
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    pub verbose: u8,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Color {
+    Auto,
+    Always,
+    Never,
 }
 
 /// A laser's log, taken on a map.
@@ -194,6 +217,17 @@ pub(super) enum Command {
     Ask(AskArgs),
     /// A dialogue: questions and commands, a line each, with what was said before kept in mind
     Talk,
+    /// Check a map file and draw it again whenever it, or a rule file, has changed
+    Watch {
+        map: PathBuf,
+        /// The drawing, as PNG where its name ends so, else as SVG; beside the map when absent
+        #[arg(short, long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// What completes commands in a shell, on standard output: ortho completions bash > /etc/bash_completion.d/ortho
+    Completions { shell: clap_complete::Shell },
+    /// Write the manual pages of all commands into a folder
+    Man { dir: PathBuf },
     /// Rule files under an editor: the Language Server Protocol over standard streams, for .dl and .strips
     LanguageServer,
     /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
@@ -516,15 +550,23 @@ pub(super) struct ImportArgs {
     /// How exactly the things were measured, "surveyed" or "detected"; by what the file shows when absent
     #[arg(long, value_name = "PROFILE", value_parser = profile)]
     pub profile: Option<Profile>,
+    /// The file is a picture of a floor plan (PNG, PGM), dark walls on white, and a pixel of it so many cm
+    #[arg(long, value_name = "CM", value_parser = pixel, conflicts_with_all = ["format", "assets"])]
+    pub pixel: Option<f64>,
     /// The file is an SQLite base of the store's tables, as `ortho export --sqlite` writes it
     #[cfg(feature = "sqlite")]
-    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms", "profile"])]
+    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms", "profile", "pixel"])]
     pub sqlite: bool,
 }
 
 fn profile(name: &str) -> Result<Profile, String> {
     Profile::named(name)
         .ok_or_else(|| format!("one of: {}", Profile::ALL.map(Profile::name).join(", ")))
+}
+
+fn pixel(text: &str) -> Result<f64, String> {
+    let pixel = text.parse::<f64>().ok().filter(|pixel| (0.1..=1000.0).contains(pixel));
+    pixel.ok_or_else(|| "a number of centimetres from 0.1 to 1000 is wanted, such as 2".to_owned())
 }
 
 fn import_format(key: &str) -> Result<ImportFormat, String> {

@@ -10,13 +10,13 @@ use crate::engine::{
     opens_in_words, parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
-use crate::language::{Case, NounPhrase, english};
+use crate::language::{Case, Language, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 
 use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
-use super::fault::{Failure, drawn, views};
+use super::fault::{Failure, drawn};
 use super::{Answer, came_to, heeded, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
@@ -124,8 +124,8 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
 fn faults_view(warnings: &MapErrors, lang: Lang) -> serde_json::Value {
     match lang {
         _ if warnings.faults.is_empty() => json!([]),
-        Lang::Ru => views(warnings),
-        Lang::En => views(&EnglishMapErrors::from(warnings)),
+        Lang::Ru => json!(json::faults(warnings)),
+        Lang::En => json!(json::faults(&EnglishMapErrors::from(warnings))),
     }
 }
 
@@ -234,14 +234,10 @@ pub(super) fn relations(
             say(&text::counts(relations, common.lang))
         };
     }
-    let rows = engine.facts(name, of)?;
     if common.json {
-        let rows: Vec<_> = rows
-            .iter()
-            .map(|(relation, values)| json!({"relation": relation, "args": json::tuple(values)}))
-            .collect();
-        return say(&json!({ "facts": rows }).to_string());
+        return say(&json::facts(&engine, name, of, Language::Russian)?.to_string());
     }
+    let rows = engine.facts(name, of)?;
     if rows.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }
@@ -275,13 +271,14 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     let truth = args.truth.as_deref().map(|file| truth(common, &engine, file)).transpose()?;
     if let Some(scenario) = &scenario {
-        let mut robot: Box<dyn Vehicle> = match args.vehicle.connect(engine.world()?)? {
-            Some(robot) => Box::new(robot),
-            None => match args.vehicle.senses() {
-                Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
-                None => Box::new(engine.simulator(truth)?),
-            },
-        };
+        let mut robot: Box<dyn Vehicle> =
+            match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
+                Some(robot) => Box::new(robot),
+                None => match args.vehicle.senses() {
+                    Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
+                    None => Box::new(engine.simulator(truth)?),
+                },
+            };
         let answer = super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot)?;
         if let Some(path) = &args.draw {
             super::draw::put_driven(common, &engine, &answer, path)?;
@@ -295,7 +292,7 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     } else if let Some(truth) = truth {
         dialogue = dialogue.in_truth(truth);
     }
-    if let Some(robot) = args.vehicle.connect(engine.world()?)? {
+    if let Some(robot) = args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
         dialogue = dialogue.driving(Box::new(robot));
     }
     let order = match (args.resume, args.later) {

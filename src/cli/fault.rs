@@ -3,20 +3,45 @@
 use std::fmt;
 use std::io::Write as _;
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceCode,
     SourceSpan, SpanContents,
 };
-use serde::Serialize;
 
-use crate::engine::{Error, RequestError};
+use crate::engine::{Error, RequestError, json};
 
-use super::args::Lang;
+use crate::units::English;
+
+use super::args::{Color, Lang};
+use super::config::ConfigError;
+
+/// What was said of colours.
+static COLOUR: OnceLock<Color> = OnceLock::new();
+
+/// Says for the whole run how faults are coloured.
+pub(super) fn colour(when: Color) {
+    // It is said once, before anything is told.
+    let _ = COLOUR.set(when);
+}
+
+/// Whether what goes to a terminal, or elsewhere, is coloured; <https://no-color.org> is heeded.
+pub(super) fn is_coloured(is_terminal: bool) -> bool {
+    match COLOUR.get() {
+        Some(Color::Always) => true,
+        Some(Color::Never) => false,
+        Some(Color::Auto) | None => {
+            is_terminal && std::env::var_os("NO_COLOR").is_none_or(|set| set.is_empty())
+        }
+    }
+}
 
 /// Why a command ended without an answer.
 #[derive(Debug)]
 pub(super) enum Failure {
+    /// The settings cannot be used.
+    Config(Box<ConfigError>),
     Engine(Box<Error>),
     /// Standard output is gone.
     Output(String),
@@ -26,28 +51,6 @@ impl<E: Into<Error>> From<E> for Failure {
     fn from(error: E) -> Self {
         Self::Engine(Box::new(error.into()))
     }
-}
-
-/// One fault for programs.
-#[derive(Debug, Serialize)]
-struct FaultView {
-    code: Option<String>,
-    message: String,
-    help: Option<String>,
-    file: Option<String>,
-    line: Option<usize>,
-    column: Option<usize>,
-    /// All places, where there are several; the first is that above.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    places: Vec<PlaceView>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct PlaceView {
-    label: Option<String>,
-    file: Option<String>,
-    line: usize,
-    column: usize,
 }
 
 impl Failure {
@@ -72,30 +75,37 @@ impl Failure {
                 eprintln!("ortho: {}: {reason}", lang.pick("вывод прерван", "output broke off"));
                 ExitCode::from(3)
             }
+            Self::Config(error) => match lang {
+                Lang::Ru => told(&**error, as_json, 2),
+                Lang::En => told(&English(&**error), as_json, 2),
+            },
             Self::Engine(error) => {
                 let english = (lang == Lang::En).then(|| error.in_english());
                 let shown: &dyn Diagnostic = english.as_deref().unwrap_or(error.as_ref());
-                if as_json {
-                    let mut leaves = Vec::new();
-                    gather(shown, None, &mut leaves);
-                    let faults: Vec<FaultView> = leaves.iter().map(view).collect();
-                    let view = serde_json::json!({ "outcome": "error", "errors": faults });
-                    // Who reads no further has read enough.
-                    let _ = writeln!(std::io::stdout(), "{view}");
-                } else {
-                    eprint!("{}", drawn(shown));
-                }
-                ExitCode::from(if error.is_input() { 2 } else { 3 })
+                told(shown, as_json, if error.is_input() { 2 } else { 3 })
             }
         }
     }
+}
+
+/// Tells faults, and with which code to end.
+#[expect(clippy::print_stderr, reason = "this is where faults are printed")]
+fn told(shown: &dyn Diagnostic, as_json: bool, code: u8) -> ExitCode {
+    if as_json {
+        let view = serde_json::json!({ "outcome": "error", "errors": json::faults(shown) });
+        // Who reads no further has read enough.
+        let _ = writeln!(std::io::stdout(), "{view}");
+    } else {
+        eprint!("{}", drawn(shown));
+    }
+    ExitCode::from(code)
 }
 
 /// Faults with the lines that they stand in; plain signs when the output is no terminal.
 ///
 /// Of a tree of faults the root is told in a line, where it holds several, and then each leaf.
 pub(super) fn drawn(error: &dyn Diagnostic) -> String {
-    let colored = std::io::IsTerminal::is_terminal(&std::io::stderr());
+    let colored = is_coloured(std::io::IsTerminal::is_terminal(&std::io::stderr()));
     let theme = if colored { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1).with_links(false);
     let mut leaves = Vec::new();
@@ -233,37 +243,6 @@ fn gather<'e>(
     }
 }
 
-/// Every leaf of a tree of faults, for programs.
-pub(super) fn views(error: &dyn Diagnostic) -> serde_json::Value {
-    let mut leaves = Vec::new();
-    gather(error, None, &mut leaves);
-    serde_json::json!(leaves.iter().map(view).collect::<Vec<_>>())
-}
-
-/// A leaf with its places, for programs.
-fn view(leaf: &Leaf<'_>) -> FaultView {
-    let place = |label: LabeledSpan| {
-        let contents = leaf.source.as_ref()?.read_span(label.inner(), 0, 0).ok()?;
-        Some(PlaceView {
-            label: label.label().map(str::to_owned),
-            file: contents.name().map(str::to_owned),
-            line: contents.line() + 1,
-            column: contents.column() + 1,
-        })
-    };
-    let places: Vec<PlaceView> = leaf.labels().into_iter().flatten().filter_map(place).collect();
-    let first = places.first().cloned();
-    FaultView {
-        code: leaf.code().map(|c| c.to_string()),
-        message: leaf.to_string(),
-        help: leaf.help().map(|h| h.to_string()),
-        file: first.as_ref().and_then(|place| place.file.clone()),
-        line: first.as_ref().map(|place| place.line),
-        column: first.as_ref().map(|place| place.column),
-        places: if places.len() > 1 { places } else { Vec::new() },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -313,10 +292,11 @@ mod tests {
     fn programs_get_every_place() {
         let text = "Предикаты:\n ТОТ-ЖЕ_(объект)\n ТОТ-ЖЕ_(объект)\nЦель: ТОТ-ЖЕ_(Стол)";
         let faults = Scenario::parse(&Source::new("правила", text)).unwrap_err();
-        let mut leaves = Vec::new();
-        gather(&faults, None, &mut leaves);
-        let views: Vec<FaultView> = leaves.iter().map(view).collect();
-        let lines = |fault: &FaultView| fault.places.iter().map(|p| p.line).collect::<Vec<_>>();
+        let views = json::faults(&faults);
+        let lines = |fault: &serde_json::Value| {
+            let places = fault["places"].as_array().cloned().unwrap_or_default();
+            places.iter().map(|place| place["line"].clone()).collect::<Vec<_>>()
+        };
         assert!(views.iter().any(|fault| lines(fault) == [3, 2]), "{views:?}");
     }
 }

@@ -25,6 +25,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
         assets: args.assets.clone(),
         synonyms: args.synonyms.clone().or(beside_rules),
         profile: args.profile,
+        pixel: args.pixel,
     };
     // The file is read before the store is opened or made, so that a faulty one leaves no trace.
     let read = read_building(&args.file, &options)?;

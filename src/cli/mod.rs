@@ -6,6 +6,7 @@
 mod args;
 mod ask;
 mod commands;
+mod config;
 mod corridor;
 mod demo;
 mod differences;
@@ -14,8 +15,10 @@ mod edit;
 mod export;
 mod fault;
 mod import;
+mod inside;
 mod language_server;
 mod locate;
+mod manual;
 mod map_from;
 mod observe;
 mod plan;
@@ -30,13 +33,12 @@ mod talk;
 mod teller;
 mod text;
 mod vehicle;
+mod watch;
 mod why;
 mod words;
 
 use std::io::Write;
 use std::process::ExitCode;
-
-use clap::Parser;
 
 use crate::engine::{Outcome, TaskAnswer, TaskEnding, json};
 use crate::language::question::Said;
@@ -59,7 +61,13 @@ enum Answer {
 /// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
+    let (arguments, fault) = config::arguments();
+    let common = &arguments.common;
+    if let Some(fault) = fault {
+        return Failure::Config(fault).show(common.json, common.lang);
+    }
+    fault::colour(common.color);
+    inside::tell(common.verbose);
     // A pipe that is closed early (`ortho relations | head`) ends the output, not the program's good name.
     let outcome = std::panic::catch_unwind(|| dispatch(&arguments));
     match outcome {
@@ -100,6 +108,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),
+        Command::Watch { map, out } => watch::run(common, map, out.as_deref()),
+        Command::Completions { shell } => manual::completions(*shell),
+        Command::Man { dir } => manual::man(common, dir),
         Command::LanguageServer => language_server::run(),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)

@@ -1,9 +1,9 @@
 //! What was seen, what is believed, and corrections of the map (D5, M8).
 
 use clap::{Args, Subcommand};
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::engine::{Believed, Engine, Source, Station, Timestamp, change_now};
+use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
 use crate::units::{Deg, Frame};
 
@@ -11,7 +11,7 @@ use super::args::{Common, Lang, moment};
 use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
-use super::{Answer, say};
+use super::{Answer, json as views, say};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum ObserveCommand {
@@ -93,7 +93,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             let engine = open(common)?;
             let found = engine.where_is(name, at.unwrap_or_else(now))?;
             if common.json {
-                say(&view(&engine, &found)?.to_string())
+                say(&views::believed(&engine, &found)?.to_string())
             } else {
                 say(&told(&engine, &found, common.lang)?)
             }
@@ -153,7 +153,7 @@ fn observe(common: &Common, args: &ObserveArgs) -> Result<Answer, Failure> {
     }
     let found = engine.where_is(&args.name, at)?;
     if common.json {
-        say(&view(&engine, &found)?.to_string())
+        say(&views::believed(&engine, &found)?.to_string())
     } else {
         say(&told(&engine, &found, common.lang)?)
     }
@@ -163,8 +163,9 @@ fn proposals(common: &Common) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let all = engine.proposals(now())?;
     if common.json {
-        let views = all.iter().map(|p| view(&engine, p)).collect::<Result<Vec<_>, _>>()?;
-        return say(&json!({ "proposals": views }).to_string());
+        let told =
+            all.iter().map(|p| views::believed(&engine, p)).collect::<Result<Vec<_>, _>>()?;
+        return say(&json!({ "proposals": told }).to_string());
     }
     if all.is_empty() {
         return say(common.lang.pick("Поправок нет.", "There are no proposals."));
@@ -183,38 +184,6 @@ fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
     let area = area.map_or("?", |a| spoken(&a.name, &a.name_en, lang));
     let (x, y) = (seen.frame.x.get(), seen.frame.y.get());
     Ok(format!("{area} ({x:.0}; {y:.0})"))
-}
-
-fn place_view(engine: &Engine, seen: &Seen) -> Result<Value, Failure> {
-    let f = &seen.frame;
-    let on_map = engine.on_map(seen)?.map(|(map, frame)| {
-        json!({
-            "map": engine.world().ok().and_then(|w| w.maps.get(&map)).map(|m| m.name.as_str()),
-            "at": [frame.x.get(), frame.y.get(), frame.z.get()],
-            "angle_deg": frame.angle.get(),
-        })
-    });
-    Ok(json!({
-        "area": engine.world()?.areas.get(&seen.area).map(|a| a.name.as_str()),
-        "at": [f.x.get(), f.y.get(), f.z.get()],
-        "angle_deg": f.angle.get(),
-        "on_map": on_map,
-    }))
-}
-
-fn view(engine: &Engine, found: &Believed) -> Result<Value, Failure> {
-    let b = &found.belief;
-    Ok(json!({
-        "name": found.name,
-        "place": place_view(engine, &b.place)?,
-        "confidence": (b.confidence * 1000.0).round() / 1000.0,
-        "since": b.since.to_string(),
-        "last_seen": b.last_seen.map(|at| at.to_string()),
-        "missed": b.missed.map(|at| at.to_string()),
-        "is_surveyed": b.is_surveyed,
-        "surveyed": place_view(engine, &found.surveyed)?,
-        "carried": found.carried,
-    }))
 }
 
 fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure> {
@@ -253,23 +222,10 @@ fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure
 
 fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let stations = engine.story_of(name)?;
     if common.json {
-        let one = |s: &Station| -> Result<Value, Failure> {
-            let place = s.place.as_ref().map(|p| place_view(&engine, p)).transpose()?;
-            let at = s.at.to_string();
-            Ok(match &s.source {
-                Source::Map { revision, user } => {
-                    json!({"at": at, "place": place, "source": "map", "revision": revision, "user": user})
-                }
-                Source::Seen { observer, sure } => {
-                    json!({"at": at, "place": place, "source": "seen", "observer": observer, "sure": sure})
-                }
-            })
-        };
-        let all = stations.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        return say(&json!({ "story": all }).to_string());
+        return say(&views::story(&engine, name)?.to_string());
     }
+    let stations = engine.story_of(name)?;
     let mut lines = Vec::new();
     for station in &stations {
         let here = match &station.place {

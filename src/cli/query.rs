@@ -1,11 +1,9 @@
 //! `ortho query '?- ON_TOP_OF(X, "Стол-1"), way_length("Точка-А", X, D).order D.limit 3'`: a question in the rules' language.
 
-use serde_json::json;
-
 use super::args::{Common, QueryArgs};
 use super::commands::open;
 use super::fault::Failure;
-use super::why::{Names, proof_json};
+use super::why::Names;
 use super::{Answer, say};
 use crate::facts::Limits;
 
@@ -22,15 +20,7 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
     let outcome = if answer.rows.is_empty() { Answer::No } else { Answer::Yes };
     let names = Names { relations: engine.relations()?, lang: common.lang };
     if common.json {
-        let rows: Vec<_> = answer.rows.iter().map(|row| super::json::tuple(row)).collect();
-        let mut view = json!({ "columns": answer.columns, "rows": rows });
-        if args.explain {
-            let proofs = answer.proofs.iter().map(|proof| proof_json(&names, proof));
-            view["proofs"] = proofs.collect();
-        }
-        if !answer.unknown.is_empty() {
-            view["unknown"] = json!(answer.unknown);
-        }
+        let view = super::json::query(&engine, &answer, args.explain, common.lang.language())?;
         say(&view.to_string())?;
         return Ok(outcome);
     }

@@ -13,9 +13,8 @@ use crate::units::write_file;
 
 use super::args::{Common, Lang, when};
 use super::commands::{note, open, open_to_write, store_dir};
-use super::edit::differences;
 use super::fault::Failure;
-use super::{Answer, say};
+use super::{Answer, json as views, say};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum StoreCommand {
@@ -136,20 +135,7 @@ fn history(common: &Common, last: Option<usize>) -> Result<Answer, Failure> {
         revisions.drain(..revisions.len().saturating_sub(last));
     }
     if common.json {
-        let one = |r: &Revision| {
-            json!({
-                "revision": r.number,
-                "at": r.at.to_string(),
-                "user": r.user,
-                "reason": r.reason,
-                "kind": r.kind.word(),
-                "undoes": r.undoes,
-                "created": r.counts.created,
-                "changed": r.counts.changed,
-                "deleted": r.counts.deleted,
-            })
-        };
-        let all: Vec<Value> = revisions.iter().map(one).collect();
+        let all: Vec<Value> = revisions.iter().map(views::revision).collect();
         return say(&json!({ "revisions": all }).to_string());
     }
     if revisions.is_empty() {
@@ -178,8 +164,7 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
     let (first, last) = (engine.revision_of(from)?, engine.revision_of(to)?);
     let all = engine.diff(from, to)?;
     if common.json {
-        let view =
-            json!({"from": first, "to": last, "differences": differences(&all, common.lang)});
+        let view = json!({"from": first, "to": last, "differences": views::differences(&all, common.lang.language())});
         return say(&view.to_string());
     }
     if all.is_empty() {
@@ -191,14 +176,7 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
 fn done(common: &Common, outcome: &str, report: &ImportReport) -> Result<Answer, Failure> {
     let counts = report.counts;
     if common.json {
-        let view = json!({
-            "outcome": outcome,
-            "revision": report.revision,
-            "created": counts.created,
-            "changed": counts.changed,
-            "deleted": counts.deleted,
-        });
-        return say(&view.to_string());
+        return say(&views::changed(outcome, report).to_string());
     }
     if counts.total() == 0 {
         return say(common.lang.pick("Ничего не изменилось.", "Nothing changed."));

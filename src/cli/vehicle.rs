@@ -20,9 +20,9 @@ use super::fault::Failure;
 /// What carries out a task.
 #[derive(Debug, Clone, Args)]
 pub(super) struct VehicleArgs {
-    /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
-    #[arg(long, value_name = "ADDRESS", value_parser = address, conflicts_with_all = ["truth", "senses"])]
-    vehicle: Option<Address>,
+    /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT; "simulator" where the settings name a robot
+    #[arg(long, value_name = "ADDRESS", value_parser = wheels, conflicts_with_all = ["truth", "senses"])]
+    vehicle: Option<Wheels>,
     /// How long that robot may keep silent while it owes an answer
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "vehicle")]
     silence: Option<Duration>,
@@ -48,8 +48,21 @@ impl SensesArgs {
     }
 }
 
-fn address(text: &str) -> Result<Address, String> {
-    text.parse().map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
+/// What drives.
+#[derive(Debug, Clone)]
+pub(super) enum Wheels {
+    /// Whatever the settings say.
+    Simulator,
+    At(Address),
+}
+
+pub(super) fn wheels(text: &str) -> Result<Wheels, String> {
+    if text == "simulator" {
+        return Ok(Wheels::Simulator);
+    }
+    text.parse()
+        .map(Wheels::At)
+        .map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -63,8 +76,16 @@ impl VehicleArgs {
     ///
     /// # Errors
     /// It does not answer, or is another than the map needs.
-    pub(super) fn connect(&self, world: &World) -> Result<Option<RemoteVehicle>, Failure> {
-        let Some(address) = &self.vehicle else { return Ok(None) };
+    pub(super) fn connect(
+        &self,
+        world: &World,
+        truth: Option<&std::path::Path>,
+    ) -> Result<Option<RemoteVehicle>, Failure> {
+        // A robot of the settings yields to a world that only the simulator can be put into.
+        let is_simulated = truth.is_some() || self.senses().is_some();
+        let Some(Wheels::At(address)) = self.vehicle.as_ref().filter(|_| !is_simulated) else {
+            return Ok(None);
+        };
         let usual = Patience::default();
         let patience = Patience { silence: self.silence.unwrap_or(usual.silence), ..usual };
         Ok(Some(address.connect(world, patience).map_err(Box::new)?))

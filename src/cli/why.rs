@@ -1,14 +1,12 @@
 //! `ortho why "НАХОДИТСЯ_СВЕРХУ_НА(Чашка-1, Стол-1)"`: the proof of a relation, down to what was measured; `--not` asks
 //! why it does not hold.
 
-use serde_json::{Value, json};
-
 use super::args::{Common, Lang};
 use super::commands::open;
 use super::fault::Failure;
 use super::{Answer, say};
 use crate::engine::{Relations, RequestError};
-use crate::facts::{Because, Below, FailedRule, Premise, Proof, WhyNot};
+use crate::facts::WhyNot;
 
 /// Runs the command. A fact that is asked about the wrong way round – why, though it does not hold – is answered with
 /// "no" and with what can be said.
@@ -24,41 +22,32 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
         *subject = engine.world()?.name(engine.find(subject)?);
     }
     let proof = relations.why(name, &of)?;
+    if common.json {
+        say(&super::json::why(&engine, name, &of, common.lang.language())?.to_string())?;
+        return Ok(if proof.is_some() == not { Answer::No } else { Answer::Yes });
+    }
     if let Some(proof) = proof {
-        if common.json {
-            say(&json!({ "holds": true, "proof": proof_json(&names, &proof) }).to_string())?;
-        } else {
-            if not {
-                say(common.lang.pick("Это так:", "It does hold:"))?;
-            }
-            say(names.translate(&proof.to_string()).trim_end())?;
+        if not {
+            say(common.lang.pick("Это так:", "It does hold:"))?;
         }
+        say(names.translate(&proof.to_string()).trim_end())?;
         return Ok(if not { Answer::No } else { Answer::Yes });
     }
-    let why_not = relations.why_not(name, &of)?;
-    if common.json {
-        let nearest = match &why_not {
-            WhyNot::Nearest(rule) => failed_json(&names, rule),
-            WhyNot::NotTold | WhyNot::Holds => Value::Null,
-        };
-        say(&json!({ "holds": false, "nearest": nearest }).to_string())?;
-    } else {
-        let shown = names.name(name);
-        let head = format!("{shown}({})", of.join(", "));
-        match why_not {
-            WhyNot::Nearest(rule) => {
-                let text = common
-                    .lang
-                    .pick("не выполняется; ближе всего правило", "does not hold; the nearest rule");
-                say(names.translate(&format!("{head}: {text} {rule}")).trim_end())?;
-            }
-            WhyNot::NotTold | WhyNot::Holds => {
-                let text = common.lang.pick(
-                    "не измерено, и правил для этого отношения нет",
-                    "was not measured, and no rule derives this relation",
-                );
-                say(&format!("{head}: {text}"))?;
-            }
+    let shown = names.name(name);
+    let head = format!("{shown}({})", of.join(", "));
+    match relations.why_not(name, &of)? {
+        WhyNot::Nearest(rule) => {
+            let text = common
+                .lang
+                .pick("не выполняется; ближе всего правило", "does not hold; the nearest rule");
+            say(names.translate(&format!("{head}: {text} {rule}")).trim_end())?;
+        }
+        WhyNot::NotTold | WhyNot::Holds => {
+            let text = common.lang.pick(
+                "не измерено, и правил для этого отношения нет",
+                "was not measured, and no rule derives this relation",
+            );
+            say(&format!("{head}: {text}"))?;
         }
     }
     Ok(if not { Answer::Yes } else { Answer::No })
@@ -130,79 +119,6 @@ impl Names<'_> {
         shown.push_str(rest);
         shown.replace("(см. выше)", "(see above)")
     }
-}
-
-pub(super) fn proof_json(names: &Names<'_>, proof: &Proof) -> Value {
-    let step = |n: usize| {
-        let step = &proof.steps[n];
-        let mut view = json!({
-            "relation": names.name(&step.fact.name),
-            "args": super::json::tuple(&step.fact.values),
-            "height": step.height,
-        });
-        match &step.because {
-            Because::Told => view["because"] = json!("measured"),
-            Because::Written { source, line } => {
-                view["because"] = json!({ "source": source, "line": line });
-            }
-            Because::Rule { rule, premises } => {
-                let premises: Vec<Value> =
-                    premises.iter().map(|p| premise_json(names, p)).collect();
-                view["because"] = json!({
-                    "source": rule.source, "line": rule.line, "rule": rule.text, "premises": premises,
-                });
-            }
-        }
-        view
-    };
-    Value::Array((0..proof.steps.len()).map(step).collect())
-}
-
-fn premise_json(names: &Names<'_>, premise: &Premise) -> Value {
-    let open = |values: &[Option<crate::facts::Value>]| -> Vec<Value> {
-        let value = |v: &Option<crate::facts::Value>| match v {
-            Some(v) => super::json::tuple(std::slice::from_ref(v))[0].clone(),
-            None => Value::Null,
-        };
-        values.iter().map(value).collect()
-    };
-    let one =
-        |value: &crate::facts::Value| super::json::tuple(std::slice::from_ref(value))[0].clone();
-    match premise {
-        Premise::Fact(step) => json!({ "step": step }),
-        Premise::Pattern { name, values } => {
-            json!({ "relation": names.name(name), "args": open(values) })
-        }
-        Premise::Absent { name, values } => {
-            json!({ "not": { "relation": names.name(name), "args": open(values) } })
-        }
-        Premise::Compared { text, left, op, right } => json!({
-            "text": text, "left": one(left), "op": op.sign(), "right": one(right),
-        }),
-        Premise::Counted { text, value } => {
-            json!({ "text": text, "value": value.as_ref().map(one) })
-        }
-        Premise::Unknown { text } => json!({ "text": text }),
-    }
-}
-
-fn failed_json(names: &Names<'_>, failed: &FailedRule) -> Value {
-    let premises = failed.premises.iter().enumerate().map(|(n, (premise, holds))| {
-        let mut view = premise_json(names, premise);
-        view["holds"] = json!(holds);
-        match failed.below.iter().find(|(of, _)| *of == n).map(|(_, why)| why) {
-            Some(Below::Missing(rule)) => view["nearest"] = failed_json(names, rule),
-            Some(Below::There(proof)) => view["proof"] = proof_json(names, proof),
-            None => {}
-        }
-        view
-    });
-    json!({
-        "source": failed.rule.source,
-        "line": failed.rule.line,
-        "rule": failed.rule.text,
-        "premises": premises.collect::<Vec<_>>(),
-    })
 }
 
 #[cfg(test)]

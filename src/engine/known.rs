@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
+use std::time::Instant;
 
 use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
 use crate::language::FormIndex;
@@ -145,7 +146,10 @@ impl Known {
         if let Some(relations) = self.relations.get() {
             return Ok(relations);
         }
-        let relations = match self.kept_relations(&self.world) {
+        let begun = Instant::now();
+        let kept = self.kept_relations(&self.world);
+        let is_kept = kept.is_some();
+        let relations = match kept {
             Some(relations) => relations,
             None => {
                 let profile = self.world.domain.profile;
@@ -154,6 +158,7 @@ impl Known {
                 relations
             }
         };
+        tracing::info!(is_kept, ms = begun.elapsed().as_millis() as u64, "relations");
         Ok(self.relations.get_or_init(|| Arc::new(relations)))
     }
 
@@ -202,6 +207,7 @@ impl Known {
             return Ok(floors);
         }
         let (openings, world) = (self.openings()?, &self.world);
+        let begun = Instant::now();
         // Rules of the user's own may let doors join by what stands about.
         let basis = self
             .basis
@@ -225,6 +231,7 @@ impl Known {
                 *floor = floor.with_zones(world, |zone| zone.is_in_force(moment));
             }
         }
+        tracing::info!(maps = floors.len(), ms = begun.elapsed().as_millis() as u64, "floors");
         Ok(self.floors.get_or_init(|| Arc::new(floors)))
     }
 

@@ -19,6 +19,9 @@ impl InEnglish for ReadError {
                 format!("“{name}” is no text: byte {at} is {byte:#04x}")
             }
             Self::Archive { name } => format!("“{name}” is a ZIP archive"),
+            Self::Picture { name } => {
+                format!("“{name}” is a picture, which does not tell its scale")
+            }
             Self::Syntax { format, what, .. } => format!("{format}: {}", en(what)),
             Self::Bytes { format, what, at } => format!("{format}, byte {at}: {}", en(what)),
             Self::TooMany { format, what, limit } => {
@@ -42,6 +45,9 @@ impl InEnglish for ReadError {
             }
             Self::Archive { .. } => {
                 "unpack it and name the folder: archives of IMDF are read so as well"
+            }
+            Self::Picture { .. } => {
+                "say how many centimetres a pixel of the PNG or PGM is: --pixel 2; or name a YAML file with image, resolution and origin, as ROS map_server has it"
             }
             Self::Syntax { .. } => "correct the file in this place",
             Self::Bytes { .. } => "save the file anew with the program that made it",

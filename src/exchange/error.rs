@@ -35,6 +35,16 @@ pub enum ReadError {
     )]
     Archive { name: String },
 
+    /// A picture of a floor plan, of which nobody said how large it is.
+    #[error("«{name}» – картинка, а масштаба она не говорит")]
+    #[diagnostic(
+        code(exchange::picture),
+        help(
+            "скажите, сколько сантиметров в пикселе PNG или PGM: --pixel 2; или назовите файл YAML с полями image, resolution и origin, как у ROS map_server"
+        )
+    )]
+    Picture { name: String },
+
     /// The text breaks the rules of its own format.
     #[error("{format}: {what}")]
     #[diagnostic(code(exchange::syntax), help("исправьте файл в указанном месте"))]

@@ -46,8 +46,13 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
     if bytes.starts_with(b"PK\x03\x04") {
         return Err(ReadError::Archive { name: name.to_owned() });
     }
+    // PNG, JPEG, binary PGM; GIF, BMP and WebP begin with letters and go on with zeros.
+    const PICTURES: [&[u8]; 6] = [b"\x89PNG", b"\xFF\xD8\xFF", b"P5", b"GIF8", b"BM", b"RIFF"];
     let not_control = |b: &u8| *b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r' | 0x0C | 0x1A);
     if let Some(at) = bytes.iter().position(|b| !not_control(b)) {
+        if PICTURES.iter().any(|magic| bytes.starts_with(magic)) {
+            return Err(ReadError::Picture { name: name.to_owned() });
+        }
         return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
     }
     match String::from_utf8(bytes) {
@@ -96,6 +101,9 @@ mod tests {
     #[test]
     fn what_is_no_text_is_refused_with_its_place() {
         assert_eq!(text_of(b"PK\x03\x04"), "«файл» – архив ZIP");
+        let picture = "«файл» – картинка, а масштаба она не говорит";
+        assert_eq!(text_of(b"\x89PNG\r\n\x1a\n\0"), picture);
+        assert_eq!(text_of(b"P5\n2 1\n255\n\0\xff"), picture);
         assert_eq!(text_of(b"PK\x05\x06"), "«файл» – не текст: байт 2 равен 0x05");
         assert_eq!(text_of(b""), "");
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, MapErrors, Profile, World};
-use crate::units::{Deg, Frame, Point, Source};
+use crate::units::{Deg, Frame, Point, Source, bilingual};
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
@@ -186,6 +186,8 @@ pub struct Options {
     pub synonyms: Option<PathBuf>,
     /// How exactly the things were measured; by what the file itself shows when None.
     pub profile: Option<Profile>,
+    /// The file is a picture of a floor plan, dark walls on white, and a pixel of it so many cm.
+    pub pixel: Option<f64>,
 }
 
 /// What came of a file.
@@ -247,16 +249,25 @@ fn names_its_format(text: &str) -> bool {
 /// The file cannot be read, its format is not known, no room is left of it; in strict reading also whenever something
 /// had to be mended or left out.
 pub fn read(path: &Path, options: &Options) -> Result<Imported, ImportError> {
+    if let Some(pixel) = options.pixel {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        return read_grid(&name, &input::file_bytes(path)?, pixel, Point::origin(), options);
+    }
     let text = if path.is_dir() { None } else { Some(input::file_text(path)?) };
     let input = Input { path, text, assets: options.assets.as_deref() };
     let format = options.format.or_else(|| Format::recognised(&input)).ok_or_else(|| {
         let known: Vec<&str> = READERS.iter().map(|r| r.title).collect();
         ImportError::UnknownFormat { path: path.display().to_string(), known: known.join(", ") }
     })?;
-    let mut imported = match READERS.iter().find(|r| r.format == format) {
+    let imported = match READERS.iter().find(|r| r.format == format) {
         None => own(path, &input)?,
         Some(reader) => foreign(reader, &input, options)?,
     };
+    accepted(imported, options)
+}
+
+/// What was read, as the options want it.
+fn accepted(mut imported: Imported, options: &Options) -> Result<Imported, ImportError> {
     if let Some(profile) = options.profile {
         imported.world.domain.profile = profile;
     }
@@ -292,11 +303,15 @@ fn own(path: &Path, input: &Input<'_>) -> Result<Imported, ImportError> {
     }
 }
 
-fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Imported, ImportError> {
-    let synonyms = match &options.synonyms {
+fn synonyms(options: &Options) -> Result<Synonyms, ImportError> {
+    Ok(match &options.synonyms {
         Some(path) => Synonyms::load(path)?,
         None => Synonyms::built_in(),
-    };
+    })
+}
+
+fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Imported, ImportError> {
+    let synonyms = synonyms(options)?;
     let survey = (reader.read)(input)?;
     let name = input.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into());
     assembled(reader, &name, survey, synonyms, options)
@@ -314,6 +329,13 @@ pub fn read_grid(
     low: Point,
     options: &Options,
 ) -> Result<Imported, ImportError> {
+    if !(0.1..=1000.0).contains(&cell) {
+        let what = bilingual!(
+            "{cell} см на клетку: нужно от 0,1 до 1000",
+            "{cell} cm a cell: from 0.1 to 1000 is wanted"
+        );
+        return Err(ReadError::NoBuilding { format: ros::FORMAT, what }.into());
+    }
     let sheet = ros::Sheet {
         image: String::new(),
         resolution: cell,
@@ -326,7 +348,8 @@ pub fn read_grid(
     let survey = ros::read_parts(name, &sheet, picture)?;
     let reader = READERS.iter().find(|reader| reader.format == Format::Ros);
     let reader = reader.expect("grids are read");
-    assembled(reader, name, survey, Synonyms::built_in(), options)
+    let imported = assembled(reader, name, survey, synonyms(options)?, options)?;
+    accepted(imported, options)
 }
 
 fn assembled(

@@ -397,11 +397,19 @@ impl Report {
                 continue;
             }
             told.push_str(&format!("\n{title}: {}.", self.count(deed)));
-            let line =
-                |note: &Note| format!("{}: {}", quoted(&note.source), note.why.say(language));
+            // Of the whole file no id is told.
+            let about = |note: &Note, before: &str| match note.source.is_empty() {
+                true => String::new(),
+                false => format!("{before}{}: ", quoted(&note.source)),
+            };
+            let line = |note: &Note| format!("{}{}", about(note, ""), note.why.say(language));
             for ((code, what), notes) in groups {
                 if let [only] = notes[..] {
-                    told.push_str(&format!("\n  {} {}", one(what), line(only)));
+                    let (what, why) = (one(what), only.why.say(language));
+                    told.push_str(&match about(only, " ") {
+                        nothing if nothing.is_empty() => format!("\n  {what}: {why}"),
+                        source => format!("\n  {what}{source}{why}"),
+                    });
                     continue;
                 }
                 let (russian, english) = what.counted();

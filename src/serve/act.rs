@@ -8,14 +8,13 @@ use axum::{Extension, Json};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now};
-use crate::store::ImportReport;
-use crate::units::Source;
+use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now, json as views};
+use crate::units::{Language, Source};
 
 use super::drive::Declined;
 use super::fault::Fault;
 use super::gate::{Role, Session};
-use super::read::{differences, language};
+use super::read::language;
 use super::{House, apart};
 
 type Answer = Result<Json<Value>, Fault>;
@@ -233,7 +232,7 @@ fn theirs(engine: &Engine, on: u64) -> Result<Value, Error> {
         let changed = engine.diff(before, When::Revision(number))?;
         all.push(json!({
             "revision": number, "user": revision.user, "at": revision.at.to_string(),
-            "reason": revision.reason, "differences": differences(&changed),
+            "reason": revision.reason, "differences": views::differences(&changed, Language::Russian),
         }));
     }
     Ok(json!(all))
@@ -280,19 +279,12 @@ pub(super) async fn edited(
         Ok(json!({
             "outcome": if edited.report.is_some() { "edited" } else { "tried" },
             "revision": edited.report.as_ref().map(|report| report.revision),
-            "differences": differences(&edited.differences),
+            "differences": views::differences(&edited.differences, Language::Russian),
             "left_behind": edited.left_behind,
             "warnings": warnings,
         }))
     });
     written.await.map(|Json(view)| view)
-}
-
-fn reported(outcome: &str, report: &ImportReport) -> Value {
-    json!({
-        "outcome": outcome, "revision": report.revision, "created": report.counts.created,
-        "changed": report.counts.changed, "deleted": report.counts.deleted,
-    })
 }
 
 /// Takes back the last edit that stands, or a certain one.
@@ -303,7 +295,7 @@ pub(super) async fn undo(
 ) -> Answer {
     let change = by(&session, &step.reason);
     write(&house, step.on, move |engine| {
-        Ok(reported("undone", &engine.undo(step.revision, &change)?))
+        Ok(views::changed("undone", &engine.undo(step.revision, &change)?))
     })
     .await
 }
@@ -315,7 +307,7 @@ pub(super) async fn redo(
     Json(step): Json<Step>,
 ) -> Answer {
     let change = by(&session, &step.reason);
-    write(&house, step.on, move |engine| Ok(reported("redone", &engine.redo(&change)?))).await
+    write(&house, step.on, move |engine| Ok(views::changed("redone", &engine.redo(&change)?))).await
 }
 
 /// Makes the map what it was at a revision.
@@ -327,7 +319,7 @@ pub(super) async fn restore(
     let change = by(&session, &step.reason);
     write(&house, step.on, move |engine| {
         let to = When::Revision(step.revision.unwrap_or(step.on));
-        Ok(reported("restored", &engine.return_to(to, &change)?))
+        Ok(views::changed("restored", &engine.return_to(to, &change)?))
     })
     .await
 }
@@ -354,7 +346,7 @@ pub(super) async fn decide(
     };
     let done = write(&house, said.on, move |engine| {
         if is_confirmed {
-            return Ok(reported("confirmed", &engine.confirm(&name, &change)?));
+            return Ok(views::changed("confirmed", &engine.confirm(&name, &change)?));
         }
         engine.reject(&name, &change)?;
         Ok(json!({ "outcome": "rejected", "revision": engine.revision() }))

@@ -21,7 +21,6 @@ use crate::units::{Language, Stop};
 use super::desk::Desk;
 use super::events::Events;
 use super::gate::Session;
-use super::rehearse::{is_same_plan, plans_of, rehearse};
 
 /// So many tasks that ended are remembered, and so many plans that wait for a word.
 const REMEMBERED: usize = 50;
@@ -145,7 +144,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Value, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let mut heard = rehearse(&state, &before, text)?;
+        let mut heard = json::rehearse(&state, &before, text)?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
             let standing = language.pick("Останавливаюсь.", "I am stopping.");
@@ -201,7 +200,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Answered, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let heard = rehearse(&state, &before, text)?;
+        let heard = json::rehearse(&state, &before, text)?;
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
@@ -305,9 +304,10 @@ impl Tasks {
         let is_same_state = task.state.upgrade().is_some_and(|then| Arc::ptr_eq(&then, &state));
         if !is_same_state {
             // What was seen since need not change the map, and yet may change the plan.
-            let again = rehearse(&state, &task.before, &task.text);
+            let again = json::rehearse(&state, &task.before, &task.text);
             let again = again.map_err(|error| Declined::Failed(Box::new(error)))?;
-            let is_same = again.plan.as_ref().is_some_and(|plan| is_same_plan(plan, &task.plan));
+            let is_same =
+                again.plan.as_ref().is_some_and(|plan| json::is_same_plan(plan, &task.plan));
             if state.revision() != task.revision || !is_same {
                 let (text, before) = (task.text, task.before);
                 let anew = |plan| self.propose(session, &text, before, plan, &state);
@@ -562,7 +562,7 @@ impl<'t> Drive<'t> {
     fn new(tasks: &'t Tasks, task: &Task, stop: Stop) -> Self {
         let (events, told) = (TaskEvents::default(), Instant::now());
         let (id, clock, passed, failure) = (task.id, None, 0.0, None);
-        let agreed = task.is_strict.then(|| plans_of(&task.plan).cloned().collect());
+        let agreed = task.is_strict.then(|| json::plans_of(&task.plan).cloned().collect());
         Self { tasks, id, stop, events, clock, passed, told, failure, agreed }
     }
 

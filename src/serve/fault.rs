@@ -3,10 +3,10 @@
 use axum::Json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
-use miette::{Diagnostic, SourceCode};
+use miette::Diagnostic;
 use serde_json::{Value, json};
 
-use crate::engine::Error;
+use crate::engine::{Error, json as views};
 use crate::map::World;
 use crate::units::Language;
 
@@ -64,8 +64,8 @@ impl Fault {
         let nothing = World::empty();
         let world = world.unwrap_or(&nothing);
         let text = |found: Option<Box<dyn std::fmt::Display + '_>>| found.map(|t| t.to_string());
-        let mut faults = leaves(error, None);
-        for (fault, english) in faults.iter_mut().zip(leaves(&*error.in_english(), None)) {
+        let mut faults = views::faults(error);
+        for (fault, english) in faults.iter_mut().zip(views::faults(&*error.in_english())) {
             fault["message_en"] = english["message"].clone();
             fault["help_en"] = english["help"].clone();
         }
@@ -88,25 +88,6 @@ impl Fault {
         });
         Self { status, body }
     }
-}
-
-/// The leaves of the tree of faults, in order, each with its place.
-fn leaves(error: &dyn Diagnostic, source: Option<&dyn SourceCode>) -> Vec<Value> {
-    let source = error.source_code().or(source);
-    let inner = error.related().into_iter().flatten();
-    let all: Vec<Value> = inner.flat_map(|inner| leaves(inner, source)).collect();
-    if !all.is_empty() {
-        return all;
-    }
-    let at = error.labels().and_then(|mut labels| labels.next());
-    let at = at.zip(source).and_then(|(at, source)| source.read_span(at.inner(), 0, 0).ok());
-    vec![json!({
-        "code": error.code().map(|code| code.to_string()),
-        "message": error.to_string(),
-        "help": error.help().map(|help| help.to_string()),
-        "line": at.as_ref().map(|at| at.line() + 1),
-        "column": at.as_ref().map(|at| at.column() + 1),
-    })]
 }
 
 impl From<Error> for Fault {

@@ -20,7 +20,6 @@ mod fault;
 mod gate;
 mod listen;
 mod read;
-mod rehearse;
 mod routes;
 
 use std::net::SocketAddr;

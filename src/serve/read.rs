@@ -14,7 +14,7 @@ use crate::engine::{
 };
 use crate::facts::{Because, Premise, WhyNot};
 use crate::map::{Entity, Replica};
-use crate::store::{Cell, Difference, Fate, Revision, Seen};
+use crate::store::Seen;
 use crate::units::{Language, MapId};
 
 use super::fault::Fault;
@@ -399,14 +399,7 @@ pub(super) async fn history(Of(house): Of<Arc<House>>) -> Answer {
 
 pub(super) async fn revisions(house: &House) -> Result<Value, Fault> {
     let all = house.desk.ask(|engine| engine.revisions()).await??;
-    let one = |r: &Revision| {
-        json!({
-            "revision": r.number, "at": r.at.to_string(), "user": r.user, "reason": r.reason,
-            "kind": r.kind.word(), "undoes": r.undoes, "created": r.counts.created,
-            "changed": r.counts.changed, "deleted": r.counts.deleted,
-        })
-    };
-    Ok(json!({ "revisions": all.iter().map(one).collect::<Vec<_>>() }))
+    Ok(json!({ "revisions": all.iter().map(views::revision).collect::<Vec<_>>() }))
 }
 
 /// What changed between two revisions.
@@ -419,34 +412,9 @@ pub(super) async fn changed(house: &House, from: u64, to: Option<u64>) -> Result
         let to = to.unwrap_or_else(|| engine.revision());
         engine.diff(When::Revision(from), When::Revision(to))
     });
-    Ok(json!({ "from": from, "to": to, "differences": differences(&all.await??) }))
-}
-
-/// Differences with their subjects, as `ortho diff --json` gives them.
-pub(super) fn differences(all: &[Difference]) -> Vec<Value> {
-    let cell = |cell: &Cell| match cell {
-        Cell::Null => Value::Null,
-        Cell::Int(n) => json!(n),
-        Cell::Real(x) => json!(x),
-        Cell::Text(text) => json!(text),
-    };
-    let one = |d: &Difference| {
-        let fields = d
-            .fields
-            .iter()
-            .map(|f| json!({ "column": f.column, "old": cell(&f.old), "new": cell(&f.new) }));
-        json!({
-            "table": d.table.name(),
-            "fate": match d.fate {
-                Fate::Created => "created",
-                Fate::Changed => "changed",
-                Fate::Deleted => "deleted",
-            },
-            "subject": d.subject.to_string(),
-            "ru": d.say(Language::Russian), "en": d.say(Language::English), "fields": fields.collect::<Vec<_>>(),
-        })
-    };
-    all.iter().map(one).collect()
+    Ok(
+        json!({ "from": from, "to": to, "differences": views::differences(&all.await??, Language::Russian) }),
+    )
 }
 
 /// What is believed to stand elsewhere than the map has it.

@@ -12,6 +12,7 @@ mod plans;
 mod readme;
 mod rules;
 mod see;
+mod settings;
 mod tasks;
 mod words;
 

@@ -10,10 +10,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::json;
 
-use crate::engine::{Difference, Edited, Format, Mode, change_now};
-use crate::units::{Language, Source};
+use crate::engine::{Edited, Format, Mode, change_now};
+use crate::units::Source;
 
 use super::args::{Common, Lang};
 use super::commands::{open_to_write, warn};
@@ -53,7 +52,7 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
     let edited = engine.edit(&source, format, &change, mode)?;
     warn(&edited.warnings, common.lang);
     if common.json {
-        say(&view(&edited, common.lang).to_string())
+        say(&super::json::edited(&edited, common.lang.language()).to_string())
     } else {
         say(&told(&edited, common.lang))
     }
@@ -61,50 +60,6 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
 
 fn read(file: &Path) -> Result<Source, Failure> {
     Source::read(file).map_err(|fault| Failure::file(file, &fault.into_io()))
-}
-
-fn view(edited: &Edited, lang: Lang) -> serde_json::Value {
-    let counts = edited.report.as_ref().map(|r| r.counts).unwrap_or_default();
-    json!({
-        "outcome": if edited.report.is_some() { "edited" } else { "tried" },
-        "revision": edited.report.as_ref().map(|r| r.revision),
-        "created": counts.created,
-        "changed": counts.changed,
-        "deleted": counts.deleted,
-        "differences": differences(&edited.differences, lang),
-        "left_behind": edited.left_behind,
-        "warnings": edited.warnings.faults.len(),
-    })
-}
-
-pub(super) fn differences(all: &[Difference], lang: Lang) -> Vec<serde_json::Value> {
-    use crate::store::{Cell, Fate};
-    let cell = |cell: &Cell| match cell {
-        Cell::Null => json!(null),
-        Cell::Int(n) => json!(n),
-        Cell::Real(x) => json!(x),
-        Cell::Text(text) => json!(text),
-    };
-    let one = |d: &Difference| {
-        let fields: Vec<_> = d
-            .fields
-            .iter()
-            .map(|f| json!({"column": f.column, "old": cell(&f.old), "new": cell(&f.new)}))
-            .collect();
-        json!({
-            "table": d.table.name(),
-            "fate": match d.fate {
-                Fate::Created => "created",
-                Fate::Changed => "changed",
-                Fate::Deleted => "deleted",
-            },
-            "subject": d.subject.say(lang.language()),
-            "ru": d.say(Language::Russian),
-            "en": d.say(Language::English),
-            "fields": fields,
-        })
-    };
-    all.iter().map(one).collect()
 }
 
 fn told(edited: &Edited, lang: Lang) -> String {

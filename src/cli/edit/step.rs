@@ -16,6 +16,9 @@ pub(super) enum Step {
         area: String,
         #[command(flatten)]
         at: At,
+        /// Instead of --at, in the frame of the Map, cm; --angle is then of that frame as well
+        #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, conflicts_with = "at")]
+        pose: Option<Numbers>,
         /// 0 never moves, 100 may be anywhere
         #[arg(long, value_name = "0..100")]
         move_prob: Option<u32>,
@@ -28,8 +31,16 @@ pub(super) enum Step {
         #[arg(long, value_name = "NAME")]
         area: String,
         /// In the Area's frame, cm
-        #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
-        at: Numbers,
+        #[arg(
+            long,
+            value_name = "X,Y",
+            allow_hyphen_values = true,
+            required_unless_present = "pose"
+        )]
+        at: Option<Numbers>,
+        /// Instead of --at, in the frame of the Map, cm; --heading is then of that frame as well
+        #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "at")]
+        pose: Option<Numbers>,
         #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
         heading: Option<f64>,
         /// The thing that is served from here

@@ -134,15 +134,19 @@ impl Step {
     pub(super) fn text(&self) -> String {
         let record = |section: &str, key: &str| Text::head(&format!("[{section}.{}]", quoted(key)));
         let text = match self {
-            Self::Place { name, object, area, at, move_prob, name_en } => Text::step("place", name)
-                .text("object", object)
+            Self::Place { name, object, area, at, pose, move_prob, name_en } => {
+                Text::step("place", name)
+                    .text("object", object)
+                    .text("area", area)
+                    .at(at)
+                    .numbers("pose", pose.as_ref())
+                    .number("move_prob", move_prob.map(f64::from))
+                    .opt("name_en", name_en.as_ref())
+            }
+            Self::Point { name, area, at, pose, heading, serves } => Text::step("point", name)
                 .text("area", area)
-                .at(at)
-                .number("move_prob", move_prob.map(f64::from))
-                .opt("name_en", name_en.as_ref()),
-            Self::Point { name, area, at, heading, serves } => Text::step("point", name)
-                .text("area", area)
-                .numbers("at", Some(at))
+                .numbers("at", at.as_ref())
+                .numbers("pose", pose.as_ref())
                 .number("heading", *heading)
                 .opt("serves", serves.as_ref()),
             Self::Move { name, to, by, area, carry } => Text::step("move", name)

@@ -7,12 +7,11 @@ use rmcp::model::ProgressNotificationParam;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::engine::{Error, Mode, change_now};
+use crate::engine::{Error, Mode, change_now, json as views};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
 use super::super::gate::Session;
-use super::super::rehearse::plans_of;
 use super::super::{House, act, apart};
 use super::approval::{Word, ask};
 use super::call::{Answer, Call, Said, Told, refuse, said};
@@ -276,7 +275,7 @@ fn plan_in_words(task: &Value, language: Language) -> String {
         task["text"].as_str().unwrap_or_default()
     )];
     let directive = language.pick("do_ru", "do_en");
-    let steps = plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
+    let steps = views::plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
     let steps = steps.filter_map(|step| step.as_array()).flatten();
     for (number, step) in (1..).zip(steps) {
         lines.push(format!("{number}. {}", step[directive].as_str().unwrap_or_default()));

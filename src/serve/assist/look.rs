@@ -10,7 +10,7 @@ use crate::robot::Moment;
 use crate::units::Language;
 
 use super::super::drive::{Answered, pose_view};
-use super::super::{apart, drawing, read, rehearse};
+use super::super::{apart, drawing, read};
 use super::call::{Answer, Call, Said, Told, refuse, said};
 
 #[derive(Deserialize)]
@@ -195,7 +195,7 @@ impl Call<'_> {
         let house = self.house();
         let state = read::then(&house, then.revision).await?;
         let language = Language::of(&then.text);
-        let replies = apart(move || rehearse::replied(&state, then.text.trim(), language));
+        let replies = apart(move || views::replied(&state, then.text.trim(), language));
         let replies = replies.await?;
         Ok(Told::Value(json!({
             "revision": then.revision, "text": said(&replies), "replies": replies,

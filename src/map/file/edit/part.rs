@@ -47,6 +47,10 @@ pub(super) fn part_of(world: &World, edits: &Node, naming: &Naming<'_>) -> Optio
     let mut said = Said::default();
     said.hear(edits)?;
     let steps = edits.entry("edit").map_or(&[][..], |entry| entry.node.elements());
+    // Where a room stands on its Map is not part of it.
+    if steps.iter().any(|step| step.entry("pose").is_some()) {
+        return None;
+    }
     let has = |verbs: &[&str]| steps.iter().any(|s| verbs.iter().any(|v| s.entry(v).is_some()));
     let mut spoken = Spoken::default();
     for text in &said.texts {

@@ -27,9 +27,20 @@ use word::{Done, Step, misprint, text_of, unknown_field, wrong_kind};
 const VERBS: &[(&str, &[&str])] = &[
     (
         "place",
-        &["object", "area", "at", "angle", "name_en", "move_prob", "properties", "doors", "forms"],
+        &[
+            "object",
+            "area",
+            "at",
+            "pose",
+            "angle",
+            "name_en",
+            "move_prob",
+            "properties",
+            "doors",
+            "forms",
+        ],
     ),
-    ("point", &["area", "at", "heading", "serves", "name_en", "forms"]),
+    ("point", &["area", "at", "pose", "heading", "serves", "name_en", "forms"]),
     ("move", &["to", "by", "area", "carry"]),
     ("turn", &["to", "by", "carry"]),
     ("remove", &["kind"]),
@@ -70,8 +81,19 @@ const ZONE: &[&str] = &[
 ];
 
 /// What may stand in an edit file beside `edit`.
-const SECTIONS: [&str; 10] =
-    ["format", "reason", "edit", "type", "orthoframe", "door", "object", "area", "map", "zone"];
+const SECTIONS: [&str; 11] = [
+    "format",
+    "reason",
+    "edit",
+    "robot",
+    "type",
+    "orthoframe",
+    "door",
+    "object",
+    "area",
+    "map",
+    "zone",
+];
 const GROUPS: &[Kind] = &[Kind::Area, Kind::Object];
 
 pub(super) struct Steps<'a> {
@@ -117,6 +139,7 @@ impl<'a> Steps<'a> {
                     Ok(())
                 }
                 "edit" => Ok(()),
+                "robot" => self.robot(&entry.node),
                 other => {
                     match Kind::ALL.into_iter().find(|k| k.lines().is_none() && k.word() == other) {
                         Some(kind) => {

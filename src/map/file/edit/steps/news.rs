@@ -1,10 +1,10 @@
 //! What an edit file brings: records of a section, lines of an Area, types, each under an id never given before.
 
 use super::Steps;
-use super::word::{misprint, table, unknown_field};
+use super::word::{Done, misprint, table, unknown_field, wrong_kind};
 use crate::TypeKind;
 use crate::fault::MapError;
-use crate::file::decode::shortened;
+use crate::file::decode::{TABLE, shortened};
 use crate::file::edit::tree::{Kind, entry};
 use crate::file::node::{Entry, Node, Span, Value};
 
@@ -14,6 +14,16 @@ impl Steps<'_> {
         let id = *next;
         *next = next.saturating_add(1);
         entry("id", span, Value::Integer(i64::from(id)))
+    }
+
+    /// What is said of the robot; the rest of it stays.
+    pub(super) fn robot(&mut self, said: &Node) -> Done {
+        if !matches!(said.value, Value::Table(_)) {
+            return Err(wrong_kind(said, TABLE));
+        }
+        let robot = self.tree.table_mut("robot").expect("a map file has room for its robot");
+        said.entries().iter().for_each(|entry| robot.put(entry.clone()));
+        Ok(())
     }
 
     /// New records of one section.

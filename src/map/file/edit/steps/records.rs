@@ -5,7 +5,7 @@ use super::{GROUPS, Steps};
 use crate::fault::MapError;
 use crate::file::edit::tree::{Handle, Kind};
 use crate::file::node::{Entry, Node, Value};
-use crate::units::Bilingual;
+use crate::units::{Bilingual, name_key};
 
 impl Steps<'_> {
     /// Takes a record out, with what only it gave a place: an Area's standing on its Map, a door's bindings.
@@ -128,7 +128,16 @@ impl Steps<'_> {
         }
         if let Some(to) = step.field("to") {
             let new = text_of(to)?.to_owned();
+            let called = text_of(&step.verb.node).map(name_key)?;
             let record = self.change(at);
+            let is_called = |field: &str| {
+                let name = record.entry(field).and_then(|e| e.node.text());
+                name.is_some_and(|name| name_key(name) == called)
+            };
+            // Called by its English name, it has that no more.
+            if is_called("name_en") && !is_called("name") {
+                record.drop_entry("name_en");
+            }
             record.put(Entry {
                 key: "name".to_owned(),
                 key_span: to.span.clone(),

@@ -6,12 +6,13 @@ use crate::fault::MapError;
 use crate::file::decode::{BOOLEAN, shortened};
 use crate::file::edit::tree::{Handle, Kind, entry};
 use crate::file::node::{Entry, Node, Value};
-use crate::units::ReplicaId;
+use crate::units::{AreaId, Bilingual, Deg, Point, ReplicaId};
 
 impl Steps<'_> {
     pub(super) fn place(&mut self, step: &Step<'_>) -> Done {
         let area = self.find(step.required("area")?, &[Kind::Area])?;
-        let fields = VERBS[0].1.iter().filter(|f| **f != "area").copied().collect::<Vec<_>>();
+        let is_kept = |field: &&&str| !["area", "pose"].contains(*field);
+        let fields = VERBS[0].1.iter().filter(is_kept).copied().collect::<Vec<_>>();
         self.new_line(Kind::Replica, area, step, &fields)
     }
 
@@ -35,10 +36,50 @@ impl Steps<'_> {
             };
             entry.node = self.reference(&entry.node, kinds)?;
         }
+        self.from_pose(area, step, &mut entries)?;
         entries.push(Entry { key: "name".to_owned(), ..step.verb.clone() });
         entries.push(self.fresh_id(kind, step.span()));
         // The place of the line is that of the whole step, as a line of a map file is that of its fields.
         self.tree.add_line(kind, area, table(&step.verb.key_span, entries));
+        Ok(())
+    }
+
+    /// `pose` tells in the frame of the Map what `at` and the angle tell in that of the Area.
+    fn from_pose(&self, area: Handle, step: &Step<'_>, entries: &mut Vec<Entry>) -> Done {
+        let Some(pose) = step.field("pose") else { return Ok(()) };
+        let wrong = |message: Bilingual| Err(misprint(MapError::BadValue { message }, &pose.span));
+        if step.field("at").is_some() {
+            return wrong(("дайте либо at, либо pose", "give either at or pose").into());
+        }
+        let id = match self.tree.get(area).and_then(|n| Some(&n.entry("id")?.node.value)) {
+            Some(Value::Integer(id)) => u32::try_from(*id).ok().map(AreaId),
+            _ => None,
+        };
+        let Some((_, frame)) = id.and_then(|id| self.world.placement(id)) else {
+            return wrong(
+                (
+                    "помещение ещё не стоит на карте: дайте at в его системе координат",
+                    "the room stands on no map yet: give at in its own frame",
+                )
+                    .into(),
+            );
+        };
+        let told = numbers(pose)?;
+        let at = frame.invert(Point::new(told[0], told[1]));
+        let height = told.get(2).map(|z| z - frame.z.get());
+        let at = [Some(at.x), Some(at.y), height].into_iter().flatten();
+        let at = at.map(|x| Node { span: pose.span.clone(), value: written(hundredths(x)) });
+        entries.push(entry("at", &pose.span, Value::List(at.collect())));
+        for turned in entries.iter_mut().filter(|e| ["angle", "heading"].contains(&&*e.key)) {
+            let angle = (number(&turned.node)? - frame.angle.get()).rem_euclid(360.0);
+            turned.node.value = written(angle);
+        }
+        // A thing of which no angle is said stands along the axes of the Map.
+        let is_thing = step.verb.key == "place";
+        if is_thing && frame.angle != Deg::ZERO && !entries.iter().any(|e| e.key == "angle") {
+            let angle = (-frame.angle.get()).rem_euclid(360.0);
+            entries.push(entry("angle", &pose.span, written(angle)));
+        }
         Ok(())
     }
 
@@ -143,4 +184,9 @@ impl Steps<'_> {
         self.change(at).put(entry(field, &node.span, written(angle)));
         Ok(())
     }
+}
+
+/// A tenth of a millimetre: what a turned frame adds behind it nobody measured.
+fn hundredths(x: f64) -> f64 {
+    (x * 100.0).round() / 100.0 + 0.0
 }

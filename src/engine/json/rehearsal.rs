@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::engine::{Dialogue, Engine, Error, Event, Outcome, Reply, State, TaskEvents, json};
+use crate::engine::{Dialogue, Engine, Error, Event, Outcome, Reply, State, TaskEvents};
 use crate::units::Language;
 
 /// What a line came to when it was heard apart.
 #[derive(Debug)]
-pub(super) struct Rehearsed {
+pub struct Rehearsed {
     /// What was replied before the first task.
     pub replies: Vec<Value>,
     /// What is to be confirmed, if anything is.
@@ -20,13 +20,13 @@ pub(super) struct Rehearsed {
 }
 
 /// The plans that a task goes by, as they are made one after another: steps and assumptions.
-pub(super) fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
+pub fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
     let events = plan["events"].as_array().into_iter().flatten();
     events.filter(|event| event["event"] == "planned" || event["event"] == "replanned")
 }
 
 /// Whether two lines heard apart would do the same, and rest on the same.
-pub(super) fn is_same_plan(one: &Value, other: &Value) -> bool {
+pub fn is_same_plan(one: &Value, other: &Value) -> bool {
     plans_of(one).eq(plans_of(other)) && one["assumptions"] == other["assumptions"]
 }
 
@@ -34,7 +34,7 @@ pub(super) fn is_same_plan(one: &Value, other: &Value) -> bool {
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub(super) fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
+pub fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
     rehearse(state, &Dialogue::new(language), text).map(|heard| json!(heard.replies))
 }
 
@@ -42,11 +42,7 @@ pub(super) fn replied(state: &Arc<State>, text: &str, language: Language) -> Res
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub(super) fn rehearse(
-    state: &Arc<State>,
-    before: &Dialogue,
-    text: &str,
-) -> Result<Rehearsed, Error> {
+pub fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
     let mut engine = Engine::beside(Arc::clone(state));
     let mut dialogue = before.apart().keeping_nothing();
     let (mut told, mut events) = (Vec::new(), TaskEvents::default());
@@ -72,14 +68,14 @@ pub(super) fn rehearse(
     let before = first.unwrap_or(heard.replies.len());
     let mut replies = Vec::new();
     for reply in &heard.replies[..before] {
-        let mut view = json::reply(&engine, reply)?;
+        let mut view = super::reply(&engine, reply)?;
         view["text"] = json!(reply.text);
         view["language"] = json!(reply.language.pick("ru", "en"));
         replies.push(view);
     }
     let plan = match first.map(|at| &heard.replies[at].outcome) {
         Some(Outcome::Task(task)) => {
-            let mut plan = json::task(engine.world()?, task);
+            let mut plan = super::task(engine.world()?, task);
             plan["said"] = json!(text);
             plan["events"] = json!(told);
             let others = heard.replies.iter().filter(|reply| drives(reply)).count();

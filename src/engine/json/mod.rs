@@ -1,5 +1,15 @@
 //! Engine values as JSON, for all faces alike. The field names are documented in docs/cli.md and stay.
 
+mod faults;
+mod known;
+mod proofs;
+mod rehearsal;
+
+pub use faults::faults;
+pub use known::{believed, changed, differences, edited, facts, revision, story};
+pub use proofs::{query, why};
+pub use rehearsal::{Rehearsed, is_same_plan, plans_of, rehearse, replied};
+
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -1,0 +1,202 @@
+//! The engine between threads, and what goes wrong as exceptions.
+//!
+//! **Invariant.** One thread at a time has the engine, and no Python runs while it does; who reads has the [`State`] as
+//! it stood, and holds nobody up.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::SystemTime;
+
+use orthoframe::engine::json;
+use orthoframe::{Engine, Error, Language, State, World};
+use pyo3::prelude::*;
+use serde_json::Value;
+
+use crate::dict::to_python;
+
+/// What all threads share.
+#[derive(Debug)]
+pub(crate) struct Desk {
+    /// None once it was closed.
+    engine: Mutex<Option<Engine>>,
+    pub(crate) language: Language,
+    pub(crate) user: String,
+    /// The robot is one: while it is under way, nothing else sends it.
+    is_under_way: AtomicBool,
+}
+
+/// Why a call fails.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// What the engine says of it.
+    Engine(Box<Error>),
+    /// It was closed.
+    Closed,
+    /// A panic left the engine as nobody knows.
+    Broken,
+    Panicked(String),
+    /// The robot is under way already.
+    Busy,
+    /// The caller is at fault, in English.
+    Value(String),
+}
+
+impl<E: Into<Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Engine(Box::new(error.into()))
+    }
+}
+
+/// A failure told, to be raised where Python is at hand.
+#[derive(Debug, Clone)]
+pub(crate) struct Told {
+    class: &'static str,
+    message: String,
+    faults: Vec<Value>,
+}
+
+impl Desk {
+    pub(crate) fn new(engine: Engine, language: Language, user: String) -> Self {
+        let is_under_way = AtomicBool::new(false);
+        Self { engine: Mutex::new(Some(engine)), language, user, is_under_way }
+    }
+
+    /// Has the engine to oneself.
+    pub(crate) fn write<T>(
+        &self,
+        work: impl FnOnce(&mut Engine) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let mut engine = self.engine.lock().map_err(|_poison| Failure::Broken)?;
+        work(engine.as_mut().ok_or(Failure::Closed)?)
+    }
+
+    /// What is known now.
+    pub(crate) fn state(&self) -> Result<Arc<State>, Failure> {
+        self.write(|engine| {
+            engine.pass_time(SystemTime::now().into());
+            Ok(engine.state()?)
+        })
+    }
+
+    /// Gives the store back, for others to open.
+    pub(crate) fn close(&self) {
+        let engine = match self.engine.lock() {
+            Ok(mut engine) => engine.take(),
+            Err(poison) => poison.into_inner().take(),
+        };
+        drop(engine);
+    }
+
+    /// The robot for oneself, until this is dropped.
+    pub(crate) fn take_robot(self: &Arc<Self>) -> Result<Robot, Failure> {
+        match self.is_under_way.swap(true, Ordering::AcqRel) {
+            true => Err(Failure::Busy),
+            false => Ok(Robot(Arc::clone(self))),
+        }
+    }
+
+    /// Does something with the interpreter let go; what goes wrong is an exception.
+    pub(crate) fn free<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> Result<T, Failure> + Send,
+    ) -> PyResult<T> {
+        py.detach(|| guarded(work).map_err(|failure| self.tell(&failure)))
+            .map_err(|told| told.raised(py))
+    }
+
+    /// The same for what answers with JSON.
+    pub(crate) fn answer<'py>(
+        &self,
+        py: Python<'py>,
+        work: impl FnOnce() -> Result<Value, Failure> + Send,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let value = self.free(py, work)?;
+        to_python(py, &value)
+    }
+
+    /// A failure in words, with things called as the map calls them.
+    pub(crate) fn tell(&self, failure: &Failure) -> Told {
+        let state = match failure {
+            Failure::Engine(_) => self.write(|engine| Ok(engine.state()?)).ok(),
+            _ => None,
+        };
+        let nothing = World::empty();
+        let world = state.as_ref().and_then(|state| state.world().ok()).unwrap_or(&nothing);
+        Told::of(failure, world, self.language)
+    }
+}
+
+/// See [`Desk::take_robot`].
+#[derive(Debug)]
+pub(crate) struct Robot(Arc<Desk>);
+
+impl Drop for Robot {
+    fn drop(&mut self) {
+        self.0.is_under_way.store(false, Ordering::Release);
+    }
+}
+
+/// Does something; a panic is a failure.
+pub(crate) fn guarded<T>(work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|panic| Err(Failure::Panicked(words_of(&*panic))))
+}
+
+fn words_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("a panic").to_owned()
+}
+
+impl Told {
+    pub(crate) fn of(failure: &Failure, world: &World, language: Language) -> Self {
+        let plain =
+            |class, message: &str| Self { class, message: message.to_owned(), faults: Vec::new() };
+        match failure {
+            Failure::Engine(error) => {
+                let english = (language == Language::English).then(|| error.in_english());
+                let faults = json::faults(english.as_deref().unwrap_or(&**error));
+                let message = match (&**error, &faults[..]) {
+                    // What is said of a request names things as the map does.
+                    (Error::Request(_) | Error::Misheard(_), _) => error.say(world, language),
+                    (_, [one]) => one["message"].as_str().unwrap_or_default().to_owned(),
+                    _ => english.map_or_else(|| error.to_string(), |english| english.to_string()),
+                };
+                let class = if error.is_input() { "InputError" } else { "MachineError" };
+                Self { class, message, faults }
+            }
+            Failure::Closed => plain("InputError", "the engine was closed; open it anew"),
+            Failure::Broken => plain(
+                "MachineError",
+                "a fault of the program broke the engine off while it wrote; open it anew",
+            ),
+            Failure::Panicked(why) => {
+                plain("MachineError", &format!("a fault of the program itself: {why}"))
+            }
+            Failure::Busy => plain(
+                "InputError",
+                "the robot is under way; wait for that task's result, or cancel it",
+            ),
+            Failure::Value(why) => plain("InputError", why),
+        }
+    }
+
+    /// As an exception of `orthoframe.errors`.
+    pub(crate) fn raised(&self, py: Python<'_>) -> PyErr {
+        let made = || {
+            let faults = self.faults.iter().map(|fault| to_python(py, fault));
+            let faults = faults.collect::<PyResult<Vec<_>>>()?;
+            let class = py.import("orthoframe.errors")?.getattr(self.class)?;
+            class.call1((&self.message, faults))
+        };
+        match made() {
+            Ok(exception) => PyErr::from_value(exception),
+            Err(error) => error,
+        }
+    }
+}
+
+/// So long is waited before it is looked whether Ctrl-C was pressed.
+pub(crate) const GLANCE: std::time::Duration = std::time::Duration::from_millis(50);

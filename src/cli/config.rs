@@ -1,0 +1,179 @@
+//! `ortho.toml`: what need not be said with every command.
+//!
+//! An argument counts before a variable of the environment, that before the file, and the file before what is usual.
+
+use std::path::{Path, PathBuf};
+
+use clap::{ArgMatches, CommandFactory, FromArgMatches};
+use miette::{Diagnostic, SourceSpan};
+use serde::Deserialize;
+use thiserror::Error;
+
+use crate::units::{InEnglish, Source};
+
+use super::args::Arguments;
+
+/// A file of settings that cannot be used.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub(super) enum ConfigError {
+    #[error("«{path}» не читается: {reason}")]
+    #[diagnostic(code(config::unreadable), help("проверьте путь и права доступа"))]
+    Unreadable { path: String, reason: String },
+    #[error("настройки: {what}")]
+    #[diagnostic(
+        code(config::syntax),
+        help("бывают: language, store, rules, vehicle, user, color (docs/cli.md)")
+    )]
+    Syntax {
+        what: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+}
+
+impl InEnglish for ConfigError {
+    fn english(&self) -> String {
+        match self {
+            Self::Unreadable { path, reason } => format!("“{path}” cannot be read: {reason}"),
+            Self::Syntax { what, .. } => format!("settings: {what}"),
+        }
+    }
+
+    fn english_help(&self) -> Option<String> {
+        Some(match self {
+            Self::Unreadable { .. } => "check the path and the permissions".to_owned(),
+            Self::Syntax { .. } => {
+                "there are: language, store, rules, vehicle, user, color (docs/cli.md)".to_owned()
+            }
+        })
+    }
+}
+
+/// What the file says.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Config {
+    language: Option<Word>,
+    store: Option<PathBuf>,
+    rules: Option<PathBuf>,
+    vehicle: Option<Vehicle>,
+    user: Option<String>,
+    color: Option<Color>,
+}
+
+/// `ru` or `en`.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Word {
+    Ru,
+    En,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+/// An address that was looked at.
+#[derive(Debug, Deserialize)]
+#[serde(try_from = "String")]
+struct Vehicle(String);
+
+impl TryFrom<String> for Vehicle {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        super::vehicle::wheels(&text).map(|_| Self(text))
+    }
+}
+
+/// So large a file of settings is none.
+const LARGEST: u64 = 1 << 20;
+const NAME: &str = "ortho.toml";
+
+/// The arguments of this call, with what the settings say where they say nothing; and why a file of settings that was
+/// named, or found, cannot be used.
+pub(super) fn arguments() -> (Arguments, Option<Box<ConfigError>>) {
+    let given = Arguments::parse_whole(Arguments::command());
+    let found = given.common.config.clone().map_or_else(found, Some);
+    let Some(path) = found else { return (given, None) };
+    match Config::read(&path) {
+        Ok(config) => {
+            (Arguments::parse_whole(config.laid_under(Arguments::command(), &path)), None)
+        }
+        Err(error) => (given, Some(Box::new(error))),
+    }
+}
+
+/// The file of this folder, else the user's own.
+fn found() -> Option<PathBuf> {
+    let own = || {
+        let set = |name| std::env::var_os(name).filter(|dir| !dir.is_empty()).map(PathBuf::from);
+        let home = || set("HOME").map(|home| home.join(".config"));
+        Some(set("XDG_CONFIG_HOME").or_else(home)?.join("ortho").join(NAME))
+    };
+    [Some(PathBuf::from(NAME)), own()].into_iter().flatten().find(|path| path.is_file())
+}
+
+impl Arguments {
+    fn parse_whole(command: clap::Command) -> Self {
+        let matches: ArgMatches = command.get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+}
+
+impl Config {
+    fn read(path: &Path) -> Result<Self, ConfigError> {
+        let text = crate::units::read_text(path, LARGEST).map_err(|error| {
+            let reason = error.into_io().to_string();
+            ConfigError::Unreadable { path: path.display().to_string(), reason }
+        })?;
+        toml::from_str(&text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            ConfigError::Syntax {
+                what: error.message().to_owned(),
+                at: (span.start, span.end - span.start).into(),
+                text: Source::new(path.display().to_string(), text.clone()),
+            }
+        })
+    }
+
+    /// The command line with other defaults. Paths count from the folder of the file.
+    fn laid_under(self, command: clap::Command, file: &Path) -> clap::Command {
+        let here = file.parent().unwrap_or(Path::new(""));
+        let path = |path: PathBuf| here.join(path).into_os_string().into_string().ok();
+        let language = self.language.map(|word| match word {
+            Word::Ru => "ru".to_owned(),
+            Word::En => "en".to_owned(),
+        });
+        let color = self.color.map(|color| match color {
+            Color::Auto => "auto".to_owned(),
+            Color::Always => "always".to_owned(),
+            Color::Never => "never".to_owned(),
+        });
+        let told = [
+            ("lang", language),
+            ("store", self.store.and_then(path)),
+            ("rules", self.rules.and_then(path)),
+            ("user", self.user),
+            ("color", color),
+        ];
+        let usual = |command: clap::Command, name: &'static str, value: String| {
+            command.mut_arg(name, |arg| arg.default_value(value).hide_default_value(true))
+        };
+        let command = told.into_iter().fold(command, |command, (name, value)| match value {
+            Some(value) => usual(command, name, value),
+            None => command,
+        });
+        match self.vehicle {
+            Some(Vehicle(at)) => command.mut_subcommand("do", |order| usual(order, "vehicle", at)),
+            None => command,
+        }
+    }
+}
