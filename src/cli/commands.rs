@@ -282,7 +282,9 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
                 None => Box::new(engine.simulator(truth)?),
             },
         };
-        let answer = super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot)?;
+        let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
+        let answer =
+            super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot, onlookers)?;
         if let Some(path) = &args.draw {
             super::draw::put_driven(common, &engine, &answer, path)?;
         }
@@ -303,7 +305,8 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
         (_, true) => super::demo::Order::Later(task),
         _ => super::demo::Order::Now(task),
     };
-    let heard = super::demo::perform(common, &mut engine, &order, dialogue)?;
+    let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
+    let heard = super::demo::perform(common, &mut engine, &order, dialogue, onlookers)?;
     if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
         super::draw::put_driven(common, &engine, answer, path)?;
     }

@@ -18,9 +18,11 @@ mod language_server;
 mod locate;
 mod map_from;
 mod observe;
+mod onlookers;
 mod plan;
 mod query;
 mod read;
+mod replay;
 mod see;
 #[cfg(feature = "serve")]
 mod serve;
@@ -99,7 +101,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Rules { format, .. } => commands::format_rules(common, format),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
-        Command::Talk => talk::run(common),
+        Command::Talk(record) => talk::run(common, record),
+        Command::Replay(args) => replay::run(common, args),
         Command::LanguageServer => language_server::run(),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)

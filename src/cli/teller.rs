@@ -8,6 +8,7 @@ use crate::engine::{Engine, Event, Outcome, Progress, Reply, TaskEvents, directi
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
+use super::onlookers::Onlookers;
 use super::say;
 
 /// Tells a dialogue, or a task alone.
@@ -21,23 +22,24 @@ pub(super) struct Teller {
     pub(super) explains: bool,
     bar: ProgressBar,
     events: TaskEvents,
+    onlookers: Onlookers,
     /// Why no more could be told.
     failure: Option<Failure>,
 }
 
 impl Teller {
-    pub(super) fn of_dialogue(common: &Common) -> Self {
-        Self::new(common, false)
+    pub(super) fn of_dialogue(common: &Common, onlookers: Onlookers) -> Self {
+        Self::new(common, false, onlookers)
     }
 
-    pub(super) fn of_task(common: &Common) -> Self {
-        Self::new(common, true)
+    pub(super) fn of_task(common: &Common, onlookers: Onlookers) -> Self {
+        Self::new(common, true, onlookers)
     }
 
-    fn new(common: &Common, is_task: bool) -> Self {
+    fn new(common: &Common, is_task: bool, onlookers: Onlookers) -> Self {
         let (json, lang) = (common.json, common.lang);
         let (bar, events) = (ProgressBar::hidden(), TaskEvents::default());
-        Self { json, lang, is_task, explains: false, bar, events, failure: None }
+        Self { json, lang, is_task, explains: false, bar, events, onlookers, failure: None }
     }
 
     /// # Errors
@@ -46,7 +48,16 @@ impl Teller {
         self.failure.take().map_or(Ok(()), Err)
     }
 
+    /// Ends with what was recorded.
+    ///
+    /// # Errors
+    /// Something could not be told, or not be recorded.
+    pub(super) fn close(mut self) -> Result<(), Failure> {
+        self.end().and(self.onlookers.end())
+    }
+
     pub(super) fn tell(&mut self, engine: &Engine, event: &Event<'_>) {
+        self.onlookers.tell(engine, event);
         if self.failure.is_none()
             && let Err(failure) = self.told(engine, event)
         {
@@ -88,7 +99,10 @@ impl Teller {
                         self.bar.tick();
                     }
                     Progress::Finished(_) => self.bar.inc(1),
-                    Progress::Moved(_) | Progress::Scanned(_) | Progress::Surprised { .. } => {}
+                    Progress::Sent { .. }
+                    | Progress::Moved(_)
+                    | Progress::Scanned(_)
+                    | Progress::Surprised { .. } => {}
                 }
                 Ok(())
             }
