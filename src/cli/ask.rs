@@ -5,8 +5,7 @@ use crate::engine::{Dialogue, Event};
 use super::args::{AskArgs, Common};
 use super::commands::open;
 use super::fault::Failure;
-use super::onlookers::Onlookers;
-use super::teller::Teller;
+use super::teller::{Onlookers, Teller};
 use super::{Answer, heeded};
 
 pub(super) fn run(common: &Common, args: &AskArgs) -> Result<Answer, Failure> {

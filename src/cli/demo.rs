@@ -13,9 +13,8 @@ use crate::units::write_file;
 use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
 use super::fault::Failure;
-use super::onlookers::Onlookers;
 use super::signals::stopped_by_signals;
-use super::teller::Teller;
+use super::teller::{Onlookers, Teller};
 use super::{Answer, came_to, say, text};
 
 /// The map of the papers, for a program that was installed without its files.

@@ -18,7 +18,6 @@ mod language_server;
 mod locate;
 mod map_from;
 mod observe;
-mod onlookers;
 mod plan;
 mod query;
 mod read;

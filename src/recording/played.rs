@@ -95,11 +95,7 @@ impl Played {
             let broken = |_torn| Fault::Torn(Torn::Broken);
             match kind {
                 op::ATTACHMENT => self.attachment(fields).map_err(broken)?,
-                op::METADATA => {
-                    if fields.text().map_err(broken)? == ABOUT {
-                        self.about = fields.texts().map_err(broken)?;
-                    }
-                }
+                op::METADATA => self.metadata(fields).map_err(broken)?,
                 // What stands in a chunk bears its checksum, and all that is told does.
                 op::CHANNEL if is_chunk => {
                     let (id, _schema) =
@@ -141,6 +137,13 @@ impl Played {
         }
         if name == MAP {
             self.map = Some(std::str::from_utf8(data).map_err(|_error| Torn::Broken)?.to_owned());
+        }
+        Ok(())
+    }
+
+    fn metadata(&mut self, mut fields: Reader<'_>) -> Result<(), Torn> {
+        if fields.text()? == ABOUT {
+            self.about = fields.texts()?;
         }
         Ok(())
     }
