@@ -56,6 +56,8 @@ use orthoframe_graphplan as graphplan;
 use orthoframe_language as language;
 use orthoframe_map as map;
 use orthoframe_meaning as meaning;
+#[cfg(feature = "recordings")]
+use orthoframe_recording as recording;
 use orthoframe_robot as robot;
 use orthoframe_semantics as semantics;
 use orthoframe_sensing as sensing;

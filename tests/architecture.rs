@@ -180,7 +180,7 @@ fn each_package_has_its_own_folder() {
         ("sled", &["store"]),
         ("datafrog", &["facts"]),
         ("clap", &["cli", "main"]),
-        ("serde_json", &["cli", "engine", "exchange", "robot", "serve"]),
+        ("serde_json", &["cli", "engine", "exchange", "recording", "robot", "serve"]),
         ("axum", &["serve"]),
         ("hyper", &["serve"]),
         ("subtle", &["serve"]),

@@ -98,7 +98,7 @@ fn carry_out(how: &str, engine: &Engine, task: &str, truth: World) -> (TaskAnswe
                 }
             }
             Progress::Started { .. } => told.started += 1,
-            Progress::Moved(_) | Progress::Scanned(_) => {}
+            Progress::Sent { .. } | Progress::Moved(_) | Progress::Scanned(_) => {}
             Progress::Surprised { surprise, .. } => told.surprises.push((*surprise).clone()),
             Progress::Finished(report) => {
                 assert!(report.position.is_some(), "{how}: {} ends nowhere", report.directive);

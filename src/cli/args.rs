@@ -215,8 +215,6 @@ pub(super) enum Command {
     Simulate(SimulateArgs),
     /// Answer a question in words: ortho ask "Где лекарство?"
     Ask(AskArgs),
-    /// A dialogue: questions and commands, a line each, with what was said before kept in mind
-    Talk,
     /// Check a map file and draw it again whenever it, or a rule file, has changed
     Watch {
         map: PathBuf,
@@ -228,6 +226,10 @@ pub(super) enum Command {
     Completions { shell: clap_complete::Shell },
     /// Write the manual pages of all commands into a folder
     Man { dir: PathBuf },
+    /// A dialogue: questions and commands, a line each, with what was said before kept in mind
+    Talk(RecordArgs),
+    /// Tell a recording of "do --record" again: what was said, or with --json what happened
+    Replay(ReplayArgs),
     /// Rule files under an editor: the Language Server Protocol over standard streams, for .dl and .strips
     LanguageServer,
     /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
@@ -347,6 +349,9 @@ pub(super) struct DoArgs {
     /// Write the plan drawing here, as SVG or PNG by the name's ending
     #[arg(long, value_name = "FILE")]
     pub draw: Option<PathBuf>,
+    /// Write the plan here as a behaviour tree, XML of BehaviorTree.CPP 4
+    #[arg(long, value_name = "FILE.xml")]
+    pub tree: Option<PathBuf>,
     /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
     #[arg(long)]
     pub reset: bool,
@@ -355,6 +360,25 @@ pub(super) struct DoArgs {
     pub from: Option<String>,
     #[command(flatten)]
     pub vehicle: VehicleArgs,
+    #[command(flatten)]
+    pub record: RecordArgs,
+}
+
+/// Who else is told of a drive.
+#[derive(Debug, Clone, Args)]
+pub(super) struct RecordArgs {
+    /// Record all that happens in this MCAP file, in place of what is there: for Foxglove, Lichtblick and ortho replay
+    #[arg(long, value_name = "FILE.mcap")]
+    pub record: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReplayArgs {
+    /// A recording of "do --record"
+    pub file: PathBuf,
+    /// So many times as fast as it happened; at once when left out
+    #[arg(long, value_name = "TIMES", value_parser = super::vehicle::pace)]
+    pub pace: Option<f64>,
 }
 
 #[derive(Debug, Args)]
@@ -427,9 +451,18 @@ pub(super) struct ExportArgs {
     /// Floors for ROS map_server: a PGM picture and a YAML file each
     #[arg(long, value_name = "DIR")]
     pub ros: Option<PathBuf>,
-    /// A floor's route graph for Nav2's route server, GeoJSON
+    /// The route graph for Nav2's route server, GeoJSON: of all storeys, or of --floor
     #[arg(long, value_name = "FILE")]
     pub nav2: Option<PathBuf>,
+    /// Passframes as triangles, Wavefront OBJ: of all storeys, or of --floor
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+    /// Zones that are in force now, as keep-out and speed masks for Nav2: a PGM picture and YAML files each
+    #[arg(long, value_name = "DIR")]
+    pub masks: Option<PathBuf>,
+    /// Beside each picture of --ros one of what a laser meets at this height above the map's zero
+    #[arg(long, value_name = "CM", requires = "ros", value_parser = parse_height)]
+    pub laser: Option<f64>,
     /// All tables of the store with all that ever stood in them, JSON
     #[arg(long, value_name = "FILE")]
     pub records: Option<PathBuf>,
@@ -437,23 +470,30 @@ pub(super) struct ExportArgs {
     #[cfg(feature = "sqlite")]
     #[arg(long, value_name = "FILE")]
     pub sqlite: Option<PathBuf>,
-    /// Only this map; needed for --nav2 when there are several
+    /// Only this map
     #[arg(long, value_name = "NAME")]
     pub floor: Option<String>,
-    /// Size of a cell of --ros, cm
+    /// Size of a cell of --ros and --masks, cm
     #[arg(long, value_name = "CM", default_value_t = 5.0, value_parser = parse_cell)]
     pub cell: f64,
 }
 
 #[cfg(feature = "sqlite")]
-const EXPORTS: [&str; 5] = ["geojson", "ros", "nav2", "records", "sqlite"];
+const EXPORTS: [&str; 7] = ["geojson", "ros", "nav2", "mesh", "masks", "records", "sqlite"];
 #[cfg(not(feature = "sqlite"))]
-const EXPORTS: [&str; 4] = ["geojson", "ros", "nav2", "records"];
+const EXPORTS: [&str; 6] = ["geojson", "ros", "nav2", "mesh", "masks", "records"];
 
 fn parse_cell(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(cell) if (0.5..=100.0).contains(&cell) => Ok(cell),
         _ => Err("a size from 0.5 to 100 cm is wanted".to_owned()),
+    }
+}
+
+fn parse_height(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(height) if (0.0..=10_000.0).contains(&height) => Ok(height),
+        _ => Err("a height from 0 to 10000 cm is wanted".to_owned()),
     }
 }
 

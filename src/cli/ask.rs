@@ -5,13 +5,13 @@ use crate::engine::{Dialogue, Event};
 use super::args::{AskArgs, Common};
 use super::commands::open;
 use super::fault::Failure;
-use super::teller::Teller;
+use super::teller::{Onlookers, Teller};
 use super::{Answer, heeded};
 
 pub(super) fn run(common: &Common, args: &AskArgs) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let mut dialogue = Dialogue::new(common.lang.language());
-    let mut teller = Teller::of_dialogue(common);
+    let mut teller = Teller::of_dialogue(common, Onlookers::default());
     teller.explains = args.explain;
     let reply = dialogue.ask(&engine, &args.question)?;
     teller.tell(&engine, &Event::Replied(&reply));

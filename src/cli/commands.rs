@@ -271,15 +271,16 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     let truth = args.truth.as_deref().map(|file| truth(common, &engine, file)).transpose()?;
     if let Some(scenario) = &scenario {
-        let mut robot: Box<dyn Vehicle> =
-            match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
-                Some(robot) => Box::new(robot),
-                None => match args.vehicle.senses() {
-                    Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
-                    None => Box::new(engine.simulator(truth)?),
-                },
-            };
-        let answer = super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot)?;
+        let mut robot: Box<dyn Vehicle> = match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
+            Some(robot) => Box::new(robot),
+            None => match args.vehicle.senses() {
+                Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
+                None => Box::new(engine.simulator(truth)?),
+            },
+        };
+        let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
+        let answer =
+            super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot, onlookers)?;
         if let Some(path) = &args.draw {
             super::draw::put_driven(common, &engine, &answer, path)?;
         }
@@ -300,7 +301,8 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
         (_, true) => super::demo::Order::Later(task),
         _ => super::demo::Order::Now(task),
     };
-    let heard = super::demo::perform(common, &mut engine, &order, dialogue)?;
+    let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
+    let heard = super::demo::perform(common, &mut engine, &order, dialogue, onlookers)?;
     if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
         super::draw::put_driven(common, &engine, answer, path)?;
     }

@@ -14,7 +14,7 @@ use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
 use super::fault::Failure;
 use super::signals::stopped_by_signals;
-use super::teller::Teller;
+use super::teller::{Onlookers, Teller};
 use super::{Answer, came_to, say, text};
 
 /// The map of the papers, for a program that was installed without its files.
@@ -47,8 +47,8 @@ pub(super) fn run(
         say("")?;
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
-    let heard =
-        perform(common, &mut engine, &Order::Now(task), Dialogue::new(common.lang.language()))?;
+    let dialogue = Dialogue::new(common.lang.language());
+    let heard = perform(common, &mut engine, &Order::Now(task), dialogue, Onlookers::default())?;
     let Some(answer) = heard.tasks().last() else { return Ok(Answer::Yes) };
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, answer, &drawing)? {
@@ -73,19 +73,20 @@ pub(super) fn perform(
     engine: &mut Engine,
     order: &Order<'_>,
     mut dialogue: Dialogue,
+    onlookers: Onlookers,
 ) -> Result<Heard, Failure> {
     dialogue.stopped_by(stopped_by_signals());
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();
     }
-    let mut teller = Teller::of_task(common);
+    let mut teller = Teller::of_task(common, onlookers);
     let mut tell = |engine: &Engine, event: &Event<'_>| teller.tell(engine, event);
     let mut heard = match order {
         Order::Now(task) => dialogue.order(engine, task, &mut tell)?,
         Order::Later(task) => dialogue.later(engine, task, &mut tell)?,
         Order::GoOn => dialogue.go_on(engine, &mut tell)?,
     };
-    teller.end()?;
+    teller.close()?;
     let failed =
         |reply: &Reply| matches!(reply.outcome, Outcome::Misheard(_) | Outcome::Refused(_));
     match heard.replies.iter().position(failed).map(|at| heard.replies.swap_remove(at).outcome) {
@@ -101,9 +102,10 @@ pub(super) fn perform_scenario(
     engine: &mut Engine,
     scenario: &Scenario,
     vehicle: &mut dyn Vehicle,
+    onlookers: Onlookers,
 ) -> Result<TaskAnswer, Failure> {
     let language = common.lang.language();
-    let mut teller = Teller::of_task(common);
+    let mut teller = Teller::of_task(common, onlookers);
     let (asked, world) = (&*engine, engine.world()?);
     let mut tell = |progress: &Progress<'_>| {
         teller.tell(asked, &Event::Progress { progress, world, language });
@@ -112,7 +114,7 @@ pub(super) fn perform_scenario(
     let text = asked.ending_in_words(&answer, language)?;
     let reply = Reply { outcome: Outcome::Task(Box::new(answer)), text, language };
     teller.tell(asked, &Event::Replied(&reply));
-    teller.end()?;
+    teller.close()?;
     let Outcome::Task(answer) = reply.outcome else { unreachable!("put there above") };
     if !common.read_only && common.as_of.is_none() {
         engine.remember(&answer, std::time::SystemTime::now().into())?;

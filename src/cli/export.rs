@@ -6,10 +6,10 @@ use serde_json::json;
 
 use crate::engine::Engine;
 use crate::map::Format;
-use crate::units::write_file;
+use crate::units::{MapId, write_file};
 
 use super::args::{Common, ExportArgs};
-use super::commands::open;
+use super::commands::{note, open};
 use super::fault::Failure;
 use super::{Answer, say};
 
@@ -23,11 +23,23 @@ pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure>
         write(path, engine.export_geojson()?.as_bytes(), &mut written)?;
     }
     if let Some(path) = &args.nav2 {
-        let map = engine.map_named(args.floor.as_deref())?;
-        write(path, engine.export_route_graph(map)?.as_bytes(), &mut written)?;
+        let is_single = args.floor.is_some() || engine.world()?.maps.len() == 1;
+        let graph = match is_single {
+            true => engine.export_route_graph(engine.map_named(args.floor.as_deref())?)?,
+            false => engine.export_route_graph_of_all()?,
+        };
+        write(path, graph.as_bytes(), &mut written)?;
+    }
+    if let Some(path) = &args.mesh {
+        let floor = args.floor.as_deref();
+        let only = floor.map(|name| engine.map_named(Some(name))).transpose()?;
+        write(path, engine.export_mesh(only)?.as_bytes(), &mut written)?;
     }
     if let Some(dir) = &args.ros {
         grids(&engine, args, dir, &mut written)?;
+    }
+    if let Some(dir) = &args.masks {
+        masks(common, &engine, args, dir, &mut written)?;
     }
     if let Some(path) = &args.records {
         write(path, engine.export_records()?.as_bytes(), &mut written)?;
@@ -52,16 +64,61 @@ fn grids(
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
-    let maps = match &args.floor {
-        Some(name) => vec![engine.map_named(Some(name))?],
-        None => engine.world()?.maps.keys().copied().collect(),
-    };
-    for map in maps {
+    for map in floors(engine, args)? {
         let grid = engine.export_grid(map, args.cell)?;
-        write(&dir.join(format!("{}.yaml", grid.name)), grid.yaml.as_bytes(), written)?;
-        write(&dir.join(format!("{}.pgm", grid.name)), &grid.pgm, written)?;
+        picture(dir, &grid.name, &grid.yaml, &grid.pgm, written)?;
+        if let Some(height) = args.laser {
+            let grid = engine.export_laser_grid(map, args.cell, height)?;
+            picture(dir, &grid.name, &grid.yaml, &grid.pgm, written)?;
+        }
     }
     Ok(())
+}
+
+/// The masks of every floor, or of the one that was named, with the parameters of their servers.
+fn masks(
+    common: &Common,
+    engine: &Engine,
+    args: &ExportArgs,
+    dir: &Path,
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
+    let now = std::time::SystemTime::now().into();
+    let before = written.len();
+    for map in floors(engine, args)? {
+        for mask in engine.export_masks(map, args.cell, now)? {
+            let grid = &mask.grid;
+            picture(dir, &grid.name, &grid.yaml, &grid.pgm, written)?;
+            let params = dir.join(format!("{}.params.yaml", grid.name));
+            write(&params, mask.params.as_bytes(), written)?;
+        }
+    }
+    if written.len() == before {
+        note(common.lang.pick(
+            "Масок нет: сейчас не действует ни одна зона, закрытая или медленная.",
+            "There is no mask: no zone that is shut or slow is in force now.",
+        ));
+    }
+    Ok(())
+}
+
+fn floors(engine: &Engine, args: &ExportArgs) -> Result<Vec<MapId>, Failure> {
+    Ok(match &args.floor {
+        Some(name) => vec![engine.map_named(Some(name))?],
+        None => engine.world()?.maps.keys().copied().collect(),
+    })
+}
+
+fn picture(
+    dir: &Path,
+    name: &str,
+    yaml: &str,
+    pgm: &[u8],
+    written: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    write(&dir.join(format!("{name}.yaml")), yaml.as_bytes(), written)?;
+    write(&dir.join(format!("{name}.pgm")), pgm, written)
 }
 
 fn write(path: &Path, bytes: &[u8], written: &mut Vec<PathBuf>) -> Result<(), Failure> {

@@ -24,6 +24,7 @@ mod observe;
 mod plan;
 mod query;
 mod read;
+mod replay;
 mod see;
 #[cfg(feature = "serve")]
 mod serve;
@@ -107,10 +108,11 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Rules { format, .. } => commands::format_rules(common, format),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
-        Command::Talk => talk::run(common),
         Command::Watch { map, out } => watch::run(common, map, out.as_deref()),
         Command::Completions { shell } => manual::completions(*shell),
         Command::Man { dir } => manual::man(common, dir),
+        Command::Talk(record) => talk::run(common, record),
+        Command::Replay(args) => replay::run(common, args),
         Command::LanguageServer => language_server::run(),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)

@@ -15,13 +15,13 @@ use rustyline::history::MemHistory;
 use rustyline::validate::Validator;
 use rustyline::{Config, Context, Editor, Helper};
 
-use super::args::Common;
+use super::args::{Common, RecordArgs};
 use super::commands::open;
 use super::fault::Failure;
 use super::teller::Teller;
 use super::{Answer, say};
 
-pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
+pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let mut dialogue = Dialogue::new(common.lang.language());
     if common.read_only || common.as_of.is_some() {
@@ -31,9 +31,11 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     if !waiting.tasks.is_empty() && !common.json {
         say(&queue_in_words(&waiting, common.lang.language()))?;
     }
-    let mut talk = Talk { engine, dialogue, teller: Teller::of_dialogue(common) };
+    let teller = Teller::of_dialogue(common, record.begin(&engine)?);
+    let mut talk = Talk { engine, dialogue, teller };
     if std::io::stdin().is_terminal() {
-        return on_terminal(common, &mut talk);
+        let answer = on_terminal(common, &mut talk)?;
+        return talk.teller.close().map(|()| answer);
     }
     for line in std::io::stdin().lock().split(b'\n') {
         let Ok(line) = line else { break };
@@ -42,6 +44,7 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
             break;
         }
     }
+    talk.teller.close()?;
     Ok(Answer::Yes)
 }
 

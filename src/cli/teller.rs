@@ -1,12 +1,18 @@
-//! What a dialogue replies and does, as it happens: on standard output, with a bar on the terminal.
+//! What a dialogue replies and does, as it happens: on standard output, with a bar on the terminal; and to who looks on, a
+//! recording or a file of the plan.
+
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use serde_json::json;
 
-use crate::engine::{Engine, Event, Outcome, Progress, Reply, TaskEvents, directive_told, json};
+use crate::engine::{
+    Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_told, json,
+};
+use crate::units::write_file;
 
-use super::args::{Common, Lang};
+use super::args::{Common, Lang, RecordArgs};
 use super::fault::Failure;
 use super::say;
 
@@ -21,23 +27,24 @@ pub(super) struct Teller {
     pub(super) explains: bool,
     bar: ProgressBar,
     events: TaskEvents,
+    onlookers: Onlookers,
     /// Why no more could be told.
     failure: Option<Failure>,
 }
 
 impl Teller {
-    pub(super) fn of_dialogue(common: &Common) -> Self {
-        Self::new(common, false)
+    pub(super) fn of_dialogue(common: &Common, onlookers: Onlookers) -> Self {
+        Self::new(common, false, onlookers)
     }
 
-    pub(super) fn of_task(common: &Common) -> Self {
-        Self::new(common, true)
+    pub(super) fn of_task(common: &Common, onlookers: Onlookers) -> Self {
+        Self::new(common, true, onlookers)
     }
 
-    fn new(common: &Common, is_task: bool) -> Self {
+    fn new(common: &Common, is_task: bool, onlookers: Onlookers) -> Self {
         let (json, lang) = (common.json, common.lang);
         let (bar, events) = (ProgressBar::hidden(), TaskEvents::default());
-        Self { json, lang, is_task, explains: false, bar, events, failure: None }
+        Self { json, lang, is_task, explains: false, bar, events, onlookers, failure: None }
     }
 
     /// # Errors
@@ -46,7 +53,16 @@ impl Teller {
         self.failure.take().map_or(Ok(()), Err)
     }
 
+    /// Ends with what was recorded.
+    ///
+    /// # Errors
+    /// Something could not be told, or not be recorded.
+    pub(super) fn close(mut self) -> Result<(), Failure> {
+        self.end().and(self.onlookers.end())
+    }
+
     pub(super) fn tell(&mut self, engine: &Engine, event: &Event<'_>) {
+        self.onlookers.tell(engine, event);
         if self.failure.is_none()
             && let Err(failure) = self.told(engine, event)
         {
@@ -88,7 +104,10 @@ impl Teller {
                         self.bar.tick();
                     }
                     Progress::Finished(_) => self.bar.inc(1),
-                    Progress::Moved(_) | Progress::Scanned(_) | Progress::Surprised { .. } => {}
+                    Progress::Sent { .. }
+                    | Progress::Moved(_)
+                    | Progress::Scanned(_)
+                    | Progress::Surprised { .. } => {}
                 }
                 Ok(())
             }
@@ -127,4 +146,60 @@ fn bar() -> ProgressBar {
 
 fn put(text: &str) -> Result<(), Failure> {
     say(text).map(|_| ())
+}
+
+impl RecordArgs {
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn begin(&self, engine: &Engine) -> Result<Onlookers, Failure> {
+        let mut onlookers = Onlookers::default();
+        if let Some(path) = &self.record {
+            let mut recording = Recording::begin();
+            recording.to_file(path, engine)?;
+            onlookers.recording = Some(recording);
+        }
+        Ok(onlookers)
+    }
+}
+
+/// Who is told of a drive beside the person at the terminal.
+#[derive(Debug, Default)]
+pub(super) struct Onlookers {
+    recording: Option<Recording>,
+    /// Where the first plan is to be written as a behaviour tree.
+    tree: Option<PathBuf>,
+    failure: Option<Failure>,
+}
+
+impl Onlookers {
+    /// The same, and the first plan is written as a behaviour tree.
+    pub(super) fn writing(self, tree: Option<&Path>) -> Self {
+        Self { tree: tree.map(Path::to_owned), ..self }
+    }
+
+    pub(super) fn tell(&mut self, engine: &Engine, event: &Event<'_>) {
+        if let Some(recording) = &mut self.recording {
+            recording.tell(engine, event);
+        }
+        if let Event::Progress { progress: Progress::Planned(planned), .. } = event
+            && let Some(path) = self.tree.take()
+        {
+            match engine.behaviour_tree(planned) {
+                Ok(Some(text)) => {
+                    let written = write_file(&path, text.as_bytes());
+                    self.failure = written.err().map(|error| Failure::file(&path, &error));
+                }
+                // A later part of the order may have a plan.
+                Ok(None) => self.tree = Some(path),
+                Err(error) => self.failure = Some(error.into()),
+            }
+        }
+    }
+
+    /// # Errors
+    /// Something could not be written.
+    pub(super) fn end(&mut self) -> Result<(), Failure> {
+        let recorded = self.recording.take().map_or(Ok(()), Recording::end);
+        self.failure.take().map_or(Ok(()), Err).and(recorded.map_err(Failure::from))
+    }
 }

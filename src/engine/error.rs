@@ -70,6 +70,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Sqlite(#[from] crate::exchange::SqliteError),
+    #[cfg(feature = "recordings")]
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Recording(#[from] crate::recording::RecordingError),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Vehicle(#[from] Box<crate::robot::Failure>),
@@ -486,6 +490,8 @@ impl Error {
             Self::Png(error) => Box::new(English(error)),
             #[cfg(feature = "sqlite")]
             Self::Sqlite(error) => Box::new(English(error)),
+            #[cfg(feature = "recordings")]
+            Self::Recording(error) => Box::new(English(error)),
             Self::Vehicle(error) => Box::new(English(error.as_ref())),
             Self::Mission(error) => error.in_english(),
             Self::Request(error) => Box::new(English(error)),
@@ -534,6 +540,8 @@ impl Error {
             #[cfg(feature = "sqlite")]
             Self::Sqlite(error) => error.is_input(),
             Self::Store(error) => error.is_input(),
+            #[cfg(feature = "recordings")]
+            Self::Recording(error) => error.is_input(),
             Self::Vehicle(_) => false,
         }
     }

@@ -121,11 +121,11 @@ pub struct TaskEvents {
 }
 
 impl TaskEvents {
-    /// The event for what has just happened, if it is one: a pose on the way and a scan are none. To be asked once for
+    /// The event for what has just happened, if it is one: a way, a pose on it and a scan are none. To be asked once for
     /// each, in order.
     pub fn of(&mut self, world: &World, progress: &Progress<'_>) -> Option<TaskEvent> {
         Some(match progress {
-            Progress::Moved(_) | Progress::Scanned(_) => return None,
+            Progress::Sent { .. } | Progress::Moved(_) | Progress::Scanned(_) => return None,
             Progress::Planned(planned) => {
                 let plan = PlanView::of(world, planned);
                 match std::mem::take(&mut self.surprised) {

@@ -1,10 +1,11 @@
 //! The map in other programs' formats.
 
 use crate::exchange::{
-    GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_records, to_route_graph,
+    Grid, GridFiles, MOST_CELLS, Mask, to_geojson, to_grid, to_map_file, to_masks,
+    to_passframe_mesh, to_records, to_route_graph, to_route_graph_of_all,
 };
 use crate::map::Format;
-use crate::units::MapId;
+use crate::units::{MapId, Timestamp};
 
 use super::{Engine, Error, RequestError};
 
@@ -31,10 +32,48 @@ impl Engine {
     /// There is no map, or its picture would be too large.
     pub fn export_grid(&self, map: MapId, cell: f64) -> Result<GridFiles, Error> {
         let world = self.world()?;
-        to_grid(world, self.floor(map)?, cell).ok_or_else(|| {
-            let map = world.maps[&map].name.clone();
-            RequestError::GridTooLarge { map, limit: MOST_CELLS }.into()
-        })
+        to_grid(world, self.floor(map)?, cell).ok_or_else(|| self.too_large(map))
+    }
+
+    /// The same, cut at the height of a laser above the Map's zero, in cm: what that meets.
+    ///
+    /// # Errors
+    /// As [`Engine::export_grid`].
+    pub fn export_laser_grid(
+        &self,
+        map: MapId,
+        cell: f64,
+        height: f64,
+    ) -> Result<GridFiles, Error> {
+        let key = &self.world()?.maps[&map].key;
+        let grid = Grid::of_laser(self.floor(map)?, cell, height);
+        let grid = grid.ok_or_else(|| self.too_large(map))?;
+        Ok(grid.into_files(format!("{key}-laser")))
+    }
+
+    /// The zones of a floor that are in force at a moment, as masks of Nav2's costmap filters.
+    ///
+    /// # Errors
+    /// As [`Engine::export_grid`].
+    pub fn export_masks(&self, map: MapId, cell: f64, at: Timestamp) -> Result<Vec<Mask>, Error> {
+        let masks = to_masks(self.world()?, self.floor(map)?, cell, |zone| zone.is_in_force(at));
+        masks.ok_or_else(|| self.too_large(map))
+    }
+
+    fn too_large(&self, map: MapId) -> Error {
+        let world = self.world().expect("its floor was found");
+        let map = world.maps[&map].name.clone();
+        RequestError::GridTooLarge { map, limit: MOST_CELLS }.into()
+    }
+
+    /// The Passframes of all floors, or of one, as triangles: Wavefront OBJ.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn export_mesh(&self, only: Option<MapId>) -> Result<String, Error> {
+        let floors = self.floors()?.values();
+        let floors = floors.filter(|plan| only.is_none_or(|map| plan.map() == map));
+        Ok(to_passframe_mesh(self.world()?, floors))
     }
 
     /// A floor as a route graph for Nav2's route server.
@@ -43,6 +82,14 @@ impl Engine {
     /// There is no map.
     pub fn export_route_graph(&self, map: MapId) -> Result<String, Error> {
         Ok(to_route_graph(self.world()?, self.floor(map)?))
+    }
+
+    /// All floors as one route graph, joined by lifts.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn export_route_graph_of_all(&self) -> Result<String, Error> {
+        Ok(to_route_graph_of_all(self.world()?, self.floors()?))
     }
 
     /// Every table of the store with every version of every record, as JSON.

@@ -65,6 +65,8 @@ mod position;
 mod query;
 mod queue;
 mod reading;
+#[cfg(feature = "recordings")]
+mod recording;
 mod route;
 mod rule_files;
 mod rules;
@@ -78,6 +80,7 @@ mod surprises;
 mod talk;
 mod task;
 mod tidy;
+mod tree;
 mod truth;
 mod upkeep;
 mod utterance;
@@ -113,6 +116,8 @@ pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, plan_alone_wi
 pub use position::Whereabout;
 pub use query::QueryAnswer;
 pub use reading::Region;
+#[cfg(feature = "recordings")]
+pub use recording::Recording;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
 pub use rule_files::{RULE_FILES, export_rules};
 pub use rules::Rules;
@@ -124,7 +129,6 @@ pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use truth::Truth;
 pub use upkeep::{check_store, restore_store};
 
-pub use crate::exchange::GridFiles;
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
     Report as ReadingReport, read as read_building,

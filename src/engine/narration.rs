@@ -136,7 +136,10 @@ pub fn progress_in_words(
             let wording = planned.solved.wording(language, &name);
             vec![format!("{}\n", plan_of(&planned.solved, &steps, &wording))]
         }
-        Progress::Started { .. } | Progress::Moved(_) | Progress::Scanned(_) => Vec::new(),
+        Progress::Started { .. }
+        | Progress::Sent { .. }
+        | Progress::Moved(_)
+        | Progress::Scanned(_) => Vec::new(),
         Progress::Finished(report) => {
             let way = if report.points.is_empty() {
                 String::new()

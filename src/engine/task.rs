@@ -40,6 +40,11 @@ pub enum Progress<'a> {
         of: usize,
         directive: &'a Directive,
     },
+    /// The robot is sent along a way, which begins where it stands; cm.
+    Sent {
+        map: MapId,
+        way: &'a [Point],
+    },
     /// The robot is on its way.
     Moved(&'a Moment),
     /// Its range finder turned once.
@@ -452,6 +457,7 @@ impl State {
             Event::Started { number, of, directive } => {
                 tell(&Progress::Started { number: *number, of: *of, directive });
             }
+            Event::Sent { map, way } => tell(&Progress::Sent { map: *map, way }),
             Event::Moved(moment) => tell(&Progress::Moved(moment)),
             Event::Scanned(scan) => tell(&Progress::Scanned(scan)),
             Event::Finished { number, directive, belief, leg } => {

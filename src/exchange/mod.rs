@@ -41,7 +41,8 @@ mod yaml;
 pub use assemble::assemble;
 pub use error::ReadError;
 pub use export::{
-    GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_records, to_route_graph,
+    Cell, Grid, GridFiles, MOST_CELLS, Mask, to_geojson, to_grid, to_map_file, to_masks,
+    to_passframe_mesh, to_records, to_route_graph, to_route_graph_of_all,
 };
 #[cfg(feature = "sqlite")]
 pub use export::{SqliteError, read_sqlite, write_sqlite};

@@ -6,7 +6,7 @@ use crate::map::{Entity, World};
 use crate::semantics::planning::{InitialFact, PlanPlace};
 use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts, predicate};
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
-use crate::units::{AreaId, DoorId, MapId, Pose, Stop};
+use crate::units::{AreaId, DoorId, MapId, Point, Pose, Stop};
 
 use std::collections::BTreeMap;
 
@@ -59,6 +59,11 @@ pub enum Event<'a> {
         number: usize,
         of: usize,
         directive: &'a Directive,
+    },
+    /// The vehicle is sent along a way, which begins where it stands.
+    Sent {
+        map: MapId,
+        way: &'a [Point],
     },
     /// The vehicle is on its way.
     Moved(&'a Moment),

@@ -95,6 +95,10 @@ impl<'v> Reins<'v> {
         pieces: &[(Vec<Point>, Option<f64>)],
         heading: Option<Deg>,
     ) -> Result<(), Unfinished<Bump>> {
+        let here = std::iter::once(&self.at.1.at);
+        let way: Vec<Point> =
+            here.chain(pieces.iter().flat_map(|(path, _)| path)).copied().collect();
+        (self.tell)(&Event::Sent { map: self.at.0, way: &way });
         let last = pieces.len().saturating_sub(1);
         for (number, (path, pace)) in pieces.iter().enumerate() {
             self.vehicle.keep_to(*pace);

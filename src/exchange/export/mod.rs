@@ -1,7 +1,10 @@
-//! The map in other programs' formats: a map file, GeoJSON, occupancy grids, route graphs, records, SQL tables.
+//! The map in other programs' formats: a map file, GeoJSON, occupancy grids, masks, route graphs, surfaces, records, SQL
+//! tables.
 
 mod geojson;
 mod grid;
+mod masks;
+mod mesh;
 mod nav2;
 mod notation;
 mod records;
@@ -9,8 +12,10 @@ mod records;
 mod sqlite;
 
 pub use geojson::to_geojson;
-pub use grid::{GridFiles, MOST_CELLS, to_grid};
-pub use nav2::to_route_graph;
+pub use grid::{Cell, Grid, GridFiles, MOST_CELLS, to_grid};
+pub use masks::{Mask, to_masks};
+pub use mesh::to_passframe_mesh;
+pub use nav2::{to_route_graph, to_route_graph_of_all};
 pub use notation::to_map_file;
 pub use records::to_records;
 #[cfg(feature = "sqlite")]

@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
-use crate::geometry::{DoorStates, FloorPlan, Method, Target};
+use crate::geometry::{DoorStates, FloorPlan, Method, Ride, Target};
 use crate::map::{DoorState, DoorStatus, World};
-use crate::units::{AreaId, DoorId, Point};
+use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::{metre, metres};
 
@@ -28,6 +28,8 @@ struct Graph {
     nodes: Vec<(Point, Value)>,
     known: BTreeMap<Corner, usize>,
     edges: BTreeMap<(usize, usize), Option<DoorId>>,
+    /// Nodes where lifts are boarded, by lift and cabin.
+    stops: BTreeMap<(usize, AreaId), usize>,
 }
 
 impl Graph {
@@ -55,6 +57,36 @@ impl Graph {
 /// When the plan is not of this world.
 #[must_use]
 pub fn to_route_graph(world: &World, plan: &FloorPlan) -> String {
+    let graph = graph_of(world, plan, &[]);
+    written(world, &world.maps[&plan.map()].key, &[Storey { frame: "map".to_owned(), graph }])
+}
+
+/// The route graphs of all floors in one file: each node in the frame of its storey, which is called by the Map's key, and
+/// between storeys an edge for every ride of a lift, as long as the robot could have driven meanwhile.
+///
+/// # Panics
+/// When a plan is not of this world.
+#[must_use]
+pub fn to_route_graph_of_all(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> String {
+    let stops = lift_stops(world, plans);
+    let storeys: Vec<Storey> = plans
+        .values()
+        .map(|plan| {
+            let stops: Vec<&LiftEnd> = stops.iter().filter(|stop| stop.map == plan.map()).collect();
+            let graph = graph_of(world, plan, &stops);
+            Storey { frame: world.maps[&plan.map()].key.clone(), graph }
+        })
+        .collect();
+    written(world, &world.domain.name, &storeys)
+}
+
+/// A storey's graph, in the frame of this name.
+struct Storey {
+    frame: String,
+    graph: Graph,
+}
+
+fn graph_of(world: &World, plan: &FloorPlan, stops: &[&LiftEnd]) -> Graph {
     let doors = plan.doorways().iter().filter_map(|d| d.door);
     let open: DoorStates = doors.map(|d| (d, DoorState::OPEN)).collect();
     let plan = plan.with_doors(world, &open);
@@ -96,6 +128,12 @@ pub fn to_route_graph(world: &World, plan: &FloorPlan) -> String {
         graph.nodes[node].1["name"] = json!(place.name);
         ends.entry(place.area).or_default().push(stand);
     }
+    for stop in stops {
+        let node = graph.node(stop.at);
+        graph.nodes[node].1["lift"] = json!(world.domain.lifts[stop.lift].0);
+        graph.stops.insert((stop.lift, stop.area), node);
+        ends.entry(stop.area).or_default().push(stop.at);
+    }
     for fragment in plan.fragments() {
         let area = fragment.area;
         let mut own = ends.remove(&area).unwrap_or_default();
@@ -118,7 +156,7 @@ pub fn to_route_graph(world: &World, plan: &FloorPlan) -> String {
             own[no + 1..].iter().for_each(|b| lead(&mut graph, world, &plan, area, *a, *b));
         }
     }
-    written(world, &plan, &graph)
+    graph
 }
 
 /// Where the robot can stand in a room nearest to a point.
@@ -135,44 +173,117 @@ fn lead(graph: &mut Graph, world: &World, plan: &FloorPlan, area: AreaId, a: Poi
     }
 }
 
-fn written(world: &World, plan: &FloorPlan, graph: &Graph) -> String {
-    let used: BTreeSet<usize> = graph.edges.keys().flat_map(|(a, b)| [*a, *b]).collect();
-    let number: BTreeMap<usize, usize> =
-        used.iter().enumerate().map(|(no, node)| (*node, no + 1)).collect();
-    let mut features = Vec::new();
-    for node in &used {
-        let (at, metadata) = &graph.nodes[*node];
-        let mut properties = json!({ "id": number[node], "frame": "map" });
-        if metadata.as_object().is_some_and(|m| !m.is_empty()) {
-            properties["metadata"] = metadata.clone();
-        }
-        let geometry = json!({ "type": "Point", "coordinates": metres(*at) });
-        features.push(json!({ "type": "Feature", "properties": properties, "geometry": geometry }));
-    }
-    let mut id = used.len();
-    for ((a, b), door) in &graph.edges {
-        for (from, to) in [(a, b), (b, a)] {
+fn written(world: &World, name: &str, storeys: &[Storey]) -> String {
+    let (mut features, mut id) = (Vec::new(), 0);
+    let mut numbers: Vec<BTreeMap<usize, usize>> = Vec::new();
+    for Storey { frame, graph } in storeys {
+        let joined = graph.edges.keys().flat_map(|(a, b)| [*a, *b]);
+        let used: BTreeSet<usize> = joined.chain(graph.stops.values().copied()).collect();
+        let mut number = BTreeMap::new();
+        for node in used {
             id += 1;
-            let (start, end) = (graph.nodes[*from].0, graph.nodes[*to].0);
-            let length = metre((end - start).norm());
-            let mut properties = json!({
-                "id": id, "startid": number[from], "endid": number[to], "cost": length, "overridable": true,
-            });
-            if let Some(door) = door.map(|d| &world.doors[&d]) {
-                let stands = match door.state.status {
-                    DoorStatus::Open => "open",
-                    DoorStatus::Closed => "closed",
-                    DoorStatus::Locked => "locked",
-                };
-                properties["metadata"] = json!({ "door": door.name, "door_state": stands });
+            number.insert(node, id);
+            let (at, metadata) = &graph.nodes[node];
+            let mut properties = json!({ "id": id, "frame": frame });
+            if metadata.as_object().is_some_and(|m| !m.is_empty()) {
+                properties["metadata"] = metadata.clone();
             }
-            let line = [metres(start), metres(end)];
+            let geometry = json!({ "type": "Point", "coordinates": metres(*at) });
+            features.push(feature(&properties, &geometry));
+        }
+        numbers.push(number);
+    }
+    let mut edge =
+        |from: (usize, Point), to: (usize, Point), cost: f64, metadata: Option<Value>| {
+            id += 1;
+            let mut properties = json!({
+                "id": id, "startid": from.0, "endid": to.0, "cost": cost, "overridable": true,
+            });
+            if let Some(metadata) = metadata {
+                properties["metadata"] = metadata;
+            }
+            let line = [metres(from.1), metres(to.1)];
             let geometry = json!({ "type": "MultiLineString", "coordinates": [line] });
-            features
-                .push(json!({ "type": "Feature", "properties": properties, "geometry": geometry }));
+            features.push(feature(&properties, &geometry));
+        };
+    for (Storey { graph, .. }, number) in storeys.iter().zip(&numbers) {
+        for ((a, b), door) in &graph.edges {
+            for (from, to) in [(a, b), (b, a)] {
+                let (start, end) = (graph.nodes[*from].0, graph.nodes[*to].0);
+                let metadata = door.map(|door| &world.doors[&door]).map(|door| {
+                    let stands = match door.state.status {
+                        DoorStatus::Open => "open",
+                        DoorStatus::Closed => "closed",
+                        DoorStatus::Locked => "locked",
+                    };
+                    json!({ "door": door.name, "door_state": stands })
+                });
+                let cost = metre((end - start).norm());
+                edge((number[from], start), (number[to], end), cost, metadata);
+            }
         }
     }
-    let name = &world.maps[&plan.map()].key;
+    let stops = storeys.iter().zip(&numbers).flat_map(|(storey, number)| {
+        let graph = &storey.graph;
+        graph.stops.iter().map(|(stop, node)| (*stop, number[node], graph.nodes[*node].0))
+    });
+    let stops: Vec<((usize, AreaId), usize, Point)> = stops.collect();
+    for ((lift, from), start, at) in &stops {
+        for ((_, to), end, there) in
+            stops.iter().filter(|(stop, ..)| stop.0 == *lift && stop.1 != *from)
+        {
+            let height = |area: AreaId| height_of(world, area);
+            let ride =
+                Ride { lift: *lift, from: *from, to: *to, rise: height(*to) - height(*from) };
+            let metadata = json!({
+                "lift": world.domain.lifts[*lift].0, "from": world.areas[from].name,
+                "to": world.areas[to].name, "rise": metre(ride.rise), "seconds": ride.seconds(),
+            });
+            let cost = metre(ride.seconds() * world.robot.speed);
+            edge((*start, *at), (*end, *there), cost, Some(metadata));
+        }
+    }
     let file = json!({ "type": "FeatureCollection", "name": name, "features": features });
     serde_json::to_string_pretty(&file).expect("JSON can say it")
+}
+
+fn feature(properties: &Value, geometry: &Value) -> Value {
+    json!({ "type": "Feature", "properties": properties, "geometry": geometry })
+}
+
+/// Where a lift is boarded on a floor.
+struct LiftEnd {
+    lift: usize,
+    area: AreaId,
+    map: MapId,
+    at: Point,
+}
+
+/// The stops of lifts at which the robot can stand; stairs are none.
+fn lift_stops(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> Vec<LiftEnd> {
+    let mut found = Vec::new();
+    for (lift, (_, stops)) in world.domain.lifts.iter().enumerate() {
+        if stops.iter().any(|stop| world.area_has_trait(stop.area, "stairs")) {
+            continue;
+        }
+        for stop in stops {
+            let area = stop.area;
+            let Some((map, _)) = world.placement(area) else { continue };
+            let Some(plan) = plans.get(&map) else { continue };
+            let Some(prism) = plan.scene().areas.get(&area).and_then(|a| a.prisms.first()) else {
+                continue;
+            };
+            if let Some(at) = stand(world, plan, prism.polygon.centroid(), area) {
+                found.push(LiftEnd { lift, area, map, at });
+            }
+        }
+    }
+    found
+}
+
+/// Of an Area in the building, cm.
+fn height_of(world: &World, area: AreaId) -> f64 {
+    let Some((map, frame)) = world.placement(area) else { return 0.0 };
+    let floor = world.domain.maps.iter().find(|placed| placed.map == map);
+    floor.map_or(0.0, |placed| placed.frame.z.get()) + frame.z.get()
 }

@@ -1,0 +1,78 @@
+//! `ortho replay`: a recording of a mission told again.
+
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use crate::engine::Recording;
+use crate::recording::{Played, Told};
+use crate::units::Timestamp;
+
+use super::args::{Common, Lang, ReplayArgs};
+use super::commands::note;
+use super::fault::Failure;
+use super::{Answer, say};
+
+/// Tells a recording again, and where it was cut off.
+pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure> {
+    let Played { about, told, cut, .. } = Recording::read(&args.file)?;
+    let begun = told.first().map_or(0, |first| first.time);
+    if !common.json {
+        let domain = about.get("domain").map_or("", String::as_str);
+        let at = Timestamp((begun / 1_000_000) as i64).in_words();
+        say(&match common.lang {
+            Lang::Ru => format!("Запись: «{domain}», {at}."),
+            Lang::En => format!("Recording of “{domain}”, {at}."),
+        })?;
+    }
+    let mut before = begun;
+    for one in &told {
+        let Some(line) = line(common, one, begun) else { continue };
+        if let Some(pace) = args.pace {
+            let seconds = one.time.saturating_sub(before) as f64 / 1e9 / pace;
+            std::thread::sleep(Duration::try_from_secs_f64(seconds).unwrap_or_default());
+        }
+        before = one.time;
+        say(&line)?;
+    }
+    let lasted = seconds(told.last().map_or(begun, |last| last.time), begun);
+    let cut = cut.as_ref().map(|cut| cut.say(common.lang.language()));
+    if common.json {
+        let whole = json!({ "outcome": "replayed", "seconds": lasted, "cut": cut });
+        return say(&whole.to_string());
+    }
+    if let Some(cut) = cut {
+        note(&match common.lang {
+            Lang::Ru => format!("Запись обрывается на {lasted} с: {cut}."),
+            Lang::En => format!("The recording breaks off after {lasted} s: {cut}."),
+        });
+    }
+    Ok(Answer::Yes)
+}
+
+/// Of a message what is told; nothing of one that is drawn.
+fn line(common: &Common, told: &Told, begun: u64) -> Option<String> {
+    let is_event = ["/directives", "/surprises", "/tasks"].contains(&told.topic.as_str());
+    match common.json {
+        true if is_event => {
+            let Value::Object(mut event) = told.value.clone() else { return None };
+            event.insert("at_seconds".to_owned(), json!(seconds(told.time, begun)));
+            Some(Value::Object(event).to_string())
+        }
+        false if told.topic == "/words" => {
+            let text = told.value["message"].as_str()?;
+            let mark = if told.value["name"] == "operator" { "> " } else { "" };
+            Some(format!(
+                "{:>7.1}  {mark}{}",
+                seconds(told.time, begun),
+                text.replace('\n', "\n         ")
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// To the millisecond.
+fn seconds(time: u64, begun: u64) -> f64 {
+    (time.saturating_sub(begun) / 1_000_000) as f64 / 1000.0
+}

@@ -1,0 +1,22 @@
+//! What is written for other programs, read by those programs; `.ci/run` says how they are installed.
+
+use crate::judged::judged;
+
+fn looked_at_by(script: &str) {
+    judged("python3", &[script.to_owned(), env!("CARGO_BIN_EXE_ortho").to_owned()]);
+}
+
+#[test]
+fn recordings_are_read_by_foxglove() {
+    looked_at_by("src/recording/judges/mission.py");
+}
+
+#[test]
+fn exports_are_read_by_others() {
+    looked_at_by("src/exchange/judges/exports.py");
+}
+
+#[test]
+fn a_robot_behind_rosbridge_is_driven() {
+    looked_at_by("examples/judges/rosbridge.py");
+}
