@@ -48,11 +48,11 @@ impl SensesArgs {
     }
 }
 
-fn address(text: &str) -> Result<Address, String> {
+pub(super) fn address(text: &str) -> Result<Address, String> {
     text.parse().map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
     let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     duration.ok_or_else(|| "a number of seconds is wanted, such as 10 or 0.5".to_owned())
@@ -65,9 +65,7 @@ impl VehicleArgs {
     /// It does not answer, or is another than the map needs.
     pub(super) fn connect(&self, world: &World) -> Result<Option<RemoteVehicle>, Failure> {
         let Some(address) = &self.vehicle else { return Ok(None) };
-        let usual = Patience::default();
-        let patience = Patience { silence: self.silence.unwrap_or(usual.silence), ..usual };
-        Ok(Some(address.connect(world, patience).map_err(Box::new)?))
+        Ok(Some(address.connect(world, patience(self.silence)).map_err(Box::new)?))
     }
 
     /// The senses by which alone the simulated robot is to know its world; none, where it is told.
@@ -100,6 +98,12 @@ pub(super) fn pace(text: &str) -> Result<f64, String> {
 
 /// What the simulated robot calls itself.
 const CALLED: &str = "ortho simulate";
+
+/// How long a robot elsewhere is waited for.
+pub(super) fn patience(silence: Option<Duration>) -> Patience {
+    let usual = Patience::default();
+    Patience { silence: silence.unwrap_or(usual.silence), ..usual }
+}
 
 /// The simulated robot at the map's start, for who speaks the protocol; between missions it stays as it was left.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, Failure> {

@@ -27,6 +27,7 @@
 
 mod advice;
 mod apart;
+mod assumed;
 mod barriers;
 mod changes;
 mod delivery;
@@ -131,6 +132,7 @@ pub use crate::exchange::{
 };
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
+pub(crate) use crate::language::command::{Waiting, waiting};
 pub use crate::language::question::{Answer, Memory, Unanswered};
 pub use crate::map::{Format, World};
 pub use crate::robot::{Replanned, Solved};

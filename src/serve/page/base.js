@@ -9,11 +9,13 @@ export const S = {
   drawing: null, floor: null, map: null,
   robot: null, trail: [], follow: false,
   /** A plan that waits for a word, the task that is driven, and its directives. */
-  plan: null, task: null, step: 0, queue: [], waiting: null, ended: [], lease: null,
+  plan: null, task: null, step: 0, queue: [], ended: [], lease: null,
   selected: null, thing: null, marked: [], proof: null,
-  linked: 'begin', stoppedBy: null, stopping: false,
-  asOf: null, history: [], proposals: [],
-  layers: { names: true, things: true, frames: false, dead: false, network: false, relations: true },
+  linked: 'begin', stoppedBy: null, stopping: false, paused: null,
+  asOf: null, history: [], proposals: [], edits: [], changes: null,
+  /** What would open a way that there is not: the answer of `GET /api/route`. */
+  barred: null, favourites: [],
+  layers: { names: true, things: true, zones: true, belief: true, places: true, frames: false, dead: false, network: false, relations: true },
   edit: null, toast: null, written: 0,
 };
 

@@ -7,6 +7,7 @@ mod records;
 mod standing;
 mod things;
 mod traits;
+mod walls;
 mod word;
 mod zones;
 
@@ -46,6 +47,8 @@ const VERBS: &[(&str, &[&str])] = &[
     ("include", &["at", "angle", "base"]),
     ("lift", &["stops"]),
     ("zone", ZONE),
+    ("cut", &["side", "from", "to", "as", "type", "permeability"]),
+    ("shape", &["points", "item"]),
 ];
 
 /// What can be said of a zone, in the words of the map file.
@@ -194,6 +197,8 @@ impl<'a> Steps<'a> {
             "stand" => self.stand(&step),
             "include" => self.include(&step),
             "zone" => self.zone(&step),
+            "cut" => self.cut(&step),
+            "shape" => self.shape(&step),
             _ => self.lift(&step),
         }
     }
