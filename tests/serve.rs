@@ -159,7 +159,8 @@ impl Operator<'_> {
         while Instant::now() < patience {
             let tasks = self.get("/api/tasks");
             let mut queue = tasks["queue"].as_array().into_iter().flatten();
-            let holds = tasks["paused"].is_string() || queue.all(|task| task["is_released"] == false);
+            let holds =
+                tasks["paused"].is_string() || queue.all(|task| task["is_released"] == false);
             let idle = tasks["task"].is_null() && holds;
             if let (true, Some(last)) = (idle, tasks["ended"].as_array().and_then(|e| e.last())) {
                 return last.clone();
@@ -245,7 +246,8 @@ fn who_only_looks_may_stop_and_nothing_else() {
     // What was broken off and what stood behind it wait, and begin when one who drives says so.
     let waiting = |tasks: &Value| -> Vec<(String, bool)> {
         let queue = tasks["queue"].as_array().into_iter().flatten();
-        let one = |t: &Value| (t["text"].as_str().unwrap_or_default().to_owned(), t["is_begun"] == true);
+        let one =
+            |t: &Value| (t["text"].as_str().unwrap_or_default().to_owned(), t["is_begun"] == true);
         queue.map(one).collect()
     };
     let (medicine, place) = ("Принеси лекарство".to_owned(), "Поезжай к Точке-К".to_owned());
@@ -253,7 +255,8 @@ fn who_only_looks_may_stop_and_nothing_else() {
     assert_eq!(looker.post("/api/resume", &json!({})).status, 403);
     assert_eq!(looker.post("/api/later", &json!({ "text": "Поезжай к Точке-А" })).status, 403);
     let last = &tasks["queue"][1]["task"];
-    operator.done(&format!("/api/tasks/{last}/move"), &json!({ "before": tasks["queue"][0]["task"] }));
+    operator
+        .done(&format!("/api/tasks/{last}/move"), &json!({ "before": tasks["queue"][0]["task"] }));
     let moved = operator.get("/api/tasks");
     assert_eq!(waiting(&moved), [(place, false), (medicine, true)], "{moved}");
     let said = operator.done("/api/say", &json!({ "text": "Отмени всё" }));
@@ -282,7 +285,7 @@ fn what_waits_outlives_a_kill_and_is_gone_on_with() {
         assert!(Instant::now() < patience, "it takes nothing");
         std::thread::sleep(Duration::from_millis(20));
     }
-    let cookie = operator.cookie.clone();
+    let Operator { cookie, .. } = operator;
     drop(console);
 
     let console = Console::start(&["--demo", "--pace", "20", "--store", store]);
@@ -367,7 +370,8 @@ fn an_edit_that_an_assistant_proposed_is_written_when_the_operator_says_so() {
     let proposed = folder.path().join("store.proposed");
     std::fs::create_dir(&proposed).expect("a folder");
     let edit = |name: &str| {
-        json!({ "reason": "claude: ближе к окну", "edit": [{ "move": name, "to": [400, 320] }] }).to_string()
+        json!({ "reason": "claude: ближе к окну", "edit": [{ "move": name, "to": [400, 320] }] })
+            .to_string()
     };
     std::fs::write(proposed.join("1-7.json"), edit("Кресло-1")).expect("a file");
     std::fs::write(proposed.join("1-8.json"), edit("Никто")).expect("a file");
@@ -384,7 +388,10 @@ fn an_edit_that_an_assistant_proposed_is_written_when_the_operator_says_so() {
     assert_eq!(operator.done("/api/edits/1-7", &yes(1))["revision"], 2);
     let history = operator.get("/api/history");
     let last = history["revisions"].as_array().and_then(|all| all.last()).expect("a revision");
-    assert_eq!((&last["user"], &last["reason"]), (&json!("operator"), &json!("claude: ближе к окну")));
+    assert_eq!(
+        (&last["user"], &last["reason"]),
+        (&json!("operator"), &json!("claude: ближе к окну"))
+    );
     assert_eq!(operator.post("/api/edits/1-7", &yes(2)).status, 404);
     operator.done("/api/edits/1-8", &json!({ "on": 2, "verdict": "reject" }));
     assert_eq!(operator.get("/api/edits")["edits"], json!([]));

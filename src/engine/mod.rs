@@ -115,6 +115,7 @@ pub use position::Whereabout;
 pub use query::QueryAnswer;
 pub use reading::Region;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
+pub(crate) use rule_files::question_beginnings;
 pub use rule_files::{RULE_FILES, export_rules};
 pub use rules::Rules;
 pub use seeing::{Changes, Sighted, Things, View};

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Believed, Drawing, Engine, Error, RequestError, Source, State, When, json as views,
+    question_beginnings,
 };
 use crate::facts::{Because, Premise, WhyNot};
 use crate::map::{Entity, Replica};
@@ -399,7 +400,7 @@ pub(super) async fn route(Of(house): Of<Arc<House>>, Query(way): Query<Way>) -> 
     .map(Json)
 }
 
-/// Names that begin as the last words of a text do.
+/// Questions that begin as a text does, and names that begin as its last words do.
 pub(super) async fn complete(Of(house): Of<Arc<House>>, Query(begun): Query<Begun>) -> Answer {
     const MOST: usize = 8;
     let names = house.desk.state().names().unwrap_or_default();
@@ -422,8 +423,21 @@ pub(super) async fn complete(Of(house): Of<Arc<House>>, Query(begun): Query<Begu
             }
         }
     }
-    let view = |(typed, name): (usize, &String)| json!({ "typed": typed, "name": name });
-    Ok(Json(json!(found.into_iter().take(MOST).map(view).collect::<Vec<_>>())))
+    let length = text.chars().count();
+    let frames =
+        question_beginnings().iter().filter(|frame| length > 1 && frame.starts_with(&text));
+    // As far as it is written it stays as it is written.
+    let frame = |frame: &String| {
+        let rest = &frame[text.len()..];
+        json!({ "typed": length, "name": format!("{}{rest} ", begun.text), "kind": "frame" })
+    };
+    let name =
+        |(typed, name): (usize, &String)| json!({ "typed": typed, "name": name, "kind": "name" });
+    let frames: Vec<Value> = frames.filter(|f| f.len() > text.len()).take(4).map(frame).collect();
+    let left = MOST - frames.len();
+    let all: Vec<Value> =
+        frames.into_iter().chain(found.into_iter().take(left).map(name)).collect();
+    Ok(Json(json!(all)))
 }
 
 /// All revisions, the oldest first.

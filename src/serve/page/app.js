@@ -85,7 +85,7 @@ function layers() {
   return el('div', { class: 'card layers' }, el('h2', null, L('Слои', 'Layers')), one('names', 'Имена', 'Names'), one('things', 'Вещи', 'Things', 'sw-thing'), one('places', 'Места', 'Places'), one('zones', 'Зоны', 'Zones', 'sw-zone'), one('belief', 'Что в руке и что не на месте', 'Carried, and believed elsewhere', 'sw-belief'), one('frames', 'Пассфреймы', 'Passframes', 'sw-frame'), one('dead', 'Мёртвые зоны', 'Dead zones', 'sw-dead'), one('network', 'Сеть', 'Network', 'sw-net'), one('relations', 'Отношения выбранного', 'Relations of what is selected', 'sw-rel'));
 }
 function editBar() {
-  const tb = (icon, text, work, more = {}) => el('button', { class: 'tb s', type: 'button', onclick: work, 'aria-label': text, ...more }, I(icon), el('span', null, text));
+  const tb = (icon, text, work, more = {}) => el('button', { class: 'tb s', type: 'button', onclick: work, 'aria-label': text, title: text, ...more }, I(icon), el('span', null, text));
   const { edit: now } = S, tool = (name, icon, ru, en) => tb(icon, L(ru, en), () => tools.take(name), { 'aria-pressed': String(now.tool === name) });
   return el('div', { class: 'card edbar', role: 'toolbar', 'aria-label': L('Правка', 'Editing') },
     tool('room', 'room', 'Помещение', 'Room'), tool('door', 'door', 'Дверь', 'Door'), tool('zone', 'zone', 'Зона', 'Zone'), tool('plan', 'img', 'Рисунок', 'Picture'),
@@ -191,7 +191,6 @@ const acts = {
     const plan = S.plan; if (!plan) return;
     S.plan = null; render();
     if (await attempt(() => api('/api/later', { text: plan.text }))) note({ q: plan.text, cls: 'order', lines: [L('Отложено: ждёт в очереди.', 'Put off: it waits in the queue.')] });
-    api(`/api/tasks/${plan.task}/cancel`, {}).catch(() => {});
   },
   pause: () => attempt(() => api('/api/pause', {})),
   resume: (task = null) => { S.stoppedBy = null; render(); return attempt(() => api('/api/resume', { task })); },
@@ -209,7 +208,7 @@ const acts = {
       if (way.opens?.length) S.barred = { title: L(`До «${whither}» – ${length(way.length_cm)}, если открыть`, `To ${whither}: ${length(way.length_cm)}, with doors opened`), text: way.opens.map(N).join(', '), remedy: { open: way.opens }, way: here?.points ?? null, is_way: true };
       else S.barred = { title: `${whither}: ${length(way.length_cm)}`, text: '', remedy: null, way: here?.points ?? null, is_way: true };
     } else {
-      S.barred = { title: L(`До «${whither}» не проехать`, `There is no way to ${whither}`), text: [way.explanation, way.advice].filter(Boolean).join(' '), remedy: way.remedy ?? null };
+      S.barred = { title: L(`До «${whither}» не проехать`, `There is no way to ${whither}`), text: [way.explanation, way.advice].filter(Boolean).map((text) => `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/[.]$/, '')}.`).join(' '), remedy: way.remedy ?? null };
       announce([S.barred.title, S.barred.text].join('. '), true);
     }
     over(); paint();

@@ -3,8 +3,13 @@ import { S, L, N, ask, sv } from './base.js';
 import { boxOf } from './map.js';
 
 const SORTS = ['rooms', 'things', 'doors', 'zones', 'places'];
-const shape = (one) => JSON.stringify([one.polygons ?? null, one.z ?? null, one.gap ?? null, one.at && !one.polygons ? one.at : null]);
-const rest = ({ box, frame, m2, middle, rule, rule_en, in_force, ...one }) => JSON.stringify(one);
+/** Without corners on a straight wall: a side that was cut in two is where it was. */
+const bare = (points) => points.filter(([x, y], i) => {
+  const [ax, ay] = points.at(i - 1), [bx, by] = points[(i + 1) % points.length];
+  return Math.abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) > 0.05 * Math.hypot(bx - ax, by - ay);
+});
+const shape = (one) => JSON.stringify([one.polygons?.map(bare) ?? null, one.z ?? null, one.gap ?? null, one.at && !one.polygons ? one.at : null]);
+const rest = ({ box, frame, m2, middle, rule, rule_en, in_force, polygons, rooms, leaves, arcs, opening, ...one }) => JSON.stringify(one);
 const drawn = (revision) => ask('/api/drawing', { map: S.map, ...(revision === S.state.revision ? {} : { as_of: revision }) }).catch(() => null);
 
 /** Compares the storey at two revisions, and has the map show it. */
@@ -52,7 +57,7 @@ export function overlay(k) {
   for (const { fate, was, is } of S.changes.marks) {
     const words = { new: L('новое', 'new'), gone: L('убрано', 'gone'), moved: L('сдвинуто', 'moved'), changed: L('изменено', 'changed') }[fate];
     const title = () => sv('title', null, `${N(is ?? was) || L('проём', 'opening')}: ${words}`);
-    if (was && fate !== 'changed') g.append(sv('path', { class: `m-past${fate === 'gone' ? ' gone' : ''}`, d: outline(was), 'stroke-width': 2 / k }, title()));
+    if (was && fate !== 'changed') g.append(sv('path', { class: `m-past${fate === 'gone' ? ' gone' : ''}${was.frame ? ' room' : ''}`, d: outline(was), 'stroke-width': 2 / k }, title()));
     if (is) g.append(sv('path', { class: `m-next ${fate}`, d: outline(is), 'stroke-width': 2 / k }, title()));
     if (fate === 'moved') { const [a, b] = [middle(was), middle(is)]; g.append(sv('path', { class: 'm-moved', d: `M${a[0]} ${a[1]}L${b[0]} ${b[1]}`, 'stroke-width': 1.6 / k })); }
   }

@@ -128,7 +128,7 @@ function labels(d, taken, bold) {
     else if (Math.min(w, h) > 24 && need < w + 30) place(N(thing), 'm-th', 11, [[x, b[3] + 9 / k], [x, b[1] - 8 / k]]);
   }
   if (S.layers.zones) for (const zone of d.zones ?? []) { const b = boxOf(zone); if (meets(b, box) && !bold.includes(zone)) { const until = zoneTime(zone); place(`${N(zone)}${until ? ` · ${until}` : ''}`, 'm-zlab', 11.5, [[(b[0] + b[2]) / 2, (b[1] + b[3]) / 2], [(b[0] + b[2]) / 2, b[3] - 10 / k]]); } }
-  if (S.layers.places) for (const one of d.places) if (fine) place(N(one), 'm-th', 11, [[one.at[0], -one.at[1] - 13 / k], [one.at[0], -one.at[1] + 13 / k]]);
+  if (S.layers.places) for (const one of d.places) if (fine && !bold.includes(one)) place(N(one), 'm-th', 11, [[one.at[0], -one.at[1] - 13 / k], [one.at[0], -one.at[1] + 13 / k]]);
   return g;
 }
 
@@ -210,7 +210,7 @@ function overlay(d, taken, bold) {
     const { points, closed } = S.edit.draft;
     if (points.length > 1) top.append(sv('path', { class: `m-draft${S.edit.wrong ? ' wrong' : ''}${closed ? '' : ' open'}${S.edit.tool === 'door' ? ' door' : ''}`, d: closed ? Z(points) : P(points), 'stroke-width': (S.edit.tool === 'door' ? 7 : 2) / k }));
     for (const [x, y] of points) top.append(sv('circle', { class: 'm-handle', cx: x, cy: -y, r: 4 / k, 'stroke-width': 1.5 / k }));
-    points.forEach((p, i) => { const q = points[(i + 1) % points.length], l = Math.hypot(q[0] - p[0], q[1] - p[1]); if ((closed || i + 1 < points.length) && l * k > 40) top.append(tag((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, length(l), 'know')); });
+    points.forEach((p, i) => { const q = points[(i + 1) % points.length], l = Math.hypot(q[0] - p[0], q[1] - p[1]); if ((closed || i + 1 < points.length) && l * k > 70) top.append(tag((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, length(l), 'know')); });
   }
   for (const [x, y] of S.edit?.marks ?? []) top.append(sv('path', { class: 'm-cross', d: `M${x - 8 / k} ${-y}H${x + 8 / k}M${x} ${-y - 8 / k}V${-y + 8 / k}`, 'stroke-width': 2 / k }));
   if (S.edit?.ghost) {

@@ -21,7 +21,7 @@ export function card(act) {
     el('div', { class: 'tx' }, el('div', { class: 'k' }, kicker), el('strong', null, title), more ? el('p', { class: 'long' }, more) : null, buttons ? el('div', { class: 'btns' }, buttons) : null));
   if (S.linked === 'stranger') return one('stopd', 'off', el('b', null, L('Нужен адрес', 'An address is needed')), L('Откройте адрес, который напечатала программа', 'Open the address that the program printed'), L('Ключ в нём действует один раз.', 'The key in it is good once.'));
   if (S.linked === 'no') return one('stopd', 'off', el('b', null, L('Связи нет', 'No link')), L('Положение робота устарело', 'The robot’s place is out of date'), L('Стоп не дойдёт. Без связи робот сам остановится, когда кончится право управления.', 'A stop will not get there. Without a link the robot stops by itself when the right to drive ends.'));
-  if (S.asOf !== null) return one('past', 'clock', el('b', null, L('Прошлое', 'The past')), L(`Карта на ревизии ${S.asOf}`, `The map at revision ${S.asOf}`), null, [button('', L('К настоящему', 'Back to now'), act.now)]);
+  if (S.asOf !== null) return one('past', 'clock', el('b', null, L('Прошлое', 'The past')), L(`Карта на ревизии ${S.asOf}`, `The map at revision ${S.asOf}`), S.changes ? changesTold() : null, [button('', L('К настоящему', 'Back to now'), act.now)]);
   if (S.plan) {
     const plan = S.plan.plan;
     return one('', 'task', [el('b', null, L('План', 'Plan')), el('span', null, `${length(plan.length_cm)} · ${seconds(plan.seconds)}`)], S.plan.text, planInWords(plan),
@@ -67,12 +67,12 @@ function taskTab(act) {
   }
   const drive = may('drive'), ib = (icon, text, work) => el('button', { class: 'ib', type: 'button', 'aria-label': text, title: text, onclick: work }, I(icon));
   const stands = (task) => (task.is_begun ? L('начато и прервано', 'begun and broken off') : task.is_released && !S.paused ? L('ждёт очереди', 'waits its turn') : L('отложено', 'put off'));
-  parts.push(el('div', { class: 'sec' }, el('div', { class: 'row' }, el('h2', null, L('Очередь', 'Queue')), el('span', { class: 'num' }, String(S.queue.length)), S.paused ? pill('warn', L('Пауза', 'Paused')) : null,
+  parts.push(el('div', { class: 'sec' }, el('div', { class: 'row wrap' }, el('h2', null, L('Очередь', 'Queue')), el('span', { class: 'num' }, String(S.queue.length)), S.paused ? pill('warn', L('Пауза', 'Paused')) : null,
     el('span', { class: 'end btns' }, S.task || (S.queue.some((task) => task.is_released) && !S.paused) ? button('sm', L('Пауза', 'Pause'), act.pause) : null,
       drive && S.queue.length && (S.paused || S.queue.some((task) => !task.is_released)) ? button('sm pri', L('Продолжить', 'Resume'), () => act.resume()) : null,
       drive && S.queue.length > 1 ? button('sm', L('Кратчайшим путём', 'Shortest way'), act.shortest) : null)),
     S.queue.length ? el('ul', { class: 'list queue' }, S.queue.map((task, i) => el('li', null, el('span', { class: 'num' }, String(i + 1)), el('span', { class: 'g' }, task.text, el('div', { class: 'sub' }, `${stands(task)} · ${task.by}${task.is_kept ? '' : L(' · не переживёт перезапуска', ' · not kept over a restart')}`)),
-      drive && !task.is_released && !S.task ? ib('ahead', L(`Начать: ${task.text}`, `Begin: ${task.text}`), () => act.resume(task.task)) : null,
+      drive && !task.is_released && !S.task ? ib('play', L(`Начать: ${task.text}`, `Begin: ${task.text}`), () => act.resume(task.task)) : null,
       drive && i > 0 ? ib('up', L(`Раньше: ${task.text}`, `Sooner: ${task.text}`), () => act.move(task.task, S.queue[i - 1].task)) : null,
       drive && i + 1 < S.queue.length ? ib('down', L(`Позже: ${task.text}`, `Later: ${task.text}`), () => act.move(task.task, S.queue[i + 2]?.task ?? null)) : null,
       drive ? ib('x', L(`Отменить: ${task.text}`, `Cancel: ${task.text}`), () => act.cancel(task.task)) : null))) : el('p', { class: 'sub' }, L('Пусто. Здесь ждут приказы, данные в пути, отложенные и прерванные.', 'Empty. Orders given on the way, put off and broken off wait here.'))));
@@ -146,13 +146,13 @@ function mapTab(act) {
     el('div', { class: 'pair' }, el('div', null, el('small', null, L('на карте', 'on the map')), el('div', null, placeWords(one.surveyed))), el('div', null, el('small', null, `${L('видели', 'seen')} · ${Math.round(one.confidence * 100)} %`), el('div', null, placeWords(one.place)))),
     may('edit') ? el('div', { class: 'btns' }, button('pri', L('Так и есть', 'That is so'), () => act.decide(one.name, 'confirm')), button('', L('Нет, как на карте', 'No, as on the map'), () => act.decide(one.name, 'reject'))) : null))));
   if (S.edits.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Предложил помощник', 'Proposed by an assistant'), el('span', { class: 'num' }, String(S.edits.length))), S.edits.map((one) => el('div', { class: `note ${one.fault ? 'bad' : 'warn'}` }, el('b', null, one.reason || L('без объяснения', 'without a reason')),
-    one.fault ? el('span', null, (S.lang === 'en' && one.fault.message_en) || one.fault.message) : el('ul', { class: 'diff' }, one.differences.map(difference)),
+    one.fault ? el('span', null, (S.lang === 'en' && one.fault.message_en) || one.fault.message) : el('ul', { class: 'diff' }, some(one.differences)),
     el('span', { class: 'sub' }, L(`сделано на ревизии ${one.on}`, `made on revision ${one.on}`)),
     may('edit') ? el('div', { class: 'btns' }, one.fault ? null : button('pri', L('Записать', 'Write'), () => act.judge(one.id, 'confirm')), button('', L('Отклонить', 'Reject'), () => act.judge(one.id, 'reject'))) : null))));
   const edits = S.history.slice().reverse();
   parts.push(el('div', { class: 'sec' }, el('div', { class: 'row' }, el('h2', null, L('История', 'History')), may('edit') ? el('span', { class: 'end btns' }, button('', [I('undo'), L('Отменить', 'Undo')], act.undo), button('', [I('redo'), L('Вернуть', 'Redo')], act.redo)) : null),
     el('ul', { class: 'rev' }, edits.slice(0, 60).map((one) => el('li', { class: one.revision === S.asOf ? 'at' : '' }, el('span', { class: 'r' }, String(one.revision)),
-      el('span', null, revisionWords(one), el('div', { class: 'sub' }, `${one.user} · ${when(one.at)}`), one.told ? el('ul', { class: 'diff' }, one.told.map(difference)) : null),
+      el('span', null, revisionWords(one), el('div', { class: 'sub' }, `${one.user} · ${when(one.at)}`), one.told ? el('ul', { class: 'diff' }, some(one.told, 20)) : null),
       el('span', { class: 'btns' }, el('button', { class: 'lnk', type: 'button', onclick: () => act.told(one) }, L('что', 'what')), el('button', { class: 'lnk', type: 'button', onclick: () => act.asOf(one.revision) }, L('показать', 'show'))))))));
   if (S.asOf !== null && may('edit')) parts.push(button('dan', L(`Вернуть карту к ревизии ${S.asOf}`, `Return the map to revision ${S.asOf}`), act.restore));
   if (may('edit')) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Позвать ещё кого-то', 'Invite somebody')), el('div', { class: 'btns' }, [['look', L('смотреть', 'to look')], ['drive', L('управлять', 'to drive')], ['edit', L('править', 'to edit')]].map(([role, text]) => button('', text, () => act.invite(role)))), S.invited ? el('p', { class: 'sub mono wrap' }, S.invited) : null));
@@ -160,6 +160,8 @@ function mapTab(act) {
 }
 const KINDS = { import: ['импорт', 'import'], edit: ['правка', 'edit'], undo: ['отмена', 'undo of'], redo: ['возврат', 'redo of'] };
 const revisionWords = (one) => `${L(...(KINDS[one.kind] ?? [one.kind, one.kind]))}${one.undoes ? ` ${one.undoes}` : ''}${one.reason ? `: ${one.reason}` : ''}`;
+/** The first of many, and how many more there are. */
+const some = (all, most = 6) => [all.slice(0, most).map(difference), all.length > most ? el('li', null, el('span', { class: 'sub' }, L(`и ещё ${all.length - most}`, `and ${all.length - most} more`))) : null];
 const difference = (d) => el('li', { class: d.fate === 'deleted' ? 'm' : 'p' }, el('span', null, L(d.ru, d.en)));
 
 function editSection(act) {
@@ -186,7 +188,7 @@ export function verdict(act) {
   if (!edit) return parts;
   if (edit.wrong) parts.push(el('div', { class: 'note bad', role: 'alert' }, el('b', null, L('Так нельзя', 'This cannot be')), edit.wrong.map((text) => el('span', null, text))));
   if (edit.steps?.length) {
-    if (edit.tried) parts.push(el('div', { class: 'note ok' }, el('b', null, L('Всё верно', 'All is right')), el('ul', { class: 'diff' }, edit.tried.differences.map(difference)), edit.tried.warnings.map((w) => el('span', null, w.message)), edit.tried.left_behind.length ? el('span', null, `${L('Остаётся на месте', 'Stays behind')}: ${edit.tried.left_behind.map(N).join(', ')}`) : null));
+    if (edit.tried) parts.push(el('div', { class: 'note ok' }, el('b', null, L('Всё верно', 'All is right')), el('ul', { class: 'diff' }, some(edit.tried.differences.filter((d) => !/SIDES/i.test(d.table) || edit.tried.differences.length < 7))), edit.tried.warnings.map((w) => el('span', null, w.message)), edit.tried.left_behind.length ? el('span', null, `${L('Остаётся на месте', 'Stays behind')}: ${edit.tried.left_behind.map(N).join(', ')}`) : null));
     if (edit.theirs) parts.push(el('div', { class: 'note warn', role: 'alert' }, el('b', null, L('Пока вы правили, карта изменилась', 'The map changed while you edited')), edit.theirs.map((one) => el('div', null, `${one.revision}, ${one.user}: `, one.differences.map((d) => L(d.ru, d.en)).join('; '))), el('div', { class: 'btns' }, button('pri', L('Записать поверх их правки', 'Write on top of theirs'), act.onTop), button('', L('Оставить их', 'Keep theirs'), act.drop))));
     else parts.push(el('div', { class: 'btns' }, button('pri wide', [L('Записать', 'Write'), ' ', el('kbd', null, 'Enter')], act.write, { id: 'write', disabled: Boolean(edit.wrong) }), button('wide', [L('Бросить', 'Drop'), ' ', el('kbd', null, 'Esc')], act.drop)));
   }

@@ -118,7 +118,7 @@ function corners(event, name) {
       edit.parts.forEach((part, i) => { part.points = was[i].map((p) => [p[0] + d[0], p[1] + d[1]]); });
       edit.shift = d; paint();
     },
-    end: () => { const { x, y } = edit.room.frame; will([{ stand: edit.name, map: S.map, at: [tenth(x + edit.shift[0]), tenth(y + edit.shift[1])] }]); },
+    end: () => { const { x, y } = edit.room.frame; will([{ stand: edit.name, map: S.map, at: [tenth(x + edit.shift[0]), tenth(y + edit.shift[1])], relink: true }]); },
     click() {},
   };
 }
@@ -250,8 +250,10 @@ async function steps(edit) {
   const points = counterClockwise(draft.points), [ox, oy] = points[0], name = key(fields.name);
   if (tool === 'room') {
     const base = points.map(([x, y]) => [tenth(x - ox), tenth(y - oy)]);
+    const stands = { stand: name, map: S.map, at: [ox, oy] }, tie = S.drawing.rooms.length ? await tied(name, points) : null;
     return {
-      steps: [{ stand: name, map: S.map, at: [ox, oy] }],
+      // A storey hangs together: the new room is tied to the wall that is nearest, whatever lies between.
+      steps: tie ? [stands, tie, { ...stands, relink: true }] : [stands],
       more: { orthoframe: { [name]: { height: Number(fields.height), points: base } }, area: { [name]: { name: fields.name.trim(), items: [{ id: 'A', orthoframe: name }] } } },
     };
   }
@@ -261,6 +263,25 @@ async function steps(edit) {
   if (fields.reason.trim()) zone.reason = fields.reason.trim();
   for (const at of ['from', 'until']) if (fields[at]) zone[at] = `${new Date(fields[at]).toISOString().slice(0, 16)}Z`;
   return { steps: [zone] };
+}
+
+/** The link of a new room to the wall of another that is nearest to one of its own. */
+async function tied(name, points) {
+  const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], own = points.map((p, i) => [p, points[(i + 1) % points.length]]);
+  let best = null;
+  for (const room of S.drawing.rooms) for (const wall of edges(room)) own.forEach((edge, i) => {
+    const away = Math.min(foot(...wall, middle(edge)).away, foot(...edge, middle(wall)).away) + (parallel(wall, edge) ? 0 : 1e4);
+    if (!best || away < best.away) best = { away, room, wall, side: String.fromCharCode(65 + i) };
+  });
+  if (!best || points.length > 26) return null;
+  const about = await ask('/api/thing', { name: best.room.name, lang: S.lang }), spot = middle(best.wall);
+  let to = null;
+  for (const part of about.parts) for (const side of part.sides) {
+    if (side.permeability !== 0) continue;
+    const { away } = foot(side.from, side.to, spot);
+    if (!to || away < to.away) to = { away, text: `${best.room.name}.${part.id}.${side.id}` };
+  }
+  return to ? { link: `${name}.A.${best.side}`, to: to.text } : null;
 }
 
 /* the fields: what a pointer draws, and what it cannot */

@@ -43,7 +43,7 @@ const VERBS: &[(&str, &[&str])] = &[
     ("item", &["of", "orthoframe", "at", "angle", "base"]),
     ("link", &["to", "of", "rel", "angle"]),
     ("unlink", &["to", "of"]),
-    ("stand", &["map", "at", "angle", "base"]),
+    ("stand", &["map", "at", "angle", "base", "relink"]),
     ("include", &["at", "angle", "base"]),
     ("lift", &["stops"]),
     ("zone", ZONE),

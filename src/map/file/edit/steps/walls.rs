@@ -1,7 +1,8 @@
 //! Walls of a room: a stretch of a side made a side of its own, so that a door can hang in it; corners put elsewhere.
 //!
-//! **Invariant**: a side keeps its id, and with it its links, doors and properties; what is cut off gets an id of its own. An
-//! Orthoframe that others are made of too is left to them: the room gets a copy.
+//! **Invariant**: a side keeps its id, and with it its links, doors and properties; what is cut off gets an id of its own, and
+//! what links say of where sides lie is told anew. An Orthoframe that others are made of too is left to them: the room gets a
+//! copy.
 
 use std::collections::BTreeSet;
 
@@ -58,7 +59,7 @@ impl Steps<'_> {
         let (item, side) = split(text_of(side_node)?);
         let (from, to) = (number(step.required("from")?)?, number(step.required("to")?)?);
         let (own, _) = self.own_base(area, item, step)?;
-        let mut sides = self.sides(own, step)?;
+        let mut sides = self.sides(own, step.span())?;
         let Some(index) = sides.iter().position(|s| s.id == side) else {
             let (what, name, nearest) = (("Сторона", "Side").into(), shortened(side), None);
             return Err(misprint(
@@ -104,6 +105,7 @@ impl Steps<'_> {
         }
         sides.splice(index..index, pieces);
         self.put_sides(own, sides, step.span());
+        self.relink(area);
         Ok(())
     }
 
@@ -115,7 +117,7 @@ impl Steps<'_> {
             points_node.elements().iter().map(numbers).collect::<Result<_, _>>()?;
         let item = step.field("item").map(text_of).transpose()?;
         let (own, item) = self.own_base(area, item, step)?;
-        let mut sides = self.sides(own, step)?;
+        let mut sides = self.sides(own, step.span())?;
         if sides.len() != points.len() {
             let message = (
                 "углов столько же, сколько у помещения; новый угол делает cut",
@@ -126,15 +128,8 @@ impl Steps<'_> {
                 &points_node.span,
             ));
         }
-        let (origin, degrees) = self.frame_of(area, &item)?;
-        let (sin, cos) = match degrees.rem_euclid(360.0) {
-            // Exact on the axes, so that straight walls stay straight.
-            0.0 => (0.0, 1.0),
-            90.0 => (1.0, 0.0),
-            180.0 => (0.0, -1.0),
-            270.0 => (-1.0, 0.0),
-            other => other.to_radians().sin_cos(),
-        };
+        let Stands { at: origin, degrees } = self.frame_of(area, &item)?;
+        let (sin, cos) = sin_cos(degrees);
         let inner = |p: &Vec<f64>| {
             let (dx, dy) = (p[0] - origin[0], p[1] - origin[1]);
             [cos * dx + sin * dy, cos * dy - sin * dx]
@@ -144,6 +139,7 @@ impl Steps<'_> {
             (side.from, side.to) = (corners[index], corners[(index + 1) % corners.len()]);
         }
         self.put_sides(own, sides, step.span());
+        self.relink(area);
         Ok(())
     }
 
@@ -211,7 +207,7 @@ impl Steps<'_> {
     }
 
     /// The base of an Orthoframe in full, however it is written.
-    fn sides(&self, at: Handle, step: &Step<'_>) -> Outcome<Vec<Side>> {
+    fn sides(&self, at: Handle, span: &Span) -> Outcome<Vec<Side>> {
         let record = self.tree.get(at).expect("it was found");
         let pair = |node: &Node| numbers(node).map(|list| [list[0], list[1]]);
         if let Some(sides) = record.entry("sides").map(|e| e.node.elements())
@@ -246,7 +242,7 @@ impl Steps<'_> {
                     "у этого помещения правильный многоугольник: задайте его углами (points)",
                     "this area is a regular polygon: give its corners (points)",
                 );
-                return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
+                return Err(misprint(MapError::BadValue { message: message.into() }, span));
             }
         };
         let traits = |id: &str| {
@@ -268,16 +264,123 @@ impl Steps<'_> {
         record.put(entry("sides", span, Value::List(sides)));
     }
 
-    /// Where an item stands in its Area: its origin, and its angle in degrees.
-    fn frame_of(&self, area: Handle, item: &str) -> Outcome<([f64; 2], f64)> {
+    /// Where an item stands in its Area.
+    fn frame_of(&self, area: Handle, item: &str) -> Outcome<Stands> {
         let items = self.tree.get(area).and_then(|n| n.entry("items"));
         let items = items.map_or(&[][..], |e| e.node.elements());
         let is_it = |n: &&Node| n.entry("id").and_then(|e| e.node.text()) == Some(item);
-        let Some(node) = items.iter().find(is_it) else { return Ok(([0.0; 2], 0.0)) };
-        let at = node.entry("at").map(|e| numbers(&e.node)).transpose()?;
-        let angle = node.entry("angle").map(|e| number(&e.node)).transpose()?;
-        Ok((at.map_or([0.0; 2], |list| [list[0], list[1]]), angle.unwrap_or(0.0)))
+        items.iter().find(is_it).map_or(Ok(Stands::default()), Stands::of)
     }
+
+    /// Where the sides of an Area lie to those that they are linked with on the Map is told anew.
+    pub(super) fn relink(&mut self, area: Handle) {
+        let key = self.tree.key(area).to_owned();
+        let speaks = |text: &str| text.strip_prefix(&key).is_some_and(|rest| rest.starts_with('.'));
+        for map in self.tree.all(Kind::Map) {
+            let links = self.tree.get(map).and_then(|m| m.entry("links"));
+            let links = links.map_or(&[][..], |e| e.node.elements());
+            let text = |link: &Node, end: &str| Some(link.entry(end)?.node.text()?.to_owned());
+            let mut found = Vec::new();
+            for (number, link) in links.iter().enumerate() {
+                let (Some(from), Some(to)) = (text(link, "from"), text(link, "to")) else {
+                    continue;
+                };
+                if !speaks(&from) && !speaks(&to) {
+                    continue;
+                }
+                // What cannot be measured is told by the checks.
+                if let (Some(one), Some(other)) = (self.placed(map, &from), self.placed(map, &to)) {
+                    let height = link.entry("rel").and_then(|e| numbers(&e.node).ok());
+                    let height = height.and_then(|rel| rel.get(2).copied()).unwrap_or(0.0);
+                    found.push((number, offset(&one, &other), height));
+                }
+            }
+            let links = self.change(map).entry_mut("links").map(|e| &mut e.node.value);
+            let Some(Value::List(links)) = links else { continue };
+            for (number, (by, degrees), height) in found {
+                let span = links[number].span.clone();
+                let node = |x: f64| Node { span: span.clone(), value: written(x) };
+                let rel = [by[0], by[1], height].map(node);
+                links[number].put(entry("rel", &span, Value::List(rel.into())));
+                links[number].put(entry("angle", &span, written(degrees)));
+            }
+        }
+    }
+
+    /// A side «area.item.side» or «area.side» on a Map: where it begins and where it ends.
+    fn placed(&self, map: Handle, side: &str) -> Option<[[f64; 2]; 2]> {
+        let parts: Vec<&str> = side.split('.').collect();
+        let (key, item, side) = match parts[..] {
+            [area, item, side] => (area, Some(item), side),
+            [area, side] => (area, None, side),
+            _ => return None,
+        };
+        let text = |node: &Node, field: &str| Some(node.entry(field)?.node.text()?.to_owned());
+        let mut on_map = self.tree.get(map)?.entry("items")?.node.elements().iter();
+        let on_map = on_map.find(|line| text(line, "area").as_deref() == Some(key))?;
+        let area = self.tree.find(key, &[Kind::Area]);
+        let area = area.into_iter().find(|h| self.tree.key(*h) == key)?;
+        let items = self.tree.get(area)?.entry("items")?.node.elements();
+        let item = match item {
+            Some(name) => items.iter().find(|i| text(i, "id").as_deref() == Some(name))?,
+            None => items.first()?,
+        };
+        let base = text(item, "orthoframe")?;
+        let base = self
+            .tree
+            .find(&base, &[Kind::Orthoframe])
+            .into_iter()
+            .find(|h| self.tree.key(*h) == base)?;
+        let sides = self.sides(base, &item.span).ok()?;
+        let side = sides.iter().find(|s| s.id == side)?;
+        let (inner, outer) = (Stands::of(item).ok()?, Stands::of(on_map).ok()?);
+        Some([side.from, side.to].map(|p| outer.apply(inner.apply(p))))
+    }
+}
+
+/// Where something stands: its origin, and its angle in degrees.
+#[derive(Debug, Clone, Copy, Default)]
+struct Stands {
+    at: [f64; 2],
+    degrees: f64,
+}
+
+impl Stands {
+    fn of(node: &Node) -> Outcome<Self> {
+        let at = node.entry("at").map(|e| numbers(&e.node)).transpose()?;
+        let degrees = node.entry("angle").map(|e| number(&e.node)).transpose()?;
+        Ok(Self {
+            at: at.map_or([0.0; 2], |list| [list[0], list[1]]),
+            degrees: degrees.unwrap_or(0.0),
+        })
+    }
+
+    fn apply(self, p: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = sin_cos(self.degrees);
+        [self.at[0] + cos * p[0] - sin * p[1], self.at[1] + sin * p[0] + cos * p[1]]
+    }
+}
+
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    match degrees.rem_euclid(360.0) {
+        // Exact on the axes, so that straight walls stay straight.
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        other => other.to_radians().sin_cos(),
+    }
+}
+
+/// The offset of a side from another, and its angle less that of the other, turned round where they lie back to back.
+fn offset(one: &[[f64; 2]; 2], other: &[[f64; 2]; 2]) -> ([f64; 2], f64) {
+    let direction = |s: &[[f64; 2]; 2]| (s[1][1] - s[0][1]).atan2(s[1][0] - s[0][0]).to_degrees();
+    let signed = |degrees: f64| (degrees + 180.0).rem_euclid(360.0) - 180.0;
+    let turn = signed(direction(other) - direction(one));
+    let is_reversed = turn.abs() > 90.0;
+    let corner = if is_reversed { other[1] } else { other[0] };
+    let angle = if is_reversed { signed(turn - 180.0) } else { turn };
+    ([corner[0] - one[0][0], corner[1] - one[0][1]], angle)
 }
 
 /// «A.B» as item and side; a side alone is that of the only item.
@@ -292,7 +395,7 @@ fn split(side: &str) -> (Option<&str>, &str) {
 mod tests {
     use crate::file::edit::{NextIds, edit};
     use crate::units::{AreaId, Point, Source};
-    use crate::{Format, NameIndex, Naming, World};
+    use crate::{Format, NameIndex, Naming, Permeability, World};
 
     fn rb2() -> World {
         World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/rb2.toml"))
@@ -333,7 +436,8 @@ mod tests {
                             "[[edit]]\ncut = {:?}\nside = \"{}.{}\"\nfrom = {from}\nto = {to}\nas = \"neu\"\n",
                             area.name, item.id, side.id
                         );
-                        let cut = edited(&world, &text).unwrap_or_else(|why| panic!("{text}: {why}"));
+                        let cut =
+                            edited(&world, &text).unwrap_or_else(|why| panic!("{text}: {why}"));
                         let base = cut.areas[&area.id].item(&item.id).map(|i| cut.orthoframe_of(i));
                         let base = base.expect("the item stays");
                         assert_eq!(base.base.len(), world.orthoframe_of(item).base.len() + more);
@@ -345,7 +449,10 @@ mod tests {
                         }
                         for door in world.doors.keys() {
                             for room in world.door_areas(*door) {
-                                assert_eq!(world.threshold(room, *door), cut.threshold(room, *door));
+                                assert_eq!(
+                                    world.threshold(room, *door),
+                                    cut.threshold(room, *door)
+                                );
                             }
                         }
                         cuts += 1;
@@ -363,7 +470,9 @@ mod tests {
         let side = &world.orthoframe_of(&room.items[0]).base[0];
         let text = |side: &str, from: f64, to: f64| {
             let (name, item) = (&room.name, &room.items[0].id);
-            format!("[[edit]]\ncut = {name:?}\nside = \"{item}.{side}\"\nfrom = {from}\nto = {to}\n")
+            format!(
+                "[[edit]]\ncut = {name:?}\nside = \"{item}.{side}\"\nfrom = {from}\nto = {to}\n"
+            )
         };
         let length = side.length().get();
         for (side, from, to) in [
@@ -378,32 +487,45 @@ mod tests {
 
     #[test]
     fn a_room_takes_the_corners_that_it_is_given_and_leaves_those_of_others() {
-        let text = r#"
+        let old = rb2();
+        let neighbour = old.areas.values().next().expect("there is one");
+        let item = &neighbour.items[0];
+        let walls = old.orthoframe_of(item).base.iter();
+        let wall = walls.clone().find(|v| v.permeability == Permeability::Impermeable);
+        let wall = format!("{}.{}.{}", neighbour.name, item.id, wall.expect("there is a wall").id);
+        let tied = |key: &str, y: u32| {
+            let stands = format!("[[edit]]\nstand = {key:?}\nat = [5000, {y}]\n");
+            format!(
+                "{stands}[[edit]]\nlink = \"{key}.A.A\"\nto = {wall:?}\n{stands}relink = true\n"
+            )
+        };
+        let text = format!(
+            r#"
             [orthoframe.square]
             height = 270
             rect = [400, 300]
             [area.one]
             name = "Раз"
-            items = [{ id = "A", orthoframe = "square", angle = 90, at = [300, 0] }]
+            items = [{{ id = "A", orthoframe = "square", angle = 90, at = [300, 0] }}]
             [area.two]
             name = "Два"
-            items = [{ id = "A", orthoframe = "square" }]
-            [[edit]]
-            stand = "one"
-            at = [5000, 5000]
-            [[edit]]
-            stand = "two"
-            at = [5000, 7000]
-        "#;
-        let world = edited(&rb2(), text).expect("two rooms of one shape");
+            items = [{{ id = "A", orthoframe = "square" }}]
+            {}{}"#,
+            tied("one", 5000),
+            tied("two", 7000)
+        );
+        let world = edited(&old, &text).expect("two rooms of one shape");
         let room = |world: &World, name: &str| {
             let area = world.areas.values().find(|area| area.name == name).expect("it is there");
             world.area_polygons(area.id).remove(0)
         };
-        let shape = "[[edit]]\nshape = \"Раз\"\npoints = [[300, 0], [300, 400], [0, 450], [0, 0]]\n";
+        let shape =
+            "[[edit]]\nshape = \"Раз\"\npoints = [[300, 0], [300, 400], [0, 450], [0, 0]]\n";
         let shaped = edited(&world, shape).expect("four corners");
         let corners: Vec<[f64; 2]> = room(&shaped, "Раз").iter().map(|p| [p.x, p.y]).collect();
-        for (is, wanted) in corners.iter().zip([[300.0, 0.0], [300.0, 400.0], [0.0, 450.0], [0.0, 0.0]]) {
+        for (is, wanted) in
+            corners.iter().zip([[300.0, 0.0], [300.0, 400.0], [0.0, 450.0], [0.0, 0.0]])
+        {
             assert!((is[0] - wanted[0]).hypot(is[1] - wanted[1]) < 1e-6, "{corners:?}");
         }
         assert_eq!(room(&shaped, "Два"), room(&world, "Два"));
