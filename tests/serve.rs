@@ -323,7 +323,7 @@ fn a_pause_holds_the_robot_and_new_orders_until_it_ends() {
     let said = operator.done("/api/say", &json!({ "text": "Пауза" }));
     assert_eq!(said["replies"][0]["outcome"], "paused", "{said}");
     operator.waits();
-    confirmed("Поезжай в Комнату-В");
+    confirmed("Поезжай в Коридор");
     std::thread::sleep(Duration::from_millis(300));
     let tasks = operator.get("/api/tasks");
     assert!(tasks["task"].is_null() && tasks["paused"].is_string(), "{tasks}");
