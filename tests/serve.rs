@@ -157,12 +157,15 @@ impl Operator<'_> {
         Operator { console: self.console, cookie }
     }
 
-    /// Waits until no task is driven, and gives the last that ended.
+    /// Waits until no task is driven and none is to begin, and gives the last that ended.
     fn waits(&self) -> Value {
         let patience = Instant::now() + Duration::from_secs(60);
         while Instant::now() < patience {
             let tasks = self.get("/api/tasks");
-            let idle = tasks["task"].is_null() && tasks["queue"] == json!([]);
+            let mut queue = tasks["queue"].as_array().into_iter().flatten();
+            let holds =
+                tasks["paused"].is_string() || queue.all(|task| task["is_released"] == false);
+            let idle = tasks["task"].is_null() && holds;
             if let (true, Some(last)) = (idle, tasks["ended"].as_array().and_then(|e| e.last())) {
                 return last.clone();
             }
@@ -238,11 +241,201 @@ fn who_only_looks_may_stop_and_nothing_else() {
     looker.done("/api/stop", &json!({}));
     operator.waits();
     let tasks = operator.get("/api/tasks");
-    let ends: Vec<&Value> =
-        tasks["ended"].as_array().expect("ended ones").iter().map(|t| &t["state"]).collect();
-    assert!(ends.contains(&&json!("stopped")) && ends.contains(&&json!("cancelled")), "{tasks}");
-    let stopped = tasks["ended"].as_array().into_iter().flatten().find(|t| t["state"] == "stopped");
-    assert_eq!(stopped.expect("one")["stopped_by"], "Анна");
+    let stopped = &tasks["ended"][0];
+    assert_eq!(
+        (&stopped["state"], &stopped["stopped_by"], &stopped["waits"]),
+        (&json!("stopped"), &json!("Анна"), &json!(true)),
+        "{tasks}"
+    );
+    // What was broken off and what stood behind it wait, and begin when one who drives says so.
+    let waiting = |tasks: &Value| -> Vec<(String, bool)> {
+        let queue = tasks["queue"].as_array().into_iter().flatten();
+        let one =
+            |t: &Value| (t["text"].as_str().unwrap_or_default().to_owned(), t["is_begun"] == true);
+        queue.map(one).collect()
+    };
+    let (medicine, place) = ("Принеси лекарство".to_owned(), "Поезжай к Точке-К".to_owned());
+    assert_eq!(waiting(&tasks), [(medicine.clone(), true), (place.clone(), false)], "{tasks}");
+    assert_eq!(looker.post("/api/resume", &json!({})).status, 403);
+    assert_eq!(looker.post("/api/later", &json!({ "text": "Поезжай к Точке-А" })).status, 403);
+    let last = &tasks["queue"][1]["task"];
+    operator
+        .done(&format!("/api/tasks/{last}/move"), &json!({ "before": tasks["queue"][0]["task"] }));
+    let moved = operator.get("/api/tasks");
+    assert_eq!(waiting(&moved), [(place, false), (medicine, true)], "{moved}");
+    let said = operator.done("/api/say", &json!({ "text": "Отмени всё" }));
+    assert_eq!(said["replies"][0]["outcome"], "cancelled", "{said}");
+    assert_eq!(operator.get("/api/tasks")["queue"], json!([]));
+}
+
+#[test]
+fn what_waits_outlives_a_kill_and_is_gone_on_with() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = folder.path().join("store");
+    let store = store.to_str().expect("a path in UTF-8");
+    let console = Console::start(&["--demo", "--pace", "2", "--store", store]);
+    let operator = console.operator();
+    let confirmed = |operator: &Operator<'_>, text: &str| {
+        let said = operator.done("/api/say", &json!({ "text": text, "lang": "ru" }));
+        assert_eq!(said["task"]["state"], "planned", "{said}");
+        operator.done(&format!("/api/tasks/{}/confirm", said["task"]["task"]), &json!({}));
+    };
+    confirmed(&operator, "Принеси лекарство");
+    let said = operator.done("/api/say", &json!({ "text": "Позже: поезжай к Точке-К" }));
+    assert_eq!(said["replies"][0]["outcome"], "queued", "{said}");
+    // Until the medicine is in the hand.
+    let patience = Instant::now() + Duration::from_secs(60);
+    while operator.get("/api/state")["robot"]["carries"].is_null() {
+        assert!(Instant::now() < patience, "it takes nothing");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let Operator { cookie, .. } = operator;
+    drop(console);
+
+    let console = Console::start(&["--demo", "--pace", "20", "--store", store]);
+    let operator = Operator { console: &console, cookie };
+    std::thread::sleep(Duration::from_millis(300));
+    let tasks = operator.get("/api/tasks");
+    let left: Vec<&Value> =
+        tasks["queue"].as_array().into_iter().flatten().map(|task| &task["is_begun"]).collect();
+    assert_eq!(left, [&json!(true), &json!(false)], "{tasks}");
+    assert!(tasks["task"].is_null(), "nothing begins by itself: {tasks}");
+    let state = operator.get("/api/state");
+    assert!(state["robot"]["carries"].is_array(), "it still holds what it took: {state}");
+    let said = operator.done("/api/say", &json!({ "text": "Что в очереди?" }));
+    assert_eq!(said["replies"][0]["outcome"], "queue", "{said}");
+    let said = operator.done("/api/say", &json!({ "text": "Продолжай" }));
+    assert_eq!(said["replies"][0]["outcome"], "resumed", "{said}");
+    operator.waits();
+    let tasks = operator.get("/api/tasks");
+    let ended: Vec<&Value> = tasks["ended"].as_array().into_iter().flatten().collect();
+    assert!(ended.iter().all(|task| task["state"] == "done") && ended.len() == 2, "{tasks}");
+    assert_eq!(operator.get("/api/state")["robot"]["carries"], Value::Null);
+}
+
+#[test]
+fn a_pause_holds_the_robot_and_new_orders_until_it_ends() {
+    let console = Console::start(&["--demo", "--pace", "3"]);
+    let operator = console.operator();
+    let confirmed = |text: &str| {
+        let said = operator.done("/api/say", &json!({ "text": text, "lang": "ru" }));
+        let task = said["task"]["task"].clone();
+        operator.done(&format!("/api/tasks/{task}/confirm"), &json!({}));
+    };
+    confirmed("Поезжай к Точке-К");
+    std::thread::sleep(Duration::from_millis(500));
+    let said = operator.done("/api/say", &json!({ "text": "Пауза" }));
+    assert_eq!(said["replies"][0]["outcome"], "paused", "{said}");
+    operator.waits();
+    confirmed("Поезжай в Коридор");
+    std::thread::sleep(Duration::from_millis(300));
+    let tasks = operator.get("/api/tasks");
+    assert!(tasks["task"].is_null() && tasks["paused"].is_string(), "{tasks}");
+    assert_eq!(tasks["queue"].as_array().map(Vec::len), Some(2), "{tasks}");
+    // One of them alone, then the rest.
+    operator.done("/api/resume", &json!({ "task": tasks["queue"][1]["task"] }));
+    operator.waits();
+    let tasks = operator.get("/api/tasks");
+    assert_eq!(tasks["queue"].as_array().map(Vec::len), Some(1), "{tasks}");
+    operator.done("/api/shortest", &json!({}));
+    operator.done("/api/resume", &json!({}));
+    assert_eq!(operator.waits()["state"], "done");
+    assert_eq!(operator.get("/api/tasks")["queue"], json!([]));
+    assert_eq!(operator.post("/api/resume", &json!({ "task": 4711 })).status, 404);
+    assert_eq!(operator.post("/api/later", &json!({ "text": "принеси его" })).status, 422);
+}
+
+#[test]
+fn a_robot_of_another_program_drives_for_the_console() {
+    let simulated = format!("cmd:{} simulate maps/rb2.toml --stdio", env!("CARGO_BIN_EXE_ortho"));
+    let console = Console::start(&["--demo", "--vehicle", &simulated]);
+    let operator = console.operator();
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К", "lang": "ru" }));
+    let task = &said["task"];
+    operator.done(&format!("/api/tasks/{}/confirm", task["task"]), &json!({}));
+    let ended = operator.waits();
+    assert_eq!(ended["state"], "done", "{ended}");
+    assert_eq!(operator.get("/api/state")["robot"]["place"]["pose"], task["plan"]["end"]);
+
+    // One that is not there is told, and the order is not lost.
+    let console = Console::start(&["--demo", "--vehicle", "tcp:127.0.0.1:1"]);
+    let operator = console.operator();
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К", "lang": "ru" }));
+    operator.done(&format!("/api/tasks/{}/confirm", said["task"]["task"]), &json!({}));
+    let ended = operator.waits();
+    assert_eq!((&ended["state"], &ended["waits"]), (&json!("failed"), &json!(true)), "{ended}");
+    assert!(ended["text_end"].as_str().is_some_and(|told| told.contains("127.0.0.1:1")), "{ended}");
+}
+
+#[test]
+fn an_edit_that_an_assistant_proposed_is_written_when_the_operator_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let store = folder.path().join("store");
+    let proposed = folder.path().join("store.proposed");
+    std::fs::create_dir(&proposed).expect("a folder");
+    let edit = |name: &str| {
+        json!({ "reason": "claude: ближе к окну", "edit": [{ "move": name, "to": [400, 320] }] })
+            .to_string()
+    };
+    std::fs::write(proposed.join("1-7.json"), edit("Кресло-1")).expect("a file");
+    std::fs::write(proposed.join("1-8.json"), edit("Никто")).expect("a file");
+    let console = Console::start(&["--demo", "--store", store.to_str().expect("a path in UTF-8")]);
+    let operator = console.operator();
+    let looker = operator.invites("look", "Анна");
+    let edits = looker.get("/api/edits");
+    assert_eq!(edits["edits"][0]["reason"], "claude: ближе к окну", "{edits}");
+    assert!(edits["edits"][0]["differences"].as_array().is_some_and(|d| !d.is_empty()), "{edits}");
+    assert!(edits["edits"][1]["fault"]["message"].is_string(), "{edits}");
+    let yes = |on: u64| json!({ "on": on, "verdict": "confirm" });
+    assert_eq!(looker.post("/api/edits/1-7", &yes(1)).status, 403);
+    assert_eq!(operator.post("/api/edits/1-8", &yes(1)).status, 422);
+    assert_eq!(operator.done("/api/edits/1-7", &yes(1))["revision"], 2);
+    let history = operator.get("/api/history");
+    let last = history["revisions"].as_array().and_then(|all| all.last()).expect("a revision");
+    assert_eq!(
+        (&last["user"], &last["reason"]),
+        (&json!("operator"), &json!("claude: ближе к окну"))
+    );
+    assert_eq!(operator.post("/api/edits/1-7", &yes(2)).status, 404);
+    operator.done("/api/edits/1-8", &json!({ "on": 2, "verdict": "reject" }));
+    assert_eq!(operator.get("/api/edits")["edits"], json!([]));
+    assert_eq!(std::fs::read_dir(&proposed).expect("it is there").count(), 0);
+}
+
+#[test]
+fn a_room_with_a_door_is_drawn_in_steps_and_driven_into() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let about = operator.get("/api/thing?name=%D0%9A%D0%BE%D0%BC%D0%BD%D0%B0%D1%82%D0%B0-Z");
+    let parts = about["parts"].as_array().expect("parts");
+    // The longest wall without a door.
+    let length = |side: &Value| {
+        let at = |end: &str, axis: usize| side[end][axis].as_f64().expect("a number");
+        (at("to", 0) - at("from", 0)).hypot(at("to", 1) - at("from", 1))
+    };
+    let sides = parts.iter().flat_map(|part| {
+        part["sides"].as_array().into_iter().flatten().map(move |side| (part, side))
+    });
+    let free = sides.filter(|(_, side)| side["doors"] == json!([]) && side["permeability"] == 0);
+    let longest = free.max_by(|a, b| length(a.1).total_cmp(&length(b.1)));
+    let (part, side) = longest.expect("a free wall");
+    let name = |id: &Value| id.as_str().expect("a name").to_owned();
+    let of = format!("{}.{}", name(&part["id"]), name(&side["id"]));
+    let edit = json!({
+        "on": 1,
+        "door": { "new": { "name": "Дверь-новая", "kind": "hinged", "width": 90, "height": 210, "leaves": [{ "hinge": "left" }] } },
+        "edit": [
+            { "cut": "Комната-Z", "side": of, "from": 20, "to": 110, "as": "D1", "permeability": "conditional" },
+            { "bind": "new", "to": "Комната-Z", "side": format!("{}.D1", name(&part["id"])), "opens": "inside" },
+        ],
+    });
+    let edited = operator.done("/api/edits", &edit);
+    assert_eq!(edited["revision"], 2, "{edited}");
+    let drawing = operator.get("/api/drawing");
+    let doors = drawing["doors"].as_array().into_iter().flatten();
+    let door = doors.into_iter().find(|door| door["name"] == "Дверь-новая");
+    assert_eq!(door.expect("it is drawn")["state"], "open");
+    operator.done("/api/undo", &json!({ "on": 2 }));
 }
 
 #[test]
@@ -576,6 +769,12 @@ fn the_protocol_of_assistants_is_kept() {
 #[test]
 fn an_operator_works_in_a_browser() {
     judged("python3", &["src/serve/judges/operator.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
+}
+
+/// What an editor draws, and what waits to be done.
+#[test]
+fn an_editor_draws_in_a_browser() {
+    judged("python3", &["src/serve/judges/editor.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
 }
 
 /// The house of docs/start.md, in the console: an order is driven, a thing is moved, and both stand in the store.

@@ -271,13 +271,14 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     let truth = args.truth.as_deref().map(|file| truth(common, &engine, file)).transpose()?;
     if let Some(scenario) = &scenario {
-        let mut robot: Box<dyn Vehicle> = match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
-            Some(robot) => Box::new(robot),
-            None => match args.vehicle.senses() {
-                Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
-                None => Box::new(engine.simulator(truth)?),
-            },
-        };
+        let mut robot: Box<dyn Vehicle> =
+            match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
+                Some(robot) => Box::new(robot),
+                None => match args.vehicle.senses() {
+                    Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
+                    None => Box::new(engine.simulator(truth)?),
+                },
+            };
         let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
         let answer =
             super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot, onlookers)?;

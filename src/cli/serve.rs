@@ -2,10 +2,12 @@
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
 use crate::engine::{Engine, change_now};
+use crate::robot::Address;
 use crate::serve::{Bounds, ServeError, Settings, beside, run as serve, run_for_assistant};
 
 use super::args::Common;
@@ -27,6 +29,12 @@ pub(super) struct Opened {
     /// The simulated robot drives so many times as fast as the clock
     #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = super::vehicle::pace)]
     pace: f64,
+    /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
+    #[arg(long, value_name = "ADDRESS", value_parser = super::vehicle::address, conflicts_with = "pace")]
+    vehicle: Option<Address>,
+    /// How long that robot may keep silent while it owes an answer
+    #[arg(long, value_name = "SECONDS", value_parser = super::vehicle::seconds, requires = "vehicle")]
+    silence: Option<Duration>,
     /// An assistant that cannot ask its user is taken to do so by itself before each call that acts
     #[arg(long)]
     trust_client: bool,
@@ -83,6 +91,10 @@ fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), F
         rules,
         sessions: lasts.then(|| beside(&store, ".sessions")),
         pace: args.pace,
+        vehicle: args
+            .vehicle
+            .clone()
+            .map(|address| (address, super::vehicle::patience(args.silence))),
         is_demo: args.demo,
         bounds: Bounds::default(),
         store: lasts.then_some(store),

@@ -60,12 +60,14 @@ pub(super) fn wheels(text: &str) -> Result<Wheels, String> {
     if text == "simulator" {
         return Ok(Wheels::Simulator);
     }
-    text.parse()
-        .map(Wheels::At)
-        .map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
+    address(text).map(Wheels::At)
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn address(text: &str) -> Result<Address, String> {
+    text.parse().map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
+}
+
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
     let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     duration.ok_or_else(|| "a number of seconds is wanted, such as 10 or 0.5".to_owned())
@@ -86,9 +88,7 @@ impl VehicleArgs {
         let Some(Wheels::At(address)) = self.vehicle.as_ref().filter(|_| !is_simulated) else {
             return Ok(None);
         };
-        let usual = Patience::default();
-        let patience = Patience { silence: self.silence.unwrap_or(usual.silence), ..usual };
-        Ok(Some(address.connect(world, patience).map_err(Box::new)?))
+        Ok(Some(address.connect(world, patience(self.silence)).map_err(Box::new)?))
     }
 
     /// The senses by which alone the simulated robot is to know its world; none, where it is told.
@@ -121,6 +121,12 @@ pub(super) fn pace(text: &str) -> Result<f64, String> {
 
 /// What the simulated robot calls itself.
 const CALLED: &str = "ortho simulate";
+
+/// How long a robot elsewhere is waited for.
+pub(super) fn patience(silence: Option<Duration>) -> Patience {
+    let usual = Patience::default();
+    Patience { silence: silence.unwrap_or(usual.silence), ..usual }
+}
 
 /// The simulated robot at the map's start, for who speaks the protocol; between missions it stays as it was left.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, Failure> {

@@ -24,6 +24,7 @@ use crate::map::World;
 use crate::robot::{Deed, Directive, Planned, Refusal, Surprise};
 use crate::units::{Point, Pose};
 
+use super::assumed::assumptions_in_russian;
 use super::{Progress, Report, deeds_in_words, directive_in_words, name_in, surprise_in_words};
 
 /// One thing that happened on the way.
@@ -79,6 +80,7 @@ pub struct PlanView {
     /// Parallel steps, empty where there is no plan.
     pub steps: Vec<Vec<DirectiveView>>,
     pub assumptions: Vec<String>,
+    pub assumptions_ru: Vec<String>,
     pub assumptions_en: Vec<String>,
     /// Why there is no plan.
     pub explanation: Option<String>,
@@ -231,6 +233,7 @@ impl PlanView {
             goal: solved.task.goal.iter().map(|&id| solved.task.fact(id).to_string()).collect(),
             steps: planned.steps.iter().map(step).collect(),
             assumptions: solved.assumptions.iter().map(ToString::to_string).collect(),
+            assumptions_ru: assumptions_in_russian(world, solved),
             assumptions_en: solved.assumptions_with(&english),
             explanation: (!is_plan).then(|| solved.explanation(Language::Russian)).flatten(),
             explanation_en: (!is_plan).then(|| solved.explanation_with(&english)).flatten(),

@@ -6,6 +6,7 @@ use crate::geometry::{FloorPlan, Leg, Method, Remedy, Ride, Target, across};
 use crate::language::Language;
 use crate::language::report::{Detail, Named};
 use crate::map::{Entity, World};
+use crate::store::Timestamp;
 use crate::units::{Deg, DoorId, MapId, Point};
 
 use super::advice::Advice;
@@ -37,6 +38,21 @@ impl State {
     pub fn journey(&self, from: &str, to: &str, method: Method) -> Result<Journey, Error> {
         let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
         self.around()?.journey_between((from, start), (to, goal), method)
+    }
+
+    /// The robot's own way to a place given by name or as `X,Y`, from where it is now.
+    ///
+    /// # Errors
+    /// As [`State::journey`]; or the map does not say where the robot is.
+    pub(crate) fn journey_of_robot(&self, to: &str, at: Timestamp) -> Result<Journey, Error> {
+        let now = self.now(at)?;
+        let (start, goal) = (self.locate_point(now.map, now.pose.at)?, self.locate_name(to)?);
+        let mut journey =
+            self.around()?.journey_between(("", start), (to, goal), Method::Shortest)?;
+        if let [only] = &mut journey.legs[..] {
+            "робот".clone_into(&mut only.from);
+        }
+        Ok(journey)
     }
 
     /// A journey as sentences: those of its legs, and of the rides between them. `heading` is how one

@@ -217,8 +217,12 @@ impl Engine {
     }
 
     /// Notes how a task that is still under way has left the robot and its world so far, where it has changed more than
-    /// the robot's place since `kept`, which was noted last.
-    pub(super) fn remember_so_far(&mut self, after: &After, kept: &mut After) -> Result<(), Error> {
+    /// the robot's place since `kept`, which was noted last; whether it has.
+    pub(crate) fn remember_so_far(
+        &mut self,
+        after: &After,
+        kept: &mut After,
+    ) -> Result<bool, Error> {
         let news = after.moved.iter().filter(|(id, seen)| {
             // What is in the hand is noted as that; it is seen again where it is put down.
             seen.is_some() && kept.moved.get(*id) != Some(*seen)
@@ -227,12 +231,13 @@ impl Engine {
             news.map(|(id, seen)| (*id, *seen)).collect();
         let pose = after.memory.pose;
         if moved.is_empty() && after.memory == (RobotMemory { pose, ..kept.memory.clone() }) {
-            return Ok(());
+            return Ok(false);
         }
         kept.moved.extend(moved.clone());
         kept.memory = after.memory.clone();
         let so_far = After { memory: after.memory.clone(), moved };
-        self.remember_after(&so_far, std::time::SystemTime::now().into())
+        self.remember_after(&so_far, std::time::SystemTime::now().into())?;
+        Ok(true)
     }
 
     /// Whether what the robot does is kept on a disk.

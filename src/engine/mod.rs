@@ -27,6 +27,7 @@
 
 mod advice;
 mod apart;
+mod assumed;
 mod barriers;
 mod changes;
 mod delivery;
@@ -119,6 +120,7 @@ pub use reading::Region;
 #[cfg(feature = "recordings")]
 pub use recording::Recording;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
+pub(crate) use rule_files::question_beginnings;
 pub use rule_files::{RULE_FILES, export_rules};
 pub use rules::Rules;
 pub use seeing::{Changes, Sighted, Things, View};
@@ -135,6 +137,7 @@ pub use crate::exchange::{
 };
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
+pub(crate) use crate::language::command::{Waiting, waiting};
 pub use crate::language::question::{Answer, Memory, Unanswered};
 pub use crate::map::{Format, World};
 pub use crate::robot::{Replanned, Solved};

@@ -1,6 +1,8 @@
 //! The rule files that are built in, written out for who would edit them.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::units::{is_input, write_file};
 
@@ -71,4 +73,42 @@ pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> 
         written.push(path);
     }
     Ok(written)
+}
+
+/// How questions begin in the built-in frames, in either language: the words before the first part that varies.
+pub(crate) fn question_beginnings() -> &'static [String] {
+    static FOUND: OnceLock<Vec<String>> = OnceLock::new();
+    FOUND.get_or_init(|| {
+        let frames = |name: &&(&str, &str)| {
+            ["language/ru/frames.lang", "language/en/frames.lang"].contains(&name.0)
+        };
+        let texts = RULE_FILES.iter().filter(frames).map(|(_, text)| *text);
+        let bodies = texts.flat_map(str::lines).filter_map(|line| line.split_once("<-"));
+        // What stands in brackets has several beginnings, and is left out.
+        let plain =
+            bodies.flat_map(|(_, body)| body.split('|')).filter(|b| !b.contains(['(', ')']));
+        let all: BTreeSet<String> = plain.filter_map(beginning).collect();
+        all.into_iter().collect()
+    })
+}
+
+/// The literal words with which a frame begins; none where it begins with a part that varies.
+fn beginning(body: &str) -> Option<String> {
+    let is_literal = |word: &&str| word.chars().all(|c| c.is_lowercase() || c == '\'');
+    let words: Vec<&str> = body.split_whitespace().take_while(is_literal).collect();
+    (!words.is_empty()).then(|| words.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_tell_how_questions_begin() {
+        let all = question_beginnings();
+        for expected in ["где", "в какой комнате", "сколько", "where"] {
+            assert!(all.iter().any(|one| one == expected), "{expected}: {all:?}");
+        }
+        assert!(all.iter().all(|one| !one.contains([':', '?', '['])), "{all:?}");
+    }
 }

@@ -30,6 +30,12 @@ pub(super) struct Order {
     before: Option<u64>,
 }
 
+/// One of the tasks that wait; all, where it names none.
+#[derive(Debug, Deserialize)]
+pub(super) struct Which {
+    task: Option<u64>,
+}
+
 #[derive(Debug, Deserialize)]
 pub(super) struct Lease {
     /// `take`, `keep` or `give`.
@@ -80,7 +86,15 @@ pub(super) async fn say(
     Json(said): Json<Said>,
 ) -> Answer {
     let language = language(said.lang.as_deref());
-    apart(move || house.tasks.say(&session, said.text.trim(), language)).await.map(Json)
+    apart(move || {
+        let text = said.text.trim();
+        match house.tasks.of_queue(&session, text, language)? {
+            Some(done) => Ok(done),
+            None => house.tasks.say(&session, text, language),
+        }
+    })
+    .await
+    .map(Json)
 }
 
 /// Says yes to a plan.
@@ -138,20 +152,67 @@ pub(super) async fn cancel(
     Extension(session): Extension<Session>,
     Path(id): Path<u64>,
 ) -> Answer {
-    if house.tasks.cancel(&session, id) { Ok(Json(house.tasks.view())) } else { Err(unknown()) }
+    let of = Arc::clone(&house);
+    let is_known = apart(move || Ok(of.tasks.cancel(&session, id))).await?;
+    if is_known { Ok(Json(house.tasks.view())) } else { Err(unknown()) }
 }
 
 /// Puts a queued task elsewhere in the queue.
 pub(super) async fn reorder(
     Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
     Path(id): Path<u64>,
     Json(order): Json<Order>,
 ) -> Answer {
-    if house.tasks.reorder(id, order.before) {
-        Ok(Json(house.tasks.view()))
-    } else {
-        Err(unknown())
-    }
+    let of = Arc::clone(&house);
+    let is_known = apart(move || Ok(of.tasks.reorder(&session, id, order.before))).await?;
+    if is_known { Ok(Json(house.tasks.view())) } else { Err(unknown()) }
+}
+
+/// Holds what is driven and what waits.
+pub(super) async fn pause(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+) -> Answer {
+    let of = Arc::clone(&house);
+    apart(move || {
+        of.tasks.pause(&session);
+        Ok(())
+    })
+    .await?;
+    Ok(Json(house.tasks.view()))
+}
+
+/// Goes on with what waits, or with one task.
+pub(super) async fn resume(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(which): Json<Which>,
+) -> Answer {
+    let of = Arc::clone(&house);
+    apart(move || Ok(of.tasks.go_on(&session, which.task))).await??;
+    Ok(Json(house.tasks.view()))
+}
+
+/// Has an order wait.
+pub(super) async fn later(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Json(said): Json<Said>,
+) -> Answer {
+    let of = Arc::clone(&house);
+    apart(move || of.tasks.later(&session, said.text.trim())).await?;
+    Ok(Json(house.tasks.view()))
+}
+
+/// Puts what waits in the order of the shortest way.
+pub(super) async fn sort(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+) -> Answer {
+    let of = Arc::clone(&house);
+    apart(move || of.tasks.sort(&session)).await?;
+    Ok(Json(house.tasks.view()))
 }
 
 /// Stops the robot at once.
@@ -159,7 +220,9 @@ pub(super) async fn stop(
     Of(house): Of<Arc<House>>,
     Extension(session): Extension<Session>,
 ) -> Json<Value> {
-    Json(json!({ "is_running": house.tasks.stop(&session.name) }))
+    // The stop is raised before anything is written.
+    let stopped = tokio::task::spawn_blocking(move || house.tasks.stop(&session.name)).await;
+    Json(json!({ "is_running": stopped.unwrap_or_default() }))
 }
 
 /// What is driven, what waits, what ended.
@@ -324,6 +387,15 @@ pub(super) async fn restore(
     .await
 }
 
+fn no_verdict() -> Fault {
+    Fault::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "serve::verdict",
+        "Здесь бывает confirm или reject.",
+        "This is confirm or reject.",
+    )
+}
+
 /// Says that a thing stands where it is believed to, or where the map has it.
 pub(super) async fn decide(
     Of(house): Of<Arc<House>>,
@@ -335,14 +407,7 @@ pub(super) async fn decide(
     let is_confirmed = match said.verdict.as_str() {
         "confirm" => true,
         "reject" => false,
-        _ => {
-            return Err(Fault::new(
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "serve::verdict",
-                "Здесь бывает confirm или reject.",
-                "This is confirm or reject.",
-            ));
-        }
+        _ => return Err(no_verdict()),
     };
     let done = write(&house, said.on, move |engine| {
         if is_confirmed {
@@ -354,6 +419,54 @@ pub(super) async fn decide(
     let done = done.await?;
     house.events.tell("known", &json!({}));
     Ok(done)
+}
+
+/// Writes an edit that an assistant proposed, or drops it.
+pub(super) async fn judge(
+    Of(house): Of<Arc<House>>,
+    Extension(session): Extension<Session>,
+    Path(id): Path<String>,
+    Json(said): Json<Verdict>,
+) -> Answer {
+    let Some(waits) = house.proposed.get(&id) else {
+        return Err(Fault::new(
+            StatusCode::NOT_FOUND,
+            "serve::no_such_edit",
+            "Такой правки нет: о ней уже решено.",
+            "There is no such edit: it was decided already.",
+        ));
+    };
+    let done = match said.verdict.as_str() {
+        "confirm" => {
+            // Its own reason counts, where nobody gives another.
+            let text = Value::Object(waits.edit).to_string();
+            edited(&house, said.on, text, by(&session, ""), Mode::Commit).await?
+        }
+        "reject" => json!({ "outcome": "rejected", "revision": house.desk.state().revision() }),
+        _ => return Err(no_verdict()),
+    };
+    house.proposed.drop(&id);
+    house.events.tell("proposed", &json!({ "id": id }));
+    Ok(Json(done))
+}
+
+/// Edits that assistants proposed, each with what it would change now.
+pub(super) async fn proposed(Of(house): Of<Arc<House>>) -> Answer {
+    let mut all = Vec::new();
+    for (id, waits) in house.proposed.all() {
+        let now = house.desk.state().revision();
+        let text = Value::Object(waits.edit.clone()).to_string();
+        let tried = edited(&house, now, text, change_now("", ""), Mode::DryRun).await;
+        let (differences, fault) = match tried {
+            Ok(tried) => (tried["differences"].clone(), Value::Null),
+            Err(fault) => (json!([]), fault.body().clone()),
+        };
+        all.push(json!({
+            "id": id, "on": waits.on, "reason": waits.edit.get("reason"), "edit": waits.edit,
+            "differences": differences, "fault": fault,
+        }));
+    }
+    Ok(Json(json!({ "edits": all })))
 }
 
 /// Puts the robot back to the map's start, in a map as surveyed.

@@ -12,7 +12,9 @@ use crate::engine::{Engine, Error, State};
 
 use super::events::Events;
 
-type Work = Box<dyn FnOnce(&mut Engine) + Send>;
+/// What is done when what came of a piece of work is shared.
+type Then = Box<dyn FnOnce() + Send>;
+type Work = Box<dyn FnOnce(&mut Engine) -> Option<Then> + Send>;
 
 /// The way to the engine.
 #[derive(Debug)]
@@ -37,13 +39,16 @@ impl Desk {
         thread::spawn(move || {
             for piece in to_do {
                 let before = engine.revision();
-                piece(&mut engine);
+                let then = piece(&mut engine);
                 // What cannot be derived is told to whoever asks.
                 if let Ok(state) = engine.state() {
                     *shared.write().unwrap_or_else(PoisonError::into_inner) = state;
                 }
                 if engine.revision() != before {
                     events.tell("revision", &revision(&engine));
+                }
+                if let Some(then) = then {
+                    then();
                 }
             }
         });
@@ -65,7 +70,10 @@ impl Desk {
         work: impl FnOnce(&mut Engine) -> T + Send + 'static,
     ) -> Result<T, Gone> {
         let (answer, answered) = oneshot::channel();
-        let work = move |engine: &mut Engine| drop(answer.send(work(engine)));
+        let work = move |engine: &mut Engine| {
+            drop(answer.send(work(engine)));
+            None
+        };
         self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
         let answer = answered.await.map_err(|_gone| Gone)?;
         // When this one is begun, the state of the one before is shared.
@@ -78,9 +86,16 @@ impl Desk {
         let nothing = move |_: &mut Engine| {
             // Who asked may have gone.
             let _ = answer.send(());
+            None
         };
         self.work.send(Box::new(nothing)).map_err(|_gone| Gone)?;
         answered.await.map_err(|_gone| Gone)
+    }
+
+    /// Has the engine do something, and waits for nothing; what it returns is done when what came of it is known.
+    pub(super) fn send(&self, work: impl FnOnce(&mut Engine) -> Option<Then> + Send + 'static) {
+        // Without an engine nothing is left to be done.
+        let _ = self.work.send(Box::new(work));
     }
 
     /// The same from a thread of one's own.
@@ -92,12 +107,16 @@ impl Desk {
         work: impl FnOnce(&mut Engine) -> T + Send + 'static,
     ) -> Result<T, Gone> {
         let (answer, answered) = mpsc::channel();
-        let work = move |engine: &mut Engine| drop(answer.send(work(engine)));
+        let work = move |engine: &mut Engine| {
+            drop(answer.send(work(engine)));
+            None
+        };
         self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
         let answer = answered.recv().map_err(|_gone| Gone)?;
         let (settled, has_settled) = mpsc::channel();
         let nothing = move |_: &mut Engine| {
             let _ = settled.send(());
+            None
         };
         self.work.send(Box::new(nothing)).map_err(|_gone| Gone)?;
         has_settled.recv().map_err(|_gone| Gone)?;

@@ -6,34 +6,135 @@ use serde_json::{Value, json};
 
 use crate::engine::{Error, State};
 use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
-use crate::map::{Door, DoorStatus, Permeability, World, ZoneKind};
+use crate::map::{
+    BaseVector, Door, DoorStatus, Entity, Extent, Item, Permeability, Replica, World, ZoneKind,
+};
 use crate::units::{AreaId, Language, MapId, Point};
+
+/// How much of a storey is wanted.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Part {
+    /// All of it, but for its things and doors where there are more than so many.
+    Whole { most: usize },
+    /// The things, doors and places that meet a box, on the Map: left, bottom, right, top.
+    Box([f64; 4]),
+}
 
 /// Rooms, walls, things, doors and places of a Map.
 ///
 /// # Errors
 /// There is no map.
-pub(super) fn storey(state: &State, map: MapId) -> Result<Value, Error> {
+pub(super) fn storey(state: &State, map: MapId, part: Part) -> Result<Value, Error> {
     let world = state.world()?;
     let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
     let now = state.world_now()?;
     let scene = floor.scene();
+    let meets = |view: &Value| match part {
+        Part::Whole { .. } => true,
+        Part::Box(within) => meets(view, within),
+    };
+    let count = scene.replicas.len() + floor.doorways().len() + floor.blind_openings().len();
+    let is_part = matches!(part, Part::Whole { most } if count > most);
+    let (mut some_things, mut some_doors) = (Vec::new(), Vec::new());
+    if !is_part {
+        (some_things, some_doors) = (things(world, scene), doors(world, now, floor));
+        some_things.retain(meets);
+        some_doors.retain(meets);
+    }
+    let mut some_places = places(world, map);
+    some_places.retain(meets);
     let mut view = json!({
         "revision": state.revision(),
         "map": world.maps[&map].name,
         "map_en": world.maps[&map].name_en,
-        "rooms": rooms(world, scene),
-        "walls": sides(world, scene, false),
-        "windows": sides(world, scene, true),
-        "things": things(world, scene),
-        "doors": doors(world, now, floor),
-        "places": places(world, map),
-        "zones": zones(state, world, floor)?,
+        "things": some_things,
+        "doors": some_doors,
+        "places": some_places,
+        "is_part": is_part,
     });
+    if let Part::Box(within) = part {
+        view["box"] = json!(within);
+        return Ok(view);
+    }
+    view["rooms"] = json!(rooms(world, scene));
+    view["walls"] = json!(sides(world, scene, false));
+    view["windows"] = json!(sides(world, scene, true));
+    view["zones"] = json!(zones(state, world, floor)?);
+    view["carried"] = json!(carried(state));
     let elsewhere =
         if std::ptr::eq(world, now) { Vec::new() } else { moved(world, now, map, scene) };
     view["elsewhere"] = json!(elsewhere);
     Ok(view)
+}
+
+/// Whether what is drawn lies in a box, or reaches into it.
+fn meets(view: &Value, [left, bottom, right, top]: [f64; 4]) -> bool {
+    fn stretch(value: &Value, reach: &mut [f64; 4]) {
+        let Some(list) = value.as_array() else { return };
+        match (list.first().and_then(Value::as_f64), list.get(1).and_then(Value::as_f64)) {
+            (Some(x), Some(y)) => {
+                let [l, b, r, t] = *reach;
+                *reach = [l.min(x), b.min(y), r.max(x), t.max(y)];
+            }
+            _ => list.iter().for_each(|inner| stretch(inner, reach)),
+        }
+    }
+    let mut reach = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    for field in ["polygons", "gap"] {
+        stretch(&view[field], &mut reach);
+    }
+    if view["at"].is_array() {
+        stretch(&json!([view["at"]]), &mut reach);
+    }
+    reach[0] <= right && reach[2] >= left && reach[1] <= top && reach[3] >= bottom
+}
+
+/// Where something of the map is to be seen: the storey, and the box that it fills there.
+pub(super) fn seen(state: &State, entity: Entity) -> Option<Value> {
+    let (world, floors) = (state.world().ok()?, state.floors().ok()?);
+    let around = |points: &mut dyn Iterator<Item = Point>| {
+        let nothing = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        let reach = points
+            .fold(nothing, |[l, b, r, t], p| [l.min(p.x), b.min(p.y), r.max(p.x), t.max(p.y)]);
+        (reach[0] <= reach[2]).then(|| reach.map(round))
+    };
+    let on = |map: &MapId, reach: [f64; 4]| json!({ "map": world.maps[map].name, "box": reach });
+    floors.iter().find_map(|(map, floor)| {
+        let scene = floor.scene();
+        let mut corners: Box<dyn Iterator<Item = Point>> = match entity {
+            Entity::Replica(id) => {
+                let placed = scene.replicas.get(&id)?;
+                Box::new(placed.prisms.iter().flat_map(|p| p.polygon.corners.iter().copied()))
+            }
+            Entity::Area(id) => {
+                let placed = scene.areas.get(&id)?;
+                Box::new(placed.prisms.iter().flat_map(|p| p.polygon.corners.iter().copied()))
+            }
+            Entity::Door(id) => {
+                let mut openings = floor.doorways().iter().chain(floor.blind_openings());
+                let opening = openings.find(|opening| opening.door == Some(id))?;
+                let (t0, t1) = opening.span();
+                Box::new([opening.at(t0, 0.0), opening.at(t1, opening.gap)].into_iter())
+            }
+            Entity::Place(id) => {
+                let place = world.places.get(&id)?;
+                let (of, frame) = world.placement(place.area)?;
+                if of != *map {
+                    return None;
+                }
+                Box::new(std::iter::once(frame.apply(place.at)))
+            }
+            Entity::Zone(id) => {
+                let all = floor.with_zones(world, |_| true);
+                let placed = all.zones().iter().find(|zone| zone.id == id)?;
+                let corners: Vec<Point> =
+                    placed.polygons.iter().flat_map(|p| p.corners.clone()).collect();
+                Box::new(corners.into_iter())
+            }
+            Entity::Map(_) => return None,
+        };
+        around(&mut *corners).map(|reach| on(map, reach))
+    })
 }
 
 /// The zones of a Map, those for a time among them, with what they say in both languages.
@@ -41,11 +142,32 @@ fn zones(state: &State, world: &World, floor: &FloorPlan) -> Result<Vec<Value>, 
     let [russian, english] = [Language::Russian, Language::English];
     let (rules, rules_en) = (state.zones_in_words(russian)?, state.zones_in_words(english)?);
     let all = floor.with_zones(world, |_| true);
+    let now = std::time::SystemTime::now().into();
     let zone = |placed: &PlacedZone| {
         let zone = &world.zones[&placed.id];
         json!({
+            "id": zone.id.0,
             "name": zone.name,
             "name_en": zone.name_en,
+            "from": zone.from.map(|at| at.to_string()),
+            "until": zone.until.map(|at| at.to_string()),
+            "in_force": zone.is_in_force(now),
+            "reason": zone.reason,
+            "reason_en": zone.reason_en,
+            "speed": match zone.kind {
+                ZoneKind::Slow { speed } => Some(speed),
+                _ => None,
+            },
+            "heading_deg": match zone.kind {
+                ZoneKind::OneWay { heading } => Some(heading.get()),
+                _ => None,
+            },
+            "rooms": match &zone.extent {
+                Extent::Areas(areas) => {
+                    areas.iter().map(|area| &world.areas[area].name).collect()
+                }
+                Extent::Polygon { .. } => Vec::new(),
+            },
             "kind": match zone.kind {
                 ZoneKind::KeepOut => "keep-out",
                 ZoneKind::Closed => "closed",
@@ -58,6 +180,38 @@ fn zones(state: &State, world: &World, floor: &FloorPlan) -> Result<Vec<Value>, 
         })
     };
     Ok(all.zones().iter().map(zone).collect())
+}
+
+/// What is in the robot's hand, lies on what is, or was handed over: with who has it.
+fn carried(state: &State) -> Vec<Value> {
+    let Ok(now) = state.now(std::time::SystemTime::now().into()) else { return Vec::new() };
+    let one = |thing: &Replica, by: &str| json!({ "id": thing.id.0, "name": thing.name, "name_en": thing.name_en, "by": by });
+    let held = now.held.iter().map(|thing| one(thing, ""));
+    let aboard = now.aboard.iter().map(|(thing, _)| one(thing, ""));
+    let handed_over = now.handed_over.iter().map(|(thing, by)| one(thing, by));
+    held.chain(aboard).chain(handed_over).collect()
+}
+
+/// The parts of a room with their sides, on the Map: what a wall is called, what it lets through, and its doors.
+pub(super) fn walls(world: &World, area: AreaId) -> Vec<Value> {
+    let Some((_, placed)) = world.placement(area) else { return Vec::new() };
+    let room = &world.areas[&area];
+    let part = |item: &Item| {
+        let side = |vector: &BaseVector| {
+            let [from, to] = [vector.start, vector.end].map(|p| placed.apply(item.frame.apply(p)));
+            let mounts = room.doors.iter();
+            let mounts = mounts.filter(|m| m.item == item.id && m.side == vector.id);
+            let doors: Vec<&String> = mounts.map(|m| &world.doors[&m.door].name).collect();
+            json!({
+                "id": vector.id, "from": point(from), "to": point(to), "doors": doors,
+                "permeability": vector.permeability.code(),
+                "is_window": world.is_window(vector),
+            })
+        };
+        let base = &world.orthoframe_of(item).base;
+        json!({ "id": item.id, "sides": base.iter().map(side).collect::<Vec<_>>() })
+    };
+    room.items.iter().map(part).collect()
 }
 
 /// The free floor of a Map: its Passframes, dead zones, and the network over them.
@@ -94,7 +248,7 @@ fn rooms(world: &World, scene: &Scene) -> Vec<Value> {
         let size = |p: &&crate::geometry::Prism| p.polygon.signed_area().abs();
         let largest = placed.prisms.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
         json!({
-            "name": area.name, "name_en": area.name_en, "polygons": polygons,
+            "id": area.id.0, "name": area.name, "name_en": area.name_en, "polygons": polygons,
             "m2": round(whole / 10_000.0), "middle": largest.map(|p| point(p.polygon.centroid())),
             "frame": frame(&placed.frame),
         })
@@ -123,7 +277,7 @@ fn things(world: &World, scene: &Scene) -> Vec<Value> {
         let replica = &world.replicas[&placed.id];
         let object = &world.objects[&replica.object];
         json!({
-            "name": replica.name, "name_en": replica.name_en,
+            "id": replica.id.0, "name": replica.name, "name_en": replica.name_en,
             "kind": object.name, "kind_en": object.name_en, "object": object.key,
             "room": world.areas[&replica.area].name,
             "polygons": placed.prisms.iter().map(|p| outline(&p.polygon)).collect::<Vec<_>>(),
@@ -156,7 +310,7 @@ fn doors(world: &World, now: &World, floor: &FloorPlan) -> Vec<Value> {
             .collect();
         let mut view = json!({
             "gap": [jamb(t0), jamb(t1)], "rooms": names, "name": door.map(|door| &door.name),
-            "name_en": door.map(|door| &door.name_en),
+            "name_en": door.map(|door| &door.name_en), "id": door.map(|door| door.id.0),
         });
         if let Some(door) = door {
             leaves(&mut view, opening, door);
@@ -185,7 +339,8 @@ fn places(world: &World, map: MapId) -> Vec<Value> {
         let (on, frame) = placements.get(&place.area)?;
         (*on == map).then(|| {
             json!({
-                "name": place.name, "name_en": place.name_en, "at": point(frame.apply(place.at)),
+                "id": place.id.0, "name": place.name, "name_en": place.name_en,
+                "at": point(frame.apply(place.at)),
             })
         })
     };

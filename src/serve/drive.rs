@@ -2,76 +2,41 @@
 //!
 //! A line is first heard by a dialogue apart, which drives the simulator in no time: what it would do is the plan that is
 //! confirmed. Then it is heard once more, at the pace of the clock, beside the engine that goes on writing edits; what the
-//! robot did is noted by the writer after each task.
+//! robot did is noted by the writer after each directive.
 //!
-//! **Invariant.** One task is driven at a time. A stop needs no lease, and is raised by no queue.
+//! **Invariant.** One task is driven at a time. A stop needs no lease, and is raised by no queue. A task that may be gone on
+//! with stands in the store before it is begun, and until it has ended.
 
-use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Dialogue, Engine, Error, Event, Outcome, Progress, Reply, State, TaskEvent, TaskEvents, json,
+    After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvent,
+    TaskEvents, json,
 };
-use crate::robot::Moment;
+use crate::robot::{Address, Moment, Patience, Vehicle};
 use crate::units::{Language, Stop};
 
+use super::book::{Book, Leased, Running, Task};
 use super::desk::Desk;
 use super::events::Events;
 use super::gate::Session;
 
-/// So many tasks that ended are remembered, and so many plans that wait for a word.
-const REMEMBERED: usize = 50;
-/// How long whoever drives may be silent.
-const LEASE: Duration = Duration::from_secs(120);
 /// Between two looks whether the robot is to stop.
 const GLANCE: Duration = Duration::from_millis(20);
 /// Between two poses that are told.
 const TELL: Duration = Duration::from_millis(90);
 
-/// A task that is known here.
-#[derive(Debug)]
-struct Task {
-    id: u64,
-    text: String,
-    by: Session,
-    /// As it was before the line.
-    before: Dialogue,
-    /// Of the state for which the plan was made.
-    revision: u64,
-    state: Weak<State>,
-    plan: Value,
-    /// This plan was agreed to and no other: where the world turns out to differ, the robot stops.
-    is_strict: bool,
-}
-
-#[derive(Debug, Default)]
-struct Book {
-    next: u64,
-    talks: BTreeMap<u64, Dialogue>,
-    planned: BTreeMap<u64, Task>,
-    queue: VecDeque<Task>,
-    running: Option<Running>,
-    ended: VecDeque<Value>,
-    lease: Option<Lease>,
-    is_over: bool,
-}
-
-#[derive(Debug)]
-struct Running {
-    id: u64,
-    by: Session,
-    view: Value,
-    stop: Stop,
-    why: Option<String>,
-}
-
+/// What drives.
 #[derive(Debug, Clone)]
-struct Lease {
-    holder: Session,
-    until: Instant,
+pub(super) enum Wheels {
+    /// The simulated robot, so many times as fast as the clock.
+    Simulated { pace: f64 },
+    /// A robot that speaks the vehicle protocol, and how long it may keep silent.
+    Robot { address: Address, patience: Patience },
 }
 
 /// Why a task is not taken up.
@@ -106,31 +71,53 @@ pub(super) enum Answered {
 /// See the head of this file.
 #[derive(Debug)]
 pub(super) struct Tasks {
-    desk: Arc<Desk>,
-    events: Arc<Events>,
-    /// Times as fast as the clock.
-    pace: f64,
+    pub(super) desk: Arc<Desk>,
+    pub(super) events: Arc<Events>,
+    wheels: Wheels,
     book: Mutex<Book>,
-    wake: Condvar,
+    /// Held while the store is brought to what the book says.
+    ledger: Mutex<()>,
+    pub(super) wake: Condvar,
 }
 
 impl Tasks {
-    /// Begins to wait for tasks.
+    /// Begins to wait for tasks; those that were left wait until somebody has them gone on with.
     #[must_use]
-    pub(super) fn begin(desk: Arc<Desk>, events: Arc<Events>, pace: f64) -> Arc<Self> {
-        let book = Mutex::default();
-        let tasks = Arc::new(Self { desk, events, pace, book, wake: Condvar::new() });
+    pub(super) fn begin(desk: Arc<Desk>, events: Arc<Events>, wheels: Wheels) -> Arc<Self> {
+        let left = desk.state().waiting().unwrap_or_default();
+        let book = Mutex::new(Book::kept(left));
+        let (ledger, wake) = (Mutex::default(), Condvar::new());
+        let tasks = Arc::new(Self { desk, events, wheels, book, ledger, wake });
         let driver = Arc::clone(&tasks);
         std::thread::spawn(move || {
             while let Some(task) = driver.take_up() {
-                driver.drive(&task);
+                driver.drive(task);
             }
         });
         tasks
     }
 
-    fn book(&self) -> MutexGuard<'_, Book> {
+    pub(super) fn book(&self) -> MutexGuard<'_, Book> {
         self.book.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Has the store keep what the book says, and tells who listens.
+    pub(super) fn note(&self, by: &str) {
+        let failed = {
+            let _one_after_the_other = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
+            let (queue, by) = (self.book().noted(), by.to_owned());
+            match self.desk.ask_from_thread(move |engine| engine.put_queue(queue, &by)) {
+                Ok(noted) => noted.err().map(|error| error.to_string()),
+                Err(_gone) => Some("the engine has stopped".to_owned()),
+            }
+        };
+        if let Some(failure) = failed {
+            tracing::error!(failure, "the queue is not kept");
+        }
+        let book = self.book();
+        let view =
+            json!({ "tasks": book.waiting(), "paused": book.paused.map(|at| at.to_string()) });
+        self.events.tell("queue", &view);
     }
 
     /// Hears a line of whoever speaks: a question is answered; an order waits to be confirmed.
@@ -144,7 +131,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Value, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let mut heard = json::rehearse(&state, &before, text)?;
+        let mut heard = json::rehearse(&state, &before, &json::Line::Said(text))?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
             let standing = language.pick("Останавливаюсь.", "I am stopping.");
@@ -200,7 +187,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Answered, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let heard = json::rehearse(&state, &before, text)?;
+        let heard = json::rehearse(&state, &before, &json::Line::Said(text))?;
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
@@ -211,10 +198,10 @@ impl Tasks {
 
     /// A plan that waits for a word.
     pub(super) fn planned(&self, id: u64) -> Option<Value> {
-        self.book().planned.get(&id).map(|task| task.view("planned"))
+        self.book().planned(id).map(|task| task.view("planned"))
     }
 
-    fn propose(
+    pub(super) fn propose(
         &self,
         session: &Session,
         text: &str,
@@ -223,15 +210,21 @@ impl Tasks {
         state: &Arc<State>,
     ) -> Value {
         let mut book = self.book();
-        book.next += 1;
-        let (id, text, by) = (book.next, text.to_owned(), session.clone());
-        let (revision, state) = (state.revision(), Arc::downgrade(state));
-        let task = Task { id, text, by, before, revision, state, plan, is_strict: false };
+        let task = Task {
+            id: book.next_id(),
+            text: text.to_owned(),
+            by: session.clone(),
+            before: Some(before),
+            revision: state.revision(),
+            state: Arc::downgrade(state),
+            plan,
+            is_strict: false,
+            noted: None,
+            is_released: true,
+            has_waited: false,
+        };
         let view = task.view("planned");
-        book.planned.insert(id, task);
-        while book.planned.len() > REMEMBERED {
-            book.planned.pop_first();
-        }
+        book.propose(task);
         view
     }
 
@@ -240,151 +233,23 @@ impl Tasks {
     /// # Errors
     /// [`Declined::Leased`].
     pub(super) fn lease(&self, session: &Session) -> Result<Value, Declined> {
-        let view = {
+        let (is_new, view) = {
             let mut book = self.book();
-            let now = Instant::now();
-            if let Some(lease) = &book.lease
-                && lease.until > now
-                && lease.holder.number != session.number
-            {
-                let seconds = (lease.until - now).as_secs();
-                return Err(Declined::Leased { holder: lease.holder.name.clone(), seconds });
-            }
-            let is_new = book.lease.as_ref().is_none_or(|l| l.holder.number != session.number);
-            book.lease = Some(Lease { holder: session.clone(), until: now + LEASE });
-            is_new.then(|| book.lease_view())
+            (book.lease(session)?, book.lease_view())
         };
-        if let Some(view) = &view {
-            self.events.tell("lease", view);
+        if is_new {
+            self.events.tell("lease", &view);
         }
-        Ok(self.book().lease_view())
+        Ok(view)
     }
 
     /// Gives the lease back, where one has it.
     pub(super) fn give_back(&self, session: &Session) -> Value {
-        let given = {
-            let mut book = self.book();
-            let is_ours = book.lease.as_ref().is_some_and(|l| l.holder.number == session.number);
-            if is_ours {
-                book.lease = None;
-            }
-            is_ours
-        };
+        let given = self.book().give_back(session);
         if given {
             self.events.tell("lease", &Value::Null);
         }
         Value::Null
-    }
-
-    /// Says yes to a plan: it is driven when those before it are done.
-    ///
-    /// # Errors
-    /// See [`Declined`].
-    pub(super) fn confirm(&self, session: &Session, id: u64) -> Result<Value, Declined> {
-        self.begin_when_its_turn_comes(session, id, false)
-    }
-
-    /// The same for a plan to which nothing may be added: the robot stands, and nothing waits.
-    ///
-    /// # Errors
-    /// See [`Declined`].
-    pub(super) fn confirm_alone(&self, session: &Session, id: u64) -> Result<Value, Declined> {
-        self.begin_when_its_turn_comes(session, id, true)
-    }
-
-    fn begin_when_its_turn_comes(
-        &self,
-        session: &Session,
-        id: u64,
-        is_strict: bool,
-    ) -> Result<Value, Declined> {
-        self.lease(session)?;
-        let Some(mut task) = self.book().planned.remove(&id) else { return Err(Declined::Unknown) };
-        let state = self.desk.state();
-        let is_same_state = task.state.upgrade().is_some_and(|then| Arc::ptr_eq(&then, &state));
-        if !is_same_state {
-            // What was seen since need not change the map, and yet may change the plan.
-            let again = json::rehearse(&state, &task.before, &task.text);
-            let again = again.map_err(|error| Declined::Failed(Box::new(error)))?;
-            let is_same =
-                again.plan.as_ref().is_some_and(|plan| json::is_same_plan(plan, &task.plan));
-            if state.revision() != task.revision || !is_same {
-                let (text, before) = (task.text, task.before);
-                let anew = |plan| self.propose(session, &text, before, plan, &state);
-                let replies = again.replies;
-                return Err(Declined::Expired { replies, task: again.plan.map(anew) });
-            }
-        }
-        let view = {
-            let mut book = self.book();
-            if is_strict && (book.running.is_some() || !book.queue.is_empty()) {
-                book.planned.insert(id, task);
-                return Err(Declined::Busy);
-            }
-            task.is_strict = is_strict;
-            let view = task.view("queued");
-            book.queue.push_back(task);
-            view
-        };
-        self.wake.notify_all();
-        self.tell_queue();
-        Ok(view)
-    }
-
-    /// Drops a plan or a queued task; one that is driven is stopped. False where there is none.
-    pub(super) fn cancel(&self, session: &Session, id: u64) -> bool {
-        let is_running = self.book().running.as_ref().is_some_and(|r| r.id == id);
-        if is_running {
-            self.stop(&session.name);
-            return true;
-        }
-        let dropped = {
-            let mut book = self.book();
-            let planned = book.planned.remove(&id).map(|task| ("declined", task));
-            let at = book.queue.iter().position(|task| task.id == id);
-            let queued = at.and_then(|at| book.queue.remove(at)).map(|task| ("cancelled", task));
-            planned.or(queued)
-        };
-        let Some((state, task)) = dropped else { return false };
-        self.end(&task.view(state));
-        self.tell_queue();
-        true
-    }
-
-    /// Puts a queued task before another, or last. False where there is none.
-    pub(super) fn reorder(&self, id: u64, before: Option<u64>) -> bool {
-        {
-            let mut book = self.book();
-            let Some(at) = book.queue.iter().position(|task| task.id == id) else { return false };
-            let Some(task) = book.queue.remove(at) else { return false };
-            let to = before.and_then(|before| book.queue.iter().position(|t| t.id == before));
-            let to = to.unwrap_or(book.queue.len());
-            book.queue.insert(to, task);
-        }
-        self.tell_queue();
-        true
-    }
-
-    /// Stops the robot at once; what is queued waits no longer for it, so it is dropped too.
-    pub(super) fn stop(&self, by: &str) -> bool {
-        let (is_running, dropped) = {
-            let mut book = self.book();
-            let dropped: Vec<Task> = book.queue.drain(..).collect();
-            let is_running = book.running.as_mut().is_some_and(|running| {
-                running.stop.raise();
-                running.why.get_or_insert_with(|| by.to_owned());
-                true
-            });
-            (is_running, dropped)
-        };
-        for task in &dropped {
-            self.end(&task.view("cancelled"));
-        }
-        if !dropped.is_empty() {
-            self.tell_queue();
-        }
-        self.events.tell("stop", &json!({ "by": by, "is_running": is_running }));
-        is_running
     }
 
     /// Ends all: the robot stops, and no task is taken up any more.
@@ -401,30 +266,11 @@ impl Tasks {
     /// What is driven, what waits, what ended, who drives.
     #[must_use]
     pub(super) fn view(&self) -> Value {
-        let waiting = self.desk.state().waiting().map(|queue| json::queue(&queue)).ok();
-        let book = self.book();
-        json!({
-            "waiting": waiting,
-            "task": book.running.as_ref().map(|running| &running.view),
-            "queue": book.queue.iter().map(|task| task.view("queued")).collect::<Vec<_>>(),
-            "ended": book.ended,
-            "lease": book.lease_view(),
-        })
+        self.book().view()
     }
 
-    fn tell_queue(&self) {
-        let queue: Vec<Value> = self.book().queue.iter().map(|t| t.view("queued")).collect();
-        self.events.tell("queue", &json!(queue));
-    }
-
-    fn end(&self, view: &Value) {
-        {
-            let mut book = self.book();
-            book.ended.push_back(view.clone());
-            if book.ended.len() > REMEMBERED {
-                book.ended.pop_front();
-            }
-        }
+    pub(super) fn end(&self, view: &Value) {
+        self.book().end(view);
         self.events.tell("task", view);
     }
 
@@ -435,69 +281,145 @@ impl Tasks {
             if book.is_over {
                 return None;
             }
-            if let Some(task) = book.queue.pop_front() {
-                let (id, view, by) = (task.id, task.view("running"), task.by.clone());
-                book.running = Some(Running { id, by, view, stop: Stop::new(), why: None });
+            if let Some(mut task) = book.take_next() {
+                if let Some(noted) = &mut task.noted {
+                    // What was broken off goes on with the rest; its plan is not the one that it had.
+                    task.has_waited |= noted.is_begun;
+                    noted.is_begun = true;
+                }
+                let (id, view, noted) = (task.id, task.view("running"), task.noted.clone());
+                let (stop, why, is_dropped) = (Stop::new(), None, false);
+                book.running = Some(Running { id, view, stop, why, noted, is_dropped });
                 return Some(task);
             }
             book = self.wake.wait(book).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    fn drive(&self, task: &Task) {
+    /// The plan of a task whose turn has come, as it is now.
+    fn plan_now(&self, task: &mut Task, state: &Arc<State>) {
+        let Some(noted) = task.noted.as_ref().filter(|_| task.has_waited) else { return };
+        let before = Dialogue::new(Language::of(&task.text));
+        if let Ok(heard) = json::rehearse(state, &before, &json::Line::Waited(noted))
+            && let Some(plan) = heard.plan
+        {
+            task.plan = plan;
+        }
+        let view = task.view("running");
+        if let Some(running) = &mut self.book().running {
+            running.view = view;
+        }
+    }
+
+    fn drive(&self, mut task: Task) {
+        self.note(&task.by.name);
+        let state = self.desk.state();
+        self.plan_now(&mut task, &state);
         let (mut view, stop) = {
             let book = self.book();
             let running = book.running.as_ref().expect("it was just taken up");
             (running.view.clone(), running.stop.clone())
         };
-        self.tell_queue();
         self.events.tell("task", &view);
-        let mut dialogue = task.before.apart();
+        let mut dialogue = task
+            .before
+            .as_ref()
+            .map_or_else(|| Dialogue::new(Language::of(&task.text)), Dialogue::apart);
         dialogue.stopped_by(stop.clone());
-        let mut engine = Engine::beside(self.desk.state());
-        let mut drive = Drive::new(self, task, stop);
-        let heard = dialogue.hear(&mut engine, &task.text, &mut |engine, event| {
-            drive.follow(engine, event);
+        let line = match &task.noted {
+            Some(noted) if task.has_waited => json::Line::Waited(noted),
+            _ => json::Line::Said(&task.text),
+        };
+        let mut engine = Engine::beside(Arc::clone(&state));
+        let mut drive = Drive::new(self, &task, stop);
+        let heard = self.connect(&state, dialogue).and_then(|mut dialogue| {
+            let mut tell = |engine: &Engine, event: &Event<'_>| drive.follow(engine, event);
+            let heard = json::hear(&mut dialogue, &mut engine, &line, &mut tell)?;
+            Ok((heard, dialogue))
         });
-        let failed_to_note = drive.failure.take();
-        match heard {
-            Ok(heard) => {
+        let failed_to_note = drive.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let dialogue = match heard {
+            Ok((heard, dialogue)) => {
                 let tasks = heard.replies.iter().rev();
                 let last = tasks.clone().find(|reply| matches!(reply.outcome, Outcome::Task(_)));
                 let worst = heard.replies.iter().find(|reply| reply.outcome.has_failed());
                 let outcome = worst.or(last).map_or("done", |reply| reply.outcome.word());
                 view["state"] = json!(outcome);
-                view["text_end"] = json!(heard.text());
+                let told = heard.replies.iter();
+                let told = told.filter(|reply| !matches!(reply.outcome, Outcome::Begun { .. }));
+                let told: Vec<&str> = told.map(|reply| reply.text.as_str()).collect();
+                view["text_end"] = json!(told.join("\n").trim());
                 let replies = heard.replies.iter().filter_map(|r| json::reply(&engine, r).ok());
                 view["replies"] = json!(replies.collect::<Vec<_>>());
+                Some(dialogue)
             }
             Err(error) => {
                 view["state"] = json!("failed");
-                view["text_end"] = json!(error.to_string());
+                view["text_end"] = json!(match state.world() {
+                    Ok(world) => error.say(world, Language::of(&task.text)),
+                    Err(_) => error.to_string(),
+                });
+                None
             }
-        }
+        };
         if let Some(failure) = failed_to_note {
             view["not_noted"] = json!(failure);
         }
+        self.ended(task, view, dialogue);
+    }
+
+    /// Notes how a task ended. One that was broken off waits on, and begins when somebody says so.
+    fn ended(&self, mut task: Task, mut view: Value, dialogue: Option<Dialogue>) {
+        let (id, by) = (task.id, task.by.name.clone());
         let why = {
             let mut book = self.book();
             // Who spoke since has said something newer.
-            let spoke = book.talks.contains_key(&task.by.number);
-            if !spoke {
+            if let Some(dialogue) = dialogue
+                && task.by.number > 0
+                && !book.talks.contains_key(&task.by.number)
+            {
                 book.talks.insert(task.by.number, dialogue);
             }
-            book.running.take().and_then(|running| running.why)
+            let running = book.running.take();
+            let is_dropped = running.as_ref().is_some_and(|running| running.is_dropped);
+            let was_broken_off = ["stopped", "vehicle_failed", "failed"]
+                .contains(&view["state"].as_str().unwrap_or_default());
+            if is_dropped && view["state"] == "stopped" {
+                view["state"] = json!("cancelled");
+            }
+            if was_broken_off && !is_dropped && !task.is_strict && task.noted.is_some() {
+                view["waits"] = json!(true);
+                (task.is_released, task.has_waited) = (false, true);
+                if let Some(noted) = &mut task.noted {
+                    noted.is_begun = true;
+                }
+                book.wait(task);
+            }
+            running.and_then(|running| running.why)
         };
         view["stopped_by"] = json!(why);
         self.events.robot_is(Value::Null);
-        if view["state"] == "stopped" {
-            self.events.tell("stopped", &json!({ "by": why, "task": task.id }));
+        if why.is_some() {
+            self.events.tell("stopped", &json!({ "by": why, "task": id }));
         }
         self.end(&view);
+        self.note(&by);
+    }
+
+    /// A dialogue whose orders the vehicle of this house carries out.
+    fn connect(&self, state: &State, dialogue: Dialogue) -> Result<Dialogue, Error> {
+        match &self.wheels {
+            Wheels::Simulated { .. } => Ok(dialogue),
+            Wheels::Robot { address, patience } => {
+                let robot = address.connect(state.world()?, *patience).map_err(Box::new)?;
+                let robot: Box<dyn Vehicle + Send> = Box::new(robot);
+                Ok(dialogue.driving(robot))
+            }
+        }
     }
 
     /// Stops a task that is driven, for a reason.
-    fn stop_for(&self, id: u64, why: &str) {
+    pub(super) fn stop_for(&self, id: u64, why: &str) {
         if let Some(running) = self.book().running.as_mut().filter(|running| running.id == id) {
             running.stop.raise();
             running.why.get_or_insert_with(|| why.to_owned());
@@ -507,11 +429,7 @@ impl Tasks {
     /// Whether who has the robot driven is still there.
     fn is_leased(&self) -> bool {
         let mut book = self.book();
-        let Some(running) = &book.running else { return false };
-        let holds = |lease: &Lease| {
-            lease.holder.number != running.by.number || lease.until > Instant::now()
-        };
-        let is_leased = book.lease.as_ref().is_some_and(holds);
+        let is_leased = book.is_leased();
         if !is_leased && let Some(running) = &mut book.running {
             running.why.get_or_insert_with(|| "lease".to_owned());
         }
@@ -519,26 +437,9 @@ impl Tasks {
     }
 }
 
-impl Book {
-    fn lease_view(&self) -> Value {
-        let now = Instant::now();
-        let lease = self.lease.as_ref().filter(|lease| lease.until > now);
-        lease.map_or(Value::Null, |lease| {
-            json!({
-                "holder": lease.holder.name,
-                "session": lease.holder.number,
-                "seconds": (lease.until - now).as_secs(),
-            })
-        })
-    }
-}
-
-impl Task {
-    fn view(&self, state: &str) -> Value {
-        json!({
-            "task": self.id, "text": self.text, "by": self.by.name, "state": state,
-            "revision": self.revision, "plan": self.plan,
-        })
+impl From<Leased> for Declined {
+    fn from(Leased { holder, seconds }: Leased) -> Self {
+        Self::Leased { holder, seconds }
     }
 }
 
@@ -553,7 +454,9 @@ struct Drive<'t> {
     /// How much of the directive's time has passed.
     passed: f64,
     told: Instant,
-    failure: Option<String>,
+    /// What was noted so far.
+    kept: Arc<Mutex<After>>,
+    failure: Arc<Mutex<Option<String>>>,
     /// The plans still to come to which alone was agreed; none where any will do.
     agreed: Option<VecDeque<Value>>,
 }
@@ -561,9 +464,10 @@ struct Drive<'t> {
 impl<'t> Drive<'t> {
     fn new(tasks: &'t Tasks, task: &Task, stop: Stop) -> Self {
         let (events, told) = (TaskEvents::default(), Instant::now());
-        let (id, clock, passed, failure) = (task.id, None, 0.0, None);
+        let (id, clock, passed) = (task.id, None, 0.0);
+        let (kept, failure) = Default::default();
         let agreed = task.is_strict.then(|| json::plans_of(&task.plan).cloned().collect());
-        Self { tasks, id, stop, events, clock, passed, told, failure, agreed }
+        Self { tasks, id, stop, events, clock, passed, told, kept, failure, agreed }
     }
 
     fn follow(&mut self, engine: &Engine, event: &Event<'_>) {
@@ -576,6 +480,7 @@ impl<'t> Drive<'t> {
                         self.wait(report.seconds - self.passed);
                         let pose = Moment { time: 0.0, map: report.map, pose: report.pose };
                         self.tell_pose(engine, &pose);
+                        self.note_so_far(report);
                     }
                     _ => {}
                 }
@@ -593,22 +498,46 @@ impl<'t> Drive<'t> {
                 }
             }
             Event::Replied(Reply { outcome: Outcome::Task(task), .. }) => {
-                let Some(after) = task.after.clone() else { return };
-                let at = std::time::SystemTime::now().into();
-                let noted = self
-                    .tasks
-                    .desk
-                    .ask_from_thread(move |engine| engine.remember_after(&after, at));
-                match noted {
+                let Some(mut after) = task.after.clone() else { return };
+                let (kept, at) = (Arc::clone(&self.kept), std::time::SystemTime::now().into());
+                let noted = self.tasks.desk.ask_from_thread(move |engine| {
+                    // What each directive did is noted already.
+                    let kept =
+                        std::mem::take(&mut *kept.lock().unwrap_or_else(PoisonError::into_inner));
+                    after.moved.retain(|id, seen| kept.moved.get(id) != Some(seen));
+                    engine.remember_after(&after, at)
+                });
+                let failure = match noted {
                     Ok(Ok(())) => {
                         self.tasks.events.tell("known", &json!({ "task": self.id }));
+                        return;
                     }
-                    Ok(Err(error)) => self.failure = Some(error.to_string()),
-                    Err(_gone) => self.failure = Some("the engine has stopped".to_owned()),
-                }
+                    Ok(Err(error)) => error.to_string(),
+                    Err(_gone) => "the engine has stopped".to_owned(),
+                };
+                *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
             }
             _ => {}
         }
+    }
+
+    /// Has the writer note what a directive changed; the robot does not wait for it.
+    fn note_so_far(&self, report: &Report) {
+        let (after, kept, failure) =
+            (report.after.clone(), Arc::clone(&self.kept), Arc::clone(&self.failure));
+        let (events, id) = (Arc::clone(&self.tasks.events), self.id);
+        self.tasks.desk.send(move |engine| {
+            let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+            match engine.remember_so_far(&after, &mut kept) {
+                Ok(true) => Some(Box::new(move || events.tell("known", &json!({ "task": id })))),
+                Ok(false) => None,
+                Err(error) => {
+                    *failure.lock().unwrap_or_else(PoisonError::into_inner) =
+                        Some(error.to_string());
+                    None
+                }
+            }
+        });
     }
 
     fn moved(&mut self, engine: &Engine, moment: &Moment) {
@@ -628,9 +557,12 @@ impl<'t> Drive<'t> {
 
     /// Lets the vehicle's time pass by the clock; told to stop, it waits no more.
     fn wait(&self, seconds: f64) {
-        let Ok(whole) = Duration::try_from_secs_f64(seconds.max(0.0) / self.tasks.pace) else {
-            return;
+        // A robot of its own takes its own time; whether somebody drives is looked at all the same.
+        let seconds = match self.tasks.wheels {
+            Wheels::Simulated { pace } => seconds / pace,
+            Wheels::Robot { .. } => 0.0,
         };
+        let Ok(whole) = Duration::try_from_secs_f64(seconds.max(0.0)) else { return };
         let until = Instant::now() + whole;
         loop {
             if !self.tasks.is_leased() {

@@ -12,6 +12,7 @@
 
 mod act;
 mod assist;
+mod book;
 mod desk;
 mod drawing;
 mod drive;
@@ -19,6 +20,8 @@ mod events;
 mod fault;
 mod gate;
 mod listen;
+mod proposed;
+mod queue;
 mod read;
 mod routes;
 
@@ -28,6 +31,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::engine::{Engine, Error};
+use crate::robot::{Address, Patience};
 use crate::units::Stop;
 
 pub use assist::run as run_for_assistant;
@@ -36,10 +40,11 @@ pub use listen::Bounds;
 
 use assist::Assistant;
 use desk::Desk;
-use drive::Tasks;
+use drive::{Tasks, Wheels};
 use events::Events;
 use fault::Fault;
 use gate::Gate;
+use proposed::Proposed;
 
 /// What a server is to be.
 #[derive(Debug, Clone)]
@@ -57,6 +62,8 @@ pub struct Settings {
     pub sessions: Option<PathBuf>,
     /// The simulator's time, times as fast as the clock.
     pub pace: f64,
+    /// The robot that drives in place of the simulated one.
+    pub vehicle: Option<(Address, Patience)>,
     pub is_demo: bool,
     pub bounds: Bounds,
     /// The store's folder, where it outlives the program.
@@ -72,6 +79,7 @@ struct House {
     desk: Arc<Desk>,
     events: Arc<Events>,
     tasks: Arc<Tasks>,
+    proposed: Proposed,
     rules: Option<PathBuf>,
     is_demo: bool,
 }
@@ -83,10 +91,18 @@ impl House {
         let events = Arc::new(Events::new(&run[..8]));
         let desk = Desk::open(engine, Arc::clone(&events)).map_err(Box::new)?;
         let desk = Arc::new(desk);
-        let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), settings.pace);
+        let wheels = match &settings.vehicle {
+            Some((address, patience)) => {
+                Wheels::Robot { address: address.clone(), patience: *patience }
+            }
+            None => Wheels::Simulated { pace: settings.pace },
+        };
+        let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), wheels);
         let gate = Gate::new(at, &settings.hosts, settings.sessions.clone());
         let (rules, is_demo) = (settings.rules.clone(), settings.is_demo);
-        Ok(Arc::new(Self { gate, desk, events, tasks, rules, is_demo }))
+        let beside = settings.store.as_deref().map(|store| beside(store, ".proposed"));
+        let proposed = Proposed::in_folder(beside);
+        Ok(Arc::new(Self { gate, desk, events, tasks, proposed, rules, is_demo }))
     }
 }
 

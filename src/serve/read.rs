@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::{Query, State as Of};
+use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
@@ -11,15 +12,17 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Believed, Drawing, Engine, Error, RequestError, Source, State, When, json as views,
+    question_beginnings,
 };
 use crate::facts::{Because, Premise, WhyNot};
 use crate::map::{Entity, Replica};
 use crate::store::Seen;
 use crate::units::{Language, MapId};
 
+use super::drawing::{self, Part};
 use super::fault::Fault;
 use super::gate::Session;
-use super::{House, apart, drawing};
+use super::{House, apart};
 
 type Answer = Result<Json<Value>, Fault>;
 
@@ -29,6 +32,9 @@ pub(super) struct Which {
     map: Option<String>,
     lang: Option<String>,
     as_of: Option<u64>,
+    /// Left, bottom, right, top.
+    r#box: Option<String>,
+    most: Option<usize>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -48,7 +54,8 @@ pub(super) struct Fact {
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Way {
-    from: String,
+    /// From where the robot is, where it is left out.
+    from: Option<String>,
     to: String,
     lang: Option<String>,
 }
@@ -147,8 +154,29 @@ pub(super) async fn drawing(Of(house): Of<Arc<House>>, Query(which): Query<Which
         None => house.desk.state(),
         Some(revision) => then(&house, revision).await?,
     };
+    let part = match which.r#box.as_deref() {
+        None => Part::Whole { most: which.most.unwrap_or(usize::MAX) },
+        Some(text) => Part::Box(reach(text).ok_or_else(no_box)?),
+    };
     let name = which.map;
-    apart(move || drawing::storey(&state, map_of(&state, name.as_deref())?)).await.map(Json)
+    apart(move || drawing::storey(&state, map_of(&state, name.as_deref())?, part)).await.map(Json)
+}
+
+/// Four numbers divided by commas.
+fn reach(text: &str) -> Option<[f64; 4]> {
+    let numbers: Vec<f64> =
+        text.split(',').map(|n| n.trim().parse().ok()).collect::<Option<_>>()?;
+    let reach: [f64; 4] = numbers.try_into().ok()?;
+    reach.iter().all(|n| n.is_finite()).then_some(reach)
+}
+
+fn no_box() -> Fault {
+    Fault::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "serve::box",
+        "box – четыре числа через запятую: лево, низ, право, верх.",
+        "box is four numbers divided by commas: left, bottom, right, top.",
+    )
 }
 
 /// The state as it was at a revision: the map alone.
@@ -198,6 +226,7 @@ pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Val
         })
     });
     let mut view = json!({ "name": name, "relations": facts.collect::<Vec<_>>() });
+    view["seen"] = json!(drawing::seen(state, entity));
     match entity {
         Entity::Replica(id) => {
             let replica = &world.replicas[&id];
@@ -248,6 +277,7 @@ pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Val
         Entity::Area(id) => {
             view["kind"] = json!("room");
             view["name_en"] = json!(world.areas[&id].name_en);
+            view["parts"] = json!(drawing::walls(world, id));
             view["things"] =
                 json!(world.replicas_in(id).map(|r| [&r.name, &r.name_en]).collect::<Vec<_>>());
         }
@@ -256,6 +286,8 @@ pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Val
             view["name_en"] = json!(world.places[&id].name_en);
         }
         Entity::Zone(id) => {
+            let words = state.zones_in_words(language)?;
+            view["rule"] = json!(words.get(&id));
             view["kind"] = json!("zone");
             view["name_en"] = json!(world.zones[&id].name_en);
         }
@@ -358,14 +390,17 @@ pub(super) fn reasons(
 pub(super) async fn route(Of(house): Of<Arc<House>>, Query(way): Query<Way>) -> Answer {
     let state = house.desk.state();
     apart(move || {
-        let journey = state.journey(&way.from, &way.to, crate::engine::Method::Shortest)?;
+        let journey = match &way.from {
+            Some(from) => state.journey(from, &way.to, crate::engine::Method::Shortest)?,
+            None => state.journey_of_robot(&way.to, std::time::SystemTime::now().into())?,
+        };
         Ok(views::journey(state.world()?, &journey, language(way.lang.as_deref())))
     })
     .await
     .map(Json)
 }
 
-/// Names that begin as the last words of a text do.
+/// Questions that begin as a text does, and names that begin as its last words do.
 pub(super) async fn complete(Of(house): Of<Arc<House>>, Query(begun): Query<Begun>) -> Answer {
     const MOST: usize = 8;
     let names = house.desk.state().names().unwrap_or_default();
@@ -388,8 +423,21 @@ pub(super) async fn complete(Of(house): Of<Arc<House>>, Query(begun): Query<Begu
             }
         }
     }
-    let view = |(typed, name): (usize, &String)| json!({ "typed": typed, "name": name });
-    Ok(Json(json!(found.into_iter().take(MOST).map(view).collect::<Vec<_>>())))
+    let length = text.chars().count();
+    let frames =
+        question_beginnings().iter().filter(|frame| length > 1 && frame.starts_with(&text));
+    // As far as it is written it stays as it is written.
+    let frame = |frame: &String| {
+        let rest = &frame[text.len()..];
+        json!({ "typed": length, "name": format!("{}{rest} ", begun.text), "kind": "frame" })
+    };
+    let name =
+        |(typed, name): (usize, &String)| json!({ "typed": typed, "name": name, "kind": "name" });
+    let frames: Vec<Value> = frames.filter(|f| f.len() > text.len()).take(4).map(frame).collect();
+    let left = MOST - frames.len();
+    let all: Vec<Value> =
+        frames.into_iter().chain(found.into_iter().take(left).map(name)).collect();
+    Ok(Json(json!(all)))
 }
 
 /// All revisions, the oldest first.

@@ -261,7 +261,8 @@ impl Engine {
     fn plan<'py>(&self, py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
             let state = self.desk.state()?;
-            let heard = json::rehearse(&state, &Talk::new(self.desk.language), text)?;
+            let heard =
+                json::rehearse(&state, &Talk::new(self.desk.language), &json::Line::Said(text))?;
             Ok(json!({ "plan": heard.plan, "replies": heard.replies }))
         })
     }

@@ -4,8 +4,38 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::engine::{Dialogue, Engine, Error, Event, Outcome, Reply, State, TaskEvents};
+use crate::engine::{
+    Dialogue, Engine, Error, Event, Heard, Outcome, Queue, QueuedTask, Reply, State, TaskEvents,
+};
 use crate::units::Language;
+
+/// What is heard.
+#[derive(Debug, Clone, Copy)]
+pub enum Line<'l> {
+    Said(&'l str),
+    /// An order that waited in the store.
+    Waited(&'l QueuedTask),
+}
+
+/// Hears a line, and does what it says.
+///
+/// # Errors
+/// There is no map, or the disk refused.
+pub fn hear(
+    dialogue: &mut Dialogue,
+    engine: &mut Engine,
+    line: &Line<'_>,
+    tell: &mut dyn FnMut(&Engine, &Event<'_>),
+) -> Result<Heard, Error> {
+    match line {
+        Line::Said(text) => dialogue.hear(engine, text, tell),
+        Line::Waited(task) => {
+            let tasks = vec![QueuedTask::clone(task)];
+            engine.put_queue(Queue { tasks, paused: None }, &task.by)?;
+            dialogue.go_on(engine, tell)
+        }
+    }
+}
 
 /// What a line came to when it was heard apart.
 #[derive(Debug)]
@@ -35,19 +65,23 @@ pub fn is_same_plan(one: &Value, other: &Value) -> bool {
 /// # Errors
 /// There is no map, or the disk refused.
 pub fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
-    rehearse(state, &Dialogue::new(language), text).map(|heard| json!(heard.replies))
+    rehearse(state, &Dialogue::new(language), &Line::Said(text)).map(|heard| json!(heard.replies))
 }
 
 /// Hears a line apart: what it answers, and what it would have the robot do.
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
+pub fn rehearse(
+    state: &Arc<State>,
+    before: &Dialogue,
+    line: &Line<'_>,
+) -> Result<Rehearsed, Error> {
     let mut engine = Engine::beside(Arc::clone(state));
     let mut dialogue = before.apart().keeping_nothing();
     let (mut told, mut events) = (Vec::new(), TaskEvents::default());
     let mut is_first = true;
-    let heard = dialogue.hear(&mut engine, text, &mut |_, event| match event {
+    let heard = hear(&mut dialogue, &mut engine, line, &mut |_, event| match event {
         Event::Progress { progress, world, .. } if is_first => {
             if let Some(event) = events.of(world, progress) {
                 told.push(event);
@@ -76,7 +110,10 @@ pub fn rehearse(state: &Arc<State>, before: &Dialogue, text: &str) -> Result<Reh
     let plan = match first.map(|at| &heard.replies[at].outcome) {
         Some(Outcome::Task(task)) => {
             let mut plan = super::task(engine.world()?, task);
-            plan["said"] = json!(text);
+            plan["said"] = json!(match line {
+                Line::Said(text) => text,
+                Line::Waited(task) => task.text.as_str(),
+            });
             plan["events"] = json!(told);
             let others = heard.replies.iter().filter(|reply| drives(reply)).count();
             // Of what is ordered behind it the plan is made when its turn comes.

@@ -13,7 +13,7 @@ use crate::units::Language;
 
 use super::super::fault::Fault;
 use super::super::gate::Session;
-use super::super::{House, read};
+use super::super::{House, apart, read};
 use super::client::Assistant;
 
 /// What a call came to.
@@ -103,7 +103,8 @@ impl Call<'_> {
             "run" => self.carry_out(arguments(given)?).await,
             "stop" => {
                 let Nothing {} = arguments(given)?;
-                let is_running = self.house().tasks.stop(&self.session.name);
+                let (house, by) = (self.house(), self.session.name.clone());
+                let is_running = apart(move || Ok(house.tasks.stop(&by))).await?;
                 Ok(Told::Value(json!({ "stopped": is_running })))
             }
             "observe" => self.observe(arguments(given)?).await,

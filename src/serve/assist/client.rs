@@ -1,7 +1,7 @@
 //! Who calls, and what all their calls share.
 
 use std::hash::{Hash as _, Hasher as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use rmcp::service::{RequestContext, RoleServer};
@@ -22,8 +22,6 @@ pub(in super::super) struct Assistant {
     pub(super) asked: Arc<Asked>,
     /// The client's program asks its user before it calls what acts.
     pub(super) trusts_host: bool,
-    /// Where edits wait that nobody could be asked about.
-    pub(super) proposed: Option<PathBuf>,
 }
 
 impl Assistant {
@@ -38,7 +36,6 @@ impl Assistant {
             calls: Arc::new(Calls::new(beside(".calls.jsonl"))),
             asked: Arc::default(),
             trusts_host,
-            proposed: beside(".proposed"),
         }
     }
 

@@ -7,12 +7,13 @@ use rmcp::model::ProgressNotificationParam;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::engine::{Error, Mode, change_now, json as views};
+use crate::engine::{Error, Mode, change_now, json as views, waiting};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
 use super::super::gate::Session;
-use super::super::{House, act, apart};
+use super::super::proposed::Waits;
+use super::super::{House, act, apart, desk};
 use super::approval::{Word, ask};
 use super::call::{Answer, Call, Said, Told, refuse, said};
 
@@ -51,7 +52,17 @@ impl Call<'_> {
     pub(super) async fn plan(&self, order: Said) -> Answer {
         let (house, session) = (self.house(), self.session.clone());
         let language = order.language();
-        let heard = apart(move || house.tasks.say(&session, order.text.trim(), language));
+        let text = order.text.trim();
+        // Nothing goes on by a line: `run` alone drives, with a person's word.
+        if waiting(text).is_some() {
+            return Err(refuse(
+                "assist::queue",
+                "Очередью распоряжается человек; здесь есть tasks и stop.",
+                "The queue is the operator's; there are tasks and stop.",
+            ));
+        }
+        let text = text.to_owned();
+        let heard = apart(move || house.tasks.say(&session, &text, language));
         let mut view = heard.await?;
         view["text"] = match view.get("task") {
             Some(task) => json!(plan_in_words(task, language)),
@@ -111,7 +122,8 @@ impl Call<'_> {
             let happened = tokio::select! {
                 happened = house.events.next(&mut hearing) => happened,
                 () = self.context.ct.cancelled() => {
-                    house.tasks.cancel(self.session, id);
+                    let (house, session) = (Arc::clone(&house), self.session.clone());
+                    apart(move || Ok(house.tasks.cancel(&session, id))).await?;
                     tokio::time::sleep(Duration::from_millis(50)).await;
                     Vec::new()
                 }
@@ -196,7 +208,7 @@ impl Call<'_> {
     pub(super) async fn propose_edit(&self, proposed: Edit) -> Answer {
         let house = self.house();
         let on = proposed.on.unwrap_or_else(|| house.desk.state().revision());
-        let text = Value::Object(proposed.edit).to_string();
+        let text = Value::Object(proposed.edit.clone()).to_string();
         let change = change_now(&self.session.name, &proposed.reason);
         let tried = act::edited(&house, on, text.clone(), change.clone(), Mode::DryRun).await?;
         let told = tried["differences"].as_array().into_iter().flatten();
@@ -207,38 +219,41 @@ impl Call<'_> {
             Ok(Some(waits)) => return Ok(waits),
             Ok(None) => {}
             Err(fault) if fault.body()["code"] == "assist::nobody_to_ask" => {
-                return self.laid_beside(on, &text, tried).await;
+                let mut edit = proposed.edit;
+                // Who writes it is its author; who thought of it is told in the reason.
+                let reason = format!("{}: {}", self.session.name, proposed.reason);
+                edit.insert("reason".to_owned(), json!(reason));
+                return self.laid_beside(Waits { on, edit }, tried).await;
             }
             Err(fault) => return Err(fault),
         }
         act::edited(&house, on, text, change, Mode::Commit).await.map(Told::Value)
     }
 
-    /// Leaves an edit that nobody could be asked about for the operator, as a file that `ortho edit --file` takes.
-    async fn laid_beside(&self, on: u64, text: &str, mut tried: Value) -> Answer {
-        let Some(dir) = self.assistant.proposed.clone() else {
-            return Ok(Told::Value(tried));
-        };
-        let text = text.to_owned();
+    /// Leaves an edit that nobody could be asked about for the operator: in the console, and as a file that
+    /// `ortho edit --file` takes.
+    async fn laid_beside(&self, waits: Waits, mut tried: Value) -> Answer {
         let at =
             SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |d| d.as_millis());
-        let file = dir.join(format!("{on}-{at}.json"));
-        let written = {
-            let file = file.clone();
-            tokio::task::spawn_blocking(move || {
-                std::fs::create_dir_all(&dir)
-                    .and_then(|()| crate::units::write_file(&file, text.as_bytes()))
-            })
+        let house = self.house();
+        let laid = tokio::task::spawn_blocking(move || house.proposed.lay(waits, at));
+        let (id, file) = match laid.await {
+            Ok(Ok(laid)) => laid,
+            Ok(Err(error)) => {
+                let told = error.to_string();
+                return Err(refuse("assist::disk", &told, &told));
+            }
+            Err(_) => return Err(desk::Gone.into()),
         };
-        if let Ok(Err(error)) = written.await {
-            let told = format!("{}: {error}", file.display());
-            return Err(refuse("assist::disk", &told, &told));
-        }
+        self.house().events.tell("proposed", &json!({ "id": id }));
         tried["outcome"] = json!("proposed");
-        tried["file"] = json!(file.display().to_string());
+        tried["id"] = json!(id);
+        let by_file = file.as_ref().map_or_else(String::new, |file| {
+            format!(", or by `ortho edit --file {}`", file.display())
+        });
+        tried["file"] = json!(file.map(|file| file.display().to_string()));
         tried["text"] = json!(format!(
-            "The edit is sound and not written: nobody could be asked. The operator can write it by `ortho edit --file {}`.",
-            file.display()
+            "The edit is sound and not written: nobody could be asked. The operator can write it in the console{by_file}."
         ));
         Ok(Told::Value(tried))
     }
@@ -246,7 +261,7 @@ impl Call<'_> {
 
 /// Has the robot stop when the call that drives it is dropped before its end.
 struct Watch<'w> {
-    house: &'w House,
+    house: &'w Arc<House>,
     session: &'w Session,
     id: u64,
     is_over: bool,
@@ -255,7 +270,9 @@ struct Watch<'w> {
 impl Drop for Watch<'_> {
     fn drop(&mut self) {
         if !self.is_over {
-            self.house.tasks.cancel(self.session, self.id);
+            // What drops a call must not wait for the disk.
+            let (house, session, id) = (Arc::clone(self.house), self.session.clone(), self.id);
+            std::thread::spawn(move || house.tasks.cancel(&session, id));
         }
     }
 }

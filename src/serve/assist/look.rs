@@ -170,7 +170,7 @@ impl Call<'_> {
             let svg = if named.picture { Some(state.draw(map, &drawing)?) } else { None };
             let data = match (only, &named.name) {
                 (Some(_), Some(room)) => read::about(&state, room, Language::English)?,
-                _ => drawing::storey(&state, map)?,
+                _ => drawing::storey(&state, map, drawing::Part::Whole { most: usize::MAX })?,
             };
             Ok((svg, data))
         })

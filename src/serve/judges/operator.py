@@ -1,123 +1,11 @@
 """What an operator does with the console, in a real Chromium: python3 operator.py ORTHO [FOLDER FOR PICTURES].
 
-Exit code 77 where there is no browser. One line for each thing done; the first that fails ends it.
+One line for each thing done; the first that fails ends it.
 """
 
-import json
-import os
-import pathlib
-import shutil
-import signal
-import subprocess
-import sys
-import tempfile
 import time
 
-try:
-    from playwright.sync_api import expect, sync_playwright
-except ImportError:
-    sys.exit(77)
-
-NAMES = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"]
-BROWSER = os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
-if BROWSER is None:
-    sys.exit(77)
-
-ORTHO = sys.argv[1]
-PICTURES = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
-PATIENCE = 60_000
-
-
-class Server:
-    """`ortho serve --demo` on a store that outlives it."""
-
-    def __init__(self, store, pace="4", port="0"):
-        self.store, self.pace, self.port = store, pace, port
-        self.start()
-
-    def start(self):
-        command = [ORTHO, "serve", "--demo", "--store", self.store, "--port", self.port, "--pace", self.pace]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        self.address = self.process.stdout.readline().split()[-1]
-        self.base = self.address.split("/?")[0]
-        self.port = self.base.rsplit(":", 1)[1]
-
-    def kill(self):
-        self.process.send_signal(signal.SIGKILL)
-        self.process.wait()
-
-
-def watched(browser, server, faults, **more):
-    """A page of one's own, whose faults and foreign requests are noted."""
-    context = browser.new_context(**{"locale": "ru-RU", "viewport": {"width": 1440, "height": 900}, **more})
-    page = context.new_page()
-    page.set_default_timeout(PATIENCE)
-
-    def console(message):
-        # A server that was killed refuses the line, and an edit that another overtook is refused: told here too.
-        meant = "ERR_" in message.text or "409 (Conflict)" in message.text
-        if message.type == "error" and not meant:
-            faults.append(f"console: {message.text}")
-
-    page.on("console", console)
-    page.on("pageerror", lambda error: faults.append(f"page: {error}"))
-    page.on("request", lambda r: r.url.startswith(server.base) or faults.append(f"foreign request: {r.url}"))
-    return page
-
-
-def opened(page, address):
-    begun = time.monotonic()
-    page.goto(address)
-    page.wait_for_selector("body[data-ready=yes]")
-    page.wait_for_selector("#map .labels text")
-    return time.monotonic() - begun
-
-
-def picture(page, name):
-    if PICTURES:
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        page.screenshot(path=PICTURES / f"{name}.png")
-
-
-def get(page, path):
-    return json.loads(page.evaluate("path => fetch(path).then((answer) => answer.text())", path))
-
-
-def say(page, text):
-    page.fill("#say", text)
-    page.press("#say", "Enter")
-
-
-def where(page, name):
-    things = get(page, "/api/drawing")["things"]
-    return next(thing["at"] for thing in things if thing["name"] == name)
-
-
-def idle(page):
-    deadline = time.monotonic() + 60
-    while time.monotonic() < deadline:
-        tasks = get(page, "/api/tasks")
-        if tasks["task"] is None and not tasks["queue"]:
-            return tasks
-        time.sleep(0.1)
-    raise AssertionError("it drives for ever")
-
-
-def drag(page, name, dx, dy):
-    box = page.locator(f'#map .thing[data-name="{name}"]').bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.keyboard.down("Alt")
-    for step in range(1, 6):
-        page.mouse.move(x + dx * step / 5, y + dy * step / 5)
-    page.keyboard.up("Alt")
-    page.mouse.up()
-
-
-def no_overflow(page):
-    wide = page.evaluate("document.documentElement.scrollWidth - innerWidth")
-    assert wide <= 0, f"scrolls sideways by {wide} px"
+from console import drag, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched, where
 
 
 def run(browser, server, faults):
@@ -265,20 +153,5 @@ def run(browser, server, faults):
     print("goes on after the server was killed")
 
 
-def get_posted(page, path, body):
-    script = """([path, body]) => fetch(path, { method: 'POST', headers: { 'content-type': 'application/json' },
-        body: JSON.stringify(body) }).then((answer) => answer.text())"""
-    return json.loads(page.evaluate(script, [path, body]))
-
-
-with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-    server = Server(str(pathlib.Path(folder) / "store"))
-    browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox"])
-    faults = []
-    try:
-        run(browser, server, faults)
-    finally:
-        browser.close()
-        server.kill()
-    if faults:
-        sys.exit("\n".join(faults))
+if __name__ == "__main__":
+    judge(run)

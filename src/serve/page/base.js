@@ -9,11 +9,13 @@ export const S = {
   drawing: null, floor: null, map: null,
   robot: null, trail: [], follow: false,
   /** A plan that waits for a word, the task that is driven, and its directives. */
-  plan: null, task: null, step: 0, queue: [], waiting: null, ended: [], lease: null,
+  plan: null, task: null, step: 0, queue: [], ended: [], lease: null,
   selected: null, thing: null, marked: [], proof: null,
-  linked: 'begin', stoppedBy: null, stopping: false,
-  asOf: null, history: [], proposals: [],
-  layers: { names: true, things: true, frames: false, dead: false, network: false, relations: true },
+  linked: 'begin', stoppedBy: null, stopping: false, paused: null,
+  asOf: null, history: [], proposals: [], edits: [], changes: null,
+  /** What would open a way that there is not: the answer of `GET /api/route`. */
+  barred: null, favourites: [],
+  layers: { names: true, things: true, zones: true, belief: true, places: true, frames: false, dead: false, network: false, relations: true },
   edit: null, toast: null, written: 0,
 };
 
@@ -57,7 +59,7 @@ const P = {
   follow: '<circle cx="12" cy="12" r="6"/><path d="M12 2v5M12 17v5M2 12h5M17 12h5"/><circle cx="12" cy="12" r="1" fill="currentColor"/>', check: '<path d="M5 12.500l4.500 4.500L19 7"/>', x: '<path d="M6 6l12 12M18 6L6 18"/>',
   up: '<path d="M6 15l6-6 6 6"/>', down: '<path d="M6 9l6 6 6-6"/>', send: '<path d="M12 19V5M6 11l6-6 6 6"/>', door: '<path d="M6 21V4h10v17M3 21h18M16 4l3 2v15"/><circle cx="13" cy="12.500" r=".9" fill="currentColor" stroke="none"/>',
   lock: '<rect x="5" y="11" width="14" height="9" rx="1.500"/><path d="M8 11V8a4 4 0 0 1 8 0v3"/>', undo: '<path d="M9 6L4 11l5 5"/><path d="M4 11h10a6 6 0 0 1 0 12" transform="translate(0 -3)"/>', redo: '<path d="M15 6l5 5-5 5"/><path d="M20 11H10a6 6 0 0 0 0 12" transform="translate(0 -3)"/>',
-  ahead: '<path d="M12 21V4M6 10l6-6 6 6"/>', right: '<path d="M6 21v-7a4 4 0 0 1 4-4h9M14 5l5 5-5 5"/>', take: '<path d="M5 14h14v6H5zM12 3v8M8.500 8l3.500 3.500L15.500 8"/>', moon: '<path d="M19.500 14.500A8 8 0 0 1 9.500 4.500a8 8 0 1 0 10 10z"/>', sun: '<circle cx="12" cy="12" r="4"/><path d="M12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2"/>',
+  play: '<path d="M8 5l11 7-11 7z"/>', ahead: '<path d="M12 21V4M6 10l6-6 6 6"/>', right: '<path d="M6 21v-7a4 4 0 0 1 4-4h9M14 5l5 5-5 5"/>', take: '<path d="M5 14h14v6H5zM12 3v8M8.500 8l3.500 3.500L15.500 8"/>', moon: '<path d="M19.500 14.500A8 8 0 0 1 9.500 4.500a8 8 0 1 0 10 10z"/>', sun: '<circle cx="12" cy="12" r="4"/><path d="M12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2"/>',
   why: '<path d="M8.500 9a3.500 3.500 0 1 1 5 3.200c-1 .5-1.500 1.100-1.500 2.300"/><circle cx="12" cy="18" r=".9" fill="currentColor" stroke="none"/>', warn: '<path d="M12 4l9.500 16h-19z"/><path d="M12 10v5"/><circle cx="12" cy="17.500" r=".8" fill="currentColor" stroke="none"/>', clock: '<circle cx="12" cy="12" r="8.500"/><path d="M12 7v5l3.500 2"/>', eye: '<path d="M2.500 12S6 5.500 12 5.500 21.500 12 21.500 12 18 18.500 12 18.500 2.500 12 2.500 12z"/><circle cx="12" cy="12" r="2.800"/>',
   move: '<path d="M12 3v18M3 12h18M12 3l-2.500 2.500M12 3l2.500 2.500M12 21l-2.500-2.500M12 21l2.500-2.500M3 12l2.500-2.500M3 12l2.500 2.500M21 12l-2.500-2.500M21 12l-2.500 2.500"/>', turn: '<path d="M19 12a7 7 0 1 1-2.200-5.100"/><path d="M17.500 3v4.200h-4.200"/>', room: '<path d="M4 4h16v16H4zM4 13h8M12 13v2.500M12 18.500V20"/>', zone: '<path d="M5 5h14v14H5z" stroke-dasharray="3 2.600"/>', img: '<path d="M4 5h16v14H4z"/><path d="M4 16l5-5 4 4 2.500-2.500L20 17"/>', file: '<path d="M6 3h8l4 4v14H6z"/><path d="M14 3v4h4"/>', off: '<path d="M3 3l18 18M5 12.500a10 10 0 0 1 4-2.400M2 9a14 14 0 0 1 4.500-2.700M19 12.500a10 10 0 0 0-3-2M22 9A14 14 0 0 0 11 5.200M9 16a4.500 4.500 0 0 1 5-.6"/><circle cx="12" cy="19.500" r="1" fill="currentColor"/>', star: '<path d="M12 4l2.400 5.200 5.600.6-4.200 3.800 1.200 5.600L12 16.300 7 19.200l1.200-5.600L4 9.800l5.600-.6z"/>', grip: '<path d="M9 6h.01M15 6h.01M9 12h.01M15 12h.01M9 18h.01M15 18h.01" stroke-width="2.400"/>',
 };

@@ -3,8 +3,8 @@ import { S, L, N, api, announce, length } from './base.js';
 import { boxOf, named, paint, view, under } from './map.js';
 import { reason } from './talk.js';
 
-let render = () => {};
-export const begin = (redraw) => { render = redraw; };
+let render = () => {}, after = () => {};
+export const begin = (redraw, written) => { render = redraw; after = written; };
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const tenth = (value) => Math.round(value * 10) / 10;
 
@@ -18,7 +18,9 @@ export function toggle() {
 export function choose(name) {
   const one = named(name), edit = { on: S.edit?.on ?? S.state.revision };
   if (one?.gap) Object.assign(edit, { name, kind: 'door' });
-  else if (one?.kind) Object.assign(edit, { name, kind: 'thing', thing: one, from: one.at, at: { ...one.at } });
+  else if (one?.rule !== undefined) Object.assign(edit, { name, kind: 'zone', zone: one });
+  else if (one?.frame) Object.assign(edit, { name, kind: 'room', room: one });
+  else if (one?.on_map) Object.assign(edit, { name, kind: 'thing', thing: one, from: one.at, at: { ...one.at } });
   S.edit = edit;
 }
 
@@ -73,7 +75,9 @@ function sizes(b, dx, dy) {
 /** A drag of the thing under the pointer; false where there is none to drag. */
 export function grab(event, name) {
   const one = named(name);
-  if (!S.edit || !one?.kind) return null;
+  if (!S.edit || S.edit.tool) return null;
+  if (one?.rule !== undefined) return one.rooms.length || S.edit.name !== name ? null : zone(event, one);
+  if (!one?.on_map) return null;
   if (S.edit.name !== name) { choose(name); render(); }
   const begun = under(event), [bx, by, turn] = S.edit.shift ?? [0, 0, 0];
   return {
@@ -85,6 +89,20 @@ export function grab(event, name) {
       place(tenth(dx), tenth(dy), turn);
     },
     end() { S.edit.snaps = []; test(); },
+  };
+}
+
+/** A zone of one's own corners is dragged. */
+function zone(event, one) {
+  const begun = under(event);
+  return {
+    move(next) {
+      const [x, y] = under(next), by = [tenth(x - begun[0]), tenth(y - begun[1])];
+      S.edit.by = by;
+      S.edit.ghost = { name: one.name, polygons: one.polygons.map((polygon) => polygon.map((p) => [p[0] + by[0], p[1] + by[1]])) };
+      paint();
+    },
+    end() { will([{ move: one.name, by: S.edit.by }]); },
   };
 }
 
@@ -118,28 +136,50 @@ function refused(edit, error) {
 }
 
 /** Sets what is to be written, and tries it. */
-function will(steps, more) { Object.assign(S.edit, { steps, more, tried: null, wrong: null, theirs: null, asking: null }); test(); render(); }
+export function will(steps, more) { Object.assign(S.edit, { steps, more, tried: null, wrong: null, theirs: null, asking: null }); test(); render(); }
 
 export async function write() {
   const edit = S.edit;
   if (!edit?.steps?.length || edit.wrong) return;
   try {
     const done = await api('/api/edits', { on: edit.on, edit: edit.steps, reason: edit.why ?? '', ...edit.more });
+    // A tool stays in hand: who draws one room draws another.
+    const again = edit.tool;
     S.edit = { on: done.revision };
+    if (again && again !== 'shape') after(again);
     S.written = done.revision;
     S.toast = L(`Записано, ревизия ${done.revision}`, `Written, revision ${done.revision}`);
     announce(S.toast);
   } catch (error) { refused(edit, error); }
   render(); paint();
 }
-export function drop() { S.edit = S.edit?.steps ? { on: S.state.revision } : null; render(); paint(); }
+export function drop() { const { edit } = S; S.edit = edit?.steps || edit?.tool || edit?.draft ? { on: S.state.revision } : null; render(); paint(); }
 /** Others came first, and this is meant all the same. */
 export function onTop() { S.edit.on = S.state.revision; S.edit.theirs = null; test(); }
 
 const asked = (value, done) => { S.edit.asking = { value, done }; render(); document.querySelector('#newname')?.focus(); };
 export const rename = () => asked(S.edit.name, (name) => will([{ rename: S.edit.name, to: name }]));
-export const remove = () => will([{ remove: S.edit.name }]);
+export async function remove() {
+  const { edit } = S, steps = [];
+  // Where a door hung, the wall is whole again.
+  if (edit.kind === 'door') for (const room of new Set(named(edit.name).rooms)) {
+    const about = await api(`/api/thing?${new URLSearchParams({ name: room })}`).catch(() => ({ parts: [] }));
+    for (const part of about.parts) for (const side of part.sides) if (side.doors.includes(edit.name)) {
+      const length = Math.hypot(side.to[0] - side.from[0], side.to[1] - side.from[1]);
+      steps.push({ cut: room, side: `${part.id}.${side.id}`, from: 0, to: length, as: side.id, permeability: 'impermeable' });
+    }
+  }
+  if (S.edit === edit) will([...steps, { remove: edit.name }]);
+}
 export const door = (is) => will([{ state: S.edit.name, is }]);
+/** A zone is in force no longer than this moment. */
+export const ends = () => will([{ zone: S.edit.name, until: `${new Date().toISOString().slice(0, 16)}Z` }]);
+/** Whole rooms are shut, until somebody opens them. */
+export function shut() {
+  let n = 1;
+  while ((S.drawing.zones ?? []).some((one) => one.name === L(`Закрыто-${n}`, `Closed ${n}`))) n += 1;
+  asked(L(`Закрыто-${n}`, `Closed ${n}`), (name) => will([{ zone: name, kind: 'closed', rooms: [S.edit.name] }]));
+}
 /** One more of the same, beside it. */
 export function add() {
   const { thing } = S.edit, b = boxOf(thing);

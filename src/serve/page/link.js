@@ -23,7 +23,9 @@ export async function refresh() {
   for (let again = 0; again < 5 && older(state.event, last); again += 1) state = await api('/api/state');
   last = state.event;
   S.state = state;
-  S.task = state.task; S.queue = state.queue; S.waiting = state.waiting; S.ended = state.ended; S.lease = state.lease;
+  // What is driven may have been planned anew since it began.
+  S.task = state.task && S.task?.task === state.task.task ? S.task : state.task;
+  S.queue = state.queue; S.paused = state.paused; S.ended = state.ended; S.lease = state.lease;
   S.robot = state.robot?.place ?? null;
   return state;
 }
@@ -43,7 +45,7 @@ function open() {
     if (S.linked !== 'yes') { const was = S.linked; S.linked = 'yes'; hear.linked(was); }
   });
   on('gap', () => hear.gap());
-  for (const kind of ['robot', 'directive', 'task', 'queue', 'known', 'revision', 'lease', 'stop', 'stopped']) on(kind, (data) => hear[kind]?.(data));
+  for (const kind of ['robot', 'directive', 'task', 'queue', 'proposed', 'known', 'revision', 'lease', 'stop', 'stopped']) on(kind, (data) => hear[kind]?.(data));
   source.onerror = () => {
     lost();
     // A server that is not there closes the line; one that is slow leaves it to the browser.

@@ -1,5 +1,7 @@
 // The drawing: rooms, things and doors once for a revision; what changes (robot, route, selection) as an overlay.
-import { S, L, N, num, sv, $, length } from './base.js';
+import { S, L, N, num, sv, $, ask, length, names } from './base.js';
+import { overlay as changes } from './changes.js';
+import { draw as drawPicture } from './picture.js';
 
 /** Map cm at the left top (y downwards), pixels a cm, pixels. */
 export const view = { x: 0, y: 0, k: 1, w: 0, h: 0 };
@@ -24,7 +26,7 @@ export const middle = (of) => { const b = boxOf(of); return [(b[0] + b[2]) / 2, 
 export const named = (name) => {
   const d = S.drawing;
   if (!d || !name) return null;
-  d.index ??= new Map([...d.places, ...d.rooms, ...d.things, ...d.doors.filter((door) => door.name)].map((one) => [one.name, one]));
+  d.index ??= new Map([...(d.zones ?? []), ...d.places, ...d.rooms, ...d.things, ...d.doors.filter((door) => door.name)].map((one) => [one.name, one]));
   return d.index.get(name) ?? null;
 };
 
@@ -43,7 +45,7 @@ function ground(d, box, lod) {
   else for (const room of rooms) g.append(sv('path', { class: 'm-floor', d: room.polygons.map(Z).join(''), 'data-name': room.name, 'data-kind': 'room' }));
   if (S.floor && S.layers.frames) for (const frame of S.floor.passframes) if (meets(bounds([frame.points]), box)) g.append(sv('path', { class: 'm-frame', d: Z(frame.points) }, sv('title', null, frame.id)));
   if (S.floor && S.layers.dead) for (const dead of S.floor.dead) if (meets(bounds([dead.outer]), box)) g.append(sv('path', { class: 'm-dead', 'fill-rule': 'evenodd', d: Z(dead.outer) + dead.holes.map(Z).join('') }));
-  for (const zone of d.zones ?? []) g.append(sv('path', { class: `m-zone m-zone-${zone.kind}`, d: zone.polygons.map(Z).join('') }, sv('title', null, `${N(zone)}: ${L(zone.rule, zone.rule_en)}`)));
+  if (S.layers.zones) for (const zone of d.zones ?? []) g.append(sv('path', { class: `m-zone m-zone-${zone.kind}${zone.in_force ? '' : ' off'}`, d: zone.polygons.map(Z).join(''), 'data-name': zone.name, 'data-kind': 'zone' }, sv('title', null, `${N(zone)}: ${L(zone.rule, zone.rule_en)}`)));
   if (S.layers.things && lod > 0) {
     const things = d.things.filter(shown);
     if (lod === 1) for (const movable of [false, true]) {
@@ -70,7 +72,7 @@ function ground(d, box, lod) {
     g.append(group);
   }
   if (S.floor && S.layers.network) g.append(sv('path', { class: 'm-net', d: S.floor.network.map(P).join('') }));
-  for (const place of d.places) g.append(sv('circle', { class: 'm-place', cx: place.at[0], cy: -place.at[1], r: 4, 'data-name': place.name, 'data-kind': 'place' }, sv('title', null, N(place))));
+  if (S.layers.places && lod > 0) for (const place of d.places.filter(shown)) g.append(sv('circle', { class: 'm-place', cx: place.at[0], cy: -place.at[1], r: 4, 'data-name': place.name, 'data-kind': 'place' }, sv('title', null, N(place))));
   return g;
 }
 export const doorState = (door) => ({ open: L('открыта', 'open'), closed: L('закрыта', 'closed'), locked: L('заперта', 'locked') })[door.state] ?? '';
@@ -125,8 +127,17 @@ function labels(d, taken, bold) {
     if (w >= need + 2 && h >= 14) place(N(thing), 'm-th', 11, [[x, y]]);
     else if (Math.min(w, h) > 24 && need < w + 30) place(N(thing), 'm-th', 11, [[x, b[3] + 9 / k], [x, b[1] - 8 / k]]);
   }
-  for (const one of d.places) if (fine) place(N(one), 'm-th', 11, [[one.at[0], -one.at[1] - 13 / k], [one.at[0], -one.at[1] + 13 / k]]);
+  if (S.layers.zones) for (const zone of d.zones ?? []) { const b = boxOf(zone); if (meets(b, box) && !bold.includes(zone)) { const until = zoneTime(zone); place(`${N(zone)}${until ? ` · ${until}` : ''}`, 'm-zlab', 11.5, [[(b[0] + b[2]) / 2, (b[1] + b[3]) / 2], [(b[0] + b[2]) / 2, b[3] - 10 / k]]); } }
+  if (S.layers.places) for (const one of d.places) if (fine && !bold.includes(one)) place(N(one), 'm-th', 11, [[one.at[0], -one.at[1] - 13 / k], [one.at[0], -one.at[1] + 13 / k]]);
   return g;
+}
+
+/** Until when a zone counts, or from when. */
+export function zoneTime(zone) {
+  const at = (text) => new Date(text).toLocaleString(S.lang === 'ru' ? 'ru' : 'en-GB', { dateStyle: 'short', timeStyle: 'short' });
+  if (zone.from && !zone.in_force && new Date(zone.from) > new Date()) return L(`с ${at(zone.from)}`, `from ${at(zone.from)}`);
+  if (zone.until) return zone.in_force ? L(`до ${at(zone.until)}`, `until ${at(zone.until)}`) : L('кончилась', 'over');
+  return '';
 }
 
 function way(points, cls) {
@@ -155,7 +166,7 @@ function overlay(d, taken, bold) {
   const g = sv('g', { class: 'overlay' }), top = sv('g'), k = view.k;
   const along = (points) => { for (let i = 1; i < points.length; i += 1) { const [a, b] = [points[i - 1], points[i]], n = Math.min(200, Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / 20)); for (let j = 0; j <= n; j += 1) keep([[a[0] + ((b[0] - a[0]) * j) / n, a[1] + ((b[1] - a[1]) * j) / n]]); } };
   const keep = (points) => { for (const [x, y] of points) taken.push([x - 9 / k, -y - 9 / k, x + 9 / k, -y + 9 / k]); };
-  for (const away of d.elsewhere) {
+  if (S.layers.belief) for (const away of d.elsewhere) {
     if (away.polygons) for (const polygon of away.polygons) g.append(sv('path', { class: 'm-away', d: Z(polygon), 'stroke-width': 2 / k }));
     const at = named(away.name);
     if (at) g.append(sv('rect', { class: 'm-was', ...rect(boxOf(at)), 'stroke-width': 1.5 / k }));
@@ -177,7 +188,7 @@ function overlay(d, taken, bold) {
   if (chosen) {
     if (S.layers.relations && S.thing?.name === chosen.name && chosen.polygons) {
       const others = new Map();
-      for (const relation of S.thing.relations) for (const other of relation.args) if (other !== chosen.name && named(other)?.kind) others.set(other, relation.relation);
+      for (const relation of S.thing.relations) for (const other of relation.args) if (other !== chosen.name && named(other)?.on_map) others.set(other, relation.relation);
       const [x, y] = middle(chosen);
       for (const other of [...others.keys()].slice(0, 12)) { const [ox, oy] = middle(named(other)); g.append(sv('path', { class: 'm-rel', d: P([[x, y], [ox, oy]]), 'stroke-width': 1.5 / k }), sv('circle', { class: 'm-reldot', cx: ox, cy: -oy, r: 3.5 / k })); }
     }
@@ -185,6 +196,23 @@ function overlay(d, taken, bold) {
     else g.append(sv('rect', { class: 'm-sel', ...rect(boxOf(chosen), 6 / k), 'stroke-width': 2.2 / k }));
     if (!bold.includes(chosen)) bold.push(chosen);
   }
+  g.append(changes(k));
+  if (S.barred) remedy(g, top);
+  if (S.layers.belief) for (const thing of d.carried ?? []) {
+    const at = named(thing.name);
+    if (at?.polygons) g.append(sv('rect', { class: 'm-was', ...rect(boxOf(at)), 'stroke-width': 1.5 / k }));
+  }
+  if (S.edit?.parts) for (const part of S.edit.parts) {
+    top.append(sv('path', { class: `m-draft${S.edit.wrong ? ' wrong' : ''}`, d: Z(part.points), 'stroke-width': 2 / k }));
+    for (const [x, y] of part.points) top.append(sv('rect', { class: 'm-handle', x: x - 5 / k, y: -y - 5 / k, width: 10 / k, height: 10 / k, 'stroke-width': 1.5 / k }));
+  }
+  if (S.edit?.draft) {
+    const { points, closed } = S.edit.draft;
+    if (points.length > 1) top.append(sv('path', { class: `m-draft${S.edit.wrong ? ' wrong' : ''}${closed ? '' : ' open'}${S.edit.tool === 'door' ? ' door' : ''}`, d: closed ? Z(points) : P(points), 'stroke-width': (S.edit.tool === 'door' ? 7 : 2) / k }));
+    for (const [x, y] of points) top.append(sv('circle', { class: 'm-handle', cx: x, cy: -y, r: 4 / k, 'stroke-width': 1.5 / k }));
+    points.forEach((p, i) => { const q = points[(i + 1) % points.length], l = Math.hypot(q[0] - p[0], q[1] - p[1]); if ((closed || i + 1 < points.length) && l * k > 70) top.append(tag((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, length(l), 'know')); });
+  }
+  for (const [x, y] of S.edit?.marks ?? []) top.append(sv('path', { class: 'm-cross', d: `M${x - 8 / k} ${-y}H${x + 8 / k}M${x} ${-y - 8 / k}V${-y + 8 / k}`, 'stroke-width': 2 / k }));
   if (S.edit?.ghost) {
     for (const polygon of S.edit.ghost.polygons) top.append(sv('path', { class: `m-ghost${S.edit.wrong ? ' wrong' : ''}`, d: Z(polygon), 'stroke-width': 2 / k }));
     for (const line of S.edit.snaps ?? []) top.append(sv('path', { class: 'm-snap', d: P(line), 'stroke-width': 1 / k }));
@@ -193,8 +221,24 @@ function overlay(d, taken, bold) {
   if (S.robot?.pose && S.robot.map === d.map && S.asOf === null) {
     const { x, y } = S.robot.pose, r = Math.max(14 / k, S.state?.profile?.radius ?? 25);
     top.append(robot(S.robot, S.linked !== 'yes')); taken.push([x - r, -y - r, x + r, -y + r]);
+    const held = (d.carried ?? []).filter((thing) => thing.by === '');
+    if (held.length && S.layers.belief) top.append(tag(x, y + r + 16 / k, held.map(N).join(', '), 'belief'));
   }
   return [g, top];
+}
+/** What would open a way that there is not. */
+function remedy(g, top) {
+  const { remedy: what, way: lead } = S.barred, k = view.k, done = [];
+  const mark = (name, words) => { const one = named(name); if (one && !done.includes(one)) { done.push(one); g.append(sv('rect', { class: 'm-cure', ...rect(boxOf(one), 5 / k), 'stroke-width': 2.4 / k })); const [x, y] = middle(one); top.append(tag(x, y, words, 'cure')); } return one; };
+  if (lead) g.append(way(lead, 'm-planned'));
+  if (!what) return;
+  for (const name of what.open ?? []) mark(name, L('открыть', 'open'));
+  if (what.shut) mark(what.shut.of ?? what.shut.door, L('закрыть', 'shut'));
+  for (const name of what.remove ?? []) mark(name, L('убрать', 'take away'));
+  if (what.move) {
+    const one = mark(what.move.thing, L('подвинуть', 'push')), [dx, dy] = what.move.by;
+    if (one?.polygons) { for (const polygon of one.polygons) g.append(sv('path', { class: 'm-cure', d: Z(polygon.map(([x, y]) => [x + dx, y + dy])), 'stroke-width': 2 / k })); const [x, y] = middle(one); g.append(sv('path', { class: 'm-cureway', d: P([[x, y], [x + dx, y + dy]]), 'stroke-width': 2 / k })); }
+  }
 }
 const rect = (b, grown = 0) => ({ x: b[0] - grown, y: b[1] - grown, width: b[2] - b[0] + 2 * grown, height: b[3] - b[1] + 2 * grown });
 
@@ -221,7 +265,9 @@ function draw() {
   const svg = $('#map'), d = S.drawing, canvas = $('.canvas');
   view.w = canvas.clientWidth; view.h = canvas.clientHeight;
   svg.setAttribute('viewBox', `${view.x} ${view.y} ${view.w / view.k} ${view.h / view.k}`);
-  if (!d) { svg.replaceChildren(); built = null; return; }
+  if (!d) { svg.replaceChildren(); built = null; drawPicture(); return; }
+  drawPicture();
+  fetchAround(d);
   if (S.follow && S.robot?.pose && S.robot.map === d.map) centre(S.robot.pose.x, S.robot.pose.y);
   const key = JSON.stringify([S.layers, S.lang, Boolean(S.floor)]), lod = detail(), box = inView();
   const fits = built && built.d === d && built.key === key && built.lod === lod && box[0] >= built.box[0] && box[1] >= built.box[1] && box[2] <= built.box[2] && box[3] <= built.box[3];
@@ -231,7 +277,36 @@ function draw() {
   built.g.querySelectorAll('.dimmed').forEach((one) => one.classList.remove('dimmed'));
   edited?.classList.add('dimmed');
   svg.replaceChildren(built.g, below, labels(d, taken, bold), top);
+  const nothing = !d.rooms.some((room) => meets(boxOf(room), box));
+  if (nothing !== empty) { empty = nothing; document.body.dataset.empty = String(nothing); }
   scale();
+}
+let empty = false;
+
+/** Of a large storey, the things and doors in view are asked for, in squares; those far away are dropped. */
+const SQUARE = 2000;
+async function fetchAround(d) {
+  if (!d.is_part || detail() === 0) return;
+  d.squares ??= new Map();
+  const [l, t, r, b] = inView(0.5).map((value) => value / SQUARE), wanted = [];
+  for (let x = Math.floor(l); x <= Math.floor(r); x += 1) for (let y = Math.floor(-b); y <= Math.floor(-t); y += 1) wanted.push(`${x},${y}`);
+  if (wanted.length > 40) return;
+  const missing = wanted.filter((square) => !d.squares.has(square));
+  if (!missing.length) return;
+  for (const square of missing) d.squares.set(square, null);
+  await Promise.all(missing.map(async (square) => {
+    const [x, y] = square.split(',').map(Number);
+    const part = await ask('/api/drawing', { map: d.map, box: [x, y, x + 1, y + 1].map((n) => n * SQUARE).join(',') }).catch(() => null);
+    if (part) d.squares.set(square, part); else d.squares.delete(square);
+  }));
+  if (d !== S.drawing) return;
+  const near = new Set(wanted), far = [...d.squares.keys()].filter((square) => !near.has(square));
+  for (const square of far.slice(0, Math.max(0, d.squares.size - 80))) d.squares.delete(square);
+  const all = (sort) => [...new Map([...d.squares.values()].filter(Boolean).flatMap((part) => part[sort]).map((one) => [one.name ?? JSON.stringify(one.gap), one])).values()];
+  d.things = all('things'); d.doors = all('doors');
+  names([...d.things, ...d.doors]);
+  d.index = undefined; built = null;
+  paint();
 }
 function scale() {
   const bar = $('.scale'); if (!bar) return;
@@ -251,9 +326,11 @@ export function fit(box) {
   Object.assign(view, { k, w, h, x: (box[0] + box[2]) / 2 - (l + (w - l - r) / 2) / k, y: (box[1] + box[3]) / 2 - (t + (h - t - b) / 2) / k });
   paint();
 }
+/** What is not on this storey, or not drawn, is shown by whoever can fetch it. */
+export const beyond = { reveal() {} };
 /** Shows a thing with what is around it. */
 export function show(name) {
-  const one = named(name); if (!one) return;
+  const one = named(name); if (!one) { beyond.reveal(name); return; }
   const b = boxOf(one), grown = Math.max(120, (b[2] - b[0]) / 2);
   fit([b[0] - grown, b[1] - grown, b[2] + grown, b[3] + grown]);
 }

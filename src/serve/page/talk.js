@@ -128,6 +128,8 @@ export async function send(given) {
     const answer = await api('/api/say', { text, lang: S.lang });
     entry.lines = []; entry.replies = answer.replies; entry.caution = answer.caution;
     S.marked = answer.replies.flatMap(mentioned).slice(0, 8); S.proof = null;
+    const barred = answer.replies.find((reply) => ['no_plan', 'stuck'].includes(reply.outcome));
+    if (barred) hear.barred(barred);
     if (answer.task) {
       entry.cls = 'order'; entry.lines = [planInWords(answer.task.plan)];
       if (!may('drive')) entry.lines.push(L('Ваша роль – только смотреть.', 'Your role is to look only.')); else hear.planned(answer.task);

@@ -7,6 +7,7 @@ mod records;
 mod standing;
 mod things;
 mod traits;
+mod walls;
 mod word;
 mod zones;
 
@@ -53,10 +54,12 @@ const VERBS: &[(&str, &[&str])] = &[
     ("item", &["of", "orthoframe", "at", "angle", "base"]),
     ("link", &["to", "of", "rel", "angle"]),
     ("unlink", &["to", "of"]),
-    ("stand", &["map", "at", "angle", "base"]),
+    ("stand", &["map", "at", "angle", "base", "relink"]),
     ("include", &["at", "angle", "base"]),
     ("lift", &["stops"]),
     ("zone", ZONE),
+    ("cut", &["side", "from", "to", "as", "type", "permeability"]),
+    ("shape", &["points", "item"]),
 ];
 
 /// Whether a step may be told by this word.
@@ -222,6 +225,8 @@ impl<'a> Steps<'a> {
             "stand" => self.stand(&step),
             "include" => self.include(&step),
             "zone" => self.zone(&step),
+            "cut" => self.cut(&step),
+            "shape" => self.shape(&step),
             _ => self.lift(&step),
         }
     }

@@ -7,14 +7,18 @@ use crate::file::edit::tree::{Handle, Kind, entry};
 use crate::file::node::{Entry, Node, Value};
 
 impl Steps<'_> {
-    /// Where an Area stands on a Map.
+    /// Where an Area stands on a Map; with `relink` what its links say of that is told anew.
     pub(super) fn stand(&mut self, step: &Step<'_>) -> Done {
         let area = self.find(&step.verb.node, &[Kind::Area])?;
         let map = match step.field("map") {
             Some(map) => self.find(map, &[Kind::Map])?,
             None => self.only_map(step)?,
         };
-        self.put_down("items", "area", area, map, step)
+        self.put_down("items", "area", area, map, step)?;
+        if step.field("relink").is_some_and(|node| node.value == Value::Bool(true)) {
+            self.relink(area);
+        }
+        Ok(())
     }
 
     fn only_map(&self, step: &Step<'_>) -> Outcome<Handle> {

@@ -1,0 +1,341 @@
+// What is drawn anew: rooms, doors in walls, zones, corners put elsewhere. A drawing becomes the steps of one edit, and is tried
+// while it is made.
+import { S, L, N, ask, el, announce, num } from './base.js';
+import { boxOf, centre, named, paint, under, view } from './map.js';
+import { will, write } from './edit.js';
+
+const tenth = (value) => Math.round(value * 10) / 10 + 0;
+const radians = (degrees) => (degrees * Math.PI) / 180;
+let render = () => {};
+export const begin = (redraw) => { render = redraw; };
+
+/** A name that nothing on this storey bears yet. */
+function fresh(ru, en) {
+  let n = 1;
+  const name = () => L(`${ru}-${n}`, `${en} ${n}`);
+  while (named(name()) || (S.drawing.zones ?? []).some((zone) => zone.name === name())) n += 1;
+  return name();
+}
+const key = (name) => name.trim().replaceAll('.', '-');
+
+const FIELDS = {
+  room: () => ({ name: fresh('Помещение', 'Room'), height: 270 }),
+  zone: () => ({ name: fresh('Зона', 'Zone'), kind: 'keep-out', speed: 20, heading: 90, reason: '', from: '', until: '' }),
+  door: () => ({ name: fresh('Дверь-новая', 'New door'), kind: 'hinged', width: 90, height: 210, hinge: 'left', opens: 'inside', one: '', other: '', along: 0 }),
+};
+
+/** Takes up a tool; the one that is in hand is laid down. */
+export function take(tool) {
+  if (!S.edit) return;
+  const on = S.state.revision;
+  if (S.edit.tool === tool) { S.edit = { on }; render(); paint(); return; }
+  S.edit = { on, tool, draft: null, fields: FIELDS[tool]?.() ?? {} };
+  S.tab = 'map';
+  announce(HINTS[tool]?.() ?? '');
+  render(); paint();
+}
+const HINTS = {
+  room: () => L('Потяните прямоугольник или отмечайте углы щелчками; Enter замыкает. Числа – в полях.', 'Drag a rectangle, or click corners; Enter closes. Numbers: in the fields.'),
+  zone: () => L('Потяните прямоугольник или отмечайте углы щелчками; Enter замыкает.', 'Drag a rectangle, or click corners; Enter closes.'),
+  door: () => L('Щёлкните по стене, или выберите в полях, между какими помещениями.', 'Click a wall, or choose in the fields between which rooms.'),
+  shape: () => L('Тяните углы выбранного помещения, или его самого.', 'Drag the corners of the chosen room, or the room itself.'),
+  plan: () => L('Тяните рисунок; две точки с известным расстоянием задают масштаб.', 'Drag the picture; two points with a known distance give its scale.'),
+};
+export const hint = () => HINTS[S.edit?.tool]?.();
+
+/* points that lie where something is */
+function snapped([x, y], from) {
+  const near = 8 / view.k;
+  let [bx, by] = [null, null];
+  const meets = (to, at, best) => (Math.abs(to - at) < Math.min(near, best === null ? Infinity : Math.abs(best - at)) ? to : best);
+  for (const [a, b] of S.drawing.walls) for (const [wx, wy] of [a, b]) { bx = meets(wx, x, bx); by = meets(wy, y, by); }
+  for (const point of S.edit.draft?.points ?? []) { bx = meets(point[0], x, bx); by = meets(point[1], y, by); }
+  if (from) { bx = meets(from[0], x, bx); by = meets(from[1], y, by); }
+  return [tenth(bx ?? x), tenth(by ?? y)];
+}
+
+const counterClockwise = (points) => {
+  let area = 0;
+  points.forEach(([x, y], i) => { const [nx, ny] = points[(i + 1) % points.length]; area += x * ny - nx * y; });
+  return area < 0 ? [...points].reverse() : points;
+};
+
+/* what becomes of a press on the map, by the tool in hand */
+export function grab(event, name) {
+  const edit = S.edit;
+  if (!edit?.tool || S.asOf !== null) return null;
+  if (edit.tool === 'room' || edit.tool === 'zone') return outline(event);
+  if (edit.tool === 'door') return { move() {}, end() {}, click: (at) => doorAt(under(at)) };
+  if (edit.tool === 'shape') return corners(event, name);
+  return null;
+}
+function outline(event) {
+  const { edit } = S, begun = under(event);
+  return {
+    move(next) {
+      const from = snapped(begun), to = snapped(under(next));
+      edit.draft = { closed: true, points: [from, [to[0], from[1]], to, [from[0], to[1]]] };
+      paint();
+    },
+    end: rebuild,
+    click(at) {
+      if (!edit.draft || edit.draft.closed) edit.draft = { closed: false, points: [] };
+      const { points } = edit.draft, point = snapped(under(at), points.at(-1));
+      const first = points[0];
+      if (points.length > 2 && Math.hypot(first[0] - point[0], first[1] - point[1]) < 10 / view.k) { close(); return; }
+      points.push(point); paint(); render();
+    },
+  };
+}
+/** Closes an outline that is being clicked; false where there is none to close. */
+export function close() {
+  const draft = S.edit?.draft;
+  if (!draft || draft.closed || draft.points.length < 3) return false;
+  draft.closed = true; rebuild();
+  return true;
+}
+
+/* a room's corners, and the room itself */
+export async function choose(name) {
+  const edit = S.edit, room = named(name);
+  if (!room?.frame) return;
+  const about = await ask('/api/thing', { name, lang: S.lang }).catch(() => null);
+  if (S.edit !== edit || !about) return;
+  Object.assign(edit, { name, kind: 'room', room, parts: about.parts.map((part) => ({ id: part.id, points: part.sides.map((side) => side.from) })), steps: null, tried: null, wrong: null });
+  render(); paint();
+}
+function corners(event, name) {
+  const { edit } = S;
+  if (!edit.parts || (edit.name !== name && !onCorner(event))) return { move() {}, end() {}, click: () => { if (name) choose(name); } };
+  const held = onCorner(event), begun = under(event);
+  if (held) {
+    return { move(next) { held.part.points[held.at] = snapped(under(next)); paint(); }, end: () => reshape(held.part), click() {} };
+  }
+  const was = edit.parts.map((part) => part.points.map((p) => [...p]));
+  return {
+    move(next) {
+      const [x, y] = under(next), d = [tenth(x - begun[0]), tenth(y - begun[1])];
+      edit.parts.forEach((part, i) => { part.points = was[i].map((p) => [p[0] + d[0], p[1] + d[1]]); });
+      edit.shift = d; paint();
+    },
+    end: () => { const { x, y } = edit.room.frame; will([{ stand: edit.name, map: S.map, at: [tenth(x + edit.shift[0]), tenth(y + edit.shift[1])], relink: true }]); },
+    click() {},
+  };
+}
+function onCorner(event) {
+  const [x, y] = under(event);
+  for (const part of S.edit.parts ?? []) {
+    const at = part.points.findIndex((p) => Math.hypot(p[0] - x, p[1] - y) < 12 / view.k);
+    if (at >= 0) return { part, at };
+  }
+  return null;
+}
+/** The corners of a part in the room's own frame. */
+function reshape(part) {
+  const { x, y, angle_deg: angle } = S.edit.room.frame, [c, s] = [Math.cos(radians(angle)), Math.sin(radians(angle))];
+  const inner = part.points.map(([px, py]) => { const [dx, dy] = [px - x, py - y]; return [tenth(c * dx + s * dy), tenth(c * dy - s * dx)]; });
+  will([{ shape: S.edit.name, item: part.id, points: inner }]);
+}
+
+/* a door in a wall */
+const along = ([ax, ay], [bx, by], [x, y]) => {
+  const l = Math.hypot(bx - ax, by - ay);
+  return l ? ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / l : 0;
+};
+function foot(a, b, p) {
+  const l = Math.hypot(b[0] - a[0], b[1] - a[1]), t = Math.max(0, Math.min(l, along(a, b, p)));
+  const at = l ? [a[0] + ((b[0] - a[0]) * t) / l, a[1] + ((b[1] - a[1]) * t) / l] : a;
+  return { at, away: Math.hypot(at[0] - p[0], at[1] - p[1]) };
+}
+const edges = (room) => room.polygons.flatMap((polygon) => polygon.map((p, i) => [p, polygon[(i + 1) % polygon.length]]));
+/** So far apart are two rooms at most that a door joins: the thickness of a wall. */
+const WALL = 60;
+const parallel = ([a, b], [c, d]) => Math.abs((b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])) < 0.02 * Math.hypot(b[0] - a[0], b[1] - a[1]) * Math.hypot(d[0] - c[0], d[1] - c[1]);
+
+function doorAt(point) {
+  let best = null;
+  for (const room of S.drawing.rooms) for (const edge of edges(room)) {
+    const found = foot(...edge, point);
+    if (found.away < Math.max(30 / view.k, 15) && (!best || found.away < best.away)) best = { ...found, room, edge };
+  }
+  if (!best) { announce(L('Здесь нет стены', 'There is no wall here'), true); return; }
+  const other = neighbour(best.room, best.edge, best.at);
+  Object.assign(S.edit.fields, { one: best.room.name, other: other?.name ?? '', along: 0 });
+  S.edit.spot = best.at;
+  rebuild(); render();
+}
+/** The room on the other side of a wall at a point, if there is one. */
+function neighbour(room, edge, at) {
+  let best = null;
+  for (const other of S.drawing.rooms) {
+    if (other === room) continue;
+    for (const wall of edges(other)) {
+      const found = foot(...wall, at);
+      if (found.away < WALL && parallel(edge, wall) && (!best || found.away < best.away)) best = { away: found.away, room: other };
+    }
+  }
+  return best?.room ?? null;
+}
+/** The middle of the longest stretch of wall that two rooms share, or of a room's longest wall. */
+function between(one, other) {
+  let best = null;
+  for (const edge of edges(one)) {
+    if (!other) { const l = Math.hypot(edge[1][0] - edge[0][0], edge[1][1] - edge[0][1]); if (!best || l > best.l) best = { l, at: [(edge[0][0] + edge[1][0]) / 2, (edge[0][1] + edge[1][1]) / 2] }; continue; }
+    for (const wall of edges(other)) {
+      if (!parallel(edge, wall) || foot(...edge, wall[0]).away > WALL + 1e4) continue;
+      const [a, b] = edge, l = Math.hypot(b[0] - a[0], b[1] - a[1]);
+      const [t0, t1] = [along(a, b, wall[0]), along(a, b, wall[1])].sort((p, q) => p - q), [s0, s1] = [Math.max(0, t0), Math.min(l, t1)];
+      if (s1 - s0 < 20) continue;
+      const t = (s0 + s1) / 2, at = [a[0] + ((b[0] - a[0]) * t) / l, a[1] + ((b[1] - a[1]) * t) / l];
+      if (foot(...wall, at).away > WALL) continue;
+      if (!best || s1 - s0 > best.l) best = { l: s1 - s0, at };
+    }
+  }
+  return best?.at ?? null;
+}
+
+/** The steps that cut a stretch of a room's wall and hang a door in it; none where the room has no free wall there. */
+async function hung(room, ends, door, opens, permeability) {
+  const about = await ask('/api/thing', { name: room, lang: S.lang });
+  let best = null;
+  for (const part of about.parts) for (const side of part.sides) {
+    const middle = [(ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2], found = foot(side.from, side.to, middle);
+    if (!parallel([side.from, side.to], ends) || (best && found.away >= best.away)) continue;
+    best = { ...found, part, side };
+  }
+  if (!best || best.away > WALL) throw new Error(L(`У «${room}» здесь нет стены`, `${N(room)} has no wall here`));
+  if (best.side.doors.length || best.side.is_window || best.side.permeability !== 0) throw new Error(L(`Здесь в стене «${room}» уже есть проём`, `The wall of ${N(room)} has an opening here already`));
+  const [t0, t1] = ends.map((p) => along(best.side.from, best.side.to, p)).sort((a, b) => a - b);
+  const ids = new Set(best.part.sides.map((side) => side.id));
+  let n = 1;
+  while (ids.has(`D${n}`)) n += 1;
+  return [
+    { cut: room, side: `${best.part.id}.${best.side.id}`, from: tenth(t0), to: tenth(t1), as: `D${n}`, permeability },
+    { bind: door, to: room, side: `${best.part.id}.D${n}`, opens },
+  ];
+}
+
+/* the steps of what is drawn */
+let number = 0;
+export async function rebuild() {
+  const { edit } = S, mine = ++number;
+  try {
+    const made = await steps(edit);
+    if (S.edit !== edit || mine !== number) return;
+    if (made) will(made.steps, made.more); else { Object.assign(edit, { steps: null, tried: null, wrong: null }); render(); paint(); }
+  } catch (error) {
+    if (S.edit !== edit || mine !== number) return;
+    Object.assign(edit, { steps: null, tried: null, wrong: [error.message] });
+    announce(error.message, true); render(); paint();
+  }
+}
+async function steps(edit) {
+  const { fields, draft, tool } = edit;
+  if (tool === 'door') {
+    const [one, other] = [named(fields.one), named(fields.other)];
+    if (!one) return null;
+    const spot = edit.spot ?? between(one, other);
+    if (!spot) throw new Error(L('У этих помещений нет общей стены', 'These rooms share no wall'));
+    const edge = edges(one).map((e) => ({ e, ...foot(...e, spot) })).sort((a, b) => a.away - b.away)[0];
+    const [a, b] = edge.e, l = Math.hypot(b[0] - a[0], b[1] - a[1]), t = along(a, b, edge.at) + Number(fields.along || 0), half = Number(fields.width) / 2;
+    const ends = [t - half, t + half].map((t) => [a[0] + ((b[0] - a[0]) * t) / l, a[1] + ((b[1] - a[1]) * t) / l]);
+    if (!(half > 0)) return null;
+    edit.draft = { closed: false, points: ends };
+    const name = key(fields.name), leaves = fields.kind === 'passage' ? [] : [{ hinge: fields.hinge }];
+    const lets = fields.kind === 'passage' ? 'permeable' : 'conditional', made = [...await hung(one.name, ends, name, fields.opens, lets)];
+    if (other) made.push(...await hung(other.name, ends, name, fields.opens === 'inside' ? 'outside' : 'inside', lets));
+    return { steps: made, more: { door: { [name]: { name: fields.name.trim(), kind: fields.kind, width: Number(fields.width), height: Number(fields.height), leaves, state: fields.kind === 'passage' ? 'open' : 'closed' } } } };
+  }
+  if (!draft?.closed) return null;
+  const points = counterClockwise(draft.points), [ox, oy] = points[0], name = key(fields.name);
+  if (tool === 'room') {
+    const base = points.map(([x, y]) => [tenth(x - ox), tenth(y - oy)]);
+    const stands = { stand: name, map: S.map, at: [ox, oy] }, tie = S.drawing.rooms.length ? await tied(name, points) : null;
+    return {
+      // A storey hangs together: the new room is tied to the wall that is nearest, whatever lies between.
+      steps: tie ? [stands, tie, { ...stands, relink: true }] : [stands],
+      more: { orthoframe: { [name]: { height: Number(fields.height), points: base } }, area: { [name]: { name: fields.name.trim(), items: [{ id: 'A', orthoframe: name }] } } },
+    };
+  }
+  const zone = { zone: fields.name.trim(), kind: fields.kind, points, map: S.map };
+  if (fields.kind === 'slow') zone.speed = Number(fields.speed);
+  if (fields.kind === 'one-way') zone.heading = Number(fields.heading);
+  if (fields.reason.trim()) zone.reason = fields.reason.trim();
+  for (const at of ['from', 'until']) if (fields[at]) zone[at] = `${new Date(fields[at]).toISOString().slice(0, 16)}Z`;
+  return { steps: [zone] };
+}
+
+/** The link of a new room to the wall of another that is nearest to one of its own. */
+async function tied(name, points) {
+  const middle = ([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], own = points.map((p, i) => [p, points[(i + 1) % points.length]]);
+  let best = null;
+  for (const room of S.drawing.rooms) for (const wall of edges(room)) own.forEach((edge, i) => {
+    const away = Math.min(foot(...wall, middle(edge)).away, foot(...edge, middle(wall)).away) + (parallel(wall, edge) ? 0 : 1e4);
+    if (!best || away < best.away) best = { away, room, wall, side: String.fromCharCode(65 + i) };
+  });
+  if (!best || points.length > 26) return null;
+  const about = await ask('/api/thing', { name: best.room.name, lang: S.lang }), spot = middle(best.wall);
+  let to = null;
+  for (const part of about.parts) for (const side of part.sides) {
+    if (side.permeability !== 0) continue;
+    const { away } = foot(side.from, side.to, spot);
+    if (!to || away < to.away) to = { away, text: `${best.room.name}.${part.id}.${side.id}` };
+  }
+  return to ? { link: `${name}.A.${best.side}`, to: to.text } : null;
+}
+
+/* the fields: what a pointer draws, and what it cannot */
+let timer = 0;
+function set(name, value) {
+  S.edit.fields[name] = value;
+  if (['one', 'other'].includes(name)) { S.edit.spot = null; S.edit.fields.along = 0; }
+  clearTimeout(timer); timer = setTimeout(rebuild, 250);
+}
+const field = (name, label, kind = 'text', more = {}) => el('label', null, el('span', null, label), el('input', { id: `f-${name}`, type: kind, value: S.edit.fields[name], oninput: (event) => set(name, event.target.value), ...more }));
+const choice = (name, label, options) => el('label', null, el('span', null, label), el('select', { id: `f-${name}`, onchange: (event) => { set(name, event.target.value); render(true); } }, options.map(([value, text]) => el('option', { value, selected: S.edit.fields[name] === value }, text))));
+const cm = L.bind(null, 'см', 'cm');
+
+/** The box of a rectangle that is drawn, as numbers. */
+function rectangle() {
+  const drawn = () => {
+    const points = S.edit.draft?.closed ? S.edit.draft.points : null;
+    return points ? [Math.min(...points.map((p) => p[0])), Math.min(...points.map((p) => p[1])), Math.max(...points.map((p) => p[0])), Math.max(...points.map((p) => p[1]))] : null;
+  };
+  const shown = drawn(), number = (i, label) => el('label', null, el('span', null, label), el('input', { id: `f-box${i}`, type: 'number', step: '1', value: shown ? tenth(i < 2 ? shown[i] : shown[i] - shown[i - 2]) : '', onchange: (event) => {
+    const box = drawn(), now = box ? [...box] : [view.x + view.w / view.k / 2 - 150, -view.y - view.h / view.k / 2 - 150, 0, 0].map(tenth), size = box ? [box[2] - box[0], box[3] - box[1]] : [300, 300], value = Number(event.target.value);
+    if (i < 2) now[i] = value; else size[i - 2] = value;
+    const [x, y] = now, [w, h] = size;
+    S.edit.draft = { closed: true, points: [[x, y], [tenth(x + w), y], [tenth(x + w), tenth(y + h)], [x, tenth(y + h)]] };
+    paint(); rebuild();
+  } }));
+  return el('div', { class: 'four' }, number(0, `X, ${cm()}`), number(1, `Y, ${cm()}`), number(2, L('Ширина', 'Width')), number(3, L('Глубина', 'Depth')));
+}
+
+/** The form of the tool in hand. */
+export function form() {
+  const { tool } = S.edit;
+  if (!FIELDS[tool]) return null;
+  const rooms = S.drawing.rooms.map((room) => [room.name, N(room)]).sort((a, b) => a[1].localeCompare(b[1]));
+  const parts = [field('name', L('Имя', 'Name'), 'text', { maxlength: 120, required: true })];
+  if (tool === 'room') parts.push(rectangle(), field('height', L('Высота, см', 'Height, cm'), 'number', { min: 1 }));
+  if (tool === 'zone') {
+    parts.push(choice('kind', L('Правило', 'Rule'), [['keep-out', L('не въезжать', 'keep out')], ['closed', L('закрыто', 'closed')], ['slow', L('медленно', 'slow')], ['one-way', L('в одну сторону', 'one way')]]), rectangle());
+    if (S.edit.fields.kind === 'slow') parts.push(field('speed', L('Скорость, см/с', 'Speed, cm/s'), 'number', { min: 1 }));
+    if (S.edit.fields.kind === 'one-way') parts.push(field('heading', L('Направление, °', 'Heading, °'), 'number'));
+    parts.push(field('reason', L('Почему', 'Why')), field('from', L('С какого времени', 'From'), 'datetime-local'), field('until', L('До какого времени', 'Until'), 'datetime-local'));
+  }
+  if (tool === 'door') {
+    parts.push(choice('one', L('Из помещения', 'From the room'), [['', '–'], ...rooms]), choice('other', L('В помещение', 'Into the room'), [['', L('наружу', 'outside')], ...rooms]),
+      el('div', { class: 'four' }, field('width', L('Ширина, см', 'Width, cm'), 'number', { min: 1 }), field('height', L('Высота, см', 'Height, cm'), 'number', { min: 1 }), field('along', L('Сдвиг, см', 'Shift, cm'), 'number')),
+      choice('kind', L('Какая', 'Which'), [['hinged', L('распашная', 'hinged')], ['sliding', L('раздвижная', 'sliding')], ['passage', L('проход без створки', 'passage without a leaf')]]));
+    if (S.edit.fields.kind !== 'passage') parts.push(choice('hinge', L('Петли', 'Hinges'), [['left', L('слева', 'left')], ['right', L('справа', 'right')]]), choice('opens', L('Открывается', 'Opens'), [['inside', L('внутрь первого', 'into the first room')], ['outside', L('наружу из него', 'out of it')]]));
+  }
+  return el('form', { class: 'draft', onsubmit: async (event) => { event.preventDefault(); clearTimeout(timer); await rebuild(); write(); } }, el('p', { class: 'sub' }, hint()), parts, el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
+}
+
+/** Shows where the draft lies, for who draws by numbers. */
+export function look() {
+  const points = S.edit?.draft?.points ?? [];
+  if (points.length) { const b = boxOf({ polygons: [points] }); centre((b[0] + b[2]) / 2, -(b[1] + b[3]) / 2); paint(); }
+}
+export const areaOf = (points) => { let area = 0; points.forEach(([x, y], i) => { const [nx, ny] = points[(i + 1) % points.length]; area += x * ny - nx * y; }); return `${num(Math.abs(area) / 20000)} ${L('м²', 'm²')}`; };
