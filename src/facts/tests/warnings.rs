@@ -8,6 +8,9 @@ use std::fmt::Write as _;
 use orthoframe_facts::{Program, RuleError, Value};
 use orthoframe_units::Source;
 
+/// Of a comparison: a variable by its number, or a constant.
+type Side = Result<usize, i64>;
+
 /// A small generator of numbers: the same seed, the same program.
 struct Dice(u64);
 
@@ -232,7 +235,7 @@ fn comparisons_that_exclude_each_other_are_told_and_no_others() {
     for seed in 1..3000 {
         let mut dice = Dice::new(seed);
         // Variables by their number, and constants.
-        let compares: Vec<(Result<usize, i64>, usize, Result<usize, i64>)> = (0..1 + dice.roll(6))
+        let compares: Vec<(Side, usize, Side)> = (0..1 + dice.roll(6))
             .map(|_| {
                 let left = dice.roll(3);
                 let right = match dice.roll(2) {
