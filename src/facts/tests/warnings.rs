@@ -8,9 +8,6 @@ use std::fmt::Write as _;
 use orthoframe_facts::{Program, RuleError, Value};
 use orthoframe_units::Source;
 
-/// Of a comparison: a variable by its number, or a constant.
-type Side = Result<usize, i64>;
-
 /// A small generator of numbers: the same seed, the same program.
 struct Dice(u64);
 
@@ -225,6 +222,9 @@ fn never_fires(text: &str) -> bool {
     all.into_iter().any(|fault| matches!(fault, RuleError::NeverFires { .. }))
 }
 
+/// A variable by its number, or a constant.
+type Side = Result<usize, i64>;
+
 /// Comparisons of three variables with each other and with constants: a warning where no three numbers fulfil them all.
 #[test]
 fn comparisons_that_exclude_each_other_are_told_and_no_others() {
@@ -234,7 +234,6 @@ fn comparisons_that_exclude_each_other_are_told_and_no_others() {
     let mut told = [0, 0];
     for seed in 1..3000 {
         let mut dice = Dice::new(seed);
-        // Variables by their number, and constants.
         let compares: Vec<(Side, usize, Side)> = (0..1 + dice.roll(6))
             .map(|_| {
                 let left = dice.roll(3);
@@ -248,7 +247,7 @@ fn comparisons_that_exclude_each_other_are_told_and_no_others() {
             .collect();
         let holds = |of: [i64; 3]| {
             compares.iter().all(|(left, sign, right)| {
-                let value = |side: Result<usize, i64>| side.map_or_else(|number| number, |n| of[n]);
+                let value = |side: Side| side.map_or_else(|number| number, |n| of[n]);
                 let (left, right) = (value(*left), value(*right));
                 match sign {
                     0 => left == right,
@@ -262,9 +261,8 @@ fn comparisons_that_exclude_each_other_are_told_and_no_others() {
         };
         let mut all = NUMBERS.iter().flat_map(|a| NUMBERS.iter().map(move |b| (*a, *b)));
         let can_hold = all.any(|(a, b)| NUMBERS.iter().any(|c| holds([a, b, *c])));
-        let told_side = |side: Result<usize, i64>| {
-            side.map_or_else(|number| number.to_string(), |n| VARIABLES[n].to_owned())
-        };
+        let told_side =
+            |side: Side| side.map_or_else(|number| number.to_string(), |n| VARIABLES[n].to_owned());
         let body: Vec<String> = compares
             .iter()
             .map(|(left, sign, right)| {
