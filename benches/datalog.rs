@@ -1,6 +1,6 @@
 //! Rules read at run time against the same programs written by hand on datafrog and compiled by `ascent`.
 //!
-//! `cargo bench --bench datalog` measures all cases with criterion; `… -- --table [NAME]` prints the table of
+//! `cargo bench -p benches --bench datalog` measures all cases with criterion; `… -- --table [NAME]` prints the table of
 //! `benches/README.md`: every program on every engine in a process of its own, for time and for memory.
 //! `… -- --threads [NAME]` prints the table of one thread against two, `… -- --questions` that of questions.
 

@@ -1,6 +1,6 @@
 //! The main job and its parts on the rb2 map: import, derive, ground, plan, free floor, route, and the whole.
 //!
-//! `cargo bench --bench demo`
+//! `cargo bench -p benches --bench demo`
 
 use std::hint::black_box;
 use std::path::Path;
@@ -14,8 +14,9 @@ use orthoframe_robot::{facts_of_map, state};
 use orthoframe_semantics::{Profile, RelationRules, derive};
 use orthoframe_strips::{Scenario, ground};
 
-const MAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
-const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/rules/scenarios/medicine-walk.strips");
+const MAP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../maps/rb2.toml");
+const SCENARIO: &str =
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../rules/scenarios/medicine-walk.strips");
 
 fn demo(c: &mut Criterion) {
     let world = World::load(MAP).expect("the map of the papers is sound");

@@ -1,7 +1,7 @@
 //! One durable edit of a hospital, of every kind, with the relations and the floor kept in step: at several sizes of the
 //! map, while nobody else has the state before it and while others do; as a value and as a text.
 //!
-//! `cargo bench --bench edit [-- WARDS ...]`; a ward holds 20 things and a door to the next one.
+//! `cargo bench -p benches --bench edit [-- WARDS ...]`; a ward holds 20 things and a door to the next one.
 
 mod wards;
 

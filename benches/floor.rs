@@ -1,6 +1,6 @@
 //! Free floor and routes on generated floors, beside Recast and polyanya in the same run.
 //!
-//! `cargo bench --bench floor [-- NAME]` prints four tables: building, memory, asking the way, rebuilding after a move.
+//! `cargo bench -p benches --bench floor [-- NAME]` prints four tables: building, memory, asking the way, rebuilding after a move.
 //! Every program does its part of a floor in a process of its own, so that memory is told apart. Builds are medians,
 //! of the processor's time of all threads together and on the clock; a query is the least of five on the clock.
 //! With `DETOUR` set to a command (`floor/detour.cpp` or `floor/detour.mjs`, which say how they are run), Recast and

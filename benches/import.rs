@@ -1,7 +1,7 @@
 //! Import of a campus: an osmAG text of many rooms into a checked World, and on into a store.
 //!
-//! `cargo bench --bench import`. The text is generated, the same each time. For the memory of one import:
-//! `cargo bench --bench import -- --profile-time 1 "10000 rooms"` under `/usr/bin/time -v`.
+//! `cargo bench -p benches --bench import`. The text is generated, the same each time. For the memory of one import:
+//! `cargo bench -p benches --bench import -- --profile-time 1 "10000 rooms"` under `/usr/bin/time -v`.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! How long the planner takes, on the families that planners are measured on and on a home robot's tasks.
 //!
-//! `cargo bench --bench planning [-- NAME]` prints a row of a table an instance, each measured in a process of its
+//! `cargo bench -p benches --bench planning [-- NAME]` prints a row of a table an instance, each measured in a process of its
 //! own: processor time from the texts to the answer, and the most memory held. `SECONDS` limits each (60).
 //! `-- --replan NAME …` withdraws one initial fact after the other and compares planning anew with planning with
 //! what was learned. `-- --soon` measures first plans where no proof is in reach. `-- --ground` measures grounding alone, on tasks of a hundred thousand actions. Home-robot instances are read from the folder named by `HOMEBOT`, if it is set.
@@ -51,7 +51,7 @@ fn scenario(name: &str) -> Result<Scenario, RuleFaults> {
 }
 
 fn rules() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("rules")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../rules")
 }
 
 fn home_robot() -> Vec<PathBuf> {

@@ -1,6 +1,6 @@
 //! Relations of a generated hospital: how measuring, rules and one move grow with the number of things.
 //!
-//! `cargo bench --bench relations` prints a table; `-- 1000 50000` chooses the numbers of replicas.
+//! `cargo bench -p benches --bench relations` prints a table; `-- 1000 50000` chooses the numbers of replicas.
 
 mod wards;
 

@@ -1,14 +1,13 @@
 //! The store: 100 000 records in durable batches, one durable edit, opening with full verification, a Fragment.
 //!
-//! `cargo bench --bench store` measures the store's own work with criterion;
-//! `cargo bench --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
+//! `cargo bench -p benches --bench store` measures the store's own work with criterion;
+//! `cargo bench -p benches --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
 //! SQLite (WAL, synchronous=FULL) does the same work in the same run, turn by turn, on the same disk. The directory is
 //! taken from `ORTHO_BENCH_DIR`, or the target directory, since /tmp may be in memory.
 //!
-//! `cargo bench --bench store -- --years [OBSERVATIONS EDITS]` makes a store of ten years of a robot (10 000 000 and 100 000,
+//! `cargo bench -p benches --bench store -- --years [OBSERVATIONS EDITS]` makes a store of ten years of a robot (10 000 000 and 100 000,
 //! of a hospital of 40 000 things) and opens it, each time in a process of its own.
 
-#[cfg(feature = "sqlite")]
 #[path = "store/sqlite.rs"]
 mod sqlite;
 
@@ -153,7 +152,6 @@ fn table() {
 
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        #[cfg(feature = "sqlite")]
         {
             let dir = scratch();
             let db = sqlite::open(dir.path());
@@ -168,19 +166,14 @@ fn table() {
     let dir = scratch();
     let mut store = Store::open(dir.path()).expect("a new store").0;
     fill(&mut store, &records);
-    #[cfg(feature = "sqlite")]
     let peer_dir = scratch();
-    #[cfg(feature = "sqlite")]
     let db = sqlite::open(peer_dir.path());
-    #[cfg(feature = "sqlite")]
     sqlite::fill(&db, &records);
-    #[cfg(feature = "sqlite")]
     let (mut their_edit, mut their_fragment) = (sqlite::edit(&db), sqlite::fragment(&db));
     // What follows the import, in sled and in SQLite's journal, is not this edit's.
     std::thread::sleep(Duration::from_secs(5));
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for n in leaps().take(EDITS) {
-        #[cfg(feature = "sqlite")]
         theirs.push(timed(|| their_edit(&moved(n))));
         ours.push(timed(|| edit(&mut store, n)));
     }
@@ -188,7 +181,6 @@ fn table() {
 
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for n in leaps().take(20 * EDITS) {
-        #[cfg(feature = "sqlite")]
         theirs.push(timed(|| assert_eq!(their_fragment(n / FRAGMENT), FRAGMENT as usize)));
         ours.push(timed(|| {
             let prefix = Key::new().id(n / FRAGMENT);

@@ -1,6 +1,6 @@
 //! Questions over a generated hospital: reading the nouns of the map, the first question, and questions after it.
 //!
-//! `cargo bench --bench talk`; 2 000 rooms with 20 things each, names of the sort «Стул-2-1704».
+//! `cargo bench -p benches --bench talk`; 2 000 rooms with 20 things each, names of the sort «Стул-2-1704».
 
 mod wards;
 
