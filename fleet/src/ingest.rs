@@ -9,6 +9,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use deadpool_postgres::{Object, Transaction};
+use futures_util::future::try_join_all;
 use tokio_postgres::types::ToSql;
 
 use crate::db::{Who, enter};
@@ -217,13 +218,16 @@ async fn put_records(
         }
         tables.entry(record.table).or_default().push(record);
     }
-    for (table, records) in &tables {
+    // Of one table after the other; of all tables at once, without waiting for the answers.
+    let now: &Robot = robot;
+    let tables_put = tables.iter().map(|(table, records)| async move {
         if table.is_map() {
-            put_versions(transaction, robot, *table, records).await?;
+            put_versions(transaction, now, *table, records).await
         } else {
-            put_notes(transaction, robot, *table, records).await?;
+            put_notes(transaction, now, *table, records).await
         }
-    }
+    });
+    try_join_all(tables_put).await?;
     if let Some(tasks) = tables.get(&Table::Tasks) {
         note_missions(transaction, robot, tasks).await?;
     }

@@ -124,9 +124,9 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
     assert_eq!(open, 0, "it is settled");
     // The other one had changed nothing.
     assert!(matches!(line(0).pull(&stores[0]), Ok(Pulled::Taken { centre: 3, .. })));
-    for n in 0..2 {
-        line(n).push(&stores[n]).expect("it is taken");
-        must_be_same(&pool, 1, n as i64 + 1, &stores[n], false).await;
+    for (n, store) in stores.iter().take(2).enumerate() {
+        line(n).push(store).expect("it is taken");
+        must_be_same(&pool, 1, n as i64 + 1, store, false).await;
     }
     // The centre's past can be read.
     let transaction = client.transaction().await.expect("begins");

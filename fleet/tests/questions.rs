@@ -92,15 +92,15 @@ fn clinic(wheelchairs: bool, laden: bool) -> World {
         if laden {
             let book = world.replicas.values().find(|r| r.name.starts_with("Книга")).expect("one");
             let book = book.clone();
-            let mut id = world.replicas.keys().next_back().expect("some").0;
+            let last = world.replicas.keys().next_back().expect("some").0;
             let rules = RelationRules::standard();
             let seats: Vec<f64> = (30..60).map(f64::from).collect();
-            for chair in chairs {
+            for (id, chair) in (last + 1..).zip(chairs) {
                 // The height of the seat is found by trying: what lies on it is on it by the rules.
                 let lies = seats.iter().any(|z| {
                     let mut tried = world.clone();
                     let mut twin = book.clone();
-                    (twin.id, twin.name) = (ReplicaId(id + 1), format!("Книга-на-{}", chair.id.0));
+                    (twin.id, twin.name) = (ReplicaId(id), format!("Книга-на-{}", chair.id.0));
                     twin.area = chair.area;
                     let at = chair.frame;
                     let middle = at.apply(orthoframe_units::Point::new(12.0, 12.0));
@@ -117,7 +117,6 @@ fn clinic(wheelchairs: bool, laden: bool) -> World {
                     is_on
                 });
                 assert!(lies, "a seat is found");
-                id += 1;
             }
         }
     }

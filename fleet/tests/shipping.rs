@@ -110,7 +110,7 @@ async fn on_bad_lines_all_that_robots_hold_comes_to_the_centre() {
                             frames as u64 / 4,
                             (n * 4 + part) as u64,
                             &home,
-                            n % 3 == 0,
+                            n.is_multiple_of(3),
                         );
                         push_until_done(&line, &store(n), &mut rng);
                     }
@@ -121,7 +121,7 @@ async fn on_bad_lines_all_that_robots_hold_comes_to_the_centre() {
     assert!(bad.cuts.load(Ordering::Relaxed) > robots as u64, "lines were cut");
     let pool = db::pool(&postgres.address(), 2).expect("an address");
     for (n, (building, robot)) in all.iter().enumerate() {
-        must_be_same(&pool, *building, *robot, &store(n), n % 3 == 0).await;
+        must_be_same(&pool, *building, *robot, &store(n), n.is_multiple_of(3)).await;
     }
 }
 
@@ -333,7 +333,8 @@ async fn the_schema_has_every_table_and_column_divided_or_not() {
             let mut cells: Vec<_> = there[2..].iter().take(own.len()).cloned().collect();
             let mut wanted = own;
             if !table.is_stored() {
-                (cells.sort(), wanted.sort());
+                cells.sort();
+                wanted.sort();
             }
             assert_eq!(cells, wanted, "{}", table.name());
         }

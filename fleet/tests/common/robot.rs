@@ -90,8 +90,7 @@ fn observe(store: &mut Store, rng: &mut fastrand::Rng, now: Timestamp) {
         sure: 0.3 + 0.6 * rng.f64(),
         observer: "лидар".to_owned(),
     };
-    let mut look = look;
-    let seen: Vec<_> = some.iter().map(|r| look(r)).collect();
+    let seen: Vec<_> = some.iter().map(look).collect();
     store.observe(&seen).expect("writes");
 }
 
