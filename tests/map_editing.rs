@@ -371,6 +371,7 @@ fn what_is_placed_in_the_frame_of_the_map_stands_there() {
             items = [{{ id = "A", orthoframe = "floor" }}]
             [map.ground]
             name = "Ground"
+            frame = "of a plan"
             items = [{{ area = "room", at = [100, 50], angle = {turn} }}]
             "#
         );

@@ -15,7 +15,7 @@ use crate::engine::{Error, RequestError, json};
 use crate::units::English;
 
 use super::args::{Color, Lang};
-use super::config::ConfigError;
+use super::config_error::ConfigError;
 
 /// What was said of colours.
 static COLOUR: OnceLock<Color> = OnceLock::new();

@@ -7,6 +7,7 @@ mod args;
 mod ask;
 mod commands;
 mod config;
+mod config_error;
 mod corridor;
 mod demo;
 mod differences;
