@@ -95,6 +95,8 @@ impl<'v> Reins<'v> {
         pieces: &[(Vec<Point>, Option<f64>)],
         heading: Option<Deg>,
     ) -> Result<(), Unfinished<Bump>> {
+        // Who was told to stop is sent nowhere.
+        self.check_stop()?;
         let here = std::iter::once(&self.at.1.at);
         let way: Vec<Point> =
             here.chain(pieces.iter().flat_map(|(path, _)| path)).copied().collect();
