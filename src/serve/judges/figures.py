@@ -28,16 +28,18 @@ def hospital(wards):
     corners = "[[0, 0], [500, 0], [500, 100], [500, 200], [500, 400], [0, 400], [0, 200], [0, 100]]"
     doors = 'side = { C = { permeability = "conditional" }, G = { permeability = "conditional" } } }'
     head = head.replace("rect = [500, 400], height = 270 }", f"points = {corners}, height = 270, {doors}")
-    areas, gates, items = [], [], []
+    areas, gates, items, links = [], [], [], []
     for n in range(wards):
         row, column = divmod(n, COLUMNS)
-        mounts = []
-        if column:
-            mounts.append(f'{{ door = "d{n}", side = "A.G", opens = "outside" }}')
-        if column < COLUMNS - 1 and n < wards - 1:
-            mounts.append(f'{{ door = "d{n + 1}", side = "A.C", opens = "inside" }}')
-            gates.append(f'[door.d{n + 1}]\nname = "Дверь-{n + 1}"\nkind = "hinged"\nwidth = 100\nheight = 200\n'
+        is_last = column == COLUMNS - 1 or n == wards - 1
+        # A row begins and ends with a door out of the house, and hangs on the row before it.
+        west, east = (f"w{n}", "inside") if column == 0 else (f"d{n}", "outside"), f"e{n}" if is_last else f"d{n + 1}"
+        mounts = [f'{{ door = "{west[0]}", side = "A.G", opens = "{west[1]}" }}', f'{{ door = "{east}", side = "A.C", opens = "inside" }}']
+        for door in [east] + ([west[0]] if column == 0 else []):
+            gates.append(f'[door.{door}]\nname = "Дверь-{door}"\nkind = "hinged"\nwidth = 100\nheight = 200\n'
                          'state = "open"\nleaves = [{ hinge = "right" }]\n')
+        if column == 0 and row:
+            links.append(f'{{ from = "ward{n}.A.A", to = "ward{n - COLUMNS}.A.A", rel = [0, -420] }}')
         own = body.replace('name = "Палата"', f'name = "Палата-{n}"')
         for kind in set(part.split('"')[0] for part in body.split('name = "')[2:]):
             own = own.replace(f'name = "{kind}"', f'name = "{kind}-{n}"')
@@ -46,7 +48,7 @@ def hospital(wards):
     place = '\nplaces = [{ name = "Пост", at = [250, 150] }]\n'
     areas[0] = areas[0].rstrip() + place
     robot = '[robot]\nradius = 22\nheight = 110\nclearance = 3\nspeed = 50\nstart = "Пост"\n'
-    return f"{head}{robot}{''.join(gates)}{''.join(areas)}[map.floor]\nname = \"Этаж\"\nitems = [{', '.join(items)}]\n"
+    return f"{head}{robot}{''.join(gates)}{''.join(areas)}[map.floor]\nname = \"Этаж\"\nitems = [{', '.join(items)}]\nlinks = [{', '.join(links)}]\n"
 
 
 def seconds(values):
@@ -79,7 +81,7 @@ def until_seen(page, owner, times=40):
             page.evaluate("() => { window.seen = null; const look = () => document.querySelector('.live').textContent.includes('управляет') ? setTimeout(look, 1) : requestAnimationFrame(() => { window.seen = Date.now(); }); look(); }")
         begun = time.time() * 1000
         get_posted(owner, "/api/lease", {"do": "take" if take else "give"})
-        page.wait_for_function("window.seen !== null")
+        page.wait_for_function("() => window.seen !== null")
         took.append((page.evaluate("window.seen") - begun) / 1000)
     return took
 
@@ -169,7 +171,7 @@ def wards(browser, folder):
         owner.locator("#map").focus()
         for _ in range(16):
             owner.keyboard.press("+")
-        owner.wait_for_function("document.querySelectorAll('#map .thing').length > 5")
+        owner.wait_for_function("() => document.querySelectorAll('#map .thing').length > 5")
         time.sleep(1)
         nodes = owner.evaluate("document.querySelectorAll('*').length")
         took = owner.evaluate(frames, 60)
