@@ -173,7 +173,6 @@ def run(browser, server, faults):
     print("draws a zone with its end in time, and ends it")
 
     # The shape is locked until somebody unlocks it.
-    page.keyboard.press("Escape")
     page.locator('#map [data-name="Кладовая"]').first.click(force=True)
     assert page.locator("#map rect.m-handle").count() == 0, "no handle while the shape is locked"
     tool(page, "Форма заперта")
@@ -184,7 +183,6 @@ def run(browser, server, faults):
     write(page)
     now = next(room for room in get(page, "/api/drawing")["rooms"] if room["name"] == "Кладовая")
     assert now["m2"] > rooms["Кладовая"]["m2"] + 0.5, now["m2"]
-    page.keyboard.press("Escape")
     print("reshapes a room, unlocked")
 
     # A picture of a plan beneath, dragged, and scaled by two points of it.

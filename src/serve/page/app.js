@@ -93,7 +93,7 @@ function editBar() {
     tb('undo', L('Отменить', 'Undo'), acts.undo), tb('redo', L('Вернуть', 'Redo'), acts.redo),
     now.kind === 'thing' ? [el('hr'), tb('turn', L('Повернуть', 'Turn'), () => edit.nudge(0, 0, 15)), tb('plus', L('Ещё такую', 'One more'), () => { S.tab = 'map'; edit.add(); }), tb('x', L('Убрать', 'Remove'), () => { S.tab = 'map'; edit.remove(); })] : null,
     now.draft && !now.draft.closed && now.draft.points.length > 2 && now.tool !== 'door' ? [el('hr'), tb('check', L('Замкнуть', 'Close'), () => tools.close())] : null,
-    now.steps ? [el('hr'), tb('check', L('Записать', 'Write'), edit.write, { disabled: Boolean(now.wrong) })] : null,
+    now.steps ? [el('hr'), tb('check', L('Записать', 'Write'), acts.write, { disabled: Boolean(now.wrong) })] : null,
     el('hr'), tb('x', L('Закончить', 'Finish'), () => { S.edit = null; render(); paint(); }));
 }
 function time() {
@@ -224,7 +224,7 @@ const acts = {
   select: (name) => select(name),
   go: (thing) => send(L(`Поезжай к: ${thing.name}`, `Go to ${N(thing)}`)),
   edit: () => { if (!S.edit) edit.toggle(); S.tab = 'map'; render(); },
-  turn: (by) => edit.nudge(0, 0, by), add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: edit.write, drop: edit.drop, onTop: edit.onTop,
+  turn: (by) => edit.nudge(0, 0, by), add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: async () => { await tools.settle(); await edit.write(); }, drop: edit.drop, onTop: edit.onTop,
   undo: async () => { const done = await change('/api/undo'); if (done) { S.toast = null; announce(L('Отменено', 'Undone')); } },
   redo: async () => { const done = await change('/api/redo'); if (done) announce(L('Возвращено', 'Redone')); },
   restore: async () => { if (await change('/api/restore', { revision: S.asOf })) asOf(Infinity); },
@@ -346,7 +346,7 @@ document.addEventListener('keydown', (event) => {
   const onMap = event.target === map, arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
   if (event.target.getAttribute?.('role') === 'tab' && arrow?.[0]) { const all = [...document.querySelectorAll('[role=tab]')].filter((one) => one.offsetParent); all[(all.indexOf(event.target) + arrow[0] + all.length) % all.length].click(); return; }
   if (arrow && onMap) { event.preventDefault(); const by = event.shiftKey ? 10 : 1; if (!(S.edit && edit.nudge(arrow[0] * by, arrow[1] * by))) { S.follow = false; view.x += arrow[0] * 48 / view.k; view.y -= arrow[1] * 48 / view.k; paint(); } return; }
-  if (event.key === 'Enter' && event.target.tagName !== 'BUTTON') { if (tools.close()) return; if (S.plan) acts.confirm(); else if (S.edit?.steps) edit.write(); return; }
+  if (event.key === 'Enter' && event.target.tagName !== 'BUTTON') { if (tools.close()) return; if (S.plan) acts.confirm(); else if (S.edit?.steps) acts.write(); return; }
   const key = event.code.replace(/^Key/, '');
   if (event.key === '/' || event.code === 'Slash') { event.preventDefault(); if (!wide()) { S.tab = 'talk'; render(); } $('#say').focus(); }
   else if (event.key === '+' || event.key === '=') zoom(1.25);

@@ -286,10 +286,12 @@ async function tied(name, points) {
 
 /* the fields: what a pointer draws, and what it cannot */
 let timer = 0;
+/** What was typed last becomes steps before they are written. */
+export async function settle() { if (timer) { clearTimeout(timer); timer = 0; await rebuild(); } }
 function set(name, value) {
   S.edit.fields[name] = value;
   if (['one', 'other'].includes(name)) { S.edit.spot = null; S.edit.fields.along = 0; }
-  clearTimeout(timer); timer = setTimeout(rebuild, 250);
+  clearTimeout(timer); timer = setTimeout(() => { timer = 0; rebuild(); }, 250);
 }
 const field = (name, label, kind = 'text', more = {}) => el('label', null, el('span', null, label), el('input', { id: `f-${name}`, type: kind, value: S.edit.fields[name], oninput: (event) => set(name, event.target.value), ...more }));
 const choice = (name, label, options) => el('label', null, el('span', null, label), el('select', { id: `f-${name}`, onchange: (event) => { set(name, event.target.value); render(true); } }, options.map(([value, text]) => el('option', { value, selected: S.edit.fields[name] === value }, text))));
@@ -330,7 +332,7 @@ export function form() {
       choice('kind', L('Какая', 'Which'), [['hinged', L('распашная', 'hinged')], ['sliding', L('раздвижная', 'sliding')], ['passage', L('проход без створки', 'passage without a leaf')]]));
     if (S.edit.fields.kind !== 'passage') parts.push(choice('hinge', L('Петли', 'Hinges'), [['left', L('слева', 'left')], ['right', L('справа', 'right')]]), choice('opens', L('Открывается', 'Opens'), [['inside', L('внутрь первого', 'into the first room')], ['outside', L('наружу из него', 'out of it')]]));
   }
-  return el('form', { class: 'draft', onsubmit: async (event) => { event.preventDefault(); clearTimeout(timer); await rebuild(); write(); } }, el('p', { class: 'sub' }, hint()), parts, el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
+  return el('form', { class: 'draft', onsubmit: async (event) => { event.preventDefault(); await settle(); write(); } }, el('p', { class: 'sub' }, hint()), parts, el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
 }
 
 /** Shows where the draft lies, for who draws by numbers. */
