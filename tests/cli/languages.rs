@@ -45,6 +45,7 @@ import cut.geojson
 import nothing.log
 export out/lab.toml
 export --nav2 graph.json --floor Attic
+replay none.mcap
 schema
 relations
 relations --name ON_TOP_OF
