@@ -36,7 +36,7 @@ impl Steps<'_> {
             };
             entry.node = self.reference(&entry.node, kinds)?;
         }
-        self.from_pose(area, step, &mut entries)?;
+        self.stand_at_pose(area, step, &mut entries)?;
         entries.push(Entry { key: "name".to_owned(), ..step.verb.clone() });
         entries.push(self.fresh_id(kind, step.span()));
         // The place of the line is that of the whole step, as a line of a map file is that of its fields.
@@ -45,7 +45,7 @@ impl Steps<'_> {
     }
 
     /// `pose` tells in the frame of the Map what `at` and the angle tell in that of the Area.
-    fn from_pose(&self, area: Handle, step: &Step<'_>, entries: &mut Vec<Entry>) -> Done {
+    fn stand_at_pose(&self, area: Handle, step: &Step<'_>, entries: &mut Vec<Entry>) -> Done {
         let Some(pose) = step.field("pose") else { return Ok(()) };
         let wrong = |message: Bilingual| Err(misprint(MapError::BadValue { message }, &pose.span));
         if step.field("at").is_some() {
