@@ -68,6 +68,11 @@ mod queue;
 mod reading;
 #[cfg(feature = "recordings")]
 mod recording;
+#[cfg_attr(
+    not(feature = "serve"),
+    expect(dead_code, reason = "the console and assistants use all of it")
+)]
+pub(crate) mod rehearsal;
 mod route;
 mod rule_files;
 mod rules;

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvent,
-    TaskEvents, json,
+    TaskEvents, json, rehearsal,
 };
 use crate::robot::{Address, Moment, Patience, Vehicle};
 use crate::units::{Language, Stop};
@@ -131,7 +131,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Value, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let mut heard = json::rehearse(&state, &before, &json::Line::Said(text))?;
+        let mut heard = rehearsal::rehearse(&state, &before, &rehearsal::Line::Said(text))?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
             let standing = language.pick("Останавливаюсь.", "I am stopping.");
@@ -187,7 +187,7 @@ impl Tasks {
         language: Language,
     ) -> Result<Answered, Error> {
         let (state, before) = (self.desk.state(), self.talk_of(session, language));
-        let heard = json::rehearse(&state, &before, &json::Line::Said(text))?;
+        let heard = rehearsal::rehearse(&state, &before, &rehearsal::Line::Said(text))?;
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
@@ -300,7 +300,7 @@ impl Tasks {
     fn plan_now(&self, task: &mut Task, state: &Arc<State>) {
         let Some(noted) = task.noted.as_ref().filter(|_| task.has_waited) else { return };
         let before = Dialogue::new(Language::of(&task.text));
-        if let Ok(heard) = json::rehearse(state, &before, &json::Line::Waited(noted))
+        if let Ok(heard) = rehearsal::rehearse(state, &before, &rehearsal::Line::Waited(noted))
             && let Some(plan) = heard.plan
         {
             task.plan = plan;
@@ -327,14 +327,14 @@ impl Tasks {
             .map_or_else(|| Dialogue::new(Language::of(&task.text)), Dialogue::apart);
         dialogue.stopped_by(stop.clone());
         let line = match &task.noted {
-            Some(noted) if task.has_waited => json::Line::Waited(noted),
-            _ => json::Line::Said(&task.text),
+            Some(noted) if task.has_waited => rehearsal::Line::Waited(noted),
+            _ => rehearsal::Line::Said(&task.text),
         };
         let mut engine = Engine::beside(Arc::clone(&state));
         let mut drive = Drive::new(self, &task, stop);
         let heard = self.connect(&state, dialogue).and_then(|mut dialogue| {
             let mut tell = |engine: &Engine, event: &Event<'_>| drive.follow(engine, event);
-            let heard = json::hear(&mut dialogue, &mut engine, &line, &mut tell)?;
+            let heard = rehearsal::hear(&mut dialogue, &mut engine, &line, &mut tell)?;
             Ok((heard, dialogue))
         });
         let failed_to_note = drive.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -466,7 +466,7 @@ impl<'t> Drive<'t> {
         let (events, told) = (TaskEvents::default(), Instant::now());
         let (id, clock, passed) = (task.id, None, 0.0);
         let (kept, failure) = Default::default();
-        let agreed = task.is_strict.then(|| json::plans_of(&task.plan).cloned().collect());
+        let agreed = task.is_strict.then(|| rehearsal::plans_of(&task.plan).cloned().collect());
         Self { tasks, id, stop, events, clock, passed, told, kept, failure, agreed }
     }
 

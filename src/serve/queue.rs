@@ -12,7 +12,7 @@ use crate::units::Language;
 use super::book::Task;
 use super::drive::{Declined, Tasks};
 use super::gate::{Role, Session};
-use crate::engine::json::{Line, is_same_plan, rehearse};
+use crate::engine::rehearsal::{Line, is_same_plan, rehearse};
 
 impl Tasks {
     /// Says yes to a plan: it is driven when those before it are done.

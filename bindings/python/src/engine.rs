@@ -261,8 +261,7 @@ impl Engine {
     fn plan<'py>(&self, py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
             let state = self.desk.state()?;
-            let heard =
-                json::rehearse(&state, &Talk::new(self.desk.language), &json::Line::Said(text))?;
+            let heard = state.rehearse(&Talk::new(self.desk.language), text)?;
             Ok(json!({ "plan": heard.plan, "replies": heard.replies }))
         })
     }

@@ -3,12 +3,10 @@
 mod faults;
 mod known;
 mod proofs;
-mod rehearsal;
 
 pub use faults::faults;
 pub use known::{believed, changed, differences, edited, facts, revision, story};
 pub use proofs::{query, why};
-pub use rehearsal::{Line, Rehearsed, hear, is_same_plan, plans_of, rehearse, replied};
 
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -7,7 +7,7 @@ use rmcp::model::ProgressNotificationParam;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::engine::{Error, Mode, change_now, json as views, waiting};
+use crate::engine::{Error, Mode, change_now, rehearsal, waiting};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
@@ -292,7 +292,7 @@ fn plan_in_words(task: &Value, language: Language) -> String {
         task["text"].as_str().unwrap_or_default()
     )];
     let directive = language.pick("do_ru", "do_en");
-    let steps = views::plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
+    let steps = rehearsal::plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
     let steps = steps.filter_map(|step| step.as_array()).flatten();
     for (number, step) in (1..).zip(steps) {
         lines.push(format!("{number}. {}", step[directive].as_str().unwrap_or_default()));

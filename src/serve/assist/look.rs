@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::engine::{Drawing, Method, RequestError, json as views};
+use crate::engine::{Drawing, Method, RequestError, json as views, rehearsal};
 use crate::robot::Moment;
 use crate::units::Language;
 
@@ -195,7 +195,7 @@ impl Call<'_> {
         let house = self.house();
         let state = read::then(&house, then.revision).await?;
         let language = Language::of(&then.text);
-        let replies = apart(move || views::replied(&state, then.text.trim(), language));
+        let replies = apart(move || rehearsal::replied(&state, then.text.trim(), language));
         let replies = replies.await?;
         Ok(Told::Value(json!({
             "revision": then.revision, "text": said(&replies), "replies": replies,

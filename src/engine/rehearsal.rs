@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::engine::{
+use super::{
     Dialogue, Engine, Error, Event, Heard, Outcome, Queue, QueuedTask, Reply, State, TaskEvents,
+    json,
 };
 use crate::units::Language;
 
 /// What is heard.
 #[derive(Debug, Clone, Copy)]
-pub enum Line<'l> {
+pub(crate) enum Line<'l> {
     Said(&'l str),
     /// An order that waited in the store.
     Waited(&'l QueuedTask),
@@ -21,7 +22,7 @@ pub enum Line<'l> {
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub fn hear(
+pub(crate) fn hear(
     dialogue: &mut Dialogue,
     engine: &mut Engine,
     line: &Line<'_>,
@@ -50,13 +51,13 @@ pub struct Rehearsed {
 }
 
 /// The plans that a task goes by, as they are made one after another: steps and assumptions.
-pub fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
+pub(crate) fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
     let events = plan["events"].as_array().into_iter().flatten();
     events.filter(|event| event["event"] == "planned" || event["event"] == "replanned")
 }
 
 /// Whether two lines heard apart would do the same, and rest on the same.
-pub fn is_same_plan(one: &Value, other: &Value) -> bool {
+pub(crate) fn is_same_plan(one: &Value, other: &Value) -> bool {
     plans_of(one).eq(plans_of(other)) && one["assumptions"] == other["assumptions"]
 }
 
@@ -64,7 +65,7 @@ pub fn is_same_plan(one: &Value, other: &Value) -> bool {
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
+pub(crate) fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Value, Error> {
     rehearse(state, &Dialogue::new(language), &Line::Said(text)).map(|heard| json!(heard.replies))
 }
 
@@ -72,7 +73,7 @@ pub fn replied(state: &Arc<State>, text: &str, language: Language) -> Result<Val
 ///
 /// # Errors
 /// There is no map, or the disk refused.
-pub fn rehearse(
+pub(crate) fn rehearse(
     state: &Arc<State>,
     before: &Dialogue,
     line: &Line<'_>,
@@ -102,14 +103,14 @@ pub fn rehearse(
     let before = first.unwrap_or(heard.replies.len());
     let mut replies = Vec::new();
     for reply in &heard.replies[..before] {
-        let mut view = super::reply(&engine, reply)?;
+        let mut view = json::reply(&engine, reply)?;
         view["text"] = json!(reply.text);
         view["language"] = json!(reply.language.pick("ru", "en"));
         replies.push(view);
     }
     let plan = match first.map(|at| &heard.replies[at].outcome) {
         Some(Outcome::Task(task)) => {
-            let mut plan = super::task(engine.world()?, task);
+            let mut plan = json::task(engine.world()?, task);
             plan["said"] = json!(match line {
                 Line::Said(text) => text,
                 Line::Waited(task) => task.text.as_str(),
@@ -123,4 +124,14 @@ pub fn rehearse(
         _ => None,
     };
     Ok(Rehearsed { replies, plan, stops, dialogue })
+}
+
+impl State {
+    /// Hears what a person says apart: what it would be answered, and what the robot would do. Nothing of it stays.
+    ///
+    /// # Errors
+    /// There is no map, or the disk refused.
+    pub fn rehearse(self: &Arc<Self>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
+        rehearse(self, before, &Line::Said(text))
+    }
 }
