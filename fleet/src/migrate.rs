@@ -30,6 +30,7 @@ const MIGRATIONS: &[Migration] = &[
     migration!("0004_partitions", true),
     migration!("0005_views", false),
     migration!("0006_security", false),
+    migration!("0007_fact_building", false),
 ];
 
 /// What a distributed server takes away from the files; see `docs/fleet.md`.
