@@ -295,7 +295,9 @@ fn what_is_no_building_is_refused_with_the_reason() {
         "IFC: в модели нет помещений (IfcSpace)"
     );
     let bytes = exchange::decode("map.pgm", b"P5\n1 1\n255\n\x00".to_vec());
-    assert_eq!(shown(bytes), "«map.pgm» – не текст: байт 11 равен 0x00");
+    assert_eq!(shown(bytes), "«map.pgm» – картинка, а масштаба она не говорит");
+    let bytes = exchange::decode("map.txt", b"no map\n\x00".to_vec());
+    assert_eq!(shown(bytes), "«map.txt» – не текст: байт 7 равен 0x00");
 }
 
 #[test]

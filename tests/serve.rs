@@ -293,7 +293,10 @@ fn what_waits_outlives_a_kill_and_is_gone_on_with() {
     drop(console);
 
     let console = Console::start(&["--demo", "--pace", "20", "--store", store]);
-    let operator = Operator { console: &console, cookie };
+    // A cookie is named after its port.
+    let (_, port) = console.at.rsplit_once(':').expect("a port");
+    let (_, secret) = cookie.split_once('=').expect("a pair");
+    let operator = Operator { console: &console, cookie: format!("Cookie: ortho-{port}={secret}") };
     std::thread::sleep(Duration::from_millis(300));
     let tasks = operator.get("/api/tasks");
     let left: Vec<&Value> =
@@ -810,7 +813,7 @@ fn the_house_of_the_guide_is_driven_and_edited_in_the_console() {
     let moved = json!({
         "on": revision, "reason": "closer to the wall", "edit": [{ "move": "Couch", "by": [5, 0] }],
     });
-    assert_eq!(operator.done("/api/edit", &moved)["outcome"], "edited");
+    assert_eq!(operator.done("/api/edits", &moved)["outcome"], "edited");
     drop(console);
     assert!(run(&["history"]).contains("closer to the wall"));
     assert!(run(&["ask", "Where is the cup?"]).contains("cup"));

@@ -81,9 +81,13 @@ impl Proposed {
         Ok((id, file))
     }
 
-    /// All that wait, by their ids.
+    /// All that wait, the earliest first.
     pub(super) fn all(&self) -> Vec<(String, Waits)> {
-        self.waiting().iter().map(|(id, waits)| (id.clone(), waits.clone())).collect()
+        let waiting = self.waiting();
+        let mut all: Vec<(String, Waits)> =
+            waiting.iter().map(|(id, waits)| (id.clone(), waits.clone())).collect();
+        all.sort_by_key(|(id, _)| moment(id));
+        all
     }
 
     pub(super) fn get(&self, id: &str) -> Option<Waits> {
@@ -106,6 +110,12 @@ fn revision(id: &str) -> Option<u64> {
     let (on, at) = id.split_once('-')?;
     at.parse::<u128>().ok()?;
     on.parse().ok()
+}
+
+/// Its revision and moment, as numbers.
+fn moment(id: &str) -> Option<(u64, u128)> {
+    let (_, at) = id.split_once('-')?;
+    Some((revision(id)?, at.parse().ok()?))
 }
 
 #[cfg(test)]

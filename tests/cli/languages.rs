@@ -184,7 +184,11 @@ fn every_command_is_asked() {
         let of_these = rows.iter().filter(|row| row.iter().take(n).eq(of.iter()));
         of_these.filter_map(|row| row.get(n).cloned()).collect()
     };
-    let missing: Vec<String> = commands(&place, &[]).difference(&asked(0, &[])).cloned().collect();
+    // One never ends, and what the others tell is arguments, in English alone.
+    let apart = ["completions", "man", "watch"];
+    let mut missing: Vec<String> =
+        commands(&place, &[]).difference(&asked(0, &[])).cloned().collect();
+    missing.retain(|command| !apart.contains(&command.as_str()));
     assert!(missing.is_empty(), "no row asks: {missing:?}");
     let missing: Vec<String> =
         commands(&place, &["draw"]).difference(&asked(1, &["draw"])).cloned().collect();

@@ -137,7 +137,7 @@ async def work(connect, mode, log=None):
                 if value["task"] is None:
                     break
                 await asyncio.sleep(0.1)
-            check(value["task"] is None and value["ended"][-1]["state"] == "stopped", value["ended"][-1])
+            check(value["task"] is None and value["ended"][-1]["state"] in ("stopped", "cancelled"), value["ended"][-1])
     if log:
         lines = [json.loads(line) for line in Path(log).read_text().splitlines()]
         check({line["tool"] for line in lines} >= {"ask", "run", "propose_edit"}, "calls are noted")

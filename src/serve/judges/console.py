@@ -51,8 +51,9 @@ def watched(browser, server, faults, **more):
     page.set_default_timeout(PATIENCE)
 
     def console(message):
-        # A server that was killed refuses the line, and an edit that another overtook is refused: told here too.
-        meant = "ERR_" in message.text or "409 (Conflict)" in message.text
+        # A server that was killed refuses the line, and an edit that another overtook, or that cannot be, is refused:
+        # told here too.
+        meant = any(said in message.text for said in ("ERR_", "409 (Conflict)", "422 (Unprocessable"))
         if message.type == "error" and not meant:
             faults.append(f"console: {message.text}")
 

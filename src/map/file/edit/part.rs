@@ -47,8 +47,9 @@ pub(super) fn part_of(world: &World, edits: &Node, naming: &Naming<'_>) -> Optio
     let mut said = Said::default();
     said.hear(edits)?;
     let steps = edits.entry("edit").map_or(&[][..], |entry| entry.node.elements());
-    // Where a room stands on its Map is not part of it.
-    if steps.iter().any(|step| step.entry("pose").is_some()) {
+    // Where a room stands on its Map, and which walls it shares there, is not part of it.
+    let apart = ["pose", "cut", "shape", "relink"];
+    if steps.iter().any(|step| apart.iter().any(|field| step.entry(field).is_some())) {
         return None;
     }
     let has = |verbs: &[&str]| steps.iter().any(|s| verbs.iter().any(|v| s.entry(v).is_some()));
