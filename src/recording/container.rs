@@ -1,4 +1,4 @@
-//! The container that recordings are kept in: MCAP, version 0 (https://mcap.dev/spec), as far as a mission needs it.
+//! The container that recordings are kept in: MCAP, version 0 (<https://mcap.dev/spec>), as far as a mission needs it.
 //!
 //! A file is a magic, records, and the magic again; a record is a letter, the length of what follows as a `u64`, and that.
 //! Numbers are little-endian. Messages stand in chunks, not compressed; a summary at the end tells where. The crate `mcap`
