@@ -44,6 +44,11 @@ impl Exchange {
         }
     }
 
+    /// Several things alike.
+    pub(super) fn list(things: &[Thing]) -> Self {
+        Self { topics: Vec::new(), listed: things.to_vec() }
+    }
+
     /// What it was most about.
     pub(super) fn topic(&self) -> Option<Thing> {
         self.topics.first().copied()

@@ -28,6 +28,9 @@ impl Asker<'_> {
         if let Some(query) = self.more_of_counted(text, memory) {
             return Some(query);
         }
+        if let Some(query) = self.sum_of_counted(text, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.how_many_told(text, memory) {
             return Some(query);
         }

@@ -130,6 +130,27 @@ impl Memory {
         }
     }
 
+    /// Nothing that was asked goes on; what was spoken of is still spoken of.
+    pub(super) fn forget_question(&mut self) {
+        self.query = None;
+        self.counted.clear();
+    }
+
+    /// Notes several things, none of which is more spoken of than the others.
+    pub(super) fn list(&mut self, things: &[Thing]) {
+        match things {
+            [] => {}
+            [only] => self.mention(&[*only]),
+            _ => {
+                self.mention(things);
+                if let Some(exchange) = self.exchanges.first_mut() {
+                    *exchange = focus::Exchange::list(things);
+                }
+                self.listed = things.to_vec();
+            }
+        }
+    }
+
     /// What "them" means in a command, the one that "it" means at the end.
     #[must_use]
     pub fn last_things(&self) -> Vec<Thing> {

@@ -42,6 +42,7 @@ mod salvage;
 mod sentences;
 mod serving;
 mod several;
+mod small_words;
 mod speech;
 mod storeys;
 mod uses;
@@ -376,6 +377,10 @@ impl Asker<'_> {
                 }
                 let names_nothing = memory.exchanges == before && !self.has_pronoun(text);
                 memory.miss(&doubt, names_nothing);
+                // "And on the bed?" goes on from what was not understood, and not from the question before it.
+                if !matches!(doubt, Doubt::Ambiguous { .. }) {
+                    memory.forget_question();
+                }
                 // «Это Часы-1 или Часы-2? – Где вторые?»
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
                     memory.listed.clone_from(candidates);

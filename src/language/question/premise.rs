@@ -5,10 +5,30 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
-use super::{Asker, Noun, Query, Rel};
+use super::{Asker, Memory, Noun, Query, Rel};
+use crate::words::is_first_person;
+
+/// What may stand beside.
+const SMALL: [&str; 14] = [
+    "если",
+    "раз",
+    "сейчас",
+    "ведь",
+    "тут",
+    "if",
+    "since",
+    "as",
+    "off",
+    "back",
+    "here",
+    "stuck",
+    "over",
+    "currently",
+];
 
 impl Asker<'_> {
-    /// The place of «я на кухне», "I'm on the sofa", where a part of a line says that and no more.
+    /// The place of «я на кухне», «сижу в гостиной», "if I'm on the sofa", "I'm off to the bathroom", where a part of a line
+    /// says that and no more.
     pub(super) fn premise(&self, text: &str) -> Option<Noun> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
@@ -20,10 +40,21 @@ impl Asker<'_> {
                 Item::Mark(
                     Mark::Be | Mark::And | Mark::Filler | Mark::The | Mark::Sit | Mark::LieDown,
                 ) => {}
+                // Whatever the person does there.
+                Item::Unknown(words) => {
+                    let keys = &sentence.keys[words.clone()];
+                    me |= keys.iter().any(|key| is_first_person(key));
+                    let stays = |key: &String| is_first_person(key) || SMALL.contains(&&**key);
+                    let does = |key: &String| key.ends_with("ing") || stays(key);
+                    if !keys.iter().all(does) {
+                        return None;
+                    }
+                }
                 Item::Place { rel, nouns, either: false } if place.is_none() => {
                     let here = matches!(rel, Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near);
                     let [phrase] = &nouns[..] else { return None };
-                    if !here || phrase.pronoun.is_some() || phrase.person.is_some() {
+                    let goes = rel == Rel::To && self.is_room(&phrase.noun);
+                    if !(here || goes) || phrase.pronoun.is_some() || phrase.person.is_some() {
                         return None;
                     }
                     place = Some(phrase.noun.clone());
@@ -32,6 +63,14 @@ impl Asker<'_> {
             }
         }
         place.filter(|_| me)
+    }
+
+    /// Notes where the person is, for "there" and "here".
+    pub(super) fn hear_of_place(&self, place: &Noun, memory: &mut Memory) {
+        let found = self.knowledge(memory.language, memory).find(place, true).unwrap_or_default();
+        if let [only] = found[..] {
+            memory.mention(&[only]);
+        }
     }
 }
 

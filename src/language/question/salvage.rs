@@ -1,12 +1,21 @@
 //! What asks within a line that is not understood as a whole: "hmm, no idea what time it is, is there a clock?"
 //!
-//! Invariant: what is left aside names nothing that the map or the lexicon knows, no number and no value, limits nothing
-//! and asks nothing; and what was understood is said with the answer.
+//! Invariant: what is left aside limits nothing, asks nothing, and tells no number, no value and no place but the person's;
+//! a thing that it names is spoken of; and what was understood is said with the answer.
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Answer, Asker, Memory, Noun, Said, opening, several};
+use super::{Answer, Asker, Memory, Noun, Said, Thing, opening, several};
 use crate::words::{Language, word_keys, word_ranges};
+
+/// What the parts of a line tell that do not ask.
+#[derive(Default)]
+struct Told {
+    /// Where the person says to be.
+    place: Option<Noun>,
+    /// What they name.
+    things: Vec<Thing>,
+}
 
 /// A line of more parts than this is not chatter.
 const MOST_PARTS: usize = 8;
@@ -41,19 +50,21 @@ impl Asker<'_> {
                 if asked.len() == text.trim().len() || !self.asks(asked) {
                     continue;
                 }
-                let Some(place) = self.told_aside(&aside) else { break };
+                let Some(told) = self.told_aside(&aside, memory) else { break };
                 // "Is there a mug anywhere else?" without its "is" is another question.
-                if self.says_something(&span[..begin]) {
-                    continue;
-                }
-                if !self.asks_of_something(asked) {
+                if self.says_something(&span[..begin]) || !self.asks_of_something(asked) {
                     continue;
                 }
                 // A pronoun may mean what was not understood.
-                if self.has_pronoun(asked) {
+                if self.has_pronoun(asked) && told.things.is_empty() {
                     continue;
                 }
-                let answer = self.answer_at(place.as_ref(), asked, language, memory);
+                let mut heard = memory.clone();
+                heard.list(&told.things);
+                if let Some(place) = &told.place {
+                    self.hear_of_place(place, &mut heard);
+                }
+                let answer = self.answer_at(told.place.as_ref(), asked, language, &heard);
                 let Ok(answer) = answer else { continue };
                 if answer.said == Said::Unknown {
                     continue;
@@ -67,20 +78,20 @@ impl Asker<'_> {
         None
     }
 
-    /// Where the person says to be, in what is left aside; none where that tells anything else.
-    fn told_aside(&self, aside: &[&str]) -> Option<Option<Noun>> {
-        let mut place = None;
+    /// What is told in what is left aside; none where it does more than tell.
+    fn told_aside(&self, aside: &[&str], memory: &Memory) -> Option<Told> {
+        let mut told = Told::default();
         for text in aside {
             for (from, to) in parts(text) {
-                match self.premise(&text[from..to]) {
-                    Some(told) if place.is_none() => place = Some(told),
+                let part = &text[from..to];
+                match self.premise(part) {
+                    Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
-                    None if self.tells_nothing(&text[from..to]) => {}
-                    None => return None,
+                    None => told.things.extend(self.names_only(part, memory)?),
                 }
             }
         }
-        Some(place)
+        Some(told)
     }
 
     fn asks(&self, text: &str) -> bool {
@@ -104,9 +115,10 @@ impl Asker<'_> {
         })
     }
 
-    /// Whether words before a question belong to it: anything but small and unknown ones.
+    /// Whether words before a question belong to it: anything but small and unknown ones, and those that beg to be told.
     fn says_something(&self, text: &str) -> bool {
         let plain = self.plain(text);
+        let begs = word_keys(text).iter().any(|key| tells(key));
         let small = |item: &Item| {
             matches!(
                 item,
@@ -115,6 +127,7 @@ impl Asker<'_> {
                         Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And
                     )
             ) || matches!(item, Item::Noun(phrase) if phrase.person.is_some())
+                || begs && matches!(item, Item::Mark(Mark::Can | Mark::See | Mark::Be | Mark::Have))
         };
         let items = Sentence::new(&plain, &self.mind.lexicon).items();
         // "Sorry to bother you, …", but «С чем граничит …?»
@@ -122,8 +135,9 @@ impl Asker<'_> {
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))
     }
 
-    /// Whether a part of a line names nothing, limits nothing and asks nothing.
-    fn tells_nothing(&self, text: &str) -> bool {
+    /// The things that a part of a line names which limits nothing, asks nothing and tells no number, value or place;
+    /// none of one that does.
+    fn names_only(&self, text: &str, memory: &Memory) -> Option<Vec<Thing>> {
         const LIMITS: [&str; 12] = [
             "если",
             "когда",
@@ -140,33 +154,93 @@ impl Asker<'_> {
         ];
         let keys = word_keys(text);
         let (last, before) = match keys.split_last() {
-            None => return true,
+            None => return Some(Vec::new()),
             Some((last, before)) => (last, before),
         };
         // "Sorry to bother you, but …" limits nothing; "all but …" does.
         let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
-        if before.iter().chain([last]).any(|key| LIMITS.contains(&key.as_str()) && !joint(key)) {
-            return false;
-        }
-        if several::asks_in(text) {
-            return false;
+        let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
+        if before.iter().chain([last]).any(limits) || several::asks_in(text) {
+            return None;
         }
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        sentence.content(&self.mind.lexicon).is_empty()
-            && !sentence.items().iter().any(|item| {
-                matches!(item, Item::Place { .. } | Item::Mark(Mark::Other | Mark::All))
-            })
+        let mut things = Vec::new();
+        for item in sentence.items() {
+            match item {
+                Item::Noun(phrase) if phrase.person.is_some() => {}
+                Item::Noun(phrase) => {
+                    let noun = &phrase.noun;
+                    let bare = noun.filters.is_empty()
+                        && noun.restrictions.is_empty()
+                        && noun.best.is_none()
+                        && noun.count.is_none()
+                        && !noun.other;
+                    let known = bare && phrase.pronoun.is_none() && !self.is_room(noun);
+                    let all = Noun { plural: true, ..noun.clone() };
+                    let found =
+                        known.then(|| self.knowledge(sentence.language, memory).find(&all, true));
+                    things.extend(found?.unwrap_or_default());
+                }
+                Item::Place { .. } | Item::Mark(Mark::Other | Mark::All) => return None,
+                _ => {}
+            }
+        }
+        // What tells a number or a value tells of what it asks.
+        let told = sentence.content(&self.mind.lexicon).len();
+        let nouns = sentence.items().iter().filter(|item| matches!(item, Item::Noun(_))).count();
+        (told <= nouns).then_some(things)
     }
+}
+
+/// Whether a word is one of telling or knowing, by which a question is led in: "could you maybe tell me …".
+fn tells(key: &str) -> bool {
+    const VERBS: [&str; 18] = [
+        "tell",
+        "say",
+        "show",
+        "remind",
+        "know",
+        "knows",
+        "check",
+        "see",
+        "explain",
+        "wondering",
+        "wonder",
+        "idea",
+        "ask",
+        "remember",
+        "guess",
+        "знаешь",
+        "знаете",
+        "знать",
+    ];
+    const STEMS: [&str; 12] = [
+        "скаж",
+        "подскаж",
+        "напомн",
+        "покаж",
+        "глян",
+        "посмотр",
+        "провер",
+        "сообщ",
+        "узна",
+        "спрос",
+        "объясн",
+        "помн",
+    ];
+    VERBS.contains(&key) || STEMS.iter().any(|stem| key.starts_with(stem))
 }
 
 /// The parts of a line between its marks, by their bytes.
 fn parts(text: &str) -> Vec<(usize, usize)> {
     let mut parts = Vec::new();
     let mut from = 0;
-    let ends = text
-        .char_indices()
-        .filter(|(_, c)| matches!(c, ',' | ';' | '.' | '!' | '?' | '…' | '–' | '—'));
+    let ends = text.char_indices().filter(|(at, c)| {
+        // "Quick one: …", but "10:30"
+        let ends = *c == ':' && text[at + 1..].starts_with(' ');
+        ends || matches!(c, ',' | ';' | '.' | '!' | '?' | '…' | '–' | '—')
+    });
     let ends = ends.map(|(at, mark)| (at, at + mark.len_utf8())).chain([(text.len(), text.len())]);
     for (end, next) in ends {
         let part = &text[from..end];

@@ -46,6 +46,16 @@ pub(crate) fn ordering_verb(word: &str) -> Option<String> {
     if may_be { source::ordering_verb(word) } else { None }
 }
 
+/// Whether a word (lower case) is a verb of the first person in every reading: «сижу», «иду».
+pub(crate) fn is_first_person(word: &str) -> bool {
+    word.ends_with(['у', 'ю', 'м', 'ь']) && source::is_first_person(word)
+}
+
+/// Whether a word (lower case) is an interjection, a particle or a parenthesis in every reading: «ведь», «мол», «увы».
+pub(crate) fn says_nothing(word: &str) -> bool {
+    word.chars().all(|c| matches!(c, 'а'..='я' | 'ё')) && source::says_nothing(word)
+}
+
 #[cfg(not(feature = "rumorph"))]
 mod source {
     use super::{Known, Noun, Number, Readings};
@@ -64,6 +74,14 @@ mod source {
 
     pub(super) fn counted(_word: &str, _number: Number) -> Option<Noun> {
         None
+    }
+
+    pub(super) fn says_nothing(_word: &str) -> bool {
+        false
+    }
+
+    pub(super) fn is_first_person(_word: &str) -> bool {
+        false
     }
 }
 
@@ -115,6 +133,29 @@ mod source {
             Some(_) => Some(Noun::by_rules(&lemma, Known::default())),
             None => noun(&lemma, Known::default()),
         }
+    }
+
+    pub(super) fn says_nothing(word: &str) -> bool {
+        every_reading(word, |tag| {
+            // A particle that also joins still says nothing; names are few that sound so.
+            matches!(tag.pos(), "INTJ" | "PART" | "CCONJ" | "PROPN") || tag.has_label("Prnt")
+        }) && some_reading(word, |tag| {
+            matches!(tag.pos(), "INTJ" | "PART") || tag.has_label("Prnt")
+        })
+    }
+
+    pub(super) fn is_first_person(word: &str) -> bool {
+        every_reading(word, |tag| tag.pos() == "VERB" && tag.feat("Person") == Some("1"))
+    }
+
+    fn every_reading(word: &str, is: impl Fn(&UdTag<'_>) -> bool) -> bool {
+        let Some(dictionary) = dictionary() else { return false };
+        let mut known = known_analyses(dictionary, word).peekable();
+        known.peek().is_some() && known.all(|(_, tag)| is(&tag))
+    }
+
+    fn some_reading(word: &str, is: impl Fn(&UdTag<'_>) -> bool) -> bool {
+        dictionary().is_some_and(|d| known_analyses(d, word).any(|(_, tag)| is(&tag)))
     }
 
     pub(super) fn ordering_verb(word: &str) -> Option<String> {

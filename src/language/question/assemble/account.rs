@@ -117,7 +117,9 @@ impl Frame<'_, '_> {
         let names_nothing = self.spots.is_empty()
             && (self.sentence.language == Language::English || self.nouns.is_empty());
         // "Which fruit isn't there?", but "Which rooms are there?"
-        let there = self.there.is_some() && self.negated;
+        // "What do you see there?" asks of a place.
+        let elsewhere = matches!(query, Query::WhatDoYouSee);
+        let there = self.there.is_some() && (self.negated || elsewhere);
         !takes
             && !told.referent
             && (there || said.any(spoken_of) || self.sentence.points() && names_nothing)

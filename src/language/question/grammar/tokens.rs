@@ -6,6 +6,7 @@ use crate::question::compared::quantity;
 use crate::question::lexicon::{Extension, Lexicon, Meaning};
 use crate::question::mark::Mark;
 use crate::question::query::{Extreme, Quantity, Rel};
+use crate::question::small_words;
 use crate::question::uses;
 use crate::question::values::ValueId;
 use crate::question::vocabulary;
@@ -95,7 +96,11 @@ impl<'t> Sentence<'t> {
         }
         if longest == 0 {
             let number = number_of(&keys[0]);
-            return push(self, 1, number.map_or(Tok::Unknown, Tok::Number));
+            let small = || match small_words::says_nothing(&keys[0]) {
+                true => Tok::Mark(Mark::Filler),
+                false => Tok::Unknown,
+            };
+            return push(self, 1, number.map_or_else(small, Tok::Number));
         }
         let before = self.tokens.last().map(|t| t.kind);
         // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
