@@ -21,7 +21,11 @@ pub(super) const RULES: [Rule; 12] = [
 
 /// Sentences with one gap, by what stands before and behind it, and the same of the sentence that is meant: what stands
 /// in the one goes into the other.
-const FRAMES: [(&str, &str, &str, &str); 47] = [
+const FRAMES: [(&str, &str, &str, &str); 51] = [
+    ("я правильно понимаю что", "", "правда ли, что", ""),
+    ("правильно ли я понимаю что", "", "правда ли, что", ""),
+    ("am i right that", "", "is it true that", ""),
+    ("do you think", "", "is it true that", ""),
     ("правда что", "", "правда ли, что", ""),
     ("верно что", "", "верно ли, что", ""),
     ("правда ведь что", "", "правда ли, что", ""),

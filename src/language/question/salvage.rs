@@ -96,7 +96,12 @@ impl Asker<'_> {
 
     fn asks(&self, text: &str) -> bool {
         let words = word_keys(text);
-        opening::begins_question(&words) || (several::asks_in(text) && text.trim().ends_with('?'))
+        let whether =
+            |last: &[String]| ["или нет", "или не", "or not"].contains(&last.join(" ").as_str());
+        opening::begins_question(&words)
+            || several::asks_in(text)
+            || text.trim().ends_with('?')
+            || words.last_chunk::<2>().is_some_and(|last| whether(last))
     }
 
     /// Whether a question names what it is about beside the noun of its question word, or what is done.
@@ -135,15 +140,18 @@ impl Asker<'_> {
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))
     }
 
-    /// The things that a part of a line names which limits nothing, asks nothing and tells no number, value or place;
-    /// none of one that does.
+    /// The things that a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that
+    /// does.
     fn names_only(&self, text: &str, memory: &Memory) -> Option<Vec<Thing>> {
-        const LIMITS: [&str; 12] = [
+        const LIMITS: [&str; 18] = [
             "если",
             "когда",
             "пока",
             "кроме",
             "без",
+            "допустим",
+            "представь",
+            "пусть",
             "if",
             "when",
             "while",
@@ -151,6 +159,9 @@ impl Asker<'_> {
             "but",
             "without",
             "unless",
+            "suppose",
+            "assuming",
+            "imagine",
         ];
         let keys = word_keys(text);
         let (last, before) = match keys.split_last() {
@@ -160,42 +171,38 @@ impl Asker<'_> {
         // "Sorry to bother you, but …" limits nothing; "all but …" does.
         let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
         let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
-        if before.iter().chain([last]).any(limits) || several::asks_in(text) {
+        if before.iter().chain([last]).any(limits) {
+            return None;
+        }
+        // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
+        let wishes = keys.iter().any(|key| key == "бы" || key == "б");
+        let begs = keys.len() < 5 && keys.iter().any(|key| tells(key));
+        if several::asks_in(text) && !wishes && !begs {
             return None;
         }
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
         let mut things = Vec::new();
         for item in sentence.items() {
-            match item {
-                Item::Noun(phrase) if phrase.person.is_some() => {}
-                Item::Noun(phrase) => {
-                    let noun = &phrase.noun;
-                    let bare = noun.filters.is_empty()
-                        && noun.restrictions.is_empty()
-                        && noun.best.is_none()
-                        && noun.count.is_none()
-                        && !noun.other;
-                    let known = bare && phrase.pronoun.is_none() && !self.is_room(noun);
-                    let all = Noun { plural: true, ..noun.clone() };
-                    let found =
-                        known.then(|| self.knowledge(sentence.language, memory).find(&all, true));
-                    things.extend(found?.unwrap_or_default());
-                }
-                Item::Place { .. } | Item::Mark(Mark::Other | Mark::All) => return None,
-                _ => {}
+            let named = match item {
+                Item::Mark(Mark::Other | Mark::All) => return None,
+                Item::Noun(phrase) => vec![phrase],
+                Item::Place { nouns, .. } => nouns,
+                _ => Vec::new(),
+            };
+            for phrase in named.iter().filter(|p| p.person.is_none() && p.pronoun.is_none()) {
+                let noun = Noun { plural: true, ..phrase.noun.clone() };
+                things.extend(knowledge.find(&noun, true).unwrap_or_default());
             }
         }
-        // What tells a number or a value tells of what it asks.
-        let told = sentence.content(&self.mind.lexicon).len();
-        let nouns = sentence.items().iter().filter(|item| matches!(item, Item::Noun(_))).count();
-        (told <= nouns).then_some(things)
+        Some(things)
     }
 }
 
 /// Whether a word is one of telling or knowing, by which a question is led in: "could you maybe tell me …".
 fn tells(key: &str) -> bool {
-    const VERBS: [&str; 18] = [
+    const VERBS: [&str; 20] = [
         "tell",
         "say",
         "show",

@@ -164,7 +164,7 @@ fn begins(words: &[String]) -> bool {
 
 /// A question without the "isn't it?" at its end.
 pub(super) fn without_tag(text: &str) -> &str {
-    const TAGS: [&str; 22] = [
+    const TAGS: [&str; 34] = [
         "is it",
         "isn t it",
         "isnt it",
@@ -180,6 +180,18 @@ pub(super) fn without_tag(text: &str) -> &str {
         "correct",
         "is there",
         "isn t there",
+        "that true",
+        "is that true",
+        "is that right",
+        "is that so",
+        "yes",
+        "yeah",
+        "это правда",
+        "это верно",
+        "это так",
+        "так ли это",
+        "верно ли это",
+        "правда ли это",
         "не так ли",
         "верно",
         "правда",
@@ -199,7 +211,7 @@ pub(super) fn without_tag(text: &str) -> &str {
         "where s it",
         "where could they be",
     ];
-    let Some((before, tag)) = text.rsplit_once(',') else { return text };
+    let Some((before, tag)) = text.rsplit_once([',', '–', '—', '.', ';']) else { return text };
     let tag = word_keys(tag).join(" ");
     let asked = WHERE.contains(&tag.as_str());
     let is_tag = TAGS.contains(&tag.as_str())

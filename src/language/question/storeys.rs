@@ -10,34 +10,50 @@ use crate::names::english_name;
 use crate::units::MapId;
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
-/// A word, whether it means the storey above, and whether it says whither.
-const WORDS: [(&str, bool, bool); 26] = [
-    ("up one floor", true, true),
-    ("up a floor", true, true),
-    ("one floor higher", true, true),
-    ("down one floor", false, true),
-    ("down a floor", false, true),
-    ("one floor lower", false, true),
-    ("наверху", true, false),
-    ("наверх", true, true),
-    ("вверх", true, true),
-    ("внизу", false, false),
-    ("вниз", false, true),
-    ("upstairs", true, false),
-    ("downstairs", false, false),
-    ("этажом выше", true, false),
-    ("этажом ниже", false, false),
-    ("на этаж выше", true, true),
-    ("на этаж ниже", false, true),
-    ("to the floor above", true, true),
-    ("to the floor below", false, true),
-    ("to the upper floor", true, true),
-    ("to the lower floor", false, true),
-    ("one floor up", true, true),
-    ("one floor down", false, true),
-    ("the floor above", true, false),
-    ("the floor below", false, false),
-    ("на этаже ниже", false, false),
+/// Which storey a word means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Storey {
+    Above,
+    Below,
+    /// The robot's own.
+    Own,
+}
+
+/// A word, which storey it means, and whether it says whither.
+const WORDS: [(&str, Storey, bool); 33] = [
+    ("on this floor", Storey::Own, false),
+    ("on this storey", Storey::Own, false),
+    ("on my floor", Storey::Own, false),
+    ("on our floor", Storey::Own, false),
+    ("на этом этаже", Storey::Own, false),
+    ("на моем этаже", Storey::Own, false),
+    ("на нашем этаже", Storey::Own, false),
+    ("up one floor", Storey::Above, true),
+    ("up a floor", Storey::Above, true),
+    ("one floor higher", Storey::Above, true),
+    ("down one floor", Storey::Below, true),
+    ("down a floor", Storey::Below, true),
+    ("one floor lower", Storey::Below, true),
+    ("наверху", Storey::Above, false),
+    ("наверх", Storey::Above, true),
+    ("вверх", Storey::Above, true),
+    ("внизу", Storey::Below, false),
+    ("вниз", Storey::Below, true),
+    ("upstairs", Storey::Above, false),
+    ("downstairs", Storey::Below, false),
+    ("этажом выше", Storey::Above, false),
+    ("этажом ниже", Storey::Below, false),
+    ("на этаж выше", Storey::Above, true),
+    ("на этаж ниже", Storey::Below, true),
+    ("to the floor above", Storey::Above, true),
+    ("to the floor below", Storey::Below, true),
+    ("to the upper floor", Storey::Above, true),
+    ("to the lower floor", Storey::Below, true),
+    ("one floor up", Storey::Above, true),
+    ("one floor down", Storey::Below, true),
+    ("the floor above", Storey::Above, false),
+    ("the floor below", Storey::Below, false),
+    ("на этаже ниже", Storey::Below, false),
 ];
 
 /// Before these, "upstairs" says whither.
@@ -46,16 +62,16 @@ const MOTION: [&str; 15] = [
     "deliver", "put", "send", "fetch",
 ];
 
-/// Such a word in a text: its place among the words, their number, whether it is above, whether it says whither.
-type Told = (usize, usize, bool, bool);
+/// Such a word in a text: its place among the words, their number, which storey it means, whether it says whither.
+type Told = (usize, usize, Storey, bool);
 
 fn told(keys: &[String]) -> Vec<Told> {
     let mut found = Vec::new();
     let mut at = 0;
     while at < keys.len() {
-        let here = WORDS.iter().filter_map(|(phrase, above, whither)| {
+        let here = WORDS.iter().filter_map(|(phrase, storey, whither)| {
             let taken = phrase_at(keys, at, phrase)?;
-            Some((at, taken, *above, *whither))
+            Some((at, taken, *storey, *whither))
         });
         match here.max_by_key(|(_, taken, ..)| *taken) {
             Some(one) => {
@@ -73,20 +89,22 @@ pub(super) fn lacking(text: &str, world: &World, here: Option<MapId>) -> Option<
     let here = here?;
     let told = told(&word_keys(text));
     let missing = |one: &Told| beside(world, here, one.2).is_none();
-    told.iter().all(missing).then(|| told.first().map(|one| one.2)).flatten()
+    told.iter().all(missing).then(|| told.first().map(|one| one.2 == Storey::Above)).flatten()
 }
 
 /// The text with the storey named in the place of such words.
 pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Cow<'t, str> {
-    let Some(here) = here.filter(|_| world.domain.maps.len() > 1) else {
+    let keys = word_keys(text);
+    let told = told(&keys);
+    let own = told.iter().any(|one| one.2 == Storey::Own);
+    let Some(here) = here.filter(|_| own || world.domain.maps.len() > 1) else {
         return Cow::Borrowed(text);
     };
     let words = word_ranges(text);
-    let keys = word_keys(text);
     let mut named = text.to_owned();
-    for (at, taken, above, whither) in told(&keys).into_iter().rev() {
+    for (at, taken, storey, whither) in told.into_iter().rev() {
         let end = at + taken;
-        let Some(name) = beside(world, here, above) else {
+        let Some(name) = beside(world, here, storey) else {
             // "upstairs or downstairs": only one of them is there.
             let is_or = |n: usize| keys.get(n).is_some_and(|k| k == "or" || k == "или");
             match (at.checked_sub(1).filter(|n| is_or(*n)), is_or(end)) {
@@ -111,8 +129,13 @@ pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Co
     if named == text { Cow::Borrowed(text) } else { Cow::Owned(named) }
 }
 
-/// The storey right above or below another.
-fn beside(world: &World, here: MapId, above: bool) -> Option<MapId> {
+/// The storey that is meant from another.
+fn beside(world: &World, here: MapId, storey: Storey) -> Option<MapId> {
+    let above = match storey {
+        Storey::Own => return Some(here),
+        Storey::Above => true,
+        Storey::Below => false,
+    };
     let height = |map: MapId| {
         let placed = world.domain.maps.iter().find(|m| m.map == map);
         placed.map(|m| m.frame.z.get())
