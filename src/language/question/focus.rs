@@ -100,10 +100,11 @@ impl Memory {
         named.all(|t| t == first).then_some(*first)
     }
 
-    /// Notes that a question had no answer. Where all that it named is unknown to the map, pronouns mean that from now on.
+    /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
         (self.facts, self.said) = (Vec::new(), None);
-        self.is_lost |= matches!(doubt, Doubt::Unknown { .. }) && names_nothing;
+        let lost = matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
+        self.is_lost |= lost && !matches!(doubt, Doubt::Ambiguous { .. });
     }
 }
 
@@ -364,10 +365,10 @@ impl Knowledge<'_> {
     pub(super) fn referent(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
         let last = &self.memory.last;
         match pronoun {
+            _ if self.memory.is_lost => Vec::new(),
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),
             Pronoun::They if let Some(pair) = self.last_pair() => pair,
-            _ if self.memory.is_lost => Vec::new(),
             _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
             // "What can I write with and where is it?": each of them.
             Pronoun::Any
@@ -381,13 +382,17 @@ impl Knowledge<'_> {
         }
     }
 
-    /// "Are there phones in the bedroom?" – "No." – "Where are they?": what was looked for in vain, wherever it is.
+    /// "Are there phones in the bedroom?" – "No." – "Where are they?": what was looked for in vain, wherever it is; none of
+    /// several is "it".
     fn sought_in_vain(&self, pronoun: Pronoun) -> Option<Vec<Thing>> {
         let sought =
             self.memory.query.as_ref()?.sought().filter(|_| self.memory.last.is_empty())?;
         let named = !sought.head.anything && !sought.restrictions.is_empty();
         let anywhere = Noun { restrictions: Vec::new(), ..sought.clone() };
         let found = self.find(&anywhere, true).ok().filter(|_| named)?;
+        if pronoun != Pronoun::They && found.len() > 1 {
+            return None;
+        }
         found.iter().all(|t| self.agrees(pronoun, *t)).then_some(found).filter(|f| !f.is_empty())
     }
 
@@ -397,8 +402,7 @@ impl Knowledge<'_> {
         let one = |e: &Exchange| e.topic().filter(|_| e.listed.is_empty());
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
-        let differ = self.alike(&pair).is_none();
-        (differ && pair.iter().all(singular)).then(|| pair.to_vec())
+        (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
     }
 
     /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.
@@ -491,6 +495,12 @@ impl Knowledge<'_> {
                 ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
             })
         };
+        // "Which floor is the storeroom on? What is in there?": in the storeroom.
+        let asked = matches!(self.memory.query, Some(Query::RoomOf(_)));
+        let topic = || self.memory.exchanges.first().and_then(Exchange::topic);
+        if let Some(room) = asked.then(topic).flatten().filter(|t| t.area().is_some()) {
+            return Some(room);
+        }
         // «Что на кухне?» lists things there; the kitchen is the place.
         let latest = self.memory.exchanges.first().filter(|e| !e.listed.is_empty());
         if let Some(place) = latest.and_then(|e| e.topics.iter().copied().find(|t| bears(*t))) {

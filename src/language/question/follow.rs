@@ -56,6 +56,12 @@ impl Asker<'_> {
         if let Some(query) = query {
             return Some(query);
         }
+        if let Some(query) = self.one_more(text, last, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.there_too(text, last, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.placed_there(text, last, memory) {
             return Some(query);
         }
@@ -139,6 +145,55 @@ impl Asker<'_> {
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// "Is there a sink in the bathroom? One in the kitchen too?": whether there is another of the kind.
+    fn one_more(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        let keys = word_keys(text);
+        let (first, _) = keys.split_first()?;
+        let asks =
+            matches!(first.as_str(), "one" | "any" | "some") && text.trim_end().ends_with('?');
+        let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
+        let place = self.bare_place(text.get(first.len()..)?, memory)?;
+        let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
+        let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
+        Some(Query::Exists { what, either: false, negated: false })
+    }
+
+    /// «Сколько ламп в гостиной? – … – В спальне?», «Шторы в спальне закрыты? – … – В гостиной тоже?»: the same there.
+    fn there_too(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        if !text.trim_end().ends_with('?') {
+            return None;
+        }
+        let keys = word_keys(text);
+        let too = keys.iter().any(|key| matches!(key.as_str(), "тоже" | "также" | "too" | "well"));
+        let asked = match last {
+            Query::Count(_) | Query::Exists { .. } | Query::Find(_) => true,
+            Query::Holds { .. } => too,
+            _ => false,
+        };
+        let restrictions = self.bare_place(text, memory).filter(|_| asked)?;
+        let noun = Noun { restrictions, ..Noun::default() };
+        self.in_another_room(last, &noun).or_else(|| match last {
+            Query::Holds { .. } => None,
+            _ => self.elsewhere(last.clone(), noun),
+        })
+    }
+
+    /// A place and no more: «в спальне».
+    fn bare_place(&self, text: &str, memory: &Memory) -> Option<Vec<Restriction>> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let place = |item: &Item| match item {
+            Item::Place { nouns, .. } => {
+                nouns.iter().all(|phrase| phrase.pronoun.is_none() && phrase.person.is_none())
+            }
+            _ => false,
+        };
+        if !matches!(&sentence.items()[..], [item] if place(item)) {
+            return None;
+        }
+        Some(self.fragment(&sentence, memory)?.restrictions).filter(|all| !all.is_empty())
     }
 
     /// «Где бита? – … – Рядом с подушкой?»: whether it is at a place that is named alone.

@@ -37,6 +37,7 @@ mod purposes;
 mod query;
 mod rephrase;
 mod resolution;
+mod respelt;
 mod rest;
 mod salvage;
 mod sentences;
@@ -360,7 +361,8 @@ impl Asker<'_> {
             );
             let salvaged = || self.salvaged(text, language, memory).filter(|_| is_unheard);
             let known = self.without_unknown(text, language, memory, &unanswered.0);
-            known.or_else(salvaged).ok_or(unanswered)
+            let respelt = || self.answer_respelt(text, language, memory).filter(|_| is_unheard);
+            known.or_else(salvaged).or_else(respelt).ok_or(unanswered)
         });
         match outcome {
             Ok(answer) => {

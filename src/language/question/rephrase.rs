@@ -11,7 +11,11 @@ use crate::words::{Language, phrase_at, word_ranges};
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let rules: [Rule; 28] = [
+    let rules: [Rule; 32] = [
+        storey_of,
+        of_this,
+        everything_but,
+        numbered,
         locked,
         neither,
         everything_switched,
@@ -322,6 +326,63 @@ fn one_of(words: &Words<'_>) -> Option<String> {
         let said = &words.text[words.at[one].clone()];
         words.replaced(vec![(one..one + 2, said.to_owned())])
     })
+}
+
+/// «Что в кладовой первого этажа?»: on the first floor.
+fn storey_of(words: &Words<'_>) -> Option<String> {
+    const ORDER: [(&str, &str); 6] = [
+        ("первого", "первом"),
+        ("второго", "втором"),
+        ("третьего", "третьем"),
+        ("четвертого", "четвертом"),
+        ("пятого", "пятом"),
+        ("последнего", "последнем"),
+    ];
+    let floor = words.find(&["этажа"]).filter(|floor| *floor >= 2)?;
+    let (_, placed) = ORDER.iter().find(|(own, _)| words.is(floor - 1, &[own]))?;
+    // «до первого этажа», «план первого этажа»
+    let before = ["до", "с", "от", "из", "около", "план", "карта", "возле", "у", "кроме", "для"];
+    (!words.is(floor - 2, &before))
+        .then(|| words.replaced(vec![(floor - 1..floor + 1, format!("на {placed} этаже"))]))
+}
+
+/// «Сколько из этого фруктов?», "how much of this is fruit": of them.
+fn of_this(words: &Words<'_>) -> Option<String> {
+    const THIS: [&str; 5] = ["из всего этого", "из этого", "of all this", "of this", "of that"];
+    if !words.is(0, &["сколько", "какие", "что", "how", "which", "what"]) {
+        return None;
+    }
+    THIS.iter().find_map(|this| {
+        let at = words.phrase(1, this)?;
+        let taken = this.split(' ').count();
+        let ends = at + taken;
+        // "of this room" names its own.
+        let alone = words.is(0, &["сколько", "какие", "что"])
+            || ends == words.keys.len()
+            || words.is(ends, &["is", "are", "can", "were"]);
+        let them = Language::of(words.text).pick("из них", "of them");
+        alone.then(|| words.replaced(vec![(at..ends, them.to_owned())]))
+    })
+}
+
+/// "What else is there but an apple?", "other fruit but not apples": except the apple.
+fn everything_but(words: &Words<'_>) -> Option<String> {
+    const OTHER: [&str; 9] =
+        ["other", "else", "everything", "all", "anything", "nothing", "any", "something", "fruit"];
+    let but = words.find(&["but"]).filter(|but| *but > 0 && *but + 1 < words.keys.len())?;
+    let other = words.find(&OTHER[..8]).filter(|other| *other < but)?;
+    let comma = words.text[words.at[other].end..words.at[but].start].contains([',', '.', ';']);
+    let ends = if words.is(but + 1, &["not", "no"]) { but + 2 } else { but + 1 };
+    (!comma && !words.is(ends, &["where", "what", "is", "are", "i", "how", "which"]))
+        .then(|| words.replaced(vec![(but..ends, "except".to_owned())]))
+}
+
+/// «процедурная номер два», "room number 5": the number of its name.
+fn numbered(words: &Words<'_>) -> Option<String> {
+    let number = (1..words.keys.len() - 1).find(|n| words.is(*n, &["номер", "number", "no"]))?;
+    let counted = crate::question::grammar::number_of(&words.keys[number + 1])?;
+    (words.keys[number - 1].chars().count() > 2 && !words.is(number - 1, &["the", "what"]))
+        .then(|| words.replaced(vec![(number..number + 2, counted.to_string())]))
 }
 
 /// «На первом этаже или на втором?», "on the first floor or the second": the floor said again.

@@ -221,6 +221,8 @@ fn tells(key: &str) -> bool {
         "знаешь",
         "знаете",
         "знать",
+        "asked",
+        "reckon",
     ];
     const STEMS: [&str; 12] = [
         "скаж",

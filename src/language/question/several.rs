@@ -211,12 +211,26 @@ pub(super) fn without_tag(text: &str) -> &str {
         "where s it",
         "where could they be",
     ];
+    let text = without_or_not(text);
     let Some((before, tag)) = text.rsplit_once([',', '–', '—', '.', ';']) else { return text };
     let tag = word_keys(tag).join(" ");
     let asked = WHERE.contains(&tag.as_str());
     let is_tag = TAGS.contains(&tag.as_str())
         || (asked && has_mark(&word_keys(before), |mark| mark == Mark::Where));
     if is_tag && word_ranges(before).len() > 1 { before } else { text }
+}
+
+/// «Дверь заперта или нет», "Is it open or not?": whether it is.
+fn without_or_not(text: &str) -> &str {
+    let keys = word_keys(text);
+    let ends = |two: &[String]| {
+        matches!((two[0].as_str(), two[1].as_str()), ("или", "нет" | "не") | ("or", "not"))
+    };
+    if keys.len() < 4 || !keys.last_chunk::<2>().is_some_and(|two| ends(two)) {
+        return text;
+    }
+    let words = word_ranges(text);
+    text[..words[words.len() - 2].start].trim_end_matches([' ', ',', '–', '—'])
 }
 
 #[cfg(test)]

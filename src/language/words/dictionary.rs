@@ -46,6 +46,11 @@ pub(crate) fn ordering_verb(word: &str) -> Option<String> {
     if may_be { source::ordering_verb(word) } else { None }
 }
 
+/// Whether the dictionary has a Russian word (lower case) in any form.
+pub(crate) fn is_russian_word(word: &str) -> bool {
+    source::readings(word).known
+}
+
 /// Whether a word (lower case) is a verb of the first person in every reading: «сижу», «иду».
 pub(crate) fn is_first_person(word: &str) -> bool {
     word.ends_with(['у', 'ю', 'м', 'ь']) && source::is_first_person(word)

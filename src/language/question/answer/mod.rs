@@ -106,6 +106,11 @@ impl Knowledge<'_> {
             Query::Find(noun) => self.say_found(noun)?,
             Query::Count(noun) => self.count(noun)?,
             Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
+            Query::Holds { subject, claims, negated }
+                if self.is_floor(subject) || self.is_walls(subject) =>
+            {
+                self.surface_is(subject, claims, *negated)
+            }
             Query::Holds { subject, claims, negated } => {
                 self.say_holds(subject, claims, *negated)?
             }

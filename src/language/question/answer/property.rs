@@ -6,7 +6,7 @@ use super::Draft;
 use crate::map::{DoorStatus, Entity};
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::{Extension, KindId};
-use crate::question::query::{Head, Noun, Rel, Thing};
+use crate::question::query::{Claim, Head, Noun, Rel, Thing};
 use crate::question::speech::sentence;
 use crate::question::values::{Property, ValueId};
 use crate::question::{Doubt, Fact, Said};
@@ -93,6 +93,37 @@ impl Knowledge<'_> {
         let said = if known { Said::Found } else { Said::Unknown };
         let text = parts.join("; ");
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
+    }
+
+    /// "Is the bathroom floor orange?": by what the map keeps of it.
+    pub(super) fn surface_is(
+        &self,
+        of: &Noun,
+        claims: &[Claim],
+        negated: bool,
+    ) -> Result<Draft, Doubt> {
+        let [Claim::Value(filter)] = claims else {
+            return Err(Doubt::NotUnderstood { words: of.text.clone() });
+        };
+        let entry = self.lexicon().values.entry(filter.value);
+        let told = self.property_of_surface(&entry.property, of)?;
+        if told.said != Some(Said::Found) {
+            return Ok(told);
+        }
+        let wanted = match self.is_russian() {
+            true => entry.russian.to_lowercase(),
+            false => entry.english.to_lowercase(),
+        };
+        let is = told.text.to_lowercase().ends_with(&wanted);
+        let yes = is != (negated != filter.negated);
+        let word = match (yes, self.is_russian()) {
+            (true, true) => "да",
+            (false, true) => "нет",
+            (true, false) => "yes",
+            (false, false) => "no",
+        };
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Draft { said: Some(said), text: format!("{word}, {}", told.text), ..told })
     }
 
     /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.

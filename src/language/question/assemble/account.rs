@@ -25,6 +25,8 @@ struct Told {
     most: bool,
     /// Something stands in a relation to something.
     inward: bool,
+    /// Something is "from" a thing that was spoken of, as no thing is.
+    parted: bool,
 }
 
 impl Told {
@@ -55,6 +57,12 @@ impl Told {
         self.either |= noun.filters.iter().any(|filter| !filter.or.is_empty())
             || noun.restrictions.iter().any(|place| place.anchors.len() > 1);
         self.inward |= !noun.restrictions.is_empty();
+        let thing = |noun: &Noun| {
+            let things = noun.head.things.as_deref().unwrap_or_default();
+            !things.is_empty() && things.iter().all(|t| t.replica().is_some())
+        };
+        self.parted |=
+            noun.restrictions.iter().any(|r| r.rel == Rel::From && r.anchors.iter().all(thing));
         let most = |best: &Best| matches!(best.extreme, Extreme::Most | Extreme::Fewest);
         self.most |= noun.best.as_ref().is_some_and(most);
     }
@@ -87,6 +95,7 @@ impl Frame<'_, '_> {
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
+            || told.parted
             || supposes
             || has_more
             || fewest

@@ -54,6 +54,44 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         best.into_iter().map(|(_, name)| self.shown(name)).collect()
     }
 
+    /// The one word of a name's forms that a mistyped word is a single slip away from: a letter too many, one missing, one
+    /// for another, two exchanged. None where several words of different names are.
+    #[must_use]
+    pub fn respelt(&self, word: &str) -> Option<String> {
+        let wanted = Letters::of(Spelled::of(word).key);
+        let mut found: Option<(&str, u32)> = None;
+        for (key, postings) in &self.forms {
+            for part in key.split(' ') {
+                let (counts, length) = Letters::count(part);
+                let apart: u32 =
+                    wanted.counts.iter().zip(&counts).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
+                if apart > 2 || length.abs_diff(wanted.length) > 1 {
+                    continue;
+                }
+                if strsim::damerau_levenshtein(&wanted.key, part) != 1 {
+                    continue;
+                }
+                let stem = postings.first()?.stem;
+                match found {
+                    Some((other, own)) if other != part && own != stem => return None,
+                    // Of the forms of one word that which begins and ends as was written.
+                    Some((other, _)) if other != part => {
+                        let alike = |form: &str| {
+                            let ends = form.chars().last() == wanted.key.chars().last();
+                            (ends, form.chars().next() == wanted.key.chars().next(), form.len())
+                        };
+                        if alike(part) > alike(other) {
+                            found = Some((part, stem));
+                        }
+                    }
+                    Some(_) => {}
+                    None => found = Some((part, stem)),
+                }
+            }
+        }
+        found.map(|(part, _)| part.to_owned())
+    }
+
     /// Keeps the best names, each id once, in order; equal ones by the order of insertion.
     fn keep(&self, best: &mut Vec<(f64, u32)>, limit: usize, likeness: f64, name: u32) {
         let id = &self.names[name as usize].id;

@@ -1,0 +1,80 @@
+//! A slip of the pen: a word that nothing knows, a single slip away from one word of the map's.
+//!
+//! Invariant: a word that is a word is never mended, nor one that could be either of two; what was understood is said with
+//! the answer.
+
+use super::grammar::Sentence;
+use super::mark::Mark;
+use super::{Answer, Asker, Memory, vocabulary};
+use crate::words::{self, Language, word_keys, word_ranges};
+
+/// Shorter words are too like each other.
+const SHORTEST: usize = 4;
+
+impl Asker<'_> {
+    /// The answer to a question with its mistyped words mended, and what was understood.
+    pub(super) fn answer_respelt(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &Memory,
+    ) -> Option<Answer> {
+        let mended = self.respelt(text)?;
+        let told = |answer: Answer| {
+            let asked = mended.trim_end_matches(['?', '.', '!', ' ']);
+            let understood = language
+                .pick(format!("Понял так: «{asked}?» "), format!("Understood as “{asked}?” "));
+            Answer { text: format!("{understood}{}", answer.text), ..answer }
+        };
+        match self.answer(&mended, language, memory) {
+            Ok(answer) => Some(told(answer)),
+            // What asks of a longer line is told by that.
+            Err(_) => self.salvaged(&mended, language, memory),
+        }
+    }
+
+    /// A text with its mistyped words mended; none where nothing is.
+    fn respelt(&self, text: &str) -> Option<String> {
+        let plain = self.plain(text);
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let unknown = unknown_keys(&Sentence::new(&plain, &self.mind.lexicon));
+        let mut mended = text.to_owned();
+        let mut any = false;
+        for at in (0..keys.len()).rev() {
+            let key = &keys[at];
+            if key.chars().count() < SHORTEST || !unknown.contains(key) {
+                continue;
+            }
+            let mistyped = match Language::of(key) {
+                Language::Russian => !words::is_russian_word(key),
+                // No dictionary of English is at hand: only where a noun must stand.
+                Language::English => at > 0 && precedes_noun(&keys[at - 1]),
+            };
+            if let Some(word) = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped) {
+                mended.replace_range(words[at].clone(), &word);
+                any = true;
+            }
+        }
+        any.then_some(mended)
+    }
+}
+
+/// The words of a sentence that nothing knows.
+fn unknown_keys(sentence: &Sentence<'_>) -> Vec<String> {
+    use super::grammar::Item;
+    let items = sentence.items();
+    let unknown = items.iter().filter_map(|item| match item {
+        Item::Unknown(words) => Some(sentence.keys[words.clone()].to_vec()),
+        _ => None,
+    });
+    unknown.flatten().collect()
+}
+
+/// Whether a noun must follow an English word: an article, whose it is, how many, a quality.
+fn precedes_noun(key: &str) -> bool {
+    const WHOSE: [&str; 7] = ["my", "your", "our", "his", "her", "their", "its"];
+    let mark = vocabulary::longest(&[key.to_owned()]).map(|(_, mark)| mark);
+    WHOSE.contains(&key)
+        || key == "many"
+        || matches!(mark, Some(Mark::The | Mark::A | Mark::All | Mark::Which | Mark::HowMany))
+}
