@@ -59,7 +59,7 @@ impl Asker<'_> {
         if let Some(query) = self.one_more(text, last, memory) {
             return Some(query);
         }
-        if let Some(query) = self.there_too(text, last, memory) {
+        if let Some(query) = self.placed_too(text, last, memory) {
             return Some(query);
         }
         if let Some(query) = self.placed_there(text, last, memory) {
@@ -161,7 +161,7 @@ impl Asker<'_> {
     }
 
     /// «Сколько ламп в гостиной? – … – В спальне?», «Шторы в спальне закрыты? – … – В гостиной тоже?»: the same there.
-    fn there_too(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+    fn placed_too(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
         if !text.trim_end().ends_with('?') {
             return None;
         }

@@ -109,7 +109,7 @@ impl Knowledge<'_> {
             Query::Holds { subject, claims, negated }
                 if self.is_floor(subject) || self.is_walls(subject) =>
             {
-                self.surface_is(subject, claims, *negated)
+                self.surface_is(subject, claims, *negated)?
             }
             Query::Holds { subject, claims, negated } => {
                 self.say_holds(subject, claims, *negated)?
