@@ -201,7 +201,9 @@ impl Knowledge<'_> {
         self.by_state(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
-            && let Some([only]) = noun.head.things.as_deref()
+            && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()
+            && self.memory.last.len() < 2
+            && things.iter().all(|t| self.kind_of(*t) == self.kind_of(*only))
             && let Some(kind) = self.kind_of(*only)
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
@@ -377,6 +379,14 @@ impl Knowledge<'_> {
                     && self.memory.exchanges.first().is_some_and(|e| e.topics.is_empty()) =>
             {
                 last.clone()
+            }
+            // "How many of those are there?": a single thing is no "those", but scissors are.
+            Pronoun::They => {
+                let several = |t: &Thing| {
+                    t.replica().is_none() && t.area().is_none()
+                        || self.gender(*t).1 == Number::Plural
+                };
+                self.taken_up(pronoun, rel).filter(several).into_iter().collect()
             }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }

@@ -13,6 +13,14 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
+        // «А на том, что в гостиной?» points.
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        if sentence.language == crate::words::Language::Russian
+            && (0..sentence.keys.len()).any(|at| sentence.points_ahead(at))
+        {
+            return None;
+        }
         if let Some(query) = self.of_the_way(text, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
         }

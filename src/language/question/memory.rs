@@ -101,7 +101,7 @@ impl Memory {
                 Query::MoreOf { .. } => {}
                 _ => self.counted.clear(),
             }
-            self.counted.truncate(2);
+            self.counted.truncate(20);
             self.query = Some(answer.query.clone());
             self.words.clone_from(&answer.words);
         }

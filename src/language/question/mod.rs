@@ -433,12 +433,18 @@ impl Asker<'_> {
     }
 
     fn has_pronoun(&self, text: &str) -> bool {
+        !self.pronouns(text).is_empty()
+    }
+
+    fn pronouns(&self, text: &str) -> Vec<Pronoun> {
         let text = self.plain(text);
-        Sentence::new(&text, &self.mind.lexicon).items().iter().any(|item| match item {
-            Item::Noun(phrase) => phrase.pronoun.is_some(),
-            Item::Place { nouns, .. } => nouns.iter().any(|phrase| phrase.pronoun.is_some()),
-            _ => false,
-        })
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        let phrases = items.iter().flat_map(|item| match item {
+            Item::Noun(phrase) => std::slice::from_ref(phrase),
+            Item::Place { nouns, .. } => &nouns[..],
+            _ => &[],
+        });
+        phrases.filter_map(|phrase| phrase.pronoun).collect()
     }
 
     /// "Is there a microwave or a toaster?" where the map has no word for the one: that is said, and the other looked for.
@@ -602,6 +608,11 @@ impl Asker<'_> {
         };
         if let Some(place) = place {
             query = query.asked_at(place);
+            // «Я в спальне, что тут можно включить?»: in the bedroom.
+            if premise::says_here(text) && self.is_room(place) && !query.narrow(place) {
+                let words = text.to_owned();
+                return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
+            }
         }
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);

@@ -105,7 +105,9 @@ impl Asker<'_> {
             "всего вместе",
             "в общей сложности",
         ];
-        let [_, _] = &memory.counted[..] else { return None };
+        if memory.counted.len() < 2 {
+            return None;
+        }
         let keys = word_keys(text).join(" ");
         let all = ALL.iter().find(|all| format!(" {keys} ").contains(&format!(" {all} ")))?;
         let rest = format!(" {keys} ").replace(&format!(" {all} "), " ");

@@ -5,8 +5,8 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
-use super::{Asker, Memory, Noun, Query, Rel};
-use crate::words::is_first_person;
+use super::{Asker, Memory, Noun, Query, Rel, Restriction};
+use crate::words::{is_first_person, word_keys};
 
 /// What may stand beside.
 const SMALL: [&str; 14] = [
@@ -74,7 +74,36 @@ impl Asker<'_> {
     }
 }
 
+/// Whether a question asks of where the person is.
+pub(super) fn says_here(text: &str) -> bool {
+    word_keys(text).iter().any(|key| matches!(key.as_str(), "здесь" | "тут" | "here"))
+}
+
 impl Query {
+    /// Asks of what is in a place alone; false where that cannot be put to the question.
+    pub(super) fn narrow(&mut self, place: &Noun) -> bool {
+        let sought = match self {
+            Self::Find(noun)
+            | Self::Count(noun)
+            | Self::Where(noun)
+            | Self::Serving { of: noun, .. } => noun,
+            Self::Exists { what, .. } => match &mut what[..] {
+                [noun] => noun,
+                _ => return false,
+            },
+            Self::Holds { subject, .. } => subject,
+            // A way from here, what is nearest here.
+            _ => return true,
+        };
+        // A place that was read already is that of "here", or another.
+        if sought.restrictions.is_empty() && sought.best.is_none() {
+            let restriction =
+                Restriction { rel: Rel::In, anchors: vec![place.clone()], negated: false };
+            sought.restrictions.push(restriction);
+        }
+        true
+    }
+
     /// The same question asked from a place.
     pub(super) fn asked_at(mut self, place: &Noun) -> Self {
         match &mut self {

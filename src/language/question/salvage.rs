@@ -4,7 +4,7 @@
 //! a thing that it names is spoken of; and what was understood is said with the answer.
 
 use super::grammar::{Item, Sentence};
-use super::mark::Mark;
+use super::mark::{Mark, Pronoun};
 use super::{Answer, Asker, Memory, Noun, Said, Thing, opening, several};
 use crate::words::{Language, word_keys, word_ranges};
 
@@ -55,8 +55,13 @@ impl Asker<'_> {
                 if self.says_something(&span[..begin]) || !self.asks_of_something(asked) {
                     continue;
                 }
-                // A pronoun may mean what was not understood.
-                if self.has_pronoun(asked) && told.things.is_empty() {
+                // A pronoun may mean what was not understood; "it" is none of several.
+                let means = |pronouns: &[Pronoun]| match told.things.len() {
+                    0 => pronouns.is_empty(),
+                    1 => true,
+                    _ => pronouns.iter().all(|p| matches!(p, Pronoun::They | Pronoun::There)),
+                };
+                if !means(&self.pronouns(asked)) {
                     continue;
                 }
                 let mut heard = memory.clone();

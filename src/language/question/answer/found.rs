@@ -309,6 +309,11 @@ impl Knowledge<'_> {
             (true, false) if noun.other => {
                 format!("{place}{frame} больше нет {}", self.none_of(noun))
             }
+            // "Which of them are open?"
+            (true, false) if noun.head.things.is_some() => format!("{place}{frame} таких нет"),
+            (false, false) if noun.head.things.is_some() => {
+                format!("none of them {place}{frame}").trim_end().to_owned()
+            }
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
             (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
             (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
@@ -528,6 +533,10 @@ impl Knowledge<'_> {
                 (false, true) if but => format!("there is nothing else {place}"),
                 (true, true) => format!("{blank}ничего нет"),
                 (false, true) => format!("there is nothing {place}"),
+                (true, false) if noun.head.things.is_some() => format!("{blank}таких нет"),
+                (false, false) if noun.head.things.is_some() => {
+                    format!("none of them {place}").trim_end().to_owned()
+                }
                 (true, false) if place.is_empty() => format!("на карте нет {none}"),
                 (true, false) => format!("{blank}нет {none}"),
                 (false, false) if place.is_empty() => format!("there are no {none} on the map"),

@@ -25,6 +25,8 @@ struct Told {
     most: bool,
     /// Something stands in a relation to something.
     inward: bool,
+    /// Things are sought beside things of the same kind: "trees by the trees".
+    itself: bool,
     /// Something is "from" a thing that was spoken of, as no thing is.
     parted: bool,
 }
@@ -57,6 +59,16 @@ impl Told {
         self.either |= noun.filters.iter().any(|filter| !filter.or.is_empty())
             || noun.restrictions.iter().any(|place| place.anchors.len() > 1);
         self.inward |= !noun.restrictions.is_empty();
+        let alike = |anchor: &Noun| {
+            let bare = |noun: &Noun| noun.filters.is_empty() && noun.best.is_none() && !noun.other;
+            !head.kinds.is_empty()
+                && anchor.head.kinds == head.kinds
+                && bare(anchor)
+                && anchor.restrictions.is_empty()
+                && anchor.plural
+                && head.named.is_empty()
+        };
+        self.itself |= noun.restrictions.iter().any(|r| r.anchors.iter().any(alike));
         let thing = |noun: &Noun| {
             let things = noun.head.things.as_deref().unwrap_or_default();
             !things.is_empty() && things.iter().all(|t| t.replica().is_some())
@@ -96,6 +108,7 @@ impl Frame<'_, '_> {
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
             || told.parted
+            || told.itself
             || supposes
             || has_more
             || fewest

@@ -61,7 +61,7 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         let wanted = Letters::of(Spelled::of(word).key);
         let mut found: Option<(&str, u32)> = None;
         for (key, postings) in &self.forms {
-            for part in key.split(' ') {
+            for (n, part) in key.split(' ').enumerate() {
                 let (counts, length) = Letters::count(part);
                 let apart: u32 =
                     wanted.counts.iter().zip(&counts).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
@@ -71,7 +71,10 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
                 if strsim::damerau_levenshtein(&wanted.key, part) != 1 {
                     continue;
                 }
-                let stem = postings.first()?.stem;
+                let Some(posting) = postings.first() else { continue };
+                let stem = posting.stem;
+                // As it is written, where letters that look alike are one in the key.
+                let Some(part) = posting.form.split(' ').nth(n) else { continue };
                 match found {
                     Some((other, own)) if other != part && own != stem => return None,
                     // Of the forms of one word that which begins and ends as was written.
