@@ -40,7 +40,7 @@ impl Sentence<'_> {
     }
 
     /// «те, что на комоде», «та, которая у окна»: a pointing word in the place of a noun, told by a clause.
-    pub(super) fn points_ahead(&self, at: usize) -> bool {
+    pub(in super::super) fn points_ahead(&self, at: usize) -> bool {
         let next = self.keys.get(at + 1).map_or("", String::as_str);
         let clause = next == "что" || next.starts_with("котор");
         clause && POINTING.contains(&self.keys[at].as_str()) && self.comma_between(at + 1, at + 1)
