@@ -380,14 +380,6 @@ impl Knowledge<'_> {
             {
                 last.clone()
             }
-            // "How many of those are there?": a single thing is no "those", but scissors are.
-            Pronoun::They => {
-                let several = |t: &Thing| {
-                    t.replica().is_none() && t.area().is_none()
-                        || self.gender(*t).1 == Number::Plural
-                };
-                self.taken_up(pronoun, rel).filter(several).into_iter().collect()
-            }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }
     }

@@ -92,8 +92,13 @@ impl Query {
                 _ => return false,
             },
             Self::Holds { subject, .. } => subject,
-            // A way from here, what is nearest here.
-            _ => return true,
+            // A way from here.
+            Self::Way { .. }
+            | Self::CanReach { .. }
+            | Self::Duration { .. }
+            | Self::Distance { .. }
+            | Self::Passing { .. } => return true,
+            _ => return false,
         };
         // A place that was read already is that of "here", or another.
         if sought.restrictions.is_empty() && sought.best.is_none() {

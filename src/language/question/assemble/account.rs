@@ -104,11 +104,21 @@ impl Frame<'_, '_> {
             && !told.most
             && !told.inward
             && self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
+        // "How many of those are there?", "Do all of them go there?": a single place is no "those".
+        let only = |noun: &Noun| {
+            matches!(noun.head.things.as_deref(), Some([only]) if only.replica().is_none())
+        };
+        let many = match query {
+            Query::Count(noun) => only(noun),
+            Query::Holds { subject, .. } => subject.all && only(subject),
+            _ => false,
+        };
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
             || told.parted
             || told.itself
+            || many
             || supposes
             || has_more
             || fewest
