@@ -3,7 +3,7 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::{
-    Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, several,
+    Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, premise, several,
 };
 use crate::command::is_too_long;
 use crate::words::{Language, word_keys};
@@ -201,6 +201,10 @@ impl Asker<'_> {
                 _ => Answer::joined(answers, language),
             }));
         }
+        // "Here" is where the person is, or nowhere.
+        if place.is_some() && premise::says_here(last) {
+            return None;
+        }
         match self.ask(last, &mut after) {
             Ok(answer) => {
                 answers.push(answer);
@@ -233,6 +237,7 @@ impl Asker<'_> {
             || compares
             || !opening::begins_question(&words)
             || several::asks_in(told)
+            || (premise::says_here(asked) && self.premise(told).is_some())
         {
             return None;
         }
