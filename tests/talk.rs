@@ -73,6 +73,52 @@ fn answers_are_as_the_golden_texts_say() {
     assert!(pairs >= 400, "{pairs} pairs");
 }
 
+/// After a line that nothing understands, a question that goes on is answered as in a new dialogue, or not at all.
+#[test]
+fn nothing_goes_on_from_what_was_not_understood() {
+    let mut cases: Vec<PathBuf> = std::fs::read_dir(project("tests/golden/talk"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    cases.sort();
+    let mut asked = 0;
+    for case in cases {
+        let map = std::fs::read_to_string(case.join("map.txt")).unwrap();
+        let questions = std::fs::read_to_string(case.join("questions.txt")).unwrap();
+        let Some(engine) = engine(map.trim()) else { continue };
+        let mut memory = Memory::default();
+        for line in
+            questions.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'))
+        {
+            let Some(question) = line.strip_prefix('+').map(str::trim) else {
+                memory = Memory::default();
+                said(&engine, line, &mut memory);
+                continue;
+            };
+            let russian = question.chars().any(|c| matches!(c, 'а'..='я' | 'А'..='Я'));
+            let nonsense = if russian {
+                "Флюрбь дзямс брынь?"
+            } else {
+                "Blorf gnarp zweeble?"
+            };
+            let mut lost = memory.clone();
+            let refused = said(&engine, nonsense, &mut lost);
+            assert!(refused.starts_with('['), "{nonsense}: {refused}");
+            let after = said(&engine, question, &mut lost);
+            let anew = said(&engine, question, &mut Memory::default());
+            assert!(
+                after.starts_with('[') || after == anew,
+                "{}: {question}\n{after}\n{anew}",
+                case.display()
+            );
+            said(&engine, question, &mut memory);
+            asked += 1;
+        }
+    }
+    println!("{asked} questions that go on, none from what was not understood");
+    assert!(asked >= 100, "{asked}");
+}
+
 #[test]
 fn what_was_done_is_told_afterwards() {
     let engine = rb2();

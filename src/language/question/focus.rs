@@ -103,8 +103,16 @@ impl Memory {
     /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
         (self.facts, self.said) = (Vec::new(), None);
-        let lost = matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
-        self.is_lost |= lost && !matches!(doubt, Doubt::Ambiguous { .. });
+        if matches!(doubt, Doubt::Ambiguous { .. }) {
+            return;
+        }
+        self.is_lost |= matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
+        if names_nothing {
+            self.exchanges.clear();
+            self.spoken.clear();
+            self.last.clear();
+            self.listed.clear();
+        }
     }
 }
 

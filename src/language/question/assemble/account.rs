@@ -83,6 +83,7 @@ impl Told {
 impl Frame<'_, '_> {
     /// Whether a word of the sentence asks for what the query does not answer.
     pub(super) fn asks_more_than(&self, query: &mut Query) -> bool {
+        self.suffice(query);
         let told = Told::of(query);
         let query = &*query;
         // «Какие картины или картины …?», where two words mean the same
@@ -125,6 +126,21 @@ impl Frame<'_, '_> {
             || self.marks.iter().any(asks)
             || self.points(&told, query)
             || self.is_piece(query)
+    }
+
+    /// «Хватит ли шести стульев?», "Are there enough chairs for six?": so many or more.
+    fn suffice(&self, query: &mut Query) {
+        let keys = &self.sentence.keys;
+        let asks = |key: &String| {
+            ["хватит", "хватает", "хватило", "достаточно", "enough"].contains(&key.as_str())
+        };
+        if keys.iter().any(asks) {
+            query.each_noun(&mut |noun| {
+                if noun.count.is_some() && noun.quantity == Quantity::Exactly {
+                    noun.quantity = Quantity::AtLeast;
+                }
+            });
+        }
     }
 
     /// "How many things is that?", «Сколько это?»: what is pointed at must be in the query.
