@@ -177,6 +177,7 @@ impl Knowledge<'_> {
                 }
             }
         }
+        query.each_noun(&mut |noun| self.of_those_told(noun));
         query.each_noun(&mut |noun| {
             self.focus_places(&mut noun.restrictions);
             self.this_room(&mut noun.restrictions);
@@ -216,6 +217,28 @@ impl Knowledge<'_> {
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
         }
+    }
+
+    /// "How many of them are eggs?": of several that were told, those of a kind.
+    fn of_those_told(&self, noun: &mut Noun) {
+        let told = |r: &Restriction| match &r.anchors[..] {
+            [anchor] if matches!(r.rel, Rel::Of | Rel::From) && !r.negated => {
+                anchor.head.things.clone().filter(|things| things.len() > 1)
+            }
+            _ => None,
+        };
+        if noun.head.kinds.is_empty() {
+            return;
+        }
+        let Some((at, things)) =
+            noun.restrictions.iter().enumerate().find_map(|(n, r)| Some((n, told(r)?)))
+        else {
+            return;
+        };
+        let all: HashSet<Thing> = self.base(&noun.head).into_iter().collect();
+        let those = things.into_iter().filter(|t| all.contains(t)).collect();
+        noun.restrictions.remove(at);
+        noun.head = Head { things: Some(those), ..Head::default() };
     }
 
     /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state.
@@ -387,6 +410,12 @@ impl Knowledge<'_> {
                     && self.memory.exchanges.first().is_some_and(|e| e.topics.is_empty()) =>
             {
                 last.clone()
+            }
+            // "The living room is big. What are they on?": one thing is no "they", but scissors and «таблетки» are.
+            Pronoun::They => {
+                let several =
+                    |t: &Thing| self.memory.is_plural || self.gender(*t).1 == Number::Plural;
+                self.taken_up(pronoun, rel).filter(several).into_iter().collect()
             }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }

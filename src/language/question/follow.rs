@@ -64,6 +64,9 @@ impl Asker<'_> {
         if let Some(query) = query {
             return Some(query);
         }
+        if let Some(query) = room_alone(text, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.one_more(text, last, memory) {
             return Some(query);
         }
@@ -124,8 +127,17 @@ impl Asker<'_> {
                     query => Some(query),
                 },
                 (false, _) => Some(query),
-                // «А на кухне сколько?»
-                (true, sought) => Some(Query::Count(sought?.clone())),
+                // «А на кухне сколько?», and of what a room has most.
+                (true, sought) => {
+                    let sought = sought?;
+                    Some(Query::Count(match sought.best.as_ref().map(|best| &best.anchor) {
+                        Some(Some(had)) => {
+                            let place = sought.restrictions.clone();
+                            Noun { restrictions: place, plural: true, ..(**had).clone() }
+                        }
+                        _ => sought.clone(),
+                    }))
+                }
             };
         }
         if counts {
@@ -244,7 +256,11 @@ impl Asker<'_> {
 
     /// «А всего?», "And in the whole flat?": the last question without its place.
     fn altogether(&self, key: &str, last: &Query) -> Option<Query> {
-        const ALL: [&str; 24] = [
+        const ALL: [&str; 28] = [
+            "итого",
+            "итого сколько",
+            "сколько итого",
+            "сколько их всего",
             "всего",
             "сколько всего",
             "во всем доме",
@@ -502,6 +518,23 @@ impl Asker<'_> {
         });
         Some(query)
     }
+}
+
+/// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
+fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
+    const ROOM: [&str; 8] = [
+        "which room",
+        "what room",
+        "in which room",
+        "in what room",
+        "which room is it",
+        "в какой комнате",
+        "а в какой комнате",
+        "в какой",
+    ];
+    let said = word_keys(text).join(" ");
+    let thing = memory.exchanges.first()?.topic().filter(|t| t.replica().is_some())?;
+    ROOM.contains(&said.as_str()).then(|| Query::RoomOf(Noun::of(vec![thing])))
 }
 
 /// «На сколько?», "By how much?": the difference of what was compared.

@@ -31,7 +31,10 @@ const WIDE: [&str; 10] =
 /// The text with "here" told by its room, which `place` names: «в Гостиной».
 pub(super) fn named(text: &str, place: impl FnOnce() -> Option<String>) -> Cow<'_, str> {
     let keys = word_keys(text);
-    let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&key.as_str()));
+    let small = |n: usize| keys[n] == "at" && keys.get(n + 1).is_some_and(|key| key == "all");
+    let is = |n: usize, all: &[&str]| {
+        !(n < keys.len() && small(n)) && keys.get(n).is_some_and(|key| all.contains(&key.as_str()))
+    };
     let any = |all: &[&str]| (0..keys.len()).any(|n| is(n, all));
     let here = (0..keys.len()).find(|n| is(*n, &["здесь", "тут", "here"]));
     let begins = (0..4).any(|n| is(n, &["есть", "сколько", "is", "are", "many", "что", "what"]));

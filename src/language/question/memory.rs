@@ -17,6 +17,8 @@ pub struct Memory {
     pub(super) spoken: Vec<Thing>,
     /// What the last exchanges were about, the latest first.
     pub(super) exchanges: Vec<focus::Exchange>,
+    /// Whether what was spoken of last was called by a plural: «таблетки» may be one thing.
+    pub(super) is_plural: bool,
     /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
     pub(super) is_lost: bool,
     /// The things of the last answer.
@@ -105,6 +107,8 @@ impl Memory {
             self.query = Some(answer.query.clone());
             self.words.clone_from(&answer.words);
         }
+        self.is_plural = false;
+        answer.query.clone().each_noun(&mut |noun| self.is_plural |= noun.plural);
         self.hear(answer);
         if answer.topic.is_empty() {
             return;

@@ -30,6 +30,16 @@ impl Asker<'_> {
     /// The place of «я на кухне», «сижу в гостиной», "if I'm on the sofa", "I'm off to the bathroom", where a part of a line
     /// says that and no more.
     pub(super) fn premise(&self, text: &str) -> Option<Noun> {
+        // "I'm in the kitchen and my legs hurt": what else is told narrows nothing.
+        let joint = [" and ", " и ", " but ", " а "].into_iter().find_map(|joint| text.find(joint));
+        let first = joint.map(|at| &text[..at]);
+        let rest = joint.map_or("", |at| &text[at..]);
+        let rest_tells = || !super::several::asks_in(rest);
+        self.stay(text)
+            .or_else(|| first.filter(|_| rest_tells()).and_then(|first| self.stay(first)))
+    }
+
+    fn stay(&self, text: &str) -> Option<Noun> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let (mut me, mut place) = (false, None);

@@ -37,9 +37,19 @@ impl Asker<'_> {
         let spans = (0..parts.len()).flat_map(|from| (from..parts.len()).map(move |to| (from, to)));
         let mut spans: Vec<(usize, usize)> = spans.collect();
         spans.sort_by_key(|(from, to)| (parts.len() - (to - from), *from));
+        // Where a part ends as questions do, that is what asks.
+        let marked = |n: usize| text[parts[n].0..parts[n].1].ends_with('?');
+        let any_marked = (0..parts.len()).any(marked);
         for (from, to) in spans {
+            if any_marked && !(from..=to).any(marked) {
+                continue;
+            }
             let (start, end) = (parts[from].0, parts[to].1);
             let span = &text[start..end];
+            // «ту, что на кухне», «больше, чем на кухне»: a clause of what stands before.
+            if goes_on(&text[..start], span) {
+                continue;
+            }
             // What asks begins with the span, or at a word of it that asks.
             let (words, keys) = (word_ranges(span), word_keys(span));
             let at_once = |n: usize| n == 0 || keys[n] != "ли" && opening::asks_at_once(&keys[n..]);
@@ -147,7 +157,7 @@ impl Asker<'_> {
 
     /// The things that a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that
     /// does.
-    fn names_only(&self, text: &str, memory: &Memory) -> Option<Vec<Thing>> {
+    pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Vec<Thing>> {
         const LIMITS: [&str; 18] = [
             "если",
             "когда",
@@ -175,8 +185,26 @@ impl Asker<'_> {
         };
         // "Sorry to bother you, but …" limits nothing; "all but …" does.
         let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
+        // "If you don't mind" supposes nothing.
+        const POLITE: [&str; 13] = [
+            "mind",
+            "please",
+            "possible",
+            "ok",
+            "okay",
+            "alright",
+            "может",
+            "можете",
+            "секрет",
+            "можно",
+            "трудно",
+            "сложно",
+            "против",
+        ];
+        let polite = matches!(keys[0].as_str(), "if" | "если")
+            && keys.iter().any(|key| POLITE.contains(&key.as_str()));
         let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
-        if before.iter().chain([last]).any(limits) {
+        if !polite && before.iter().chain([last]).any(limits) {
             return None;
         }
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
@@ -202,6 +230,36 @@ impl Asker<'_> {
             }
         }
         Some(things)
+    }
+}
+
+/// Whether a part of a line is a clause of what stands before it: «ту, что на кухне», "bigger, than …".
+fn goes_on(before: &str, part: &str) -> bool {
+    const POINTING: [&str; 15] = [
+        "то",
+        "тот",
+        "та",
+        "те",
+        "ту",
+        "того",
+        "той",
+        "тех",
+        "тем",
+        "тому",
+        "том",
+        "one",
+        "ones",
+        "those",
+        "everything",
+    ];
+    let (keys, told) = (word_keys(part), word_keys(before));
+    match keys.first().map(String::as_str) {
+        Some("чем" | "than") => !told.is_empty(),
+        Some("что" | "which" | "that") => {
+            told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
+        }
+        Some(first) => first.starts_with("котор") && !told.is_empty(),
+        None => false,
     }
 }
 

@@ -35,6 +35,7 @@ impl Asker<'_> {
                 // «…, и в какой они комнате?»
                 true => {
                     let pronoun = if language == Language::Russian { "они" } else { "they" };
+                    after.is_plural = true;
                     let whole = format!("{} {pronoun}", part.trim_end_matches(['?', '.', ' ']));
                     self.answer(&whole, language, &after).ok()?
                 }
@@ -173,6 +174,18 @@ impl Asker<'_> {
         {
             parts = vec![told.trim(), asked.trim()];
         }
+        // "Is the machine on? I can't see it from here.": what is only told stands behind.
+        while parts.len() > 1
+            && parts.last().is_some_and(|last| !last.ends_with('?'))
+            && parts[..parts.len() - 1].iter().any(|part| part.ends_with('?'))
+        {
+            let told = parts.pop()?;
+            self.names_only(told, memory)?;
+        }
+        if let [only] = parts[..] {
+            let answer = self.ask(only, memory);
+            return answer.is_ok().then_some(answer);
+        }
         let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
         let mut after = memory.clone();
         let mut answers = Vec::new();
@@ -252,17 +265,25 @@ impl Asker<'_> {
     pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let plural;
         let named: Vec<Thing> = {
             let knowledge = self.knowledge(sentence.language, memory);
-            let nouns = sentence.items().into_iter().filter_map(|item| match item {
-                Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
-                _ => None,
-            });
+            let nouns: Vec<super::Noun> = sentence
+                .items()
+                .into_iter()
+                .filter_map(|item| match item {
+                    Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
+                    _ => None,
+                })
+                .collect();
+            plural = nouns.iter().any(|noun| noun.plural);
+            let nouns = nouns.into_iter();
             let found = nouns.filter_map(|noun| knowledge.find(&noun, true).ok());
             found.filter(|found| found.len() == 1).flatten().collect()
         };
         if !named.is_empty() {
             memory.mention(&named);
+            memory.is_plural = plural;
         }
     }
 }

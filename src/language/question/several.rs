@@ -164,7 +164,15 @@ fn begins(words: &[String]) -> bool {
 
 /// A question without the "isn't it?" at its end.
 pub(super) fn without_tag(text: &str) -> &str {
-    const TAGS: [&str; 34] = [
+    const TAGS: [&str; 42] = [
+        "won t you",
+        "will you",
+        "would you",
+        "could you",
+        "can you",
+        "do you know",
+        "please",
+        "не подскажешь",
         "is it",
         "isn t it",
         "isnt it",

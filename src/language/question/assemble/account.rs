@@ -5,7 +5,9 @@
 
 use super::Frame;
 use crate::question::mark::Mark;
-use crate::question::query::{Best, Claim, Extreme, Noun, Quantity, Query, Rel, Thing};
+use crate::question::query::{
+    Best, Claim, Extreme, Noun, Quantity, Query, Rel, Restriction, Thing,
+};
 use crate::words::Language;
 
 /// What the nouns of a query tell by comparing, counting and pointing.
@@ -73,8 +75,15 @@ impl Told {
             let things = noun.head.things.as_deref().unwrap_or_default();
             !things.is_empty() && things.iter().all(|t| t.replica().is_some())
         };
-        self.parted |=
-            noun.restrictions.iter().any(|r| r.rel == Rel::From && r.anchors.iter().all(thing));
+        // "How many of them are eggs?" asks among them.
+        let among = |r: &Restriction| {
+            !head.kinds.is_empty()
+                && matches!(&r.anchors[..], [a] if a.head.things.as_ref().is_some_and(|t| t.len() > 1))
+        };
+        self.parted |= noun
+            .restrictions
+            .iter()
+            .any(|r| r.rel == Rel::From && r.anchors.iter().all(thing) && !among(r));
         let most = |best: &Best| matches!(best.extreme, Extreme::Most | Extreme::Fewest);
         self.most |= noun.best.as_ref().is_some_and(most);
     }
@@ -106,20 +115,25 @@ impl Frame<'_, '_> {
             && !told.inward
             && self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
         // "How many of those are there?", "Do all of them go there?": a single place is no "those".
-        let only = |noun: &Noun| {
-            matches!(noun.head.things.as_deref(), Some([only]) if only.replica().is_none())
-        };
+        let only = |noun: &Noun| matches!(noun.head.things.as_deref(), Some([only]) if only.replica().is_none());
         let many = match query {
             Query::Count(noun) => only(noun),
             Query::Holds { subject, .. } => subject.all && only(subject),
             _ => false,
         };
+        // "Why can't one drive through it?" asks of more than the last answer.
+        let why = matches!(query, Query::Why { about: None, .. })
+            && (self.has(Mark::Can) || self.has(Mark::Cannot) || self.has(Mark::Move));
+        // "In here", which was not put as the room.
+        let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
             || told.parted
             || told.itself
             || many
+            || why
+            || here
             || supposes
             || has_more
             || fewest

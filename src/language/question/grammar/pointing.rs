@@ -33,8 +33,35 @@ impl Sentence<'_> {
                 before,
                 Some(Tok::Noun(_) | Tok::Mark(Mark::All | Mark::Anything | Mark::One))
             );
-            let ends =
-                matches!(next, None | Some(Tok::Mark(Mark::Be | Mark::HowMany | Mark::HowFar)));
+            // "Which room did that end up in?", but "that table", "is it true that the …"
+            let ends = !matches!(
+                next,
+                Some(
+                    Tok::Noun(_)
+                        | Tok::Value(_)
+                        | Tok::Property(_)
+                        | Tok::Number(_)
+                        | Tok::Unknown
+                        | Tok::Size(_)
+                        | Tok::Mark(
+                            Mark::One
+                                | Mark::Other
+                                | Mark::The
+                                | Mark::A
+                                | Mark::All
+                                | Mark::Same
+                                | Mark::Best(_)
+                                | Mark::More(_)
+                                | Mark::Rank(_)
+                                | Mark::You
+                                | Mark::Me
+                                | Mark::Can
+                                | Mark::Not
+                                | Mark::Exists
+                                | Mark::Have
+                        )
+                )
+            );
             pointed && !tells && token.kind == Tok::Mark(Mark::The) && ends
         })
     }
