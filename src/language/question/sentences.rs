@@ -175,6 +175,7 @@ impl Asker<'_> {
             parts = vec![told.trim(), asked.trim()];
         }
         // "Is the machine on? I can't see it from here.": what is only told stands behind.
+        let whole = parts.len();
         while parts.len() > 1
             && parts.last().is_some_and(|last| !last.ends_with('?'))
             && parts[..parts.len() - 1].iter().any(|part| part.ends_with('?'))
@@ -182,7 +183,7 @@ impl Asker<'_> {
             let told = parts.pop()?;
             self.names_only(told, memory)?;
         }
-        if let [only] = parts[..] {
+        if let ([only], true) = (&parts[..], whole > 1) {
             let answer = self.ask(only, memory);
             return answer.is_ok().then_some(answer);
         }
