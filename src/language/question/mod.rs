@@ -517,7 +517,9 @@ impl Asker<'_> {
         let points = Sentence::new(&plain, &self.mind.lexicon).points();
         let whole = format!("{} {pronoun}", text.trim_end_matches(['?', '.', ' ']));
         let whole = (points && self.lacks_subject(text)).then_some(whole)?;
-        self.read(&whole, memory).ok()
+        // "That" may be one thing.
+        let told = Memory { is_plural: true, ..memory.clone() };
+        self.read(&whole, &told).ok()
     }
 
     /// The query as a rule of the relations' Datalog.

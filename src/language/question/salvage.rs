@@ -5,7 +5,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::{Answer, Asker, Memory, Noun, Said, Thing, opening, several};
+use super::{Answer, Asker, Memory, Noun, Said, Thing, opening, several, vocabulary};
 use crate::words::{Language, word_keys, word_ranges};
 
 /// What the parts of a line tell that do not ask.
@@ -38,7 +38,10 @@ impl Asker<'_> {
         let mut spans: Vec<(usize, usize)> = spans.collect();
         spans.sort_by_key(|(from, to)| (parts.len() - (to - from), *from));
         // Where a part ends as questions do, that is what asks.
-        let marked = |n: usize| text[parts[n].0..parts[n].1].ends_with('?');
+        let marked = |n: usize| {
+            let part = &text[parts[n].0..parts[n].1];
+            part.ends_with('?') && !only_begs(&word_keys(part))
+        };
         let any_marked = (0..parts.len()).any(marked);
         for (from, to) in spans {
             if any_marked && !(from..=to).any(marked) {
@@ -209,7 +212,7 @@ impl Asker<'_> {
         }
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
         let wishes = keys.iter().any(|key| key == "бы" || key == "б");
-        let begs = keys.len() < 5 && keys.iter().any(|key| tells(key));
+        let begs = only_begs(&keys);
         if several::asks_in(text) && !wishes && !begs {
             return None;
         }
@@ -225,6 +228,10 @@ impl Asker<'_> {
                 _ => Vec::new(),
             };
             for phrase in named.iter().filter(|p| p.person.is_none() && p.pronoun.is_none()) {
+                // "The one in the hall" is among what was spoken of.
+                if phrase.noun.head.anything {
+                    return None;
+                }
                 let noun = Noun { plural: true, ..phrase.noun.clone() };
                 things.extend(knowledge.find(&noun, true).unwrap_or_default());
             }
@@ -254,13 +261,20 @@ fn goes_on(before: &str, part: &str) -> bool {
     ];
     let (keys, told) = (word_keys(part), word_keys(before));
     match keys.first().map(String::as_str) {
-        Some("чем" | "than") => !told.is_empty(),
+        Some("чем" | "than") => (0..told.len()).any(|n| {
+            matches!(vocabulary::longest(&told[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))
+        }),
         Some("что" | "which" | "that") => {
             told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
         }
         Some(first) => first.starts_with("котор") && !told.is_empty(),
         None => false,
     }
+}
+
+/// «не подскажешь?», "do you know?": a part that asks for nothing of its own.
+fn only_begs(keys: &[String]) -> bool {
+    keys.len() < 5 && keys.iter().any(|key| tells(key))
 }
 
 /// Whether a word is one of telling or knowing, by which a question is led in: "could you maybe tell me …".

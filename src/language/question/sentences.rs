@@ -181,6 +181,10 @@ impl Asker<'_> {
             && parts[..parts.len() - 1].iter().any(|part| part.ends_with('?'))
         {
             let told = parts.pop()?;
+            // «Где ты? Подробно»: a word or two belong to what is asked.
+            if word_keys(told).len() < 3 {
+                return None;
+            }
             self.names_only(told, memory)?;
         }
         if let ([only], true) = (&parts[..], whole > 1) {

@@ -123,7 +123,8 @@ impl Frame<'_, '_> {
         };
         // "Why can't one drive through it?" asks of more than the last answer.
         let why = matches!(query, Query::Why { about: None, .. })
-            && (self.has(Mark::Can) || self.has(Mark::Cannot) || self.has(Mark::Move));
+            && (self.has(Mark::Can) || self.has(Mark::Cannot) || self.has(Mark::Move))
+            && !(self.spots.is_empty() && self.nouns.is_empty());
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "What if Door 1 is locked?" supposes.

@@ -59,7 +59,8 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
     #[must_use]
     pub fn respelt(&self, word: &str) -> Option<String> {
         let wanted = Letters::of(Spelled::of(word).key);
-        let mut found: Option<(&str, u32)> = None;
+        // By the key, with the form as it is written and whose it is.
+        let mut found: Vec<(&str, &str, u32)> = Vec::new();
         for (key, postings) in &self.forms {
             for (n, part) in key.split(' ').enumerate() {
                 let (counts, length) = Letters::count(part);
@@ -71,28 +72,24 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
                 if strsim::damerau_levenshtein(&wanted.key, part) != 1 {
                     continue;
                 }
-                let Some(posting) = postings.first() else { continue };
-                let stem = posting.stem;
-                // As it is written, where letters that look alike are one in the key.
-                let Some(part) = posting.form.split(' ').nth(n) else { continue };
-                match found {
-                    Some((other, own)) if other != part && own != stem => return None,
-                    // Of the forms of one word that which begins and ends as was written.
-                    Some((other, _)) if other != part => {
-                        let alike = |form: &str| {
-                            let ends = form.chars().last() == wanted.key.chars().last();
-                            (ends, form.chars().next() == wanted.key.chars().next(), form.len())
-                        };
-                        if alike(part) > alike(other) {
-                            found = Some((part, stem));
-                        }
-                    }
-                    Some(_) => {}
-                    None => found = Some((part, stem)),
-                }
+                let written = postings.iter().filter_map(|posting| {
+                    let form = posting.form.split(' ').nth(n)?;
+                    Some((part, form, posting.stem))
+                });
+                found.extend(written);
             }
         }
-        found.map(|(part, _)| part.to_owned())
+        // Of the forms of one word that which begins and ends as was written.
+        let alike = |key: &str| {
+            let ends = key.chars().last() == wanted.key.chars().last();
+            (ends, key.chars().next() == wanted.key.chars().next())
+        };
+        found.sort_by(|a, b| {
+            alike(b.0).cmp(&alike(a.0)).then(a.0.cmp(b.0)).then(b.1.cmp(a.1)).then(a.2.cmp(&b.2))
+        });
+        let (key, form, _) = *found.first()?;
+        let own: Vec<u32> = found.iter().filter(|f| f.0 == key).map(|f| f.2).collect();
+        found.iter().all(|f| f.0 == key || own.contains(&f.2)).then(|| form.to_owned())
     }
 
     /// Keeps the best names, each id once, in order; equal ones by the order of insertion.
