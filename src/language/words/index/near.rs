@@ -85,7 +85,9 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             (ends, key.chars().next() == wanted.key.chars().next())
         };
         found.sort_by(|a, b| {
-            alike(b.0).cmp(&alike(a.0)).then(a.0.cmp(b.0)).then(b.1.cmp(a.1)).then(a.2.cmp(&b.2))
+            let likest = alike(b.0).cmp(&alike(a.0)).then(a.0.cmp(b.0));
+            let plainest = a.1.len().cmp(&b.1.len()).then(b.1.cmp(a.1));
+            likest.then(plainest).then(a.2.cmp(&b.2))
         });
         let (key, form, _) = *found.first()?;
         let own: Vec<u32> = found.iter().filter(|f| f.0 == key).map(|f| f.2).collect();
