@@ -115,7 +115,7 @@ mod tests {
     #[cfg(feature = "rumorph")]
     #[test]
     fn the_dictionary_tells_particles() {
-        for word in ["ведь", "аж", "дескать", "ну-ка"] {
+        for word in ["ведь", "аж", "дескать"] {
             assert!(says_nothing(word), "{word}");
         }
     }
