@@ -403,6 +403,9 @@ pub(super) struct QueryArgs {
     /// Give up when what is derived takes more memory than this, MiB; 2048 when left out
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<usize>,
+    /// Give up when a relation has more rows than this; 134217728 when left out
+    #[arg(long, value_name = "ROWS")]
+    pub row_limit: Option<usize>,
 }
 
 #[derive(Debug, Args)]

@@ -14,6 +14,7 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
     let limits = Limits {
         time: args.time_limit.unwrap_or(all.time),
         memory_bytes: args.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20)),
+        rows: args.row_limit.unwrap_or(all.rows),
         ..all
     };
     let answer = engine.query_within(&args.question, args.explain, limits)?;

@@ -19,7 +19,9 @@
 //! question's rules like any other.
 
 use std::cmp::Ordering;
+use std::ops::Deref;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::called::Lookup;
 use super::computed::{AskError, Computed};
@@ -40,15 +42,32 @@ use crate::units::Source;
 /// The answers to a question: distinct rows in the order asked for.
 pub struct Answers<'a> {
     question: Question,
-    kept: std::borrow::Cow<'a, Kept>,
+    kept: Held<'a>,
     is_stored: Vec<bool>,
     computed: Vec<(RelationId, &'a dyn Computed)>,
     given: Vec<Option<Box<dyn Stored>>>,
     words: Words,
     limits: Limits,
-    unknown: Vec<std::sync::Arc<str>>,
+    unknown: Vec<Arc<str>>,
     rows: Vec<Vec<Value>>,
     found: Vec<Box<[Word]>>,
+}
+
+/// Rows that a result lends, or that questions share.
+enum Held<'a> {
+    Lent(&'a Kept),
+    Shared(Arc<Kept>),
+}
+
+impl Deref for Held<'_> {
+    type Target = Kept;
+
+    fn deref(&self) -> &Kept {
+        match self {
+            Self::Lent(kept) => kept,
+            Self::Shared(kept) => kept,
+        }
+    }
 }
 
 impl std::fmt::Debug for Answers<'_> {
@@ -76,7 +95,7 @@ impl Derived {
         computed: &[&'a dyn Computed],
         limits: Limits,
     ) -> Result<Answers<'a>, AskError> {
-        let kept = std::borrow::Cow::Borrowed(&self.kept);
+        let kept = Held::Lent(&self.kept);
         let is_stored = vec![true; self.program.relations.len()];
         let mut answers = Answers::new(&self.program, kept, is_stored, question, computed, limits)?;
         answers.given.clone_from(&self.given);
@@ -87,6 +106,8 @@ impl Derived {
 
 impl Program {
     /// Answers a question about a database, deriving only what it needs.
+    ///
+    /// The indexes that a question makes stay with the database until it is edited, so that later questions find them.
     ///
     /// # Errors
     /// [`AskError`].
@@ -112,7 +133,7 @@ impl Program {
         if self.depends_on_order() {
             let derived = self.evaluate_within(database, limits).map_err(AskError::from)?;
             let is_stored = vec![true; self.relations.len()];
-            let kept = std::borrow::Cow::Owned(derived.kept);
+            let kept = Held::Shared(Arc::new(derived.kept));
             let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
             answers.given = derived.given;
             answers.answer()?;
@@ -120,12 +141,13 @@ impl Program {
         }
         let all: Vec<RelationId> = self.relations().map(|(relation, _)| relation).collect();
         let columns: Vec<usize> = self.relations().map(|(_, info)| info.columns.len()).collect();
-        let given = given(self, database, &all);
-        let kept = Kept::new(database.words.share(), given, &columns);
+        let kept = database.asked.ready(&self.facts, || {
+            Kept::new(database.words.share(), given(self, database, &all), &columns)
+        });
         let mut is_stored = vec![true; columns.len()];
         self.clauses.iter().for_each(|clause| is_stored[clause.head.index()] = false);
         let told = all.iter().map(|of| Some(kept.rows(*of).boxed_clone())).collect();
-        let kept = std::borrow::Cow::Owned(kept);
+        let kept = Held::Shared(kept);
         let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
         answers.given = told;
         answers.answer()?;
@@ -174,7 +196,7 @@ impl Program {
 impl<'a> Answers<'a> {
     fn new(
         program: &Program,
-        kept: std::borrow::Cow<'a, Kept>,
+        kept: Held<'a>,
         is_stored: Vec<bool>,
         source: &Source,
         computed: &[&'a dyn Computed],

@@ -49,6 +49,9 @@ pub(super) fn columns_of(mask: Mask) -> impl Iterator<Item = usize> + Clone {
 pub(super) trait Lookup {
     /// The distinct rows whose columns of the mask, ascending, have the words of the key.
     fn rows(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> Rc<Flat>;
+
+    /// Whether there are such rows.
+    fn has_rows(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> bool;
 }
 
 /// One relation of a [`Lookup`], as a join reads it.
@@ -65,6 +68,11 @@ impl Called<'_> {
     pub(super) fn rows(&self, key: &[Word], words: &mut Words) -> Rc<Flat> {
         let mask = self.mask.unwrap_or_else(|| first(key.len()));
         self.lookup.rows(self.relation, mask, key, words)
+    }
+
+    pub(super) fn has_rows(&self, key: &[Word], words: &mut Words) -> bool {
+        let mask = self.mask.unwrap_or_else(|| first(key.len()));
+        self.lookup.has_rows(self.relation, mask, key, words)
     }
 
     pub(super) fn word(&self, row: &[Word], column: usize, words: &mut Words) -> Word {

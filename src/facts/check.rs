@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use super::clause;
-use super::declare::{Declared, declare, direct};
+use super::declare::{Declared, declare, direct, type_named};
 use super::fault::RuleError;
 use super::limits::Ceilings;
 use super::program::{Clause, Fact, Found, Program, RelationId, Subsumption};
@@ -17,6 +17,7 @@ use crate::units::Source;
 pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {
     let mut declared = declare(items, faults);
     direct(items, &mut declared, faults);
+    foreign(items, &declared, faults);
     let mut words = Words::default();
     words.set_shapes(declared.shapes());
     let mut dominated: HashMap<RelationId, RelationId> = HashMap::new();
@@ -154,11 +155,27 @@ fn is_limit(name: &str) -> bool {
     matches!(name, "time-limit" | "memory-limit" | "row-limit")
 }
 
+/// That foreign functors are declared once, of types that there are; to call one is refused where it is called.
+fn foreign(items: &[Item], declared: &Declared, faults: &mut Found) {
+    let mut known = BTreeSet::new();
+    for item in items {
+        let Item::Foreign { name, types } = item else { continue };
+        if !known.insert(&name.text) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+        }
+        for of in types {
+            type_named(of, declared, faults);
+        }
+    }
+}
+
 /// Says what is read and has no effect.
 fn hints(items: &[Item], faults: &mut Found) {
     for item in items {
         let (what, at) = match item {
             Item::Plan { at, .. } => (".plan".to_owned(), *at),
+            Item::Foreign { name, .. } => (format!(".functor «{}»", name.text), name.at),
             Item::Pragma { name, at, .. }
                 if !is_limit(name) && !matches!(name.as_str(), "magic-transform" | "once") =>
             {

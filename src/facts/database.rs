@@ -1,12 +1,13 @@
 //! The input facts of a program: tuples by relation, inserted and removed one by one.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use miette::Diagnostic;
 use thiserror::Error;
 
 use super::decimal::Decimal;
-use super::program::{Kind, Names, Program, RelationId, RelationInfo};
+use super::kept::Kept;
+use super::program::{Fact, Kind, Names, Program, RelationId, RelationInfo};
 use super::record::{self, Making};
 use super::rows::SharedRows;
 use super::stored::{Stored, stored};
@@ -141,6 +142,34 @@ pub struct Database {
     pub(super) schema: Schema,
     pub(super) words: Words,
     tables: Vec<Box<dyn Stored>>,
+    pub(super) asked: Asked,
+}
+
+/// What the questions asked of a database so far have made ready: its rows beside a program's facts, with their indexes.
+/// An edit of the database empties it.
+#[derive(Debug, Default)]
+pub(super) struct Asked(Mutex<Option<(Arc<[Fact]>, Arc<Kept>)>>);
+
+impl Asked {
+    /// What stands ready for a program with these facts, made where there is none.
+    pub(super) fn ready(&self, facts: &Arc<[Fact]>, make: impl FnOnce() -> Kept) -> Arc<Kept> {
+        // A thread that ended amid a question has put nothing half done here.
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, kept)) = &*known
+            && Arc::ptr_eq(of, facts)
+        {
+            return Arc::clone(kept);
+        }
+        let kept = Arc::new(make());
+        *known = Some((Arc::clone(facts), Arc::clone(&kept)));
+        kept
+    }
+}
+
+impl Clone for Asked {
+    fn clone(&self) -> Self {
+        Self(Mutex::new(self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()))
+    }
 }
 
 impl Program {
@@ -148,7 +177,12 @@ impl Program {
     #[must_use]
     pub fn database(&self) -> Database {
         let tables = self.relations.iter().map(|info| stored(info.columns.len())).collect();
-        Database { schema: Schema::of(self), words: self.words.share(), tables }
+        Database {
+            schema: Schema::of(self),
+            words: self.words.share(),
+            tables,
+            asked: Asked::default(),
+        }
     }
 }
 
@@ -182,12 +216,18 @@ impl Database {
         Ok((relation, row))
     }
 
+    /// A relation's rows, to be edited.
+    fn table(&mut self, relation: RelationId) -> &mut dyn Stored {
+        self.asked = Asked::default();
+        &mut *self.tables[relation.index()]
+    }
+
     pub(super) fn insert_row(&mut self, relation: RelationId, row: &[Word]) -> bool {
-        self.tables[relation.index()].insert(row).is_some()
+        self.table(relation).insert(row).is_some()
     }
 
     pub(super) fn remove_row(&mut self, relation: RelationId, row: &[Word]) -> bool {
-        self.tables[relation.index()].remove(row).is_some()
+        self.table(relation).remove(row).is_some()
     }
 
     pub(super) fn contains_row(&self, relation: RelationId, row: &[Word]) -> bool {
@@ -200,7 +240,12 @@ impl Database {
     }
 
     pub(super) fn from_tables(program: &Program, tables: Vec<Box<dyn Stored>>) -> Self {
-        Self { schema: Schema::of(program), words: program.words.share(), tables }
+        Self {
+            schema: Schema::of(program),
+            words: program.words.share(),
+            tables,
+            asked: Asked::default(),
+        }
     }
 
     /// Puts the tuples of each relation together, so that evaluations share them.
@@ -234,7 +279,7 @@ impl Database {
     /// [`FactError::UnknownRelation`].
     pub fn clear(&mut self, relation: impl RelationKey) -> Result<(), FactError> {
         let relation = relation.find(&self.schema)?;
-        self.tables[relation.index()].clear();
+        self.table(relation).clear();
         Ok(())
     }
 
@@ -332,6 +377,7 @@ impl Loader<'_> {
     pub fn finish(self) {
         let Self { database, rows, .. } = self;
         database.words.settle();
+        database.asked = Asked::default();
         for ((rows, table), info) in
             rows.into_iter().zip(&mut database.tables).zip(database.schema.relations.iter())
         {

@@ -378,7 +378,7 @@ pub(super) fn kind_name(kind: Kind) -> &'static str {
     }
 }
 
-fn type_named(name: &Name, declared: &Declared, faults: &mut Found) -> Option<usize> {
+pub(super) fn type_named(name: &Name, declared: &Declared, faults: &mut Found) -> Option<usize> {
     let found = declared.type_names.get(&name.text).copied();
     if found.is_none() {
         let nearest =

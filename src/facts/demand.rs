@@ -11,7 +11,7 @@
 //!
 //! **Invariant**: a kept call has exactly the rows of the least fixpoint that fit its key.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -29,10 +29,11 @@ use super::limits::Watch;
 use super::magic::Magic;
 use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, plan_with_cost};
 use super::program::{Clause, Expr, Program, RelationId, VariableId};
-use super::rows::{SharedRows, Version, heap};
+use super::rows::{Version, heap};
 use super::run::{Goal, Source, run};
 use super::strata::reads;
 use super::syntax::Span;
+use super::tables::Tables;
 use super::turned::turned;
 use super::word::{NO_WORD, Word, Words};
 use crate::units::Bilingual;
@@ -70,64 +71,21 @@ pub(super) struct Demand<'a> {
     depth: Cell<usize>,
 }
 
-type Key = Box<[Word]>;
-
 #[derive(Default)]
 struct State {
-    tables: HashMap<(RelationId, Mask), Table, RandomState>,
-    plans: HashMap<(usize, Mask), Rc<CallPlan>, RandomState>,
+    tables: Tables,
+    plans: HashMap<(usize, Mask, Wanted), Rc<CallPlan>, RandomState>,
     magic: HashMap<(RelationId, Mask), Rc<Magic>>,
     sizes: HashMap<RelationId, f64>,
     error: Option<AskError>,
 }
 
-#[derive(Default)]
-struct Table {
-    answered: HashMap<Key, Rc<Flat>, RandomState>,
-    /// Every call that is not there has no rows.
-    is_whole: bool,
-    /// What magic sets found besides the call that they were made for.
-    besides: Vec<Rc<Besides>>,
-}
-
-/// Calls that came up on the way to another call, and the rows that fit any of them.
-pub(super) struct Besides {
-    pub(super) calls: SharedRows,
-    pub(super) rows: SharedRows,
-    /// Made at the first look.
-    by_key: OnceCell<HashMap<Key, Vec<u32>, RandomState>>,
-}
-
-impl Besides {
-    pub(super) fn new(calls: SharedRows, rows: SharedRows) -> Self {
-        Self { calls, rows, by_key: OnceCell::new() }
-    }
-
-    /// None where the call did not come up.
-    fn find(&self, mask: Mask, key: &[Word], columns: usize) -> Option<Rc<Flat>> {
-        if self.calls.range(key).is_empty() {
-            return None;
-        }
-        let by_key = self.by_key.get_or_init(|| {
-            let mut by_key: HashMap<Key, Vec<u32>, RandomState> = HashMap::default();
-            let mut key = Vec::new();
-            for at in 0..self.rows.len() {
-                let row = self.rows.row(at);
-                key.clear();
-                key.extend(columns_of(mask).map(|column| row[column]));
-                match by_key.get_mut(key.as_slice()) {
-                    Some(places) => places.push(at as u32),
-                    None => drop(by_key.insert(key.as_slice().into(), vec![at as u32])),
-                }
-            }
-            by_key
-        });
-        let mut flat = Flat::new(columns);
-        for at in by_key.get(key).into_iter().flatten() {
-            flat.push(self.rows.row(*at as usize));
-        }
-        Some(Rc::new(flat))
-    }
+/// What a call asks for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Wanted {
+    Rows,
+    /// Whether there is a row: the first that is found is enough.
+    Any,
 }
 
 /// A clause with its head's columns of a mask known.
@@ -135,6 +93,17 @@ struct CallPlan {
     clause: Clause,
     head: Vec<VariableId>,
     plan: Plan,
+}
+
+impl CallPlan {
+    /// The clause's variables, those of the call with their words.
+    fn registers(&self, mask: Mask, key: &[Word]) -> Vec<Word> {
+        let mut registers = vec![NO_WORD; self.clause.variables.len()];
+        for (column, word) in columns_of(mask).zip(key) {
+            registers[self.head[column] as usize] = *word;
+        }
+        registers
+    }
 }
 
 impl<'a> Demand<'a> {
@@ -315,17 +284,17 @@ impl<'a> Demand<'a> {
         let mut rows = heap(columns);
         self.each_given(relation, mask, key, &mut |row| rows.push(&row[..columns]));
         for number in self.clauses_of(relation) {
-            let Some(planned) = self.planned(*number, mask) else { return Rc::default() };
-            let mut registers = vec![NO_WORD; planned.clause.variables.len()];
-            for (column, word) in columns_of(mask).zip(key) {
-                registers[planned.head[column] as usize] = *word;
-            }
+            let Some(planned) = self.planned(*number, mask, Wanted::Rows) else {
+                return Rc::default();
+            };
+            let mut registers = planned.registers(mask, key);
             let limit = self.program.info(relation).limit_size.unwrap_or(MAX_ROWS);
             let watch = Rc::clone(&self.watch);
             let mut head = Head::new(self.program, &planned.clause, limit, rows.as_sink(), &watch);
             self.run(&planned.plan, &mut registers, words, &mut head);
             if self.watch.is_over() {
                 self.watch.found(rows.len());
+                self.fail_at(*number);
                 break;
             }
         }
@@ -342,8 +311,50 @@ impl<'a> Demand<'a> {
         Rc::new(flat)
     }
 
-    fn planned(&self, number: usize, mask: Mask) -> Option<Rc<CallPlan>> {
-        if let Some(known) = self.state.borrow().plans.get(&(number, mask)) {
+    /// Whether a call of a relation without recursion has a row.
+    fn derives(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> bool {
+        let mut found = false;
+        self.each_given(relation, mask, key, &mut |_| found = true);
+        for number in self.clauses_of(relation) {
+            if found {
+                break;
+            }
+            let Some(planned) = self.planned(*number, mask, Wanted::Any) else { return false };
+            let mut registers = planned.registers(mask, key);
+            found =
+                self.run(&planned.plan, &mut registers, words, &mut |_: &[Word], _: &mut Words| {
+                    true
+                });
+            if self.watch.is_over() {
+                self.watch.found(0);
+                self.fail_at(*number);
+            }
+        }
+        found
+    }
+
+    /// Says that a limit was reached in a clause; the innermost call says so first.
+    fn fail_at(&self, number: usize) {
+        let clause = &self.program.clauses[number];
+        if let Err(error) = self.program.check_limits(clause, &self.watch) {
+            self.fail(error.into());
+        }
+    }
+
+    /// What a call within calls comes to; none where they go too deep.
+    fn deeper<T>(&self, relation: RelationId, call: impl FnOnce() -> T) -> Option<T> {
+        if self.depth.get() >= MAX_DEPTH {
+            self.fail(AskError::TooDeep { relation: self.program.info(relation).name.clone() });
+            return None;
+        }
+        self.depth.set(self.depth.get() + 1);
+        let found = call();
+        self.depth.set(self.depth.get() - 1);
+        Some(found)
+    }
+
+    fn planned(&self, number: usize, mask: Mask, wanted: Wanted) -> Option<Rc<CallPlan>> {
+        if let Some(known) = self.state.borrow().plans.get(&(number, mask, wanted)) {
             return Some(Rc::clone(known));
         }
         let clause = &self.program.clauses[number];
@@ -351,9 +362,13 @@ impl<'a> Demand<'a> {
         let (mut clause, head, _) = turned(clause, &info.columns);
         clause.args = head.iter().map(|v| Expr::Variable(*v)).collect();
         let bound: Vec<VariableId> = columns_of(mask).map(|column| head[column]).collect();
-        let plan = self.plan(&clause, &bound, &head)?;
+        let columns: &[VariableId] = match wanted {
+            Wanted::Rows => &head,
+            Wanted::Any => &[],
+        };
+        let plan = self.plan(&clause, &bound, columns)?;
         let planned = Rc::new(CallPlan { clause, head, plan });
-        self.state.borrow_mut().plans.insert((number, mask), Rc::clone(&planned));
+        self.state.borrow_mut().plans.insert((number, mask, wanted), Rc::clone(&planned));
         Some(planned)
     }
 
@@ -429,12 +444,8 @@ impl<'a> Demand<'a> {
 
     /// A call of a recursive relation.
     fn magic(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> Rc<Flat> {
-        let besides = match self.state.borrow().tables.get(&(relation, mask)) {
-            Some(table) => table.besides.clone(),
-            None => Vec::new(),
-        };
         let columns = self.columns(relation);
-        if let Some(found) = besides.iter().find_map(|one| one.find(mask, key, columns)) {
+        if let Some(found) = self.state.borrow().tables.beside((relation, mask), key, columns) {
             return found;
         }
         let known = self.state.borrow().magic.get(&(relation, mask)).map(Rc::clone);
@@ -458,7 +469,7 @@ impl<'a> Demand<'a> {
                 }
                 let mut state = self.state.borrow_mut();
                 for (way, besides) in answers.into_iter().filter(|(_, one)| one.calls.len() > 1) {
-                    state.tables.entry(way).or_default().besides.push(Rc::new(besides));
+                    state.tables.keep_besides(way, besides);
                 }
                 Rc::new(flat)
             }
@@ -507,15 +518,8 @@ impl<'a> Demand<'a> {
     /// Answers all calls of a relation by some columns at once.
     fn answer_all(&self, relation: RelationId, mask: Mask, words: &mut Words) {
         let all = self.rows(relation, 0, &[], words);
-        let mut by_key: HashMap<Key, Flat, RandomState> = HashMap::default();
-        for row in all.iter() {
-            let key: Key = columns_of(mask).map(|column| row[column]).collect();
-            by_key.entry(key).or_insert_with(|| Flat::new(self.columns(relation))).push(row);
-        }
-        let mut state = self.state.borrow_mut();
-        let table = state.tables.entry((relation, mask)).or_default();
-        table.answered = by_key.into_iter().map(|(key, rows)| (key, Rc::new(rows))).collect();
-        table.is_whole = true;
+        let columns = self.columns(relation);
+        self.state.borrow_mut().tables.keep_all((relation, mask), &all, columns);
     }
 
     /// The size of a derived relation is taken for that of the largest that it reads.
@@ -540,39 +544,41 @@ impl<'a> Demand<'a> {
 
 impl Lookup for Demand<'_> {
     fn rows(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> Rc<Flat> {
-        let calls = {
-            let state = self.state.borrow();
-            match state.tables.get(&(relation, mask)) {
-                Some(table) => match table.answered.get(key) {
-                    Some(known) => return Rc::clone(known),
-                    None if table.is_whole => return Rc::new(Flat::new(self.columns(relation))),
-                    None => table.answered.len(),
-                },
-                None => 0,
-            }
-        };
+        let way = (relation, mask);
+        let known = self.state.borrow().tables.rows(way, key, self.columns(relation));
+        if let Some(known) = known {
+            return known;
+        }
         if self.watch.is_over() {
             return Rc::default();
         }
+        let calls = self.state.borrow().tables.calls(way);
         if self.is_worth_all(relation, mask, calls) {
             self.answer_all(relation, mask, words);
             return self.rows(relation, mask, key, words);
         }
-        if self.depth.get() >= MAX_DEPTH {
-            self.fail(AskError::TooDeep { relation: self.program.info(relation).name.clone() });
-            return Rc::default();
-        }
-        self.depth.set(self.depth.get() + 1);
-        let rows = self.answer(relation, mask, key, words);
-        self.depth.set(self.depth.get() - 1);
-        let mut state = self.state.borrow_mut();
-        state
-            .tables
-            .entry((relation, mask))
-            .or_default()
-            .answered
-            .insert(key.into(), Rc::clone(&rows));
+        let deeper = || self.answer(relation, mask, key, words);
+        let Some(rows) = self.deeper(relation, deeper) else { return Rc::default() };
+        self.state.borrow_mut().tables.keep(way, key, Rc::clone(&rows));
         rows
+    }
+
+    fn has_rows(&self, relation: RelationId, mask: Mask, key: &[Word], words: &mut Words) -> bool {
+        let way = (relation, mask);
+        let known = self.state.borrow().tables.has_rows(way, key);
+        if let Some(known) = known {
+            return known;
+        }
+        let is_derived = matches!(self.kinds[relation.index()], Kind::Derived)
+            && !self.groups.contains_key(&relation);
+        let calls = self.state.borrow().tables.calls(way);
+        if !is_derived || self.watch.is_over() || self.is_worth_all(relation, mask, calls) {
+            return self.rows(relation, mask, key, words).len > 0;
+        }
+        let deeper = || self.derives(relation, mask, key, words);
+        let Some(has_rows) = self.deeper(relation, deeper) else { return false };
+        self.state.borrow_mut().tables.keep_tested(way, key, has_rows);
+        has_rows
     }
 }
 

@@ -59,6 +59,24 @@ pub enum EvaluateError {
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
 }
 
+impl EvaluateError {
+    /// Whether it was a rule of this relation.
+    pub(super) fn is_of(&self, name: &str) -> bool {
+        let (Self::TooMany { relation, .. }
+        | Self::Time { relation, .. }
+        | Self::Memory { relation, .. }) = self;
+        relation == name
+    }
+
+    /// The same with the rows that a relation had by then.
+    pub(super) fn with_rows(mut self, so_far: usize) -> Self {
+        if let Self::Time { rows, .. } | Self::Memory { rows, .. } = &mut self {
+            *rows = so_far;
+        }
+        self
+    }
+}
+
 impl Program {
     /// Derives everything that follows from the database.
     ///
@@ -148,6 +166,8 @@ pub(super) struct Evaluation<'a> {
     notes: Vec<(Span, Note)>,
     /// What each rule did, where that is asked for.
     pub(super) traced: Option<Vec<RuleTrace>>,
+    /// Rows of the recursive relations among which a limit was reached.
+    pub(super) reached: Vec<(RelationId, usize)>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -166,7 +186,7 @@ impl<'a> Evaluation<'a> {
         let given = given(program, database, relations);
         let watch = Rc::new(Watch::new(limits));
         let finished = Finished::new(database.words.share(), vec![None; given.len()], watch);
-        Self { program, finished, given, notes: Vec::new(), traced: None }
+        Self { program, finished, given, notes: Vec::new(), traced: None, reached: Vec::new() }
     }
 
     /// To evaluate strata over what is finished.
@@ -175,7 +195,7 @@ impl<'a> Evaluation<'a> {
         finished: Finished<'a>,
         given: Vec<SharedRows>,
     ) -> Self {
-        Self { program, finished, given, notes: Vec::new(), traced: None }
+        Self { program, finished, given, notes: Vec::new(), traced: None, reached: Vec::new() }
     }
 
     fn derived(self) -> Derived {

@@ -156,7 +156,12 @@ impl Evaluation<'_> {
                     last.insert(clause.head, clause);
                 }
                 self.finished.watch.found(rows.len() + found);
-                self.check_limits(clause)?;
+                if let Err(error) = self.check_limits(clause) {
+                    let more = |of: &RelationId| if *of == clause.head { found } else { 0 };
+                    let reached = growing.iter().map(|(of, rows)| (*of, rows.len() + more(of)));
+                    self.reached = reached.collect();
+                    return Err(error);
+                }
                 // What a sink has no place for is no result.
                 if rows.len() + found > MAX_ROWS {
                     return Err(program.too_many(clause, MAX_ROWS));

@@ -207,45 +207,64 @@ fn column(rows: &dyn RowSet, order: Option<&[u32]>, expr: &Expr, words: &mut Wor
 
 /// Row positions by key, those without a key left out.
 fn sorted_order(keys: &[Vec<Word>], len: usize) -> Vec<u32> {
-    let has_key = |at: &usize| keys.iter().all(|part| part[*at] != NO_WORD);
-    let mut order = match counted_order(&keys[0], &has_key) {
-        Some(order) => order,
+    let is_lacking = keys.iter().any(|part| part.contains(&NO_WORD));
+    let has_key = |at: &u32| keys.iter().all(|part| part[*at as usize] != NO_WORD);
+    let mut order: Vec<u32> = (0..len as u32).filter(|at| !is_lacking || has_key(at)).collect();
+    let spans: Vec<Option<Span>> = keys.iter().map(|part| Span::of(part, &order)).collect();
+    // By the last word of the key first: those behind it keep their order.
+    if let Some(spans) = spans.iter().cloned().collect::<Option<Vec<Span>>>() {
+        for (part, span) in keys.iter().zip(spans).rev() {
+            order = span.counted(part, &order);
+        }
+        return order;
+    }
+    order = match &spans[0] {
+        Some(span) => span.counted(&keys[0], &order),
         None => {
-            let first = |at: usize| (u64::from(keys[0][at]) << 32) | at as u64;
-            let mut packed: Vec<u64> = (0..len).filter(has_key).map(first).collect();
+            let first = |at: &u32| (u64::from(keys[0][*at as usize]) << 32) | u64::from(*at);
+            let mut packed: Vec<u64> = order.iter().map(first).collect();
             packed.sort_unstable();
             packed.into_iter().map(|packed| packed as u32).collect()
         }
     };
-    if keys.len() > 1 {
-        let rest = |at: u32| keys[1..].iter().map(move |part| part[at as usize]);
-        for same in order.chunk_by_mut(|a, b| keys[0][*a as usize] == keys[0][*b as usize]) {
-            same.sort_by(|a, b| rest(*a).cmp(rest(*b)));
-        }
+    let rest = |at: u32| keys[1..].iter().map(move |part| part[at as usize]);
+    for same in order.chunk_by_mut(|a, b| keys[0][*a as usize] == keys[0][*b as usize]) {
+        same.sort_by(|a, b| rest(*a).cmp(rest(*b)));
     }
     order
 }
 
-/// Row positions by a word, counted out; none where the words lie too far apart for that.
-fn counted_order(words: &[Word], has_key: &impl Fn(&usize) -> bool) -> Option<Vec<u32>> {
-    let known = || (0..words.len()).filter(has_key).map(|at| words[at]);
-    let (least, most) = (known().min()?, known().max()?);
-    let span = (most - least) as usize;
-    if span > 2 * words.len() + 1024 {
-        return None;
+/// Between which words a column's lie, near enough to each other that rows are put in order by counting.
+#[derive(Debug, Clone)]
+struct Span {
+    least: Word,
+    width: usize,
+}
+
+impl Span {
+    fn of(words: &[Word], order: &[u32]) -> Option<Self> {
+        let known = || order.iter().map(|at| words[*at as usize]);
+        let (least, most) = (known().min()?, known().max()?);
+        let width = (most - least) as usize;
+        (width <= 2 * words.len() + 1024).then_some(Self { least, width })
     }
-    let mut starts = vec![0_u32; span + 2];
-    known().for_each(|word| starts[(word - least) as usize + 1] += 1);
-    for at in 1..starts.len() {
-        starts[at] += starts[at - 1];
+
+    /// The rows by their words, those with one word as they stood.
+    fn counted(&self, words: &[Word], order: &[u32]) -> Vec<u32> {
+        let bin = |at: u32| (words[at as usize] - self.least) as usize;
+        let mut starts = vec![0_u32; self.width + 2];
+        order.iter().for_each(|at| starts[bin(*at) + 1] += 1);
+        for at in 1..starts.len() {
+            starts[at] += starts[at - 1];
+        }
+        let mut sorted = vec![0; order.len()];
+        for at in order {
+            let place = &mut starts[bin(*at)];
+            sorted[*place as usize] = *at;
+            *place += 1;
+        }
+        sorted
     }
-    let mut order = vec![0; starts[span + 1] as usize];
-    for at in (0..words.len()).filter(has_key) {
-        let place = &mut starts[(words[at] - least) as usize];
-        order[*place as usize] = at as u32;
-        *place += 1;
-    }
-    Some(order)
 }
 
 fn directory(keys: &[Word]) -> Directory {

@@ -232,18 +232,7 @@ pub(super) struct Copy {
 
 impl Copy {
     pub(super) fn body(&mut self, body: &Body) -> Body {
-        match body {
-            Body::All(parts) => Body::All(parts.iter().map(|part| self.body(part)).collect()),
-            Body::Any(parts) => Body::Any(parts.iter().map(|part| self.body(part)).collect()),
-            Body::Not(part) => Body::Not(Box::new(self.body(part))),
-            Body::Compare { op, left, right, at } => {
-                Body::Compare { op: *op, left: self.expr(left), right: self.expr(right), at: *at }
-            }
-            Body::Atom(atom) => {
-                let args = atom.args.iter().map(|arg| self.expr(arg)).collect();
-                Body::Atom(Atom { args, ..atom.clone() })
-            }
-        }
+        map_body(body, &mut |expr| self.expr(expr))
     }
 
     pub(super) fn expr(&mut self, expr: &Expr) -> Expr {
@@ -265,6 +254,21 @@ impl Copy {
             }
             _ => None,
         })
+    }
+}
+
+/// The body with its expressions replaced.
+pub(super) fn map_body(body: &Body, f: &mut dyn FnMut(&Expr) -> Expr) -> Body {
+    match body {
+        Body::All(parts) => Body::All(parts.iter().map(|part| map_body(part, f)).collect()),
+        Body::Any(parts) => Body::Any(parts.iter().map(|part| map_body(part, f)).collect()),
+        Body::Not(part) => Body::Not(Box::new(map_body(part, f))),
+        Body::Compare { op, left, right, at } => {
+            Body::Compare { op: *op, left: f(left), right: f(right), at: *at }
+        }
+        Body::Atom(atom) => {
+            Body::Atom(Atom { args: atom.args.iter().map(f).collect(), ..atom.clone() })
+        }
     }
 }
 

@@ -17,7 +17,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::called::{Mask, columns_of};
-use super::demand::{Besides, Demand};
+use super::demand::Demand;
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
 use super::plan::Statistics;
@@ -26,14 +26,12 @@ use super::program::{
 };
 use super::rows::heap;
 use super::syntax::Comparison;
+use super::tables::{Besides, Way};
 use super::turned::turned;
 use super::word::{Word, Words};
 
 /// Ways of calling one group; more are called for all rows.
 const MAX_WAYS: usize = 24;
-
-/// A way of calling a relation: the columns that are known.
-type Way = (RelationId, Mask);
 
 /// One call's program.
 pub(super) struct Magic {
@@ -121,7 +119,18 @@ impl Magic {
         let mut evaluation = Evaluation::over(&self.program, finished, given);
         let done = evaluation.stratum(&self.stratum);
         *words = std::mem::take(&mut evaluation.finished.words);
-        done?;
+        if let Err(error) = done {
+            // How far the relation came that the rule is of: its twins overlap, and calls are no rows.
+            let of_rule = |of: RelationId| error.is_of(&self.program.info(of).name);
+            let twins = self.ways.iter().filter(|((of, _), ..)| of_rule(*of));
+            let rows = twins.filter_map(|(_, twin, _)| {
+                evaluation.reached.iter().find(|(of, _)| of == twin).map(|(_, rows)| *rows)
+            });
+            return Err(match rows.max() {
+                Some(rows) => error.with_rows(rows),
+                None => error,
+            });
+        }
         let mut answers = Vec::new();
         for ((of, mask), twin, calls) in &self.ways {
             let mut rows_of = |id: &RelationId| {

@@ -125,7 +125,10 @@ impl Marks<'_> {
                 self.atom(dominating);
                 self.body(body);
             }
-            Item::Include { .. } | Item::Plan { .. } | Item::Pragma { .. } => {}
+            Item::Include { .. }
+            | Item::Plan { .. }
+            | Item::Pragma { .. }
+            | Item::Foreign { .. } => {}
         }
     }
 

@@ -168,6 +168,7 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         Word::Directive("once") => {
             Ok((behind, Item::Pragma { name: "once".into(), value: String::new(), at: token.at }))
         }
+        Word::Directive("functor") => foreign(behind),
         Word::Directive("comp") => component(behind, 0),
         Word::Directive("init") => instance(behind),
         Word::Directive("override") => input.refuse(RuleError::Unsupported {
@@ -191,6 +192,20 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         }),
         _ => rule(input),
     }
+}
+
+// .functor f(x: number, symbol): number stateful
+fn foreign(input: Input<'_>) -> Read<'_, Item> {
+    let (input, of) = name(input)?;
+    let column = alt((separated_pair(name, sign(":"), long_name).map(|(_, of)| of), long_name));
+    let columns = delimited(sign("("), opt(list(column, sign(","))), sign(")"));
+    let (input, (columns, result)) = separated_pair(columns, sign(":"), long_name).parse(input)?;
+    let rest = match input.rest {
+        [Token { word: Word::Name(word), .. }, rest @ ..] if word == "stateful" => rest,
+        rest => rest,
+    };
+    let types = columns.into_iter().flatten().chain([result]).collect();
+    Ok((Input { rest, ..input }, Item::Foreign { name: of, types }))
 }
 
 // .decl above, under(a: symbol, b: symbol) = НАД output
@@ -368,10 +383,13 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
 // .type Place <: symbol        .type Thing = Place | Tool
 fn type_item(input: Input<'_>) -> Read<'_, Item> {
     let (input, type_name) = name(input)?;
-    let is_bare = !matches!(
-        input.rest.first().map(|token| &token.word),
-        Some(Word::Sign("<:" | "=")) | Some(Word::Name(_))
-    );
+    let mut behind = input.rest.iter().map(|token| &token.word);
+    let is_bare = match (behind.next(), behind.next()) {
+        (Some(Word::Sign("<:" | "=")), _) => false,
+        // The next fact or rule.
+        (Some(Word::Name(_)), next) => matches!(next, Some(Word::Sign("(" | "."))),
+        _ => true,
+    };
     if is_bare {
         // As Soufflé read it once: a type of its own among the symbols.
         let bases = vec![Name { text: "symbol".into(), at: type_name.at }];

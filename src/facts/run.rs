@@ -339,7 +339,7 @@ impl<'a> Machine<'a, '_> {
             Source::Index(index) => !index.range(key).is_empty(),
             Source::Rows(parts) => parts.iter().any(|rows| !rows.range(key).is_empty()),
             Source::Kept(kept) => kept.count(key) > 0,
-            Source::Called(called) => called.rows(key, self.words).len > 0,
+            Source::Called(called) => called.has_rows(key, self.words),
         }
     }
 
@@ -513,6 +513,9 @@ impl<'a> Machine<'a, '_> {
         key: &[Word],
         next: usize,
     ) -> bool {
+        if scan.once && scan.filters.is_empty() && scan.loads.is_empty() && scan.same.is_empty() {
+            return called.has_rows(key, self.words) && self.run(next);
+        }
         let rows = called.rows(key, self.words);
         let mut passing = Vec::new();
         for filter in &scan.filters {

@@ -64,6 +64,8 @@ pub(super) enum Item {
     Plan { orders: Vec<(i64, Vec<i64>)>, at: Span },
     /// `.pragma "time-limit" "10"`
     Pragma { name: String, value: String, at: Span },
+    /// `.functor f(x: number): symbol stateful`: foreign code. What is declared need not be called.
+    Foreign { name: Name, types: Vec<Name> },
     /// `.input`, `.output`, `.printsize`, `.limitsize`.
     Directive { role: Role, relations: Vec<Name>, parameters: Vec<(String, String)> },
     /// A fact is a rule without a body.
@@ -74,9 +76,10 @@ impl Item {
     /// Its place, or that of the first name in it.
     pub(super) fn at(&self) -> Span {
         match self {
-            Self::Type { name, .. } | Self::Structure { name, .. } | Self::Override(name) => {
-                name.at
-            }
+            Self::Type { name, .. }
+            | Self::Structure { name, .. }
+            | Self::Override(name)
+            | Self::Foreign { name, .. } => name.at,
             Self::Include { at, .. }
             | Self::Instance { at, .. }
             | Self::Subsumption { at, .. }

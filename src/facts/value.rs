@@ -117,7 +117,8 @@ pub(super) fn number(
         // Towards zero, as Soufflé does.
         (Functor::DecimalToNumber, [a]) => Some(number(a, variable, words)? / decimal::ONE),
         (Functor::DecimalToUnsigned, [a]) => {
-            Some(number(a, variable, words)? / decimal::ONE).filter(|number| *number >= 0)
+            let whole = number(a, variable, words)? / decimal::ONE;
+            u32::try_from(whole).ok().map(i64::from)
         }
         (Functor::UnsignedToNumber, [a]) => {
             // The same 32 bits.

@@ -7,9 +7,23 @@
 use std::collections::{HashMap, HashSet};
 
 use super::clause::names_of;
-use super::inline::{Copy, map_expr};
+use super::inline::{Copy, map_body, map_expr};
 use super::syntax::{Aggregation, Body, Comparison, Expr, Name, Rule};
 use super::unify::{names_of_body, names_of_expr};
+
+/// What the names of brought out aggregates' values begin with; no name of a text does.
+const RESULT: &str = "итог′";
+
+/// The names around an aggregate.
+#[derive(Clone, Copy)]
+struct Scope<'a> {
+    /// What other premises bind.
+    bound: &'a HashSet<String>,
+    /// What the rule reads outside of aggregates.
+    outer: &'a HashSet<String>,
+    /// What the aggregate's value is given to.
+    target: Option<&'a str>,
+}
 
 /// The rule with its aggregates' own names made their own, and with the premises that find the witnesses.
 pub(super) fn brought_out(rule: &Rule) -> Rule {
@@ -54,8 +68,10 @@ pub(super) fn brought_out(rule: &Rule) -> Rule {
         let mut bring = |expr: &Expr| {
             map_expr(expr, &mut |inner| {
                 let Expr::Aggregate { .. } = inner else { return None };
+                let scope = Scope { bound: &bound, outer: &outer, target: target.as_deref() };
+                let inner = within(inner, scope, &HashSet::new(), &mut number, &mut more);
                 number += 1;
-                Some(aggregate(inner, &bound, &outer, target.as_deref(), number, &mut more))
+                Some(aggregate(&inner, scope, number, &mut more))
             })
         };
         let (left, right) = (bring(left), bring(right));
@@ -77,15 +93,44 @@ fn has_aggregate(part: &Body) -> bool {
     matches!(part, Body::Compare { left, right, .. } if within(left) || within(right))
 }
 
-/// The aggregate with its own names made its own; the premises that find witnesses go to `more`.
-fn aggregate(
+/// The aggregate with the extremes within its body brought out of which the rule reads a witness: that witness is the
+/// rule's, whatever the aggregate around it makes of the extreme.
+///
+/// In `n = count : { b(x), x > min y : { d(y, who) } }` each `who` of the least `y` is one.
+///
+/// An extreme that the aggregate around it makes another for each of its own names has no witness of the rule's.
+fn within(
     expr: &Expr,
-    bound: &HashSet<String>,
-    outer: &HashSet<String>,
-    target: Option<&str>,
-    number: usize,
+    scope: Scope<'_>,
+    around: &HashSet<String>,
+    number: &mut usize,
     more: &mut Vec<Body>,
 ) -> Expr {
+    let Expr::Aggregate { function, value, body, at } = expr else { return expr.clone() };
+    let mut around = around.clone();
+    around.extend(bound_by(&mut std::iter::once(&**body)));
+    around.retain(|name| !scope.bound.contains(name));
+    let body = map_body(body, &mut |part| {
+        map_expr(part, &mut |inner| {
+            let Expr::Aggregate { function, value, body, .. } = inner else { return None };
+            let mut names = Vec::new();
+            names_of_body(body, &mut names);
+            value.iter().for_each(|value| names_of_expr(value, &mut names));
+            let is_extreme = matches!(function, Aggregation::Min | Aggregation::Max);
+            let inner = within(inner, scope, &around, number, more);
+            if !is_extreme || names.iter().any(|name| around.contains(name)) {
+                return Some(inner);
+            }
+            *number += 1;
+            Some(aggregate(&inner, scope, *number, more))
+        })
+    });
+    Expr::Aggregate { function: *function, value: value.clone(), body: Box::new(body), at: *at }
+}
+
+/// The aggregate with its own names made its own; the premises that find witnesses go to `more`.
+fn aggregate(expr: &Expr, scope: Scope<'_>, number: usize, more: &mut Vec<Body>) -> Expr {
+    let Scope { bound, outer, target } = scope;
     let Expr::Aggregate { function, value, body, at } = expr else { return expr.clone() };
     let mut names = Vec::new();
     names_of_body(body, &mut names);
@@ -125,10 +170,12 @@ fn aggregate(
     }
     // T = max n : { … }, and the body once more with T for its value.
     let mut again = copy(&|name| {
-        let is_rules = bound.contains(name) && outer.contains(name) || witnesses.contains(&name);
+        let is_rules = bound.contains(name) && outer.contains(name)
+            || witnesses.contains(&name)
+            || name.starts_with(RESULT);
         (!is_rules).then(|| format!("{name}″{number}"))
     });
-    let result = variable(format!("итог′{number}"));
+    let result = variable(format!("{RESULT}{number}"));
     let equal =
         |left: Expr, right: Expr| Body::Compare { op: Comparison::Equal, left, right, at: *at };
     more.push(equal(result.clone(), inner));

@@ -259,6 +259,40 @@ fn witnesses_of_an_extreme_are_found() {
             own(4)
         "#]],
     );
+    // Of an extreme within an aggregate the witness is the rule's; where that extreme hangs on what the aggregate goes
+    // through there is none.
+    check(
+        r#"
+        .decl mark(who: symbol, n: number)
+        mark("A", 3). mark("B", 1). mark("C", 1).
+        .decl limit(class: symbol, n: number)
+        limit("x", 1). limit("y", 2). limit("y", 3).
+        .decl above(n: number, who: symbol) .output above
+        above(N, W) :- N = count : { limit(_, X), X > min Y : { mark(W, Y) } }.
+        .decl both(n: number, c: symbol, who: symbol) .output both
+        both(N, C, W) :- N = max X : { limit(C, X), X > min Y : { mark(W, Y) } }.
+        .decl own(n: number) .output own
+        own(N) :- N = count : { limit(_, X), X > min N : { mark(_, N) } }.
+        .decl alone(n: number, who: symbol) .output alone
+        alone(N, W) :- mark(W, 3), N = count : { limit(_, X), X <= max Y : { mark(W, Y) } }."#,
+        &expect![[r#"
+            above(2, B)
+            above(2, C)
+            both(3, y, B)
+            both(3, y, C)
+            own(2)
+            alone(3, A)
+        "#]],
+    );
+    check(
+        ".decl mark(who: symbol, n: number) .input mark
+.decl hangs(n: number, who: symbol) .output hangs
+hangs(N, W) :- N = count : { mark(_, X), X > min Y : { mark(W, Y), Y < X } }.",
+        &expect![[r#"
+            3: переменная «N» ничем не связана
+            3: переменная «W» ничем не связана
+        "#]],
+    );
     check(
         ".decl mark(who: symbol, n: number) .input mark
 .decl sums(who: symbol, n: number) .output sums
@@ -355,7 +389,6 @@ a(X) :- a(X), match(\"(a)\\\\1\", \"aa\").
 .plan 0:(1,2)
 ",
         &expect![[r#"
-            1: не поддерживается: .functor
             3: не поддерживается: функция из .functor
             4: не поддерживается: .lattice
         "#]],

@@ -608,6 +608,20 @@ a(1).",
 
 const TAKEN: &[(&str, &str)] = &[
     (
+        "type_bare_before_a_fact",
+        ".decl a(x: T) .output a
+.type T
+a(\"x\").
+.type S
+g.a(1).
+.comp G { .decl a(x: number) }
+.init g = G",
+    ),
+    (
+        "functor_declared_only",
+        ".functor f(x: number, symbol): number stateful .functor g(): symbol",
+    ),
+    (
         "named_as_a_primitive",
         ".decl number(x: number) .decl float(x: number) number(1). float(X) :- number(X).",
     ),
