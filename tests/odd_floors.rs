@@ -1,6 +1,8 @@
 //! Free floor and ways in odd worlds. Every answer is checked against a slow one that knows nothing of offsets,
 //! overlays and meshes: distances to the things themselves, and a fill of a fine raster.
 
+use std::sync::Arc;
+
 use orthoframe_geometry::*;
 use orthoframe_map::*;
 use orthoframe_units::*;
@@ -36,7 +38,7 @@ impl Solids {
             door.map_or(vec![], |door| d.leaves(door).obstacles(plan.door_state(world, door.id)))
         });
         // Shut, a doorway ends the floor on both faces of its wall: nobody stands in it.
-        let is_shut = |d: &&Opening| {
+        let is_shut = |d: &&Arc<Opening>| {
             let door = d.door.map(|id| &world.doors[&id]);
             door.is_some_and(|door| {
                 let state = plan.door_state(world, door.id);

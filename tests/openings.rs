@@ -62,7 +62,7 @@ fn said(engine: &Engine) -> [bool; 4] {
     });
     let answer = engine.ask("Есть проход из кухни в спальню?", &mut Memory::default()).unwrap();
     let answered = answer.unwrap().text.starts_with("Да");
-    let opening = &engine.openings().unwrap()[0];
+    let opening = engine.openings().unwrap().iter().next().unwrap();
     [
         way.route.is_ok(),
         planned,
@@ -113,7 +113,7 @@ fn floor_facts_and_openings_are_one() {
         let openings = engine.openings().unwrap();
         // The standard rules let join what measuring finds joined.
         let measured = Openings::of(world, STEP_REACH);
-        assert_eq!(measured.len(), openings.len());
+        assert_eq!(measured.iter().len(), openings.iter().len());
         for (measured, decided) in measured.iter().zip(openings.iter()) {
             assert_eq!(measured.id, decided.id);
             assert!(!measured.is_through() || measured.joins == decided.joins, "{}", decided.name);

@@ -175,7 +175,7 @@ pub(crate) fn outlines(plan: &FloorPlan) -> Vec<Outline> {
         .flat_map(Region::contours)
         .map(|c| c.corners.iter().map(|p| [p.x, p.y]).collect())
         .collect();
-    contours.extend(plan.doorways().iter().map(weld));
+    contours.extend(plan.doorways().iter().map(|doorway| weld(doorway)));
     contours.overlay(&Vec::<Vec<[f64; 2]>>::new(), OverlayRule::Subject, FillRule::NonZero)
 }
 

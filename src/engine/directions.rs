@@ -71,7 +71,7 @@ impl Known {
         let mut pieces: Vec<(Vec<Point>, Option<&Opening>)> = Vec::new();
         for (n, stage) in answer.stages.iter().enumerate() {
             let goes_on = n + 1 < answer.stages.len();
-            let door = stage.leaves_by.filter(|_| goes_on).map(|d| &guide.floor.doorways()[d]);
+            let door = stage.leaves_by.filter(|_| goes_on).map(|d| &*guide.floor.doorways()[d]);
             let mut piece: Vec<Point> = start.into_iter().collect();
             let crossing = door.map(|door| crossing(door, stage.area, line));
             let taken = crossing.map_or(line.len(), |(taken, _)| taken);

@@ -1,5 +1,7 @@
 //! Drawings of a map with what is known of it.
 
+use std::sync::Arc;
+
 use crate::draw::{
     DoorGlyph, FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing,
     ViewLayer, ZoneGlyph, object_svg,
@@ -185,7 +187,8 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
             })
             .collect()
     };
-    let between = floor.doorways().iter().filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
+    let doorways = floor.doorways().iter().map(Arc::as_ref);
+    let between = doorways.filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
     between.chain(outer_doors(floor, only)).flat_map(glyphs).collect()
 }
 
@@ -203,7 +206,8 @@ fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
         let body = |base| LeafBody { base, bottom, top, status: door.state.status };
         doorway.leaves(door).at(door.state).into_iter().map(body).collect()
     };
-    floor.doorways().iter().chain(outer_doors(floor, None)).flat_map(bodies).collect()
+    let doorways = floor.doorways().iter().map(Arc::as_ref);
+    doorways.chain(outer_doors(floor, None)).flat_map(bodies).collect()
 }
 
 /// The doorways and passages through walls that are no mere lines.
@@ -218,14 +222,14 @@ fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
         let top = if height > 0.0 { room.bottom + height } else { room.top };
         Some(Mouth { jambs: [jamb(t0), jamb(t1)], bottom: room.bottom, top: top.min(room.top) })
     };
-    floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(mouth).collect()
+    floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(|d| mouth(d)).collect()
 }
 
 /// The doors that join no two Areas: they lead out of the map.
 fn outer_doors(floor: &FloorPlan, only: Option<AreaId>) -> impl Iterator<Item = &Opening> {
     let joined: std::collections::HashSet<_> =
         floor.doorways().iter().filter_map(|d| d.door).collect();
-    let outer = floor.blind_openings().iter();
+    let outer = floor.blind_openings().iter().map(Arc::as_ref);
     outer.filter(move |o| {
         o.door.is_some_and(|door| !joined.contains(&door)) && only.is_none_or(|only| o.is_of(only))
     })

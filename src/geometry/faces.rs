@@ -4,6 +4,8 @@
 //! **Invariant**: a face is flat, its corners counter-clockwise as seen from where its normal points; that of a closed
 //! body points out of it, that of a wall into its room.
 
+use std::sync::Arc;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::map::World;
@@ -128,7 +130,7 @@ impl FloorPlan {
                 faces.upright(face, (b, a), (room.bottom, room.top), backs);
             }
         }
-        let within = |d: &&Opening| near.grown(d.width()).contains(d.middle());
+        let within = |d: &&Arc<Opening>| near.grown(d.width()).contains(d.middle());
         for doorway in self.doorways().iter().filter(within) {
             let Some(door) = doorway.door.and_then(|d| world.doors.get(&d)) else { continue };
             let bottom = self.level_of(doorway);

@@ -9,6 +9,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -235,7 +236,7 @@ impl FloorPlan {
     #[must_use]
     pub fn with_lifts_open(&self, world: &World) -> Cow<'_, Self> {
         let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).collect();
-        let leads_in = |d: &&Opening| d.areas.iter().any(|area| cabins.contains(area));
+        let leads_in = |d: &&Arc<Opening>| d.areas.iter().any(|area| cabins.contains(area));
         let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
         let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);
         let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).collect();

@@ -107,6 +107,7 @@ mod passframe;
 mod plan;
 mod polygon;
 mod remedy;
+mod reopened;
 mod replica_index;
 mod route;
 mod scene;

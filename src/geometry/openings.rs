@@ -15,9 +15,10 @@
 //! **Invariant**: an opening's id is its place; things that stand about and the states of doors change nothing here.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::map::{Permeability, SideRef, World};
-use crate::units::{AreaId, DoorId, MapId, OpeningId, Point, Vector};
+use crate::units::{AreaId, DoorId, Frame, MapId, OpeningId, Point, Vector};
 
 use super::buckets::Buckets;
 use super::opening::{OpenSide, Opening};
@@ -28,23 +29,50 @@ use super::{Bounds, Polygon, Scene};
 pub const STEP_REACH: f64 = 60.0;
 
 /// A step this long beyond a border stands on the floor behind it, in cm.
-const FOOTHOLD: f64 = 0.5;
+pub(super) const FOOTHOLD: f64 = 0.5;
 
 /// Points this near to a floor's border lie on it, in cm.
 const ON_BORDER: f64 = 1e-6;
 
-/// The openings of all Maps, by their ids.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// The openings of all Maps, by their ids. A copy shares what it has in common with another.
+#[derive(Debug, Clone, Default)]
 pub struct Openings {
-    all: Vec<Opening>,
-    by_side: BTreeMap<(AreaId, SideRef), OpeningId>,
+    all: Vec<Arc<Opening>>,
+    /// Of each its first side.
+    firsts: Vec<Place>,
+    /// Which Areas have a side in which; sorted.
+    by_area: Vec<(AreaId, OpeningId)>,
+    /// Where the Areas stand, in the order of these.
+    pub(super) stands: Vec<Stand>,
 }
 
-impl std::ops::Deref for Openings {
-    type Target = [Opening];
+/// An Area as it stands in its Map.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stand {
+    pub(super) area: AreaId,
+    pub(super) map: MapId,
+    pub(super) frame: Frame,
+    pub(super) bounds: Bounds,
+    /// The length of its longest side that lets something through, in cm.
+    pub(super) widest: f64,
+}
 
-    fn deref(&self) -> &[Opening] {
-        &self.all
+impl Stand {
+    pub(super) fn of(map: MapId, area: &PlacedArea) -> Self {
+        let sides = area.prisms.iter().flat_map(|prism| prism.polygon.edges().zip(&*prism.sides));
+        let open = sides.filter(|(_, side)| side.permeability != Permeability::Impermeable);
+        let widest = open.map(|((a, b), _)| (b - a).norm()).fold(0.0, f64::max);
+        Self { area: area.id, map, frame: area.frame, bounds: bounds_of(area), widest }
+    }
+}
+
+/// Where a side stands among all: its Map and Area, which of the Area's items it is of, and which of its sides.
+pub(super) type Place = (MapId, AreaId, usize, usize);
+
+impl PartialEq for Openings {
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |(a, b): (&Arc<Opening>, &Arc<Opening>)| Arc::ptr_eq(a, b) || a == b;
+        self.all.len() == other.all.len() && self.all.iter().zip(&other.all).all(is_same)
     }
 }
 
@@ -53,64 +81,111 @@ impl Openings {
     /// each joins the Areas of its two sides.
     #[must_use]
     pub fn of(world: &World, reach: f64) -> Self {
-        let mut all = Vec::new();
+        let (mut found, mut stands) = (Vec::new(), Vec::new());
         for &map in world.maps.keys() {
-            all.extend(openings_of(world, map, reach));
+            let areas = Scene::areas_of(world, map);
+            stands.extend(areas.values().map(|area| Stand::of(map, area)));
+            let mut sides: Vec<_> =
+                areas.values().flat_map(|area| open_sides(world, map, area)).collect();
+            let floors = Floors::of(&areas);
+            sides.iter_mut().for_each(|(_, side)| floors.step_off(side, reach));
+            found.extend(paired(world, map, sides, &areas, reach));
         }
-        let mut by_side = BTreeMap::new();
-        for (place, opening) in all.iter_mut().enumerate() {
-            opening.id = OpeningId(place as u32);
-            let sides = opening.sides.iter();
-            by_side.extend(sides.map(|side| ((side.area, side.side.clone()), opening.id)));
+        stands.sort_by_key(|stand| (stand.area, stand.map));
+        Self::numbered(found.into_iter().map(|(first, opening)| (first, Arc::new(opening))), stands)
+    }
+
+    /// These openings, in the order of their first sides, under their numbers.
+    pub(super) fn numbered(
+        found: impl Iterator<Item = (Place, Arc<Opening>)>,
+        stands: Vec<Stand>,
+    ) -> Self {
+        let (mut firsts, mut all, mut by_area) = (Vec::new(), Vec::new(), Vec::new());
+        for (first, mut opening) in found {
+            let id = OpeningId(all.len() as u32);
+            if opening.id != id {
+                Arc::make_mut(&mut opening).id = id;
+            }
+            by_area.extend(opening.sides.iter().map(|side| (side.area, id)));
+            firsts.push(first);
+            all.push(opening);
         }
-        Self { all, by_side }
+        by_area.sort_unstable();
+        Self { all, firsts, by_area, stands }
+    }
+
+    /// In the order of their ids.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Opening> + Clone {
+        self.all.iter().map(Arc::as_ref)
     }
 
     #[must_use]
     pub fn opening(&self, id: OpeningId) -> Option<&Opening> {
-        self.all.get(id.0 as usize)
+        self.all.get(id.0 as usize).map(Arc::as_ref)
     }
 
     /// The opening that a side of an Area belongs to.
     #[must_use]
     pub fn of_side(&self, area: AreaId, side: &SideRef) -> Option<&Opening> {
-        self.opening(*self.by_side.get(&(area, side.clone()))?)
+        let is_it = |own: &OpenSide| own.area == area && own.side == *side;
+        self.in_sides_of(area).find(|opening| opening.sides.iter().any(is_it))
+    }
+
+    /// The openings in an Area's sides.
+    fn in_sides_of(&self, area: AreaId) -> impl Iterator<Item = &Opening> + '_ {
+        let from = self.by_area.partition_point(|(other, _)| *other < area);
+        let own = self.by_area[from..].iter().take_while(move |(other, _)| *other == area);
+        own.map(|(_, id)| &*self.all[id.0 as usize])
+    }
+
+    /// Each opening with the place of its first side.
+    pub(super) fn placed(&self) -> impl Iterator<Item = (Place, &Arc<Opening>)> + '_ {
+        self.firsts.iter().copied().zip(&self.all)
     }
 
     /// The openings in an Area's sides, and those that the rules join to it.
     pub fn of_area(&self, area: AreaId) -> impl Iterator<Item = &Opening> + '_ {
-        self.all.iter().filter(move |opening| opening.is_of(area))
+        self.iter().filter(move |opening| opening.is_of(area))
     }
 
-    /// Gives every opening its name in the facts.
-    pub fn name(&mut self, mut name: impl FnMut(&Opening) -> String) {
+    /// Gives every opening its name in the facts; none leaves it the one that it has.
+    pub fn name(&mut self, mut name: impl FnMut(&Opening) -> Option<String>) {
         for opening in &mut self.all {
-            opening.name = name(opening);
+            if let Some(name) = name(opening).filter(|name| *name != opening.name) {
+                Arc::make_mut(opening).name = name;
+            }
         }
     }
 
-    /// Takes over what the rules decide: of each opening, in their order, the pairs of Areas that it joins, the lower id
-    /// first.
-    pub fn decide(&mut self, decided: Vec<Vec<[AreaId; 2]>>) {
-        for (opening, joins) in self.all.iter_mut().zip(decided) {
-            opening.joins = joins;
+    /// Takes over what the rules decide of an opening: the pairs of Areas that it joins, the lower id first.
+    pub fn decide(&mut self, id: OpeningId, joins: Vec<[AreaId; 2]>) {
+        if let Some(opening) = self.all.get_mut(id.0 as usize).filter(|o| o.joins != joins) {
+            Arc::make_mut(opening).joins = joins;
         }
     }
 }
 
-/// The openings of a Map, in the order of their first sides.
-fn openings_of(world: &World, map: MapId, reach: f64) -> Vec<Opening> {
-    let areas = Scene::areas_of(world, map);
-    let sides: Vec<OpenSide> = areas.values().flat_map(|area| open_sides(world, area)).collect();
-    let mut maker =
-        Pairs { world, map, open: sides.into_iter().map(Some).collect(), found: vec![] };
+/// The openings that sides of a Map make, whose order is that of their places, in the order of their first sides.
+pub(super) fn paired(
+    world: &World,
+    map: MapId,
+    sides: Vec<(Place, OpenSide)>,
+    areas: &BTreeMap<AreaId, PlacedArea>,
+    reach: f64,
+) -> Vec<(Place, Opening)> {
+    let (places, open): (Vec<_>, Vec<_>) =
+        sides.into_iter().map(|(place, side)| (place, Some(side))).unzip();
+    let mut maker = Pairs { world, map, open, found: vec![] };
     maker.link(world);
     maker.facing(reach);
-    maker.step_off(&areas, reach);
     maker.meeting(reach);
-    maker.blind(&areas);
+    maker.blind(areas);
     maker.found.sort_by_key(|(first, _)| *first);
-    maker.found.into_iter().map(|(_, opening)| opening).collect()
+    maker.found.into_iter().map(|(first, opening)| (places[first], opening)).collect()
+}
+
+fn bounds_of(area: &PlacedArea) -> Bounds {
+    area.prisms.iter().fold(Bounds::EMPTY, |bounds, prism| bounds.union(&prism.bounds))
 }
 
 /// Sides that still look for another, and what was made of the others.
@@ -136,26 +211,26 @@ impl Pairs<'_> {
 
     /// The sides that the Map links, then those that one door closes.
     fn link(&mut self, world: &World) {
-        let mut places: BTreeMap<(AreaId, SideRef), usize> = BTreeMap::new();
+        let mut places: BTreeMap<(AreaId, &SideRef), usize> = BTreeMap::new();
         let mut by_door: BTreeMap<DoorId, Vec<usize>> = BTreeMap::new();
         for (i, side) in self.open.iter().enumerate() {
             let Some(side) = side else { continue };
-            places.entry((side.area, side.side.clone())).or_insert(i);
+            places.entry((side.area, &side.side)).or_insert(i);
             if let Some(mount) = &side.mount {
                 by_door.entry(mount.door).or_default().push(i);
             }
         }
-        let mut linked = Vec::new();
+        let (mut ends, mut linked) = (Vec::new(), Vec::new());
         for link in world.maps.values().flat_map(|map| &map.links) {
-            let place = |area, side: &SideRef| places.get(&(area, side.clone())).copied();
-            let ends = [place(link.area, &link.side), place(link.to_area, &link.to_side)];
-            for (end, other) in ends.into_iter().zip([link.to_area, link.area]) {
-                if let Some(side) = end.and_then(|end| self.open[end].as_mut()) {
-                    side.linked = Some(other);
-                }
-            }
-            if let [Some(i), Some(j)] = ends {
-                linked.push((i, j));
+            let one = places.get(&(link.area, &link.side)).copied();
+            let other = places.get(&(link.to_area, &link.to_side)).copied();
+            ends.extend(one.map(|end| (end, link.to_area)));
+            ends.extend(other.map(|end| (end, link.area)));
+            linked.extend(one.zip(other));
+        }
+        for (end, other) in ends {
+            if let Some(side) = &mut self.open[end] {
+                side.linked = Some(other);
             }
         }
         linked.into_iter().for_each(|(i, j)| self.pair(i, j));
@@ -182,16 +257,6 @@ impl Pairs<'_> {
                     self.pair(i, j);
                 }
             }
-        }
-    }
-
-    /// Steps through every side, of those that are paired too.
-    fn step_off(&mut self, areas: &BTreeMap<AreaId, PlacedArea>, reach: f64) {
-        let floors = Floors::of(areas);
-        let paired = self.found.iter_mut().flat_map(|(_, opening)| &mut opening.sides);
-        for side in self.open.iter_mut().flatten().chain(paired) {
-            side.inward = floors.met(side, -1.0, reach);
-            side.outward = floors.met(side, 1.0, reach);
         }
     }
 
@@ -235,10 +300,11 @@ impl Pairs<'_> {
     }
 }
 
-fn open_sides(world: &World, area: &PlacedArea) -> Vec<OpenSide> {
+/// The sides of an Area that let something through, in their order; nobody has stepped through them yet.
+pub(super) fn open_sides(world: &World, map: MapId, area: &PlacedArea) -> Vec<(Place, OpenSide)> {
     let model = &world.areas[&area.id];
     let mut sides = Vec::new();
-    for (item, prism) in model.items.iter().zip(&area.prisms) {
+    for (number, (item, prism)) in model.items.iter().zip(&area.prisms).enumerate() {
         for (i, side) in prism.sides.iter().enumerate() {
             if side.permeability == Permeability::Impermeable {
                 continue;
@@ -248,7 +314,7 @@ fn open_sides(world: &World, area: &PlacedArea) -> Vec<OpenSide> {
             let reference = SideRef { item: item.id.clone(), side: id };
             let mount =
                 model.doors.iter().find(|m| m.item == reference.item && m.side == reference.side);
-            sides.push(OpenSide {
+            let side = OpenSide {
                 area: area.id,
                 ends: (corners[i], corners[(i + 1) % corners.len()]),
                 floor: prism.bottom,
@@ -259,7 +325,8 @@ fn open_sides(world: &World, area: &PlacedArea) -> Vec<OpenSide> {
                 linked: None,
                 inward: None,
                 outward: None,
-            });
+            };
+            sides.push(((map, area.id, number, i), side));
         }
     }
     sides
@@ -272,7 +339,7 @@ fn is_opposite(a: &OpenSide, b: &OpenSide) -> bool {
 }
 
 /// Equal stretches of two parallel lines that look at each other through at most a wall.
-fn face_each_other(a: &OpenSide, b: &OpenSide, reach: f64) -> bool {
+pub(super) fn face_each_other(a: &OpenSide, b: &OpenSide, reach: f64) -> bool {
     let Some(u) = (a.ends.1 - a.ends.0).try_normalize(0.0) else { return false };
     let (near, far) = (b.ends.1 - a.ends.0, b.ends.0 - a.ends.1);
     is_opposite(a, b)
@@ -302,20 +369,23 @@ fn stands_in(area: &PlacedArea, p: Point) -> bool {
 }
 
 /// The floors of a Map's Areas by place.
-struct Floors<'a> {
+pub(super) struct Floors<'a> {
     by_id: &'a BTreeMap<AreaId, PlacedArea>,
     areas: Vec<&'a PlacedArea>,
     buckets: Buckets,
 }
 
 impl<'a> Floors<'a> {
-    fn of(by_id: &'a BTreeMap<AreaId, PlacedArea>) -> Self {
+    pub(super) fn of(by_id: &'a BTreeMap<AreaId, PlacedArea>) -> Self {
         let areas: Vec<&PlacedArea> = by_id.values().collect();
-        let bounds = |area: &&PlacedArea| {
-            area.prisms.iter().fold(Bounds::EMPTY, |b, prism| b.union(&prism.bounds))
-        };
-        let boxes: Vec<Bounds> = areas.iter().map(bounds).collect();
+        let boxes: Vec<Bounds> = areas.iter().map(|area| bounds_of(area)).collect();
         Self { by_id, areas, buckets: Buckets::of(&boxes) }
+    }
+
+    /// Steps through a side, out of its Area and into it.
+    pub(super) fn step_off(&self, side: &mut OpenSide, reach: f64) {
+        side.inward = self.met(side, -1.0, reach);
+        side.outward = self.met(side, 1.0, reach);
     }
 
     /// The first Area met when stepping off a side, out of its Area (`sign` 1) or into it (-1), at its middle or its

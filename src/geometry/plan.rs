@@ -65,18 +65,18 @@ pub struct FloorPlan {
 #[derive(Debug)]
 pub(super) struct Doorways {
     /// Those that a floor leads through, in the order of their places.
-    pub(super) ways: Vec<Opening>,
+    pub(super) ways: Vec<Arc<Opening>>,
     /// The others.
-    blind: Vec<Opening>,
+    blind: Vec<Arc<Opening>>,
     /// For each Area its doorways, and which of their two sides it is.
     pub(super) by_area: BTreeMap<AreaId, Vec<(usize, usize)>>,
 }
 
 impl Doorways {
     pub(super) fn of(openings: &Openings, map: MapId) -> Self {
-        let own = openings.iter().filter(|o| o.map == map).cloned();
-        let (mut ways, blind): (Vec<_>, Vec<_>) = own.partition(Opening::is_way);
-        ways.sort_by(by_place);
+        let own = openings.placed().map(|(_, opening)| opening).filter(|o| o.map == map).cloned();
+        let (mut ways, blind): (Vec<_>, Vec<_>) = own.partition(|opening| opening.is_way());
+        ways.sort_by(|one, other| by_place(one, other));
         let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
         for (index, doorway) in ways.iter().enumerate() {
             for side in [0, 1] {
@@ -261,7 +261,7 @@ impl FloorPlan {
 
     /// All openings that the floor leads through, with their doors open or not.
     #[must_use]
-    pub fn doorways(&self) -> &[Opening] {
+    pub fn doorways(&self) -> &[Arc<Opening>] {
         &self.doorways.ways
     }
 
@@ -274,13 +274,13 @@ impl FloorPlan {
     /// The openings of the Map that join no two Areas by their sides: doors that lead out of it, and those that the rules
     /// do not let join.
     #[must_use]
-    pub fn blind_openings(&self) -> &[Opening] {
+    pub fn blind_openings(&self) -> &[Arc<Opening>] {
         &self.doorways.blind
     }
 
     /// The doorways that a door closes; several only if a door is mounted twice.
     pub fn doorways_of(&self, door: DoorId) -> impl Iterator<Item = &Opening> + '_ {
-        self.doorways.ways.iter().filter(move |d| d.door == Some(door))
+        self.doorways.ways.iter().map(Arc::as_ref).filter(move |d| d.door == Some(door))
     }
 
     /// All Fragments, in the order of their Areas' ids.
@@ -460,7 +460,7 @@ impl FloorPlan {
     /// The floor of a Fragment that nothing stands on, up to so far beyond the lines of its open doorways, in cm.
     fn inside(&self, number: u32, further: f64) -> Shapes {
         let own = self.doorways_at(number).iter().filter(|d| self.admits[d.0]);
-        let open = own.map(|&(index, side)| (&self.doorways.ways[index], side));
+        let open = own.map(|&(index, side)| (&*self.doorways.ways[index], side));
         self.floor(number).inside(open, further, self.reach().max(2.0 * SLACK))
     }
 

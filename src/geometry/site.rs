@@ -1,6 +1,7 @@
 //! What a Fragment's floor is made from: the world, the scene, the openings that lead through, the robot and the doors.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{AreaId, DoorId, ReplicaId};
@@ -22,7 +23,7 @@ pub(super) struct Site<'a> {
     pub(super) scene: &'a Scene,
     /// Replicas near any place.
     pub(super) nearby: &'a (dyn Fn(&Bounds) -> Vec<ReplicaId> + Sync),
-    pub(super) doorways: &'a [Opening],
+    pub(super) doorways: &'a [Arc<Opening>],
     pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
     pub(super) robot: &'a RobotProfile,
     pub(super) states: &'a DoorStates,
@@ -70,7 +71,9 @@ impl Site<'_> {
         area: AreaId,
     ) -> impl Iterator<Item = (usize, &Opening, usize)> {
         let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
-        let told = |(number, &(index, side))| (number, &self.doorways[index], side);
+        let told = |(number, &(index, side)): (usize, &(usize, usize))| {
+            (number, &*self.doorways[index], side)
+        };
         own.iter().enumerate().map(told)
     }
 }

@@ -23,8 +23,10 @@ pub(super) fn openings(world: &World, reach: f64, symbols: &Symbols) -> Openings
 pub(super) fn call(openings: &mut Openings, world: &World, symbols: &Symbols) {
     let mut taken = BTreeSet::new();
     openings.name(|opening| match opening.door.filter(|door| world.doors.contains_key(door)) {
-        Some(door) => symbols.door(door).to_string(),
-        None => new_name(opening, symbols, &mut taken),
+        Some(door) => Some(symbols.door(door))
+            .filter(|name| ***name != *opening.name)
+            .map(ToString::to_string),
+        None => Some(new_name(opening, symbols, &mut taken)),
     });
 }
 
@@ -57,27 +59,29 @@ pub(super) fn by_name(openings: &Openings) -> BTreeMap<&str, Vec<OpeningId>> {
     found
 }
 
-/// Gives openings what the rules decided: pairs of Areas by the opening's name.
+/// Gives openings, those of the wanted names, what the rules decided: pairs of Areas by the opening's name.
 pub(super) fn decide(
     openings: &mut Arc<Openings>,
+    is_wanted: impl Fn(&str) -> bool,
     joins: &BTreeMap<String, BTreeSet<[AreaId; 2]>>,
 ) {
+    let wanted: Vec<&Opening> = openings.iter().filter(|o| is_wanted(&o.name)).collect();
     let mut namesakes: BTreeMap<&str, usize> = BTreeMap::new();
-    for opening in openings.iter() {
+    for opening in &wanted {
         *namesakes.entry(&opening.name).or_default() += 1;
     }
-    let decided: Vec<Vec<[AreaId; 2]>> = openings
-        .iter()
-        .map(|opening| {
-            let own = joins.get(&opening.name).into_iter().flatten().copied();
-            // One door may hang in several places.
-            let is_only = namesakes.get(&*opening.name) == Some(&1);
-            let here =
-                |pair: &[AreaId; 2]| is_only || pair.iter().any(|a| opening.side_in(*a).is_some());
-            own.filter(here).collect()
-        })
-        .collect();
-    if openings.iter().zip(&decided).any(|(opening, decided)| opening.joins != *decided) {
-        Arc::make_mut(openings).decide(decided);
+    let decided = wanted.iter().map(|opening| {
+        let own = joins.get(&opening.name).into_iter().flatten().copied();
+        // One door may hang in several places.
+        let is_only = namesakes.get(&*opening.name) == Some(&1);
+        let here =
+            |pair: &[AreaId; 2]| is_only || pair.iter().any(|a| opening.side_in(*a).is_some());
+        (opening, own.filter(here).collect::<Vec<_>>())
+    });
+    let news = decided.filter(|(opening, joins)| opening.joins != *joins);
+    let news: Vec<_> = news.map(|(opening, joins)| (opening.id, joins)).collect();
+    if !news.is_empty() {
+        let openings = Arc::make_mut(openings);
+        news.into_iter().for_each(|(id, joins)| openings.decide(id, joins));
     }
 }

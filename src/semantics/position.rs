@@ -10,7 +10,7 @@ use crate::units::{AreaId, Deg, DoorId, MapId, OpeningId, Point, Pose, ReplicaId
 use super::body::Body;
 use super::relations::Relations;
 use super::thresholds::Thresholds;
-use crate::geometry::{OpenSide, Opening, Polygon, nearest_on_segment, outward_normal};
+use crate::geometry::{OpenSide, Opening, Openings, Polygon, nearest_on_segment, outward_normal};
 
 /// A door or passage as a report speaks of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,7 +127,7 @@ fn in_side(side: &OpenSide, p: Point, here: Option<AreaId>, near: &Thresholds) -
     (0.0..=1.0).contains(&share) && within.contains(&out)
 }
 
-fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Thresholds) -> Option<Spot> {
+fn at_door(openings: &Openings, area: AreaId, p: Point, near: &Thresholds) -> Option<Spot> {
     let away = |o: &Opening| {
         let sides = o.sides.iter().map(|s| (p - nearest_on_segment(p, s.ends.0, s.ends.1)).norm());
         sides.fold(f64::INFINITY, f64::min)

@@ -317,7 +317,7 @@ fn doors(world: &World, now: &World, floor: &FloorPlan) -> Vec<Value> {
         }
         Some(view)
     };
-    openings.filter_map(opening).collect()
+    openings.map(|shared| &**shared).filter_map(opening).collect()
 }
 
 fn leaves(view: &mut Value, opening: &Opening, door: &Door) {

@@ -158,7 +158,7 @@ impl FloorPlan {
             .collect()
     }
 
-    pub(super) fn renew(&mut self, world: &World, stale: &[AreaId]) {
+    pub(crate) fn renew(&mut self, world: &World, stale: &[AreaId]) {
         let fresh: Vec<_> = self.with_site(world, |site| build_all(site, stale));
         for floor in fresh {
             if let Some(number) = self.number(floor.area) {

@@ -3,18 +3,18 @@
 //!
 //! **Invariant**: afterwards the derived relations are those that [`derive()`](super::derive) gives of the edited world.
 //! What was measured of an Area or an Object that changed, and of every thing near it, is measured anew, and of them alone;
-//! the openings are looked for in the whole building, since one is found by what others leave.
+//! so are openings that its sides may make.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::feed::{Cell, Feed};
-use crate::geometry::{OpenSide, Openings};
+use crate::geometry::{OpenSide, Opening, Openings};
 use crate::map::{Area, Entity, Item, Object, Orthoframe, World};
 use crate::measure::{Change, Room, asks_of_all};
 use crate::names::Subject;
-use crate::openings::{call, openings};
+use crate::openings::call;
 use crate::units::{AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId};
 
 use super::follow::Difference;
@@ -33,7 +33,9 @@ struct Touched {
     doors: BTreeSet<DoorId>,
     /// Of the Objects those of which every thing is another now.
     remade: BTreeSet<ObjectId>,
-    /// Of the Areas those that are bounded otherwise, stand elsewhere or bear another name.
+    /// Of the Areas those that are bounded otherwise or stand elsewhere.
+    reshaped: BTreeSet<AreaId>,
+    /// The same, and those that bear another name.
     rebuilt: BTreeSet<AreaId>,
     places: BTreeMap<AreaId, (MapId, Frame)>,
     /// Whether openings may be others.
@@ -107,22 +109,24 @@ impl Touched {
             let old = before.placements();
             let all: BTreeSet<&AreaId> = old.keys().chain(self.places.keys()).collect();
             let moved = all.into_iter().filter(|id| old.get(id) != self.places.get(id)).copied();
-            self.rebuilt.extend(moved.collect::<Vec<_>>());
+            self.reshaped.extend(moved.collect::<Vec<_>>());
         }
         let using = |world: &World| -> Vec<AreaId> {
             world.areas.values().filter(|a| uses(&a.items)).map(|a| a.id).collect()
         };
-        self.rebuilt.extend([before, after].into_iter().flat_map(using));
-        self.opens |= !self.rebuilt.is_empty();
+        self.reshaped.extend([before, after].into_iter().flat_map(using));
         for id in &self.areas {
             let both = before.areas.get(id).zip(after.areas.get(id));
             let made = |(was, is): (&Area, &Area)| was.items == is.items && was.doors == is.doors;
             let called = |(was, is): (&Area, &Area)| was.name == is.name && was.key == is.key;
-            self.opens |= !both.is_some_and(made);
-            if !both.is_some_and(|both| made(both) && called(both)) {
+            if !both.is_some_and(made) {
+                self.reshaped.insert(*id);
+            } else if !both.is_some_and(called) {
                 self.rebuilt.insert(*id);
             }
         }
+        self.opens |= !self.reshaped.is_empty();
+        self.rebuilt.extend(&self.reshaped);
         self.areas.extend(&self.rebuilt);
     }
 
@@ -186,7 +190,11 @@ impl Relations {
         let mut new = old.iter().filter_map(|(subject, _)| self.symbols.known(*subject));
         let calls = touched.calls || new.any(is_like_opening);
         let new = if touched.opens {
-            Arc::new(openings(after, self.rules.step_cm(), &self.symbols))
+            let (reach, Touched { reshaped, doors, .. }) = (self.rules.step_cm(), &touched);
+            let followed = self.openings.follow(before, after, reach, reshaped, doors);
+            let mut new = followed.unwrap_or_else(|| Openings::of(after, reach));
+            call(&mut new, after, &self.symbols);
+            Arc::new(new)
         } else if calls {
             let mut same = Openings::clone(&self.openings);
             call(&mut same, after, &self.symbols);
@@ -194,7 +202,7 @@ impl Relations {
         } else {
             Arc::clone(&self.openings)
         };
-        let (names, mouths) = differing(&self.openings, &new, &touched.rebuilt);
+        let (names, mouths, fresh) = differing(&self.openings, &new, &touched.rebuilt);
         let replicas = self.near_changes(before, after, &touched, &mouths, changed);
         if replicas.len() > MOST_MEASURED {
             return Ok(false);
@@ -266,8 +274,8 @@ impl Relations {
         self.settle(&mut rows)?;
         self.live.update()?;
         self.follow();
-        if touched.opens || calls {
-            self.decide_openings();
+        if !fresh.is_empty() {
+            self.decide_openings(|name| fresh.contains(name));
         }
         self.symbols.retire(&gone, |_| false);
         let old: Vec<_> = old.into_iter().filter_map(|(of, was)| Some((of, was?))).collect();
@@ -337,34 +345,45 @@ impl Relations {
     }
 }
 
-/// The names of openings that are others than they were, or are told of with one of these Areas; and the Areas in whose
-/// sides one is another.
+/// The names of openings that are others than they were, or are told of with one of these Areas; the Areas in whose sides one
+/// is another; and the names of those that were measured or called anew.
 fn differing(
     before: &Openings,
     after: &Openings,
     told: &BTreeSet<AreaId>,
-) -> (BTreeSet<String>, BTreeSet<AreaId>) {
-    let (mut names, mut areas) = (BTreeSet::new(), BTreeSet::new());
+) -> (BTreeSet<String>, BTreeSet<AreaId>, BTreeSet<String>) {
+    let (mut names, mut areas, mut fresh) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     if std::ptr::eq(before, after) {
-        return (names, areas);
+        return (names, areas, fresh);
     }
     let with = |side: &OpenSide| {
         let met = [side.inward, side.outward].into_iter().flatten().map(|(area, _)| area);
         met.chain(side.linked).chain([side.area]).any(|area| told.contains(&area))
     };
-    for (one, others) in [(before, after), (after, before)] {
+    let all = |openings: &Openings| -> HashSet<*const Opening> {
+        openings.iter().map(std::ptr::from_ref).collect()
+    };
+    let shared = [all(after), all(before)];
+    for ((one, others), shared) in [(before, after), (after, before)].into_iter().zip(shared) {
         for opening in one.iter() {
-            let first = opening.sides.first();
-            let other = first.and_then(|side| others.of_side(side.area, &side.side));
-            if other.is_none_or(|other| !other.is_measured_as(opening)) {
+            let is_shared = shared.contains(&std::ptr::from_ref(opening));
+            let is_other = || {
+                let first = opening.sides.first();
+                let other = first.and_then(|side| others.of_side(side.area, &side.side));
+                other.is_none_or(|other| !other.is_measured_as(opening))
+            };
+            if !is_shared && is_other() {
                 names.insert(opening.name.clone());
                 areas.extend(opening.sides.iter().map(|side| side.area));
             } else if opening.sides.iter().any(with) {
                 names.insert(opening.name.clone());
             }
+            if !is_shared && std::ptr::eq(one, after) {
+                fresh.insert(opening.name.clone());
+            }
         }
     }
-    (names, areas)
+    (names, areas, fresh)
 }
 
 #[cfg(test)]

@@ -13,11 +13,13 @@ use super::Relations;
 impl Relations {
     /// Brings what was looked up to the last update.
     pub(super) fn follow(&mut self) {
-        let is_news = self.rules.program().relation("JOINS").is_some_and(|joins| {
-            self.live.added(joins).next().is_some() || self.live.removed(joins).next().is_some()
-        });
-        if is_news {
-            self.decide_openings();
+        if let Some(joins) = self.rules.program().relation("JOINS") {
+            let news = self.live.added(joins).chain(self.live.removed(joins));
+            let names: BTreeSet<String> =
+                news.filter_map(|tuple| Some(tuple.symbol(0)?.to_owned())).collect();
+            if !names.is_empty() {
+                self.decide_openings(|name| names.contains(name));
+            }
         }
         let program = self.rules.program();
         let find = |name: &str| program.relation(name);
@@ -80,16 +82,17 @@ impl Relations {
         }
     }
 
-    /// Tells the openings which Areas the rules let them join.
-    pub(super) fn decide_openings(&mut self) {
+    /// Tells the openings of the wanted names which Areas the rules let them join.
+    pub(super) fn decide_openings(&mut self, is_wanted: impl Fn(&str) -> bool) {
         let mut joins: BTreeMap<String, BTreeSet<[AreaId; 2]>> = BTreeMap::new();
         for tuple in self.derived().tuples("JOINS").into_iter().flatten() {
+            let Some(name) = tuple.symbol(0).filter(|name| is_wanted(name)) else { continue };
             let areas = [1, 2].map(|column| self.symbols.area_of(tuple.symbol(column)));
-            if let (Some(name), [Some(a), Some(b)]) = (tuple.symbol(0), areas) {
+            if let [Some(a), Some(b)] = areas {
                 joins.entry(name.to_owned()).or_default().insert([a.min(b), a.max(b)]);
             }
         }
-        decide(&mut self.openings, &joins);
+        decide(&mut self.openings, is_wanted, &joins);
     }
 
     /// Looks up once what others ask for often.

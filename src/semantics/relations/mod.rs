@@ -172,7 +172,7 @@ impl Relations {
             on_floor: BTreeSet::new(),
         };
         relations.index();
-        relations.decide_openings();
+        relations.decide_openings(|_| true);
         relations
     }
 }
