@@ -1,4 +1,5 @@
-//! What is written for other programs, read by those programs; `.ci/run` says how they are installed.
+//! What is written for other programs, read by those programs, and drives in simulators of others; `.ci/run` says how they
+//! are installed.
 
 use crate::judged::judged;
 
@@ -19,4 +20,9 @@ fn exports_are_read_by_others() {
 #[test]
 fn a_robot_behind_rosbridge_is_driven() {
     looked_at_by("examples/judges/rosbridge.py");
+}
+
+#[test]
+fn drives_touch_nothing_in_mujoco() {
+    looked_at_by("src/robot/judges/touch.py");
 }
