@@ -6,6 +6,8 @@
 //! come up on the way, to their fixpoint. Every answered call is kept in a table. So negation and aggregates need no
 //! care: what they read lies in a lower stratum, and its call is complete before it is looked at.
 //!
+//! Where a rule reads only whether a call has rows, as behind a negation, the first that is found ends the call.
+//!
 //! Where a relation is called for a good part of all there is, it is called once for all and its rows are told apart
 //! by the columns in question: asking more than evaluation would have found costs about as much as evaluation.
 //!
