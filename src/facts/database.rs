@@ -148,20 +148,24 @@ pub struct Database {
 /// What the questions asked of a database so far have made ready: its rows beside a program's facts, with their indexes.
 /// An edit of the database empties it.
 #[derive(Debug, Default)]
-pub(super) struct Asked(Mutex<Option<(Arc<[Fact]>, Arc<Kept>)>>);
+pub(super) struct Asked(Mutex<Option<Ready>>);
+
+#[derive(Debug, Clone)]
+struct Ready {
+    facts: Arc<[Fact]>,
+    kept: Arc<Kept>,
+}
 
 impl Asked {
     /// What stands ready for a program with these facts, made where there is none.
     pub(super) fn ready(&self, facts: &Arc<[Fact]>, make: impl FnOnce() -> Kept) -> Arc<Kept> {
         // A thread that ended amid a question has put nothing half done here.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, kept)) = &*known
-            && Arc::ptr_eq(of, facts)
-        {
-            return Arc::clone(kept);
+        if let Some(ready) = known.as_ref().filter(|ready| Arc::ptr_eq(&ready.facts, facts)) {
+            return Arc::clone(&ready.kept);
         }
         let kept = Arc::new(make());
-        *known = Some((Arc::clone(facts), Arc::clone(&kept)));
+        *known = Some(Ready { facts: Arc::clone(facts), kept: Arc::clone(&kept) });
         kept
     }
 }

@@ -6,6 +6,8 @@
 //! come up on the way, to their fixpoint. Every answered call is kept in a table. So negation and aggregates need no
 //! care: what they read lies in a lower stratum, and its call is complete before it is looked at.
 //!
+//! Where a rule reads only whether a call has rows, as behind a negation, the first that is found ends the call.
+//!
 //! Where a relation is called for a good part of all there is, it is called once for all and its rows are told apart
 //! by the columns in question: asking more than evaluation would have found costs about as much as evaluation.
 //!
@@ -31,6 +33,7 @@ use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, plan_with_cost
 use super::program::{Clause, Expr, Program, RelationId, VariableId};
 use super::rows::{Version, heap};
 use super::run::{Goal, Source, run};
+use super::slots::KeptIndex;
 use super::strata::reads;
 use super::syntax::Span;
 use super::tables::Tables;
@@ -93,7 +96,11 @@ struct CallPlan {
     clause: Clause,
     head: Vec<VariableId>,
     plan: Plan,
+    /// Those of the plan's requests.
+    indexes: Indexes,
 }
+
+type Indexes = Box<[Option<Arc<KeptIndex>>]>;
 
 impl CallPlan {
     /// The clause's variables, those of the call with their words.
@@ -291,7 +298,7 @@ impl<'a> Demand<'a> {
             let limit = self.program.info(relation).limit_size.unwrap_or(MAX_ROWS);
             let watch = Rc::clone(&self.watch);
             let mut head = Head::new(self.program, &planned.clause, limit, rows.as_sink(), &watch);
-            self.run(&planned.plan, &mut registers, words, &mut head);
+            self.run_with(&planned.indexes, &planned.plan, &mut registers, words, &mut head);
             if self.watch.is_over() {
                 self.watch.found(rows.len());
                 self.fail_at(*number);
@@ -321,10 +328,9 @@ impl<'a> Demand<'a> {
             }
             let Some(planned) = self.planned(*number, mask, Wanted::Any) else { return false };
             let mut registers = planned.registers(mask, key);
-            found =
-                self.run(&planned.plan, &mut registers, words, &mut |_: &[Word], _: &mut Words| {
-                    true
-                });
+            let mut first = |_: &[Word], _: &mut Words| true;
+            let CallPlan { plan, indexes, .. } = &*planned;
+            found = self.run_with(indexes, plan, &mut registers, words, &mut first);
             if self.watch.is_over() {
                 self.watch.found(0);
                 self.fail_at(*number);
@@ -367,7 +373,8 @@ impl<'a> Demand<'a> {
             Wanted::Any => &[],
         };
         let plan = self.plan(&clause, &bound, columns)?;
-        let planned = Rc::new(CallPlan { clause, head, plan });
+        let indexes = self.indexes(&plan);
+        let planned = Rc::new(CallPlan { clause, head, plan, indexes });
         self.state.borrow_mut().plans.insert((number, mask, wanted), Rc::clone(&planned));
         Some(planned)
     }
@@ -432,13 +439,24 @@ impl<'a> Demand<'a> {
         words: &mut Words,
         goal: &mut dyn Goal,
     ) -> bool {
-        let indexes: Vec<_> = plan.requests.iter().map(|request| self.index(request)).collect();
-        let sources: Vec<Source<'_>> = plan
-            .requests
-            .iter()
-            .zip(&indexes)
-            .map(|(request, index)| self.source(request, index.as_ref()))
-            .collect();
+        self.run_with(&self.indexes(plan), plan, registers, words, goal)
+    }
+
+    fn indexes(&self, plan: &Plan) -> Indexes {
+        plan.requests.iter().map(|request| self.index(request)).collect()
+    }
+
+    fn run_with(
+        &self,
+        indexes: &[Option<Arc<KeptIndex>>],
+        plan: &Plan,
+        registers: &mut [Word],
+        words: &mut Words,
+        goal: &mut dyn Goal,
+    ) -> bool {
+        let sources = plan.requests.iter().zip(indexes);
+        let sources: Vec<Source<'_>> =
+            sources.map(|(request, index)| self.source(request, index.as_ref())).collect();
         run(&plan.steps, &sources, registers, words, &self.watch, goal)
     }
 
@@ -587,7 +605,7 @@ impl Outside for Demand<'_> {
         relation.index() < self.kinds.len()
     }
 
-    fn index(&self, request: &Request) -> Option<Arc<super::slots::KeptIndex>> {
+    fn index(&self, request: &Request) -> Option<Arc<KeptIndex>> {
         match request {
             Request::Index { relation, key, .. } if self.is_stored(*relation) => {
                 self.kept.shared_index(*relation, key)
@@ -596,11 +614,7 @@ impl Outside for Demand<'_> {
         }
     }
 
-    fn source<'s>(
-        &'s self,
-        request: &'s Request,
-        index: Option<&'s Arc<super::slots::KeptIndex>>,
-    ) -> Source<'s> {
+    fn source<'s>(&'s self, request: &'s Request, index: Option<&'s Arc<KeptIndex>>) -> Source<'s> {
         let (relation, key, columns) = match request {
             Request::Whole(relation) => (*relation, None, None),
             Request::Index { relation, key, columns } => {

@@ -366,6 +366,11 @@ impl<'a> Machine<'a, '_> {
         }
     }
 
+    /// The filters of a scan with the words that they compare with; none where one has no value.
+    fn passing(&mut self, scan: &'a Scan) -> Option<Vec<(&'a ColumnFilter, Word)>> {
+        scan.filters.iter().map(|filter| Some((filter, self.compute(&filter.value)?))).collect()
+    }
+
     fn scan_rows(
         &mut self,
         scan: &'a Scan,
@@ -374,11 +379,7 @@ impl<'a> Machine<'a, '_> {
         window: &Range<usize>,
         next: usize,
     ) -> bool {
-        let mut passing = Vec::new();
-        for filter in &scan.filters {
-            let Some(word) = self.compute(&filter.value) else { return false };
-            passing.push((filter, word));
-        }
+        let Some(passing) = self.passing(scan) else { return false };
         let mut found = false;
         let mut before = 0;
         for rows in parts {
@@ -473,22 +474,21 @@ impl<'a> Machine<'a, '_> {
         let mut chosen = self.spare.pop().unwrap_or_default();
         chosen.clear();
         kept.collect(key, &mut chosen);
-        for filter in &scan.filters {
-            if chosen.is_empty() {
-                break;
-            }
-            let Some(word) = self.compute(&filter.value) else {
-                chosen.clear();
-                break;
-            };
-            chosen.retain(|slot| {
-                let known = kept.word(*slot, filter.column, self.words);
-                known != NO_WORD
-                    && value::holds(filter.op, filter.is_number, known, word, self.words)
-            });
+        let passing = self.passing(scan);
+        if passing.is_none() {
+            chosen.clear();
         }
+        let passing = passing.unwrap_or_default();
         let mut found = false;
         for slot in &chosen {
+            let passes = passing.iter().all(|(filter, word)| {
+                let known = kept.word(*slot, filter.column, self.words);
+                known != NO_WORD
+                    && value::holds(filter.op, filter.is_number, known, *word, self.words)
+            });
+            if !passes {
+                continue;
+            }
             for (column, register) in &scan.loads {
                 self.registers[*register as usize] = kept.word(*slot, *column, self.words);
             }
@@ -517,11 +517,7 @@ impl<'a> Machine<'a, '_> {
             return called.has_rows(key, self.words) && self.run(next);
         }
         let rows = called.rows(key, self.words);
-        let mut passing = Vec::new();
-        for filter in &scan.filters {
-            let Some(word) = self.compute(&filter.value) else { return false };
-            passing.push((filter, word));
-        }
+        let Some(passing) = self.passing(scan) else { return false };
         let mut found = false;
         for row in rows.iter() {
             let passes = passing.iter().all(|(filter, word)| {
