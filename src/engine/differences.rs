@@ -102,6 +102,7 @@ impl State {
                         covariance: nalgebra::Matrix3::zeros(),
                         explained: 0.0,
                         through: 0.0,
+                        likeness: 0.0,
                     };
                     vec![near.filter(is_near).unwrap_or_else(told)]
                 }

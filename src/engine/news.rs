@@ -211,6 +211,7 @@ impl State {
                     covariance: nalgebra::Matrix3::zeros(),
                     explained: at.explained,
                     through: 0.0,
+                    likeness: 0.0,
                 }
             })
             .collect();

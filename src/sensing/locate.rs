@@ -18,6 +18,8 @@ pub struct Fit {
     pub explained: f64,
     /// Share of the beams that go through what the chart has.
     pub through: f64,
+    /// The same share as `explained`, each beam by how near to what the chart says it ends.
+    pub likeness: f64,
 }
 
 impl Fit {
@@ -33,6 +35,13 @@ impl Fit {
     #[must_use]
     pub fn worth(&self) -> f64 {
         self.explained - self.through
+    }
+
+    /// How well it fits beside other poses of the same scan: where the chart is full of lines, many a beam ends near one by
+    /// chance, and few end on one.
+    #[must_use]
+    pub fn rank(&self) -> f64 {
+        self.likeness - self.through
     }
 }
 
@@ -80,6 +89,8 @@ const VERIFIED: usize = 120;
 const APART: f64 = 60.0;
 /// Places of which more are no answer.
 const MOST_PLACES: usize = 200;
+/// How far a beam ends from what it strikes, in cm and as a share of its range: the chart's errors, and the pose's.
+const NEAR: (f64, f64) = (4.0, 0.005);
 /// Shorter lines, in cm, have no sure course.
 const LEAST_LINE: f64 = 40.0;
 /// Of a scan with fewer returns nothing can be said.
@@ -112,27 +123,30 @@ impl<'c> Localiser<'c> {
         let Options { least, margin, .. } = self.options;
         let found = self.pyramid.search(&marks, least * 0.8, 1.5 * margin, APART, MOST_PLACES);
         let Some(found) = found else { return Answer::Unknown };
+        let some: Vec<Vector2<f64>> = marks.iter().map(|mark| mark.at).collect();
+        let roughly = |candidate| self.fit(sensor, ranges, &some, candidate);
+        let rough: Vec<Option<Fit>> = found.into_iter().map(roughly).collect();
+        let mut is_loose = rough.iter().any(Option::is_none);
+        let best = rough.iter().flatten().map(Fit::rank).fold(-1.0, f64::max);
         let mut fits: Vec<Fit> = Vec::new();
-        let mut is_loose = false;
-        for candidate in found {
-            match self.fit(sensor, ranges, &returns, candidate) {
-                Some(fit) => {
-                    match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
-                        Some(known) if known.worth() < fit.worth() => *known = fit,
-                        Some(_) => {}
-                        None => fits.push(fit),
-                    }
-                }
-                None => is_loose = true,
+        for fit in rough.iter().flatten().filter(|fit| fit.rank() >= best - 1.5 * margin) {
+            let Some(fit) = self.fit(sensor, ranges, &returns, fit.pose) else {
+                is_loose = true;
+                continue;
+            };
+            match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
+                Some(known) if known.rank() < fit.rank() => *known = fit,
+                Some(_) => {}
+                None => fits.push(fit),
             }
         }
-        fits.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+        fits.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
         let Some(best) = fits.first() else { return Answer::Unknown };
         if best.explained < least || best.worth() < least - margin {
             return Answer::Unknown;
         }
-        let bound = best.worth() - margin;
-        fits.retain(|fit| fit.worth() >= bound);
+        let bound = best.rank() - margin;
+        fits.retain(|fit| fit.rank() >= bound);
         // What could slide along a corridor may be anywhere in it.
         if is_loose && fits.len() == 1 {
             return Answer::Unknown;
@@ -178,15 +192,19 @@ impl<'c> Localiser<'c> {
         pose: Isometry2<f64>,
     ) -> Option<Fit> {
         let refined = refine(self.chart, returns, self.options.sigma, pose)?;
-        let (explained, through) = self.seen(sensor, ranges, &refined.pose);
-        Some(Fit { pose: refined.pose, covariance: refined.covariance, explained, through })
+        Some(self.fit_at(sensor, ranges, refined.pose, refined.covariance))
     }
 
-    /// Shares of the returns that end where the chart has something, and that go through it.
-    #[must_use]
-    pub fn seen(&self, sensor: &Sensor, ranges: &[f64], pose: &Isometry2<f64>) -> (f64, f64) {
+    /// How a scan fits a pose, as it is.
+    pub(crate) fn fit_at(
+        &self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        pose: Isometry2<f64>,
+        covariance: Matrix3<f64>,
+    ) -> Fit {
         let every = (sensor.count() / VERIFIED).max(1);
-        let (mut explained, mut through, mut count) = (0, 0, 0);
+        let (mut explained, mut through, mut count, mut likeness) = (0, 0, 0, 0.0);
         for beam in (0..sensor.count().min(ranges.len())).step_by(every) {
             let range = ranges[beam];
             if !sensor.returned(range) || range > self.options.farthest {
@@ -194,19 +212,24 @@ impl<'c> Localiser<'c> {
             }
             count += 1;
             let slack = 10.0 + 0.02 * range;
-            let (expected, _) = self.chart.cast(pose, sensor.bearing(beam), range + 4.0 * slack);
-            if (range - expected).abs() <= slack {
-                explained += 1;
-            } else if range > expected {
+            let (expected, _) = self.chart.cast(&pose, sensor.bearing(beam), range + 4.0 * slack);
+            let mut off = (range - expected).abs();
+            if off > slack && range > expected {
                 // Past a corner by a hair is not through it.
                 let end = pose * nalgebra::Point2::from(sensor.directions()[beam] * range);
-                let lies_on =
-                    self.chart.nearest(end).is_some_and(|(_, foot)| (foot - end).norm() <= slack);
-                if lies_on { explained += 1 } else { through += 1 }
+                let nearest = self.chart.nearest(end).map(|(_, foot)| (foot - end).norm());
+                off = nearest.unwrap_or(f64::INFINITY);
+                through += usize::from(off > slack);
+            }
+            if off <= slack {
+                explained += 1;
+                let deviations = off / NEAR.1.mul_add(range, NEAR.0);
+                likeness += (-0.5 * deviations * deviations).exp();
             }
         }
-        let share = |n: usize| n as f64 / count.max(1) as f64;
-        (share(explained), share(through))
+        let share = |n: f64| n / f64::from(count.max(1));
+        let (explained, through) = (share(f64::from(explained)), share(through as f64));
+        Fit { pose, covariance, explained, through, likeness: share(likeness) }
     }
 
     /// Where the beams end, in the sensor's frame.

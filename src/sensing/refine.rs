@@ -5,8 +5,11 @@ use nalgebra::{Isometry2, Matrix3, Point2, Vector2, Vector3};
 
 use super::chart::Chart;
 
-/// Steps of the least squares.
+/// Steps of the least squares at most, and by how many of them the gate has become narrow.
 const STEPS: usize = 12;
+const NARROW: usize = 5;
+/// A step by less than this is the last, in cm and rad.
+const SETTLED: (f64, f64) = (0.05, 1e-4);
 /// Returns farther from every line than this take no part, in cm: at first, and in the end.
 const GATE: (f64, f64) = (40.0, 12.0);
 
@@ -26,7 +29,7 @@ pub(crate) fn refine(
     let mut pose = start;
     let mut covariance = None;
     for step in 0..STEPS {
-        let share = step as f64 / (STEPS - 1) as f64;
+        let share = (step as f64 / NARROW as f64).min(1.0);
         let gate = GATE.0 + (GATE.1 - GATE.0) * share;
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         let (mut squares, mut count) = (0.0, 0);
@@ -60,6 +63,9 @@ pub(crate) fn refine(
         pose = Isometry2::new(pose.translation.vector + by.xy(), pose.rotation.angle() + by.z);
         let spread = (squares / f64::from(count)).sqrt().max(sigma);
         covariance = Some(inverse * (spread * spread));
+        if step > NARROW && by.xy().norm() < SETTLED.0 && by.z.abs() < SETTLED.1 {
+            break;
+        }
     }
     let covariance = covariance?;
     let is_held = covariance[(0, 0)].max(covariance[(1, 1)]) < 30.0 * 30.0;

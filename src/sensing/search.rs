@@ -4,6 +4,10 @@
 //! A cell of the finest raster says how near the nearest line is; one of level `k` the most that any of the `2^k × 2^k`
 //! cells from it on says. So the sum over the returns, shifted by a coarse cell, is no less than that of any pose in
 //! it, and whole stretches of the building are left out at once.
+//!
+//! Poses are looked at by strips, [`STRIP`] cells of a row at one turn: what one return says of them stands side by side, so
+//! that they are summed together in a register. Since the cells of level `k` are `2^k` apart and the rasters finer than
+//! that, each raster is kept as several, by the phase in which a return meets it.
 
 use std::collections::BinaryHeap;
 
@@ -12,27 +16,31 @@ use nalgebra::{Isometry2, Point2, Vector2};
 use super::chart::{Chart, Line};
 
 /// How far a return may lie from a line to count half, in cm.
-const SPREAD: f64 = 10.0;
-/// Poses that are looked at before the search gives up.
-const MOST_NODES: usize = 3_000_000;
-/// Turns at the finest level: one a degree.
+const SPREAD: f64 = 12.0;
+/// What a return on a line counts.
+const FULL: u8 = 4;
+/// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
+const CELL: f64 = 10.0;
+const MOST_CELLS: f64 = 2e6;
+/// Turns, one a degree.
 const TURNS: usize = 360;
-/// Of each level how many of these turns are looked at as one. A coarse cell is as far across as a turn of so much moves
-/// what lies some metres off.
-const TOGETHER: [usize; LEVELS] = [1, 1, 1, 2, 4, 4, 8];
-/// Levels that are searched; coarser cells gain nothing.
-const LEVELS: usize = 7;
-/// One more is kept, for returns that lie so far off that a turn moves them by more.
-const KEPT: usize = LEVELS + 1;
-/// From this level on windows reach a quarter of their width further on all sides, since what falls into them is turned too.
-const FIRST_TURNED: usize = 3;
+/// Levels; coarser cells gain nothing.
+const LEVELS: usize = 5;
+/// Cells that are looked at together: a line of a processor's cache, and those of half a strip as bits.
+const STRIP: usize = 64;
+const HALF: u64 = (1 << (STRIP / 2)) - 1;
+/// Strips that are looked at before the search gives up.
+const MOST_STRIPS: usize = 1_000_000;
+/// Returns whose sum fits a byte.
+const GROUP: usize = 30;
 /// Courses by which lines are told apart, in half a turn; one raster more has all lines.
-const COURSES: usize = 4;
-/// What runs along a line turns from it by no more than this, in degrees: the noise of a course, and half of what is
-/// looked at as one turn.
-const ASTRAY: f64 = 15.0;
-/// Rasters of more cells are made of larger ones.
-const MOST_CELLS: f64 = 4e6;
+const COURSES: usize = 16;
+/// What is seen to run along a line turns from it by no more than this, in degrees, and by what the line's own ends err, in
+/// cm.
+const ASTRAY: f64 = 6.0;
+const ENDS: f64 = 3.0;
+/// Empty cells about the building, so that a window may begin before it: twice the coarsest.
+const BORDER: usize = 2 << (LEVELS - 1);
 
 /// A return in the sensor's frame, with the course of the line that it is seen to lie on, in degrees of half a turn.
 #[derive(Debug, Clone, Copy)]
@@ -41,36 +49,128 @@ pub(crate) struct Mark {
     pub(crate) course: Option<f64>,
 }
 
-/// The same, turned: its cell, the raster of its course, and how many levels up its windows are looked at.
+/// Where a mark meets the rasters of a level, from a cell on: where its plane begins, and how many cells on.
 #[derive(Debug, Clone, Copy)]
-struct Turned {
-    x: i32,
-    y: i32,
-    kind: usize,
-    up: usize,
+struct Offset {
+    plane: usize,
+    column: i32,
+    row: i32,
 }
 
-/// The most within windows, on a raster as coarse as they allow.
+/// The rasters of a level: of each course and each phase one.
 struct Level {
     values: Vec<u8>,
-    width: i32,
-    /// Steps of the raster are `1 << shift` cells.
-    shift: u32,
+    /// Cells that can be met, and what lies between the beginnings of two rows.
+    columns: usize,
+    rows: usize,
+    stride: usize,
+    /// Cells of a level are `step` finest ones apart; a window may begin every `finest`.
+    step: usize,
+    finest: usize,
+}
+
+impl Level {
+    fn new(level: usize, (width, height): (usize, usize)) -> Self {
+        let (step, finest) = (1 << level, 1 << level.saturating_sub(2));
+        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
+        Self { values: Vec::new(), columns, rows, stride: columns + 2 * STRIP, step, finest }
+    }
+
+    /// Phases in either direction.
+    fn phases(&self) -> usize {
+        self.step / self.finest
+    }
+
+    /// Takes in the next course: at each cell the most in the window of `step` cells from it on, in both directions.
+    fn add(&mut self, most: &[u8], (width, height): (usize, usize)) {
+        // What begins anywhere between two phases is within the window of the first, so much the wider.
+        let wide = (self.finest > 1).then(|| widened(most, width, height, self.finest - 1));
+        let most = wide.as_deref().unwrap_or(most);
+        for phase in 0..self.phases() * self.phases() {
+            let [left, low] =
+                [phase % self.phases(), phase / self.phases()].map(|n| n * self.finest);
+            for row in 0..self.rows {
+                let y = row * self.step + low;
+                let at = |column: usize| (column * self.step + left, y);
+                self.values.extend([0; STRIP]);
+                self.values.extend((0..self.columns).map(|column| {
+                    let (x, y) = at(column);
+                    if x < width && y < height { most[y * width + x] } else { 0 }
+                }));
+                self.values.extend([0; STRIP]);
+            }
+        }
+    }
+
+    /// Where a mark that lies so many finest cells on meets it.
+    fn offset(&self, x: i32, y: i32, kind: usize) -> Offset {
+        let split = |v: i32| {
+            let (v, step) = (v + BORDER as i32, self.step as i32);
+            (v.div_euclid(step), v.rem_euclid(step) as usize / self.finest)
+        };
+        let ((column, left), (row, low)) = (split(x), split(y));
+        let plane = (kind * self.phases() + low) * self.phases() + left;
+        Offset { plane: plane * self.rows * self.stride, column, row }
+    }
+
+    /// What the marks sum up to in each cell of a strip; none where it is told that no cell comes to `needed`.
+    fn sums(&self, marks: &[Offset], column: i32, row: i32, needed: u16) -> Option<[u16; STRIP]> {
+        let mut sums = [0_u16; STRIP];
+        let mut left = u16::from(FULL) * marks.len() as u16;
+        for group in marks.chunks(GROUP) {
+            let mut part = [0_u8; STRIP];
+            for mark in group {
+                let (column, row) = (column + mark.column + STRIP as i32, row + mark.row);
+                let Ok(row) = usize::try_from(row) else { continue };
+                let Ok(column) = usize::try_from(column) else { continue };
+                if row >= self.rows || column > self.columns + STRIP {
+                    continue;
+                }
+                let values = &self.values[mark.plane + row * self.stride + column..][..STRIP];
+                for (sum, value) in part.iter_mut().zip(values) {
+                    *sum = sum.wrapping_add(*value);
+                }
+            }
+            for (sum, part) in sums.iter_mut().zip(part) {
+                *sum += u16::from(part);
+            }
+            left -= u16::from(FULL) * group.len() as u16;
+            if sums.iter().fold(0, |most, sum| most.max(*sum)) + left < needed {
+                return None;
+            }
+        }
+        Some(sums)
+    }
 }
 
 /// The pyramid over a chart.
 pub(crate) struct Pyramid {
-    pub(crate) cell: f64,
+    cell: f64,
     low: Point2<f64>,
     width: usize,
     height: usize,
-    /// By course and level.
-    kinds: Vec<Vec<Level>>,
+    levels: Vec<Level>,
 }
 
-/// How far a window of a level reaches before its first cell.
-const fn pad(level: usize) -> i32 {
-    if level < FIRST_TURNED { 0 } else { 1 << (level - 2) }
+/// The marks as each level meets them at each turn, once they were asked for.
+struct Turned<'p> {
+    pyramid: &'p Pyramid,
+    marks: &'p [Mark],
+    known: Vec<Option<Vec<Offset>>>,
+}
+
+impl<'p> Turned<'p> {
+    fn of(pyramid: &'p Pyramid, marks: &'p [Mark]) -> Self {
+        Self { pyramid, marks, known: vec![None; LEVELS * TURNS] }
+    }
+
+    fn at(&mut self, level: usize, turn: usize) -> &[Offset] {
+        let Self { pyramid, marks, known } = self;
+        known[level * TURNS + turn].get_or_insert_with(|| {
+            let one = |(x, y, kind)| pyramid.levels[level].offset(x, y, kind);
+            pyramid.turned(marks, turn).map(one).collect()
+        })
+    }
 }
 
 impl Pyramid {
@@ -78,79 +178,42 @@ impl Pyramid {
         let span = chart.high - chart.low;
         let margin = 50.0;
         let area = (span.x + 2.0 * margin) * (span.y + 2.0 * margin);
-        let cell = 5.0_f64.max((area / MOST_CELLS).sqrt());
+        let cell = CELL.max((area / MOST_CELLS).sqrt());
         let low = chart.low - Vector2::new(margin, margin);
         let size = ((span.add_scalar(2.0 * margin)) / cell).map(|x| x as usize + 1);
         let (width, height) = (size.x, size.y);
-        let is_of = |line: &Line, kind: usize| {
-            let along = line.direction();
-            let course = along.y.atan2(along.x).to_degrees();
-            let step = 180.0 / COURSES as f64;
-            let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
-            kind == COURSES || off.abs() <= step / 2.0 + ASTRAY
-        };
-        let kinds = (0..=COURSES).map(|kind| {
+        let whole = (width + 2 * BORDER, height + 2 * BORDER);
+        let mut levels: Vec<Level> = (0..LEVELS).map(|level| Level::new(level, whole)).collect();
+        let corner = low - Vector2::repeat(BORDER as f64 * cell);
+        for kind in 0..=COURSES {
             let lines = chart.lines().iter().filter(|line| is_of(line, kind));
-            levels(&drawn(lines, low, cell, (width, height)), width, height)
-        });
-        let kinds = kinds.collect();
-        Self { cell, low, width, height, kinds }
-    }
-
-    /// The most that the windows of a level say that begin at a cell, or a little before.
-    fn value(&self, kind: usize, level: usize, column: i32, row: i32) -> u8 {
-        let (width, height) = (self.width as i32, self.height as i32);
-        let (reach, before) = ((1 << level) + pad(level), pad(level));
-        if column - before >= width || row - before >= height || column <= -reach || row <= -reach {
-            return 0;
-        }
-        let level = &self.kinds[kind][level];
-        // A window that begins outside: all of its cells are in the one that begins at the edge.
-        let at = |x: i32, most: i32| ((x - before).max(0).min(most - 1) >> level.shift) as usize;
-        level.values[at(row, height) * level.width as usize + at(column, width)]
-    }
-
-    /// The most that any pose of a node explains; less than `least` where that is told without all marks.
-    fn score(&self, level: usize, marks: &[Turned], shift: (i32, i32), least: f64) -> f64 {
-        let whole = 255 * marks.len() as u32;
-        let needed = (least * f64::from(whole)) as u32;
-        let mut sum = 0;
-        let mut left = whole;
-        for marks in marks.chunks(16) {
-            for mark in marks {
-                let (x, y) = (mark.x + shift.0, mark.y + shift.1);
-                sum += u32::from(self.value(mark.kind, level + mark.up, x, y));
-            }
-            left -= 255 * marks.len() as u32;
-            if sum + left < needed {
-                return 0.0;
+            let mut most = drawn(lines, corner, cell, whole);
+            for (number, level) in levels.iter_mut().enumerate() {
+                if number > 0 {
+                    most = widened(&most, whole.0, whole.1, 1 << (number - 1));
+                }
+                level.add(&most, whole);
             }
         }
-        f64::from(sum) / f64::from(whole)
+        Self { cell, low, width, height, levels }
     }
 
-    /// The marks as they lie at a turn of a level, in an order that jumps about.
-    fn turned(&self, marks: &[Mark], level: usize, turn: usize) -> Vec<Turned> {
-        let together = TOGETHER[level] as f64;
-        let half = (together - 1.0) / 2.0;
-        let degrees = turn as f64 * together + half;
+    /// Where the marks lie at a turn, in cells, and their courses; in an order that jumps about.
+    fn turned(&self, marks: &[Mark], turn: usize) -> impl Iterator<Item = (i32, i32, usize)> {
+        let degrees = turn as f64 * 360.0 / TURNS as f64;
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let one = |mark: &Mark| {
+        let one = move |mark: &Mark| {
             let p = mark.at;
-            let (x, y) = (cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+            let cell = |v: f64| (v / self.cell).round() as i32;
             let kind = mark.course.map_or(COURSES, |course| {
                 let step = 180.0 / COURSES as f64;
                 ((course + degrees).rem_euclid(180.0) / step).round() as usize % COURSES
             });
-            // A turn by half of what is looked at as one moves it by so many cells.
-            let moved = (p.norm() * half.to_radians() / self.cell).ceil() as i32;
-            let up = (0..).take_while(|up| moved > pad(level + up)).count();
-            let cell = |v: f64| (v / self.cell).round() as i32;
-            Turned { x: cell(x), y: cell(y), kind, up: up.min(KEPT - 1 - level) }
+            (cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), kind)
         };
         let count = marks.len();
         let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
-        (0..count).map(|k| one(&marks[k * stride % count])).collect()
+        (0..count).map(move |k| one(&marks[k * stride % count]))
     }
 
     /// Poses that explain no less than `least` of the returns, nor less than the best by more than `margin`: of each place
@@ -166,37 +229,32 @@ impl Pyramid {
         if marks.is_empty() {
             return Some(Vec::new());
         }
-        let turned: Vec<Vec<Vec<Turned>>> = (0..LEVELS)
-            .map(|level| {
-                let turns = 0..TURNS / TOGETHER[level];
-                turns.map(|turn| self.turned(marks, level, turn)).collect()
-            })
-            .collect();
+        let whole = f64::from(FULL) * marks.len() as f64;
+        let (least, margin) = ((least * whole).ceil() as u16, (margin * whole) as u16);
+        let mut turned = Turned::of(self, marks);
+        let mut open: BinaryHeap<Strip> = BinaryHeap::new();
         let top = LEVELS - 1;
-        let step = 1 << top;
-        let mut open: BinaryHeap<Node> = BinaryHeap::new();
-        for (turn, marks) in turned[top].iter().enumerate() {
-            for row in (0..self.height as i32).step_by(step) {
-                for column in (0..self.width as i32).step_by(step) {
-                    let bound = self.score(top, marks, (column, row), least);
-                    if bound >= least {
-                        open.push(Node { bound, level: top, turn, column, row });
-                    }
+        for turn in 0..TURNS {
+            let marks = turned.at(top, turn);
+            for row in 0..self.height.div_ceil(1 << top) {
+                for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
+                    let strip = self.strip(top, marks, (turn, column, row), least);
+                    open.extend(strip);
                 }
             }
         }
         let mut found: Vec<Isometry2<f64>> = Vec::new();
-        let mut best = 0.0_f64;
-        let mut looked = 0;
-        while let Some(node) = open.pop() {
-            if node.bound < best - margin {
+        let (mut best, mut looked) = (0, open.len());
+        while let Some(strip) = open.pop() {
+            let needed = least.max(best.max(margin) - margin);
+            if strip.bound < needed {
                 break;
             }
-            let pose = self.pose(&node);
-            if node.level == 0 {
-                let is_known = |other: &Isometry2<f64>| is_near(other, &pose, apart);
-                if !found.iter().any(is_known) {
-                    best = best.max(node.bound);
+            let is_known = |pose: &Isometry2<f64>| found.iter().any(|f| is_near(f, pose, apart));
+            if strip.level == 0 {
+                let pose = self.pose(strip.turn, strip.column, strip.row);
+                if !is_known(&pose) {
+                    best = best.max(strip.bound);
                     found.push(pose);
                     if found.len() >= most {
                         return None;
@@ -204,53 +262,75 @@ impl Pyramid {
                 }
                 continue;
             }
-            // What lies wholly beside a better pose is of the same place.
-            let half = self.cell * f64::from(1 << node.level) * std::f64::consts::FRAC_1_SQRT_2;
-            let middle = Vector2::repeat(self.cell * f64::from(1 << node.level) / 2.0);
-            let centre = Isometry2::new(pose.translation.vector + middle, pose.rotation.angle());
-            if half < apart && found.iter().any(|known| is_near(known, &centre, apart - half)) {
-                continue;
-            }
-            let level = node.level - 1;
-            let step = 1 << level;
-            let needed = least.max(best - margin);
-            let parts = TOGETHER[node.level] / TOGETHER[level];
-            let turns = turned[level].iter().enumerate().skip(node.turn * parts).take(parts);
-            for (turn, marks) in turns {
-                for (column, row) in [
-                    (node.column, node.row),
-                    (node.column + step, node.row),
-                    (node.column, node.row + step),
-                    (node.column + step, node.row + step),
-                ] {
-                    if column >= self.width as i32 || row >= self.height as i32 {
+            let level = strip.level - 1;
+            let marks = turned.at(level, strip.turn);
+            for (side, row) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                // Half of its cells make one strip of the level below.
+                if (strip.passed >> (side * STRIP / 2)) & HALF == 0 {
+                    continue;
+                }
+                let (column, row) = (2 * strip.column + side * STRIP, 2 * strip.row + row);
+                if column >= self.width.div_ceil(1 << level)
+                    || row >= self.height.div_ceil(1 << level)
+                {
+                    continue;
+                }
+                looked += 1;
+                if level > 0 {
+                    open.extend(self.strip(level, marks, (strip.turn, column, row), needed));
+                    continue;
+                }
+                let sums = self.levels[0].sums(marks, column as i32, row as i32, needed);
+                for (k, bound) in sums.into_iter().flatten().enumerate() {
+                    let column = column + k;
+                    if bound < needed || column >= self.width {
                         continue;
                     }
-                    looked += 1;
-                    let bound = self.score(level, marks, (column, row), needed);
-                    if bound >= needed {
-                        open.push(Node { bound, level, turn, column, row });
+                    if !is_known(&self.pose(strip.turn, column, row)) {
+                        open.push(Strip { bound, level, turn: strip.turn, column, row, passed: 1 });
                     }
                 }
             }
-            if looked > MOST_NODES {
+            if looked > MOST_STRIPS {
                 return None;
             }
         }
         Some(found)
     }
 
-    fn pose(&self, node: &Node) -> Isometry2<f64> {
-        let at = self.low
-            + Vector2::new(f64::from(node.column) + 0.5, f64::from(node.row) + 0.5) * self.cell;
-        let together = TOGETHER[node.level] as f64;
-        let degrees = node.turn as f64 * together + (together - 1.0) / 2.0;
-        Isometry2::new(at.coords, degrees.to_radians())
+    /// A strip of which at least one cell comes to `needed`.
+    fn strip(
+        &self,
+        level: usize,
+        marks: &[Offset],
+        (turn, column, row): (usize, usize, usize),
+        needed: u16,
+    ) -> Option<Strip> {
+        let sums = self.levels[level].sums(marks, column as i32, row as i32, needed)?;
+        let left = self.width.div_ceil(1 << level) - column;
+        let inside = || sums.iter().enumerate().take(left).filter(|(_, sum)| **sum >= needed);
+        let passed = inside().fold(0, |passed, (k, _)| passed | (1 << k));
+        let bound = inside().map(|(_, sum)| *sum).max()?;
+        Some(Strip { bound, level, turn, column, row, passed })
+    }
+
+    fn pose(&self, turn: usize, column: usize, row: usize) -> Isometry2<f64> {
+        let at = self.low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
+        Isometry2::new(at.coords, (turn as f64 * 360.0 / TURNS as f64).to_radians())
     }
 }
 
 const fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// Whether what is seen of a line can have a course; all lines are of the last.
+fn is_of(line: &Line, kind: usize) -> bool {
+    let along = line.end - line.start;
+    let (course, step) = (along.y.atan2(along.x).to_degrees(), 180.0 / COURSES as f64);
+    let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
+    let errs = (ENDS / along.norm()).min(1.0).asin().to_degrees();
+    kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
 }
 
 /// How near the nearest of some lines is, cell by cell.
@@ -261,7 +341,7 @@ fn drawn<'l>(
     (width, height): (usize, usize),
 ) -> Vec<u8> {
     let mut fine = vec![0_u8; width * height];
-    let reach = 2.5 * SPREAD;
+    let reach = 2.0 * SPREAD;
     for line in lines {
         let (a, b) = (line.start.inf(&line.end), line.start.sup(&line.end));
         let first = ((a - low).add_scalar(-reach) / cell).map(|x| x.max(0.0) as usize);
@@ -270,42 +350,13 @@ fn drawn<'l>(
             for column in first.x..=last.x.min(width - 1) {
                 let p = low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * cell;
                 let far = (line.nearest(p) - p).norm() / SPREAD;
-                let value = (255.0 * (-far * far * std::f64::consts::LN_2).exp()) as u8;
+                let value = f64::from(FULL) * (-far * far * std::f64::consts::LN_2).exp();
                 let here = &mut fine[row * width + column];
-                *here = (*here).max(value);
+                *here = (*here).max(value.round() as u8);
             }
         }
     }
     fine
-}
-
-/// Of each level the most in the windows that begin at each step of its raster.
-fn levels(fine: &[u8], width: usize, height: usize) -> Vec<Level> {
-    // At each cell the most in the window of `1 << level` cells from it on, in both directions.
-    let mut most = fine.to_vec();
-    let mut kept = Vec::new();
-    for level in 0..KEPT {
-        if level > 0 {
-            most = widened(&most, width, height, 1 << (level - 1));
-        }
-        // A window that is half as wide again is two of these, a half of their width apart.
-        let padded =
-            (level >= FIRST_TURNED).then(|| widened(&most, width, height, 1 << (level - 1)));
-        let full = padded.as_ref().unwrap_or(&most);
-        let shift = level.saturating_sub(2) as u32;
-        let step = 1 << shift;
-        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
-        let mut values = vec![0_u8; columns * rows];
-        for (row, line) in full.chunks(width).enumerate() {
-            let into = &mut values[(row >> shift) * columns..][..columns];
-            for (column, value) in line.iter().enumerate() {
-                let here = &mut into[column >> shift];
-                *here = (*here).max(*value);
-            }
-        }
-        kept.push(Level { values, width: columns as i32, shift });
-    }
-    kept
 }
 
 /// At each cell the most of it and of what stands so many steps further, in both directions.
@@ -330,51 +381,64 @@ pub(crate) fn is_near(a: &Isometry2<f64>, b: &Isometry2<f64>, apart: f64) -> boo
         && a.rotation.angle_to(&b.rotation).abs() <= 20_f64.to_radians()
 }
 
-/// Cells from one on, at a turn, by the most that any pose in them can explain.
+/// Cells from one on, at a turn, by the most that any pose in them can explain; on the finest level a single one.
 #[derive(Debug, Clone, Copy)]
-struct Node {
-    bound: f64,
+struct Strip {
+    bound: u16,
     level: usize,
     turn: usize,
-    column: i32,
-    row: i32,
+    column: usize,
+    row: usize,
+    /// Which of its cells come to what is needed.
+    passed: u64,
 }
 
-impl Ord for Node {
+impl Ord for Strip {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let place = |node: &Self| (node.level, node.turn, node.column, node.row);
-        self.bound.total_cmp(&other.bound).then_with(|| place(other).cmp(&place(self)))
+        let place = |strip: &Self| (strip.level, strip.turn, strip.column, strip.row);
+        self.bound.cmp(&other.bound).then_with(|| place(other).cmp(&place(self)))
     }
 }
 
-impl PartialOrd for Node {
+impl PartialOrd for Strip {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Node {
+impl PartialEq for Strip {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Node {}
+impl Eq for Strip {}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Every pose of the raster, one after another.
+    /// Every pose of the raster, one after another, each return by itself.
     fn all(pyramid: &Pyramid, marks: &[Mark]) -> Vec<(f64, Isometry2<f64>)> {
+        let finest = &pyramid.levels[0];
+        let value = |x: i32, y: i32, kind: usize| {
+            let at = |v: i32| usize::try_from(v + BORDER as i32).ok();
+            let (Some(x), Some(y)) = (at(x), at(y)) else { return 0 };
+            let is_inside = x < finest.columns && y < finest.rows;
+            let row = (kind * finest.rows + y) * finest.stride;
+            if is_inside { finest.values[row + STRIP + x] } else { 0 }
+        };
         let mut scored = Vec::new();
         for turn in 0..TURNS {
-            let turned = pyramid.turned(marks, 0, turn);
-            for row in 0..pyramid.height as i32 {
-                for column in 0..pyramid.width as i32 {
-                    let bound = pyramid.score(0, &turned, (column, row), 0.0);
-                    let node = Node { bound, level: 0, turn, column, row };
-                    scored.push((bound, pyramid.pose(&node)));
+            let turned: Vec<_> = pyramid.turned(marks, turn).collect();
+            for row in 0..pyramid.height {
+                for column in 0..pyramid.width {
+                    let one = |(x, y, kind): &(i32, i32, usize)| {
+                        f64::from(value(x + column as i32, y + row as i32, *kind))
+                    };
+                    let sum: f64 = turned.iter().map(one).sum();
+                    let share = sum / (f64::from(FULL) * marks.len() as f64);
+                    scored.push((share, pyramid.pose(turn, column, row)));
                 }
             }
         }

@@ -77,7 +77,8 @@ impl<'l> Tracker<'l> {
     /// It is held to be here after all, whatever was believed.
     pub fn believe(&mut self, pose: Isometry2<f64>) {
         let covariance = nalgebra::Matrix3::zeros();
-        self.belief = Belief::At(Fit { pose, covariance, explained: 0.0, through: 0.0 });
+        self.belief =
+            Belief::At(Fit { pose, covariance, explained: 0.0, through: 0.0, likeness: 0.0 });
         self.doubts = 0;
     }
 
@@ -108,18 +109,17 @@ impl<'l> Tracker<'l> {
                 .near(sensor, ranges, *pose)
                 .filter(|fit| is_near(&fit.pose, pose, 60.0));
             let fit = fit.unwrap_or_else(|| {
-                let (explained, through) = self.localiser.seen(sensor, ranges, pose);
                 let covariance =
                     nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(900.0, 900.0, 0.01));
-                Fit { pose: *pose, covariance, explained, through }
+                self.localiser.fit_at(sensor, ranges, *pose, covariance)
             });
             match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
-                Some(known) if known.worth() < fit.worth() => *known = fit,
+                Some(known) if known.rank() < fit.rank() => *known = fit,
                 Some(_) => {}
                 None => fits.push(fit),
             }
         }
-        fits.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+        fits.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
         let options = self.localiser.options();
         let best = fits.first().map_or(-1.0, Fit::worth);
         if best < options.least - 2.0 * options.margin {
@@ -132,7 +132,8 @@ impl<'l> Tracker<'l> {
         } else {
             self.doubts = 0;
             // What fits much worse than another is not where the robot is.
-            fits.retain(|fit| fit.worth() >= best - 1.5 * options.margin);
+            let bound = fits.first().map_or(-1.0, Fit::rank) - 1.5 * options.margin;
+            fits.retain(|fit| fit.rank() >= bound);
         }
         let is_narrowed = fits.len() < known.len();
         self.belief = match fits.len() {

@@ -1,0 +1,295 @@
+//! Where the scans of real logs were taken, without a guess:
+//! `cargo run --release -p orthoframe-sensing --example localisation -- halves|plan LOG.gz [EVERY [PEERS]]`, or `-- made [SCANS]`.
+//!
+//! `halves`: odd scans against the walls of the even ones. `plan`: all scans against the plan of their building that others
+//! drew (`plan`). `made`: a building of 40 000 lines (`made`). Every EVERYth scan is asked for; so many PEERS scans and starts are given to the peers too (`peers`).
+//! Times are processor time of this thread.
+
+#![allow(clippy::print_stdout, reason = "a program that prints a table")]
+
+mod made;
+mod peers;
+mod plan;
+
+use std::path::Path;
+use std::time::Instant;
+
+use nalgebra::Isometry2;
+use orthoframe_sensing::{Answer, Belief, Chart, Fit, Localiser, Options, Tracker};
+use orthoframe_vectors::read::{Log, Scan, read_log, read_source};
+
+use plan::Plan;
+
+/// A pose is right that is no farther off, in cm and degrees.
+const RIGHT: (f64, f64) = (50.0, 10.0);
+/// The way of odometry after which the place must be known, in cm.
+const WAY: f64 = 500.0;
+
+fn main() {
+    let mut args = std::env::args().skip(1);
+    let what = args.next().expect("halves, plan or made");
+    if what == "made" {
+        return in_a_made_building(args.next().map_or(40, |n| n.parse().expect("a number")));
+    }
+    let path = args.next().expect("a log");
+    let mut number = |default| args.next().map_or(default, |n| n.parse().expect("a number"));
+    let (every, peers): (usize, usize) = (number(10), number(0));
+    let log = read_log(&read_source(Path::new(&path)).expect("the log can be read")).log;
+    let started = processor();
+    let (chart, rooms, asked) = match what.as_str() {
+        "halves" => {
+            let even = log.scans.iter().step_by(2).map(|scan| (log.sensor(scan), scan));
+            (Chart::of_scans(even), None, log.scans.iter().skip(1).step_by(2).collect())
+        }
+        "plan" => {
+            let Plan { chart, rooms } = Plan::beside(Path::new(&path));
+            (chart, Some(rooms), log.scans.iter().collect::<Vec<_>>())
+        }
+        _ => panic!("halves or plan"),
+    };
+    let localiser = Localiser::new(&chart, Options::default());
+    println!("{} lines, made ready in {:.0} ms", chart.lines().len(), processor() - started);
+    let posed: Vec<&Scan> = asked.into_iter().filter(|scan| scan.pose.is_some()).collect();
+
+    let mut tally = Tally::default();
+    for scan in posed.iter().step_by(every) {
+        let truth = scan.pose.expect("it has one");
+        let started = processor();
+        let answer = localiser.locate(log.sensor(scan), &scan.ranges);
+        let time = processor() - started;
+        let room = rooms.as_ref().map(|rooms| rooms.at(&truth));
+        let found = |fit: &Fit| rooms.as_ref().and_then(|rooms| rooms.at(&fit.pose));
+        let what = || format!("line {}", scan.line);
+        tally.take_in(what, &truth, &answer, room.map(|room| (room, found)), time);
+    }
+    tally.tell();
+    let starts = starts(&posed, every);
+    let mut ways = Ways::default();
+    for way in &starts {
+        let mut tracker = Tracker::new(&localiser);
+        for scan in way {
+            let odometry = scan.odometry.expect("it has one");
+            tracker.scan(log.sensor(scan), &scan.ranges, odometry);
+        }
+        let found = match tracker.belief() {
+            Belief::At(fit) => Some(fit.pose),
+            _ => None,
+        };
+        ways.take_in(way, found);
+    }
+    ways.tell("after 5 m of odometry");
+    if peers > 0 {
+        beside_peers(&log, &chart, &posed, &starts, peers);
+    }
+}
+
+fn in_a_made_building(scans: usize) {
+    let started = processor();
+    let (chart, poses) = made::building(scans);
+    let localiser = Localiser::new(&chart, Options::default());
+    println!("{} lines, made ready in {:.0} ms", chart.lines().len(), processor() - started);
+    let (sensor, mut tally) = (made::sensor(), Tally::default());
+    for pose in &poses {
+        let ranges = made::scan(&chart, &sensor, pose);
+        let started = processor();
+        let answer = localiser.locate(&sensor, &ranges);
+        let time = processor() - started;
+        let rooms: Option<(_, fn(&Fit) -> Option<u32>)> = None;
+        tally.take_in(|| format!("{pose}"), pose, &answer, rooms, time);
+    }
+    tally.tell();
+}
+
+/// Ways of odometry, each from another start.
+fn starts<'s>(posed: &[&'s Scan], every: usize) -> Vec<Vec<&'s Scan>> {
+    let way = |start: usize| {
+        let (mut far, mut way) = (0.0, vec![posed[start]]);
+        for pair in posed[start..].windows(2) {
+            let step = pair[0].odometry?.translation.vector - pair[1].odometry?.translation.vector;
+            far += step.norm();
+            way.push(pair[1]);
+            if far >= WAY {
+                return Some(way);
+            }
+        }
+        None
+    };
+    (0..posed.len()).step_by(2 * every).filter_map(way).collect()
+}
+
+fn beside_peers(log: &Log, chart: &Chart, posed: &[&Scan], starts: &[Vec<&Scan>], count: usize) {
+    let field = peers::Field::of(chart);
+    let mut ways = Ways::default();
+    let every = (posed.len() / count).max(1);
+    let started = processor();
+    for scan in posed.iter().step_by(every).take(count) {
+        let found = peers::icp(chart, &field, log.sensor(scan), &scan.ranges);
+        ways.take_in(&[*scan], found);
+    }
+    ways.tell("point-to-line ICP from a lattice, of one scan");
+    println!("  {:.0} ms a scan", (processor() - started) / ways.all.max(1) as f64);
+    let (mut ways, mut scans) = (Ways::default(), 0);
+    let started = processor();
+    for way in starts.iter().step_by((starts.len() / count).max(1)).take(count) {
+        scans += way.len();
+        ways.take_in(way, peers::monte_carlo(&field, log, way));
+    }
+    ways.tell("Monte-Carlo localisation of 10 000 particles, after 5 m");
+    println!("  {:.1} ms a scan", (processor() - started) / scans.max(1) as f64);
+}
+
+/// How far off a pose is, in cm and degrees.
+fn error(found: &Isometry2<f64>, truth: &Isometry2<f64>) -> (f64, f64) {
+    (
+        (found.translation.vector - truth.translation.vector).norm(),
+        found.rotation.angle_to(&truth.rotation).abs().to_degrees(),
+    )
+}
+
+fn is_right((far, turn): (f64, f64)) -> bool {
+    far <= RIGHT.0 && turn <= RIGHT.1
+}
+
+/// Answers of single scans.
+#[derive(Default)]
+struct Tally {
+    unique: usize,
+    right: usize,
+    several: usize,
+    holds: usize,
+    /// The best fit is right, unique or not.
+    first: usize,
+    unknown: usize,
+    /// Taken in no room of the plan, and those of them that were told a place.
+    outside: usize,
+    astray: usize,
+    /// Taken in a room, and the best fit in the same.
+    inside: usize,
+    same: usize,
+    /// Uniquely in a room, and in the right one.
+    sure: usize,
+    sure_same: usize,
+    errors: Vec<f64>,
+    turns: Vec<f64>,
+    times: Vec<f64>,
+}
+
+impl Tally {
+    /// `rooms`: where it was taken, and where a fit is.
+    fn take_in(
+        &mut self,
+        what: impl Fn() -> String,
+        truth: &Isometry2<f64>,
+        answer: &Answer,
+        rooms: Option<(Option<u32>, impl Fn(&Fit) -> Option<u32>)>,
+        time: f64,
+    ) {
+        self.times.push(time);
+        let fits = match answer {
+            Answer::Unique(fit) => std::slice::from_ref(fit),
+            Answer::Ambiguous(fits) => fits,
+            Answer::Unknown => &[],
+        };
+        let is_outside = matches!(rooms, Some((None, _)));
+        if let Some((Some(room), of)) = rooms {
+            let is_same = fits.first().is_some_and(|fit| of(fit) == Some(room));
+            self.inside += 1;
+            self.same += usize::from(is_same);
+            self.sure += usize::from(fits.len() == 1);
+            self.sure_same += usize::from(fits.len() == 1 && is_same);
+        }
+        self.outside += usize::from(is_outside);
+        self.first +=
+            usize::from(fits.first().is_some_and(|fit| is_right(error(&fit.pose, truth))));
+        let holds = fits.iter().any(|fit| is_right(error(&fit.pose, truth)));
+        match fits {
+            [] => self.unknown += 1,
+            [fit] => {
+                self.unique += 1;
+                let (far, turn) = error(&fit.pose, truth);
+                self.errors.push(far);
+                self.turns.push(turn);
+                self.right += usize::from(holds);
+                self.astray += usize::from(is_outside && !holds);
+                if !holds {
+                    println!(
+                        "wrong at {}: {far:.0} cm {turn:.0}°, explained {:.2}, through {:.2}{}",
+                        what(),
+                        fit.explained,
+                        fit.through,
+                        if is_outside { ", taken in no room" } else { "" }
+                    );
+                }
+            }
+            _ => {
+                self.several += 1;
+                self.holds += usize::from(holds);
+            }
+        }
+    }
+
+    fn tell(&mut self) {
+        println!(
+            "{} scans: unique {}, of these right {}; several {}, of these with the right one {}; unknown {}; the best fit right of {}",
+            self.times.len(),
+            self.unique,
+            self.right,
+            self.several,
+            self.holds,
+            self.unknown,
+            self.first
+        );
+        if self.inside > 0 {
+            println!(
+                "of {} taken in a room, the best fit in the right room {}; of {} unique ones {}; of {} taken in none, told a wrong place {}",
+                self.inside, self.same, self.sure, self.sure_same, self.outside, self.astray
+            );
+        }
+        println!(
+            "unique ones: median error {:.1} cm {:.2}°; processor time of all: median {:.1} ms, nine of ten below {:.1}, most {:.1}",
+            share(&mut self.errors, 0.5),
+            share(&mut self.turns, 0.5),
+            share(&mut self.times, 0.5),
+            share(&mut self.times, 0.9),
+            share(&mut self.times, 1.0),
+        );
+    }
+}
+
+/// Answers at the end of ways.
+#[derive(Default)]
+struct Ways {
+    all: usize,
+    right: usize,
+    wrong: usize,
+}
+
+impl Ways {
+    fn take_in(&mut self, way: &[&Scan], found: Option<Isometry2<f64>>) {
+        self.all += 1;
+        let truth = way.last().and_then(|scan| scan.pose).expect("it has one");
+        if let Some(found) = found {
+            if is_right(error(&found, &truth)) { self.right += 1 } else { self.wrong += 1 }
+        }
+    }
+
+    fn tell(&self, what: &str) {
+        let Self { all, right, wrong } = self;
+        println!("{what}: of {all}, right {right}, wrong {wrong}");
+    }
+}
+
+/// The value below which a share of them lies.
+fn share(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let at = (values.len().saturating_sub(1) as f64 * share).round() as usize;
+    values.get(at).copied().unwrap_or(f64::NAN)
+}
+
+/// Processor time of this thread so far, in ms; by the clock where the system does not tell it.
+fn processor() -> f64 {
+    static START: std::sync::LazyLock<Instant> = std::sync::LazyLock::new(Instant::now);
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanos = told.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanos.map_or_else(|| START.elapsed().as_secs_f64() * 1e3, |nanos| nanos / 1e6)
+}

@@ -1,0 +1,213 @@
+//! Plans of the buildings of the logs, drawn by others (`../shared/data/lidar/plans`), laid over the logs by points picked in
+//! both.
+//!
+//! The plan of Freiburg 101 is laid by one similarity. That of 79 is not true to scale: a wall stands up to a metre off
+//! when it is laid so. Its rooms stand in two rows along a corridor; each is drawn anew between its own corners,
+//! straight walls staying straight.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use nalgebra::{Complex, Isometry2, Point2};
+use orthoframe_sensing::{Chart, Line};
+use orthoframe_vectors::picture::Picture;
+
+/// Column and row of a plan, x and y of the log in cm.
+type Pick = [f64; 4];
+
+/// Freiburg 101: corners of the hall and of what opens from it.
+const PICKS_101: [Pick; 7] = [
+    [294.0, 204.0, -3100.0, 1570.0],
+    [1089.0, 348.0, 880.0, 710.0],
+    [1082.0, 619.0, 775.0, -535.0],
+    [1112.0, 620.0, 915.0, -530.0],
+    [1164.0, 521.0, 1160.0, -75.0],
+    [1212.0, 521.0, 1400.0, -75.0],
+    [1268.0, 473.0, 1700.0, 130.0],
+];
+
+/// Freiburg 79, from left to right: along the upper windows, the corridor's upper and lower wall, the lower windows.
+const PICKS_79: [&[Pick]; 4] = [
+    &[
+        [191.0, 207.0, -1785.0, 798.0],
+        [267.0, 208.0, -1340.0, 755.0],
+        [337.0, 208.0, -910.0, 715.0],
+        [389.0, 208.0, -590.0, 700.0],
+        [477.0, 208.0, -90.0, 655.0],
+        [547.0, 208.0, 310.0, 615.0],
+        [707.0, 209.0, 1055.0, 565.0],
+    ],
+    &[
+        [90.0, 287.0, -2395.0, 305.0],
+        [191.0, 290.0, -1830.0, 250.0],
+        [267.0, 290.0, -1380.0, 205.0],
+        [337.0, 290.0, -950.0, 170.0],
+        [389.0, 291.0, -630.0, 150.0],
+        [477.0, 291.0, -125.0, 110.0],
+        [547.0, 291.0, 275.0, 70.0],
+        [707.0, 292.0, 1010.0, 15.0],
+    ],
+    &[
+        [90.0, 332.0, -2430.0, 45.0],
+        [135.0, 334.0, -2165.0, 20.0],
+        [188.0, 335.0, -1860.0, 0.0],
+        [267.0, 337.0, -1410.0, -40.0],
+        [355.0, 337.0, -955.0, -75.0],
+        [389.0, 338.0, -645.0, -95.0],
+        [470.0, 338.0, -315.0, -140.0],
+        [531.0, 338.0, -45.0, -160.0],
+        [581.0, 338.0, 255.0, -180.0],
+        [707.0, 339.0, 1000.0, -240.0],
+    ],
+    &[
+        [89.0, 432.0, -2440.0, -505.0],
+        [135.0, 434.0, -2195.0, -530.0],
+        [188.0, 435.0, -1895.0, -560.0],
+        [267.0, 436.0, -1450.0, -595.0],
+        [355.0, 437.0, -1005.0, -620.0],
+        [470.0, 437.0, -330.0, -690.0],
+        [531.0, 437.0, -85.0, -710.0],
+        [581.0, 437.0, 210.0, -730.0],
+        [706.0, 437.0, 960.0, -795.0],
+    ],
+];
+
+/// Smaller specks are no rooms, in pixels.
+const LEAST_ROOM: usize = 400;
+/// Side of a cell in which rooms are looked up, in cm: more than a pixel.
+const CELL: f64 = 10.0;
+
+/// Walls and rooms in the frame of the log, in cm.
+pub(crate) struct Plan {
+    pub(crate) chart: Chart,
+    pub(crate) rooms: Rooms,
+}
+
+impl Plan {
+    /// The plan of the building whose log it is, by the log's name.
+    pub(crate) fn beside(log: &Path) -> Self {
+        let plans = log.parent().expect("a folder").join("plans");
+        if log.to_string_lossy().contains("079") {
+            Self::read(&plans, "Freiburg79", &|at| by_rows(&PICKS_79, at))
+        } else {
+            let by = similarity(&PICKS_101);
+            Self::read(&plans, "Freiburg101", &by)
+        }
+    }
+
+    fn read(plans: &Path, name: &str, laid: &dyn Fn(Point2<f64>) -> Point2<f64>) -> Self {
+        let (width, height, grey) = pixels(&plans.join(format!("{name}_scan.png")));
+        let picture = Picture::new(width as u32, height as u32, grey).expect("its size is right");
+        // Between free, 254, and unknown, 205.
+        let contours = picture.contours(230).concat();
+        let rows = height as f64 - 1.0;
+        let at = |p: nalgebra::Vector2<f64>| laid(Point2::new(p.x, rows - p.y));
+        let line = contours.iter().map(|s| Line { start: at(s.start), end: at(s.end), face: None });
+        let chart = Chart::new(line.collect());
+        let (width, height, grey) = pixels(&plans.join(format!("{name}_scan_gt_segmentation.png")));
+        Self { chart, rooms: Rooms::of(width, height, &grey, laid) }
+    }
+}
+
+/// Which room lies where.
+pub(crate) struct Rooms {
+    cells: HashMap<(i64, i64), u32>,
+}
+
+impl Rooms {
+    /// Connected free pixels are a room.
+    fn of(
+        width: usize,
+        height: usize,
+        grey: &[u8],
+        laid: &dyn Fn(Point2<f64>) -> Point2<f64>,
+    ) -> Self {
+        let mut free: Vec<bool> = grey.iter().map(|value| *value >= 250).collect();
+        let (mut cells, mut count) = (HashMap::new(), 0);
+        for first in 0..free.len() {
+            if !std::mem::take(&mut free[first]) {
+                continue;
+            }
+            let (mut room, mut next) = (vec![first], 0);
+            while let Some(&at) = room.get(next) {
+                next += 1;
+                let (x, y) = (at % width, at / width);
+                let beside = [
+                    (x > 0).then(|| at - 1),
+                    (x + 1 < width).then_some(at + 1),
+                    (y > 0).then(|| at - width),
+                    (y + 1 < height).then_some(at + width),
+                ];
+                room.extend(
+                    beside.into_iter().flatten().filter(|at| std::mem::take(&mut free[*at])),
+                );
+            }
+            if room.len() >= LEAST_ROOM {
+                count += 1;
+                let place = |at: usize| laid(Point2::new((at % width) as f64, (at / width) as f64));
+                cells.extend(room.into_iter().map(|at| (cell(place(at)), count)));
+            }
+        }
+        Self { cells }
+    }
+
+    pub(crate) fn at(&self, pose: &Isometry2<f64>) -> Option<u32> {
+        self.cells.get(&cell(pose.translation.vector.into())).copied()
+    }
+}
+
+fn cell(p: Point2<f64>) -> (i64, i64) {
+    ((p.x / CELL).floor() as i64, (p.y / CELL).floor() as i64)
+}
+
+/// Width, height and grey values of a picture.
+fn pixels(path: &Path) -> (usize, usize, Vec<u8>) {
+    let file = BufReader::new(File::open(path).expect("the plan is there"));
+    let mut decoder = png::Decoder::new(file);
+    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
+    let mut reader = decoder.read_info().expect("a picture");
+    let mut raw = vec![0; reader.output_buffer_size().expect("it is small")];
+    let info = reader.next_frame(&mut raw).expect("a whole picture");
+    let (width, height) = (info.width as usize, info.height as usize);
+    let grey = raw.chunks_exact(info.color_type.samples()).map(|p| p[0]).take(width * height);
+    (width, height, grey.collect())
+}
+
+/// The similarity that brings picks nearest to where they lie; rows of a picture run downwards.
+fn similarity(picks: &[Pick]) -> impl Fn(Point2<f64>) -> Point2<f64> {
+    let of = |p: &Pick| (Complex::new(p[0], -p[1]), Complex::new(p[2], p[3]));
+    let count = picks.len() as f64;
+    let (a, b) = picks.iter().map(of).fold((Complex::default(), Complex::default()), |sum, p| {
+        (sum.0 + p.0 / count, sum.1 + p.1 / count)
+    });
+    let (mut cross, mut square) = (Complex::default(), 0.0);
+    for (from, to) in picks.iter().map(of) {
+        cross += (from - a).conj() * (to - b);
+        square += (from - a).norm_sqr();
+    }
+    let by = cross / square;
+    move |p| {
+        let at = b + by * (Complex::new(p.x, -p.y) - a);
+        Point2::new(at.re, at.im)
+    }
+}
+
+/// Between two rows of picks in proportion, and along each row from pick to pick.
+fn by_rows(rows: &[&[Pick]], p: Point2<f64>) -> Point2<f64> {
+    // Of a row at the column: its pixel row, and where that lies.
+    let along = |row: &[Pick]| {
+        let next = row.iter().position(|pick| pick[0] > p.x).unwrap_or(row.len());
+        let next = next.clamp(1, row.len() - 1);
+        let (a, b) = (row[next - 1], row[next]);
+        let share = (p.x - a[0]) / (b[0] - a[0]);
+        let between = |k: usize| a[k] + share * (b[k] - a[k]);
+        (between(1), Point2::new(between(2), between(3)))
+    };
+    let rows: Vec<(f64, Point2<f64>)> = rows.iter().map(|row| along(row)).collect();
+    let next = rows.iter().position(|(y, _)| *y > p.y).unwrap_or(rows.len());
+    let next = next.clamp(1, rows.len() - 1);
+    let ((above, a), (below, b)) = (rows[next - 1], rows[next]);
+    a + (b - a) * ((p.y - above) / (below - above))
+}
