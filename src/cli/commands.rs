@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Dialogue, Engine, Method, Outcome, Reply, Rules, Truth, World, change_now, check_map_closely,
-    opens_in_words, parse_pose, ride_in_words, uncertain_names,
+    Dialogue, Engine, Method, Outcome, Reply, Rules, Sighted, Truth, World, change_now,
+    check_map_closely, opens_in_words, parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase, english};
@@ -118,6 +118,16 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
         }
         .trim_end(),
     );
+}
+
+/// What of a log could not be read, beside what could.
+pub(super) fn warn_of_lines(log: &Sighted, lang: Lang) {
+    let Some(faults) = log.faults() else { return };
+    let told = match lang {
+        Lang::Ru => drawn(faults),
+        Lang::En => drawn(&faults.in_english()),
+    };
+    note(told.trim_end());
 }
 
 /// Each warning with its place and remedy.

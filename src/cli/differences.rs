@@ -7,8 +7,8 @@ use clap::Args;
 use crate::engine::{Sighted, json};
 
 use super::args::{Common, LogOnMap};
-use super::commands::{note, open};
-use super::fault::{Failure, drawn};
+use super::commands::{open, warn_of_lines};
+use super::fault::Failure;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -41,7 +41,7 @@ pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Fai
         say(&value.to_string())?;
     } else {
         say(&seen.in_words(engine.world()?, common.lang.language()).join("\n"))?;
-        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+        warn_of_lines(&log, common.lang);
     }
     Ok(match log.faults() {
         Some(_) => Answer::Wrong,

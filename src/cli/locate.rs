@@ -6,8 +6,8 @@ use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
 
 use super::args::{Common, Lang, LogOnMap};
-use super::commands::{note, open};
-use super::fault::{Failure, drawn};
+use super::commands::{open, warn_of_lines};
+use super::fault::Failure;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -34,7 +34,7 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
     } else {
         let lines: Vec<String> = found.iter().map(|scan| tell(common.lang, scan)).collect();
         say(&lines.join("\n"))?;
-        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+        warn_of_lines(&log, common.lang);
     }
     Ok(match log.faults() {
         Some(_) => Answer::Wrong,

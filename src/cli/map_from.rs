@@ -10,8 +10,8 @@ use crate::map::Format;
 use crate::units::write_file;
 
 use super::args::{Common, Lang};
-use super::commands::note;
-use super::fault::{Failure, drawn};
+use super::commands::warn_of_lines;
+use super::fault::Failure;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -37,8 +37,11 @@ pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure
     let format = args.out.as_deref().map_or(Format::Toml, Format::of);
     let (rooms, doors, things) = (built.areas.len(), built.doors.len(), built.replicas.len());
     let text = Engine::in_memory(built, None)?.export_map(format)?;
+    let outcome = if log.faults().is_some() { Answer::Wrong } else { Answer::Yes };
     let Some(path) = &args.out else {
-        return say(text.trim_end());
+        say(text.trim_end())?;
+        warn_of_lines(&log, common.lang);
+        return Ok(outcome);
     };
     write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
     if common.json {
@@ -55,7 +58,7 @@ pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure
             format!("{}: помещений {rooms}, проходов {doors}, предметов {things}.", path.display())
         };
         say(&told)?;
-        log.faults().iter().for_each(|faults| note(drawn(*faults).trim_end()));
+        warn_of_lines(&log, common.lang);
     }
-    Ok(if log.faults().is_some() { Answer::Wrong } else { Answer::Yes })
+    Ok(outcome)
 }

@@ -9,9 +9,9 @@ use crate::Segment;
 use crate::engine::{Changes, Sighted, Things, View, decimal, json};
 
 use super::args::{Common, Lang};
-use super::commands::note;
+use super::commands::warn_of_lines;
 use super::draw::put_drawing;
-use super::fault::{Failure, drawn};
+use super::fault::Failure;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -59,7 +59,7 @@ pub(super) fn run(common: &Common, args: &SeeArgs) -> Result<Answer, Failure> {
         say(&value.to_string())?;
     } else {
         say(&shown.words)?;
-        faults.iter().for_each(|faults| note(drawn(*faults).trim_end()));
+        warn_of_lines(&sighted, common.lang);
     }
     // What could be read was shown; lines that could not make the input wrong.
     Ok(if faults.is_some() { Answer::Wrong } else { Answer::Yes })

@@ -83,6 +83,11 @@ fn a_log_that_breaks_off_is_shown_as_far_as_it_goes() {
         (value["faults"][0]["line"].as_u64(), value["faults"][0]["column"].as_u64()),
         (Some(2), Some(401))
     );
+    // What a line is passed over for is told in the language of the rest.
+    let run = place.run(&["see", "cut.log", "--lang", "en"]).is(2);
+    assert!(run.err.contains("the line breaks off") && !run.err.contains("строка"), "{}", run.err);
+    let told = value["faults"][0]["message_en"].as_str().unwrap();
+    assert!(told.contains("the line breaks off"), "{told}");
     place.write("no.log", "12 обезьян\n");
     let value = place.json(&["see", "no.log"], 2);
     assert_eq!(value["errors"][0]["code"], "vectors::log_unknown");

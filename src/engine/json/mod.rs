@@ -26,7 +26,7 @@ use crate::map::{DoorStatus, Entity};
 use crate::robot::Shortness;
 use crate::semantics::Spot;
 use crate::strips::{Preference, Replayed, Said, Wording};
-use crate::units::{AreaId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, InEnglish as _, Point, Pose, ReplicaId};
 use crate::vectors::read::{LogError, LogFault};
 use crate::vectors::{Cut, End, Segment, Truth};
 
@@ -640,7 +640,10 @@ pub fn log_faults(error: Option<&LogError>) -> Vec<Value> {
         let fault = |fault: &LogFault| {
             let (line, column) = error.source_text.position(fault.offset());
             let code = miette::Diagnostic::code(fault).map(|code| code.to_string());
-            json!({"code": code, "message": fault.to_string(), "line": line, "column": column})
+            json!({
+                "code": code, "message": fault.to_string(), "message_en": fault.english(),
+                "line": line, "column": column,
+            })
         };
         error.faults.iter().map(fault).collect()
     };
