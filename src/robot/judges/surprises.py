@@ -43,7 +43,7 @@ class Hall:
     robot's radius for square; here the robot is a disc among what it has not grown."""
 
     def __init__(self, world, told, file, start):
-        self.world, self.names, self.time, self.contacts = world, told, 0.0, 0
+        self.world, self.names, self.time, self.contacts, self.is_full = world, told, 0.0, 0, False
         self.truth = WorldYamlLoader().from_file(file)
         for extra in list(self.truth.robots)[1:]:
             self.truth.remove_robot(extra)
@@ -163,8 +163,13 @@ class Hall:
         under = min(spawns, key=lambda spawn: spawn.polygon.distance(shapely.Point(x / 100, y / 100)))
         self.time += 5
         self.robot.location = under
+        done = self.robot.place_object(Pose(x=x / 100, y=y / 100, yaw=turn)).is_success()
         # Its shapes are finer than our boxes: where the very place is taken, its hand finds another on the same.
-        if not self.robot.place_object(Pose(x=x / 100, y=y / 100, yaw=turn)).is_success() and not self.robot.place_object().is_success():
+        for spawn in under.parent.children:
+            self.robot.location = spawn
+            done = done or self.robot.place_object().is_success()
+        if not done:
+            self.is_full = True
             raise Refused({"no_room": {"thing": order["thing"]}})
 
     def nothing(self, order, tell):
@@ -406,7 +411,7 @@ def main():
                 if code == 0:
                     kind = "done" if is_so() else "untrue"
                 elif code == 1:
-                    kind = "wrong" if can else "impossible"
+                    kind = "wrong" if can and not getattr(body, "is_full", False) else "impossible"
                 else:
                     kind = "hanging"
                 tally[kind] += 1
