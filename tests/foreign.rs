@@ -26,3 +26,13 @@ fn a_robot_behind_rosbridge_is_driven() {
 fn drives_touch_nothing_in_mujoco() {
     looked_at_by("src/robot/judges/touch.py");
 }
+
+#[test]
+fn wheels_that_slip_arrive_in_irsim() {
+    looked_at_by("src/robot/judges/noise.py");
+}
+
+#[test]
+fn missions_are_done_or_told_impossible_where_the_world_is_otherwise() {
+    looked_at_by("src/robot/judges/surprises.py");
+}

@@ -4,7 +4,6 @@ The map is prisms at their heights, doors are leaves on hinges, the robot a cyli
 height. It goes where the mission sends it, a centimetre at a time, and MuJoCo says what it touches; leaves are swung a degree at
 a time, and may touch no thing either."""
 
-import importlib.util
 import math
 import random
 import statistics
@@ -15,16 +14,12 @@ from pathlib import Path
 try:
     import mujoco
     import shapely
-
-    if not importlib.util.find_spec("pyrobosim"):
-        raise ImportError("pyrobosim is missing")
+    from world import Ortho, World, buildings, convex, free_places, is_joined, name_places
 except ImportError as missing:
     print(missing)
     sys.exit(77)
 
-sys.path.insert(0, str(Path(__file__).parent))
-from vehicle import Bumped, drive  # noqa: E402
-from world import Ortho, World, convex  # noqa: E402
+from vehicle import drive
 
 WALL = 0.1  # cm thick, about the line that it is
 ROBOT, LEAF = 1, 2
@@ -188,34 +183,7 @@ class Robot:
     sees = look_at
 
 
-def free_places(world, scene, count, dice):
-    """Places where the robot has its clearance, whatever doors do, and MuJoCo agrees."""
-    wide = world.radius + world.clearance + 0.5
-    solids = [solid.outline for solid in world.in_the_way()] + world.walls
-    leaves = [leaf for door in world.doors.values() for share in (0, 0.25, 0.5, 0.75, 1) for leaf in door.outlines(share)]
-    taken = shapely.union_all([outline.buffer(wide) for outline in solids + leaves])
-    free = [(name, room.difference(taken)) for name, room in world.rooms.items()]
-    free = [(name, left) for name, left in free if left.area > 100]
-    places = []
-    while len(places) < count:
-        name, left = dice.choices(free, [left.area for _, left in free])[0]
-        low_x, low_y, high_x, high_y = left.bounds
-        x, y = dice.uniform(low_x, high_x), dice.uniform(low_y, high_y)
-        if left.contains(shapely.Point(x, y)):
-            places.append((name, x, y, dice.uniform(0, 360)))
-            scene.stand(x, y, 0)
-            assert not scene.touched()[0], (name, x, y)
-    return places
-
-
-def name_places(ortho, places):
-    """Has the map know them, as Goal 1 and so on."""
-    edits = [{"point": f"Goal {number}", "area": area, "pose": [x, y], "heading": heading}
-             for number, (area, x, y, heading) in enumerate(places, 1)]
-    ortho.edit({"edit": edits})
-
-
-def ways(program, file, count, dice, shut=0.3):
+def ways(program, file, count, dice, shut=0.5):
     """So many ways on one map, one after the other; each of its doors is shut first with this probability."""
     ortho = Ortho(program, file)
     world = World(ortho)
@@ -224,11 +192,16 @@ def ways(program, file, count, dice, shut=0.3):
             ortho.run("edit", "state", door.name, "closed")
     world = World(ortho)
     scene = Scene(world)
-    places = free_places(world, scene, count + 1, dice)
+    places = free_places(world, 3 * count + 1, dice)
     name_places(ortho, places)
+    for _, *pose in places:
+        scene.stand(*pose)
+        assert not scene.touched()[0], pose
     told = {"ways": 0, "refused": [], "wrong": [], "touches": [], "strikes": [], "gaps": [], "metres": 0.0, "swings": 0}
     at = places[0][1:]
-    for number, (_, x, y, _) in enumerate(places[1:], 2):
+    for number, (_, x, y, heading) in enumerate(places[1:], 2):
+        if told["ways"] == count:
+            break
         robot = Robot(scene, *at)
         value, code, _, _ = drive(ortho, robot, f"Go to Goal {number}")
         is_there = math.hypot(robot.x - x, robot.y - y) < 1
@@ -236,6 +209,7 @@ def ways(program, file, count, dice, shut=0.3):
             told["ways"] += 1
         elif code == 1 and not is_joined(world, (at, (x, y)), world.radius + world.clearance):
             told["refused"].append(number)
+            robot.x, robot.y, robot.heading = x, y, heading
         else:
             told["wrong"].append((number, at, (x, y), value))
         told["touches"] += [(number, *touch) for touch in robot.touches]
@@ -245,15 +219,6 @@ def ways(program, file, count, dice, shut=0.3):
         told["swings"] += robot.swings
         at = (robot.x, robot.y, robot.heading)
     return told
-
-
-def is_joined(world, ends, wide):
-    """Whether a disc comes from one place to the other, by outlines grown by its radius; doors that are shut may be opened."""
-    solids = [solid.outline for solid in world.in_the_way()] + world.walls
-    leaves = [leaf for door in world.doors.values() for leaf in door.outlines(None if door.status == "open" else 1.0)]
-    free = shapely.union_all(list(world.rooms.values())).difference(shapely.union_all([o.buffer(wide) for o in solids + leaves]))
-    pieces = shapely.get_parts(free)
-    return any(all(piece.distance(shapely.Point(end[:2])) < 0.1 for end in ends) for piece in pieces)
 
 
 UNDER = """
@@ -297,12 +262,7 @@ def main():
     program, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 12
     dice = random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else 1)
     a_low_robot_passes_under(program)
-    foreign = Path(importlib.util.find_spec("pyrobosim").origin).parent / "data"
-    files = [Path("maps/rb2.toml"), Path("maps/lab.toml")]
-    files += [Path(f"../shared/data/procthor/house_{number}.json") for number in range(10)]
-    files += [foreign / name for name in ("test_world.yaml", "pddlstream_simple_world.yaml", "roscon_2024_workshop_world.yaml")]
-    if count < 50:
-        files = files[:3] + files[-1:]
+    files = buildings(few=count < 50)
     print("| map | ways | refused, and no way is | m | touches | doors swung | touches of leaves | least gap, cm | median |")
     print("|---|---|---|---|---|---|---|---|---|")
     faults = []

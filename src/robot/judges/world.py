@@ -1,5 +1,6 @@
 """A building as another program reads it: from what `ortho export` writes, cm, in the frame of its one Map."""
 
+import importlib.util
 import json
 import math
 import subprocess
@@ -157,6 +158,12 @@ class World:
         height = height or self.height
         return [solid for solid in self.solids if solid.top > self.step and solid.bottom < height]
 
+    def opens(self, door):
+        """Whether nothing stands in the way of its leaves."""
+        things = shapely.union_all([solid.outline for solid in self.solids if solid.top > 2 and solid.bottom < (door.height or 200)])
+        ways = [leaf.buffer(-0.2) for step in range(46) for leaf in door.outlines(step / 45)]
+        return not any(way.intersects(things) for way in ways)
+
     def room_at(self, x, y):
         return next((name for name, outline in self.rooms.items() if outline.contains(Point(x, y))), None)
 
@@ -184,3 +191,53 @@ def convex(outline):
     if outline.area > 0.999 * outline.convex_hull.area:
         return [outline]
     return list(shapely.get_parts(shapely.constrained_delaunay_triangles(outline)))
+
+
+def buildings(few=False):
+    """Map files: ours, ten houses of ProcTHOR, and the worlds that pyrobosim brings."""
+    found = importlib.util.find_spec("pyrobosim")
+    if not found:
+        raise ImportError("pyrobosim is missing")
+    files = [Path("maps/rb2.toml"), Path("maps/lab.toml")]
+    files += [Path(f"../shared/data/procthor/house_{number}.json") for number in range(10)]
+    worlds = ("test_world.yaml", "pddlstream_simple_world.yaml", "roscon_2024_workshop_world.yaml")
+    files += [Path(found.origin).parent / "data" / name for name in worlds]
+    return files[:3] + files[-1:] if few else files
+
+
+def free_places(world, count, dice):
+    """Poses with their rooms, where the robot has its clearance, whatever doors do."""
+    wide = world.radius + world.clearance + 0.5
+    solids = [solid.outline for solid in world.in_the_way()] + world.walls
+    leaves = [leaf for door in world.doors.values() for share in (0, 0.25, 0.5, 0.75, 1) for leaf in door.outlines(share)]
+    taken = shapely.union_all([outline.buffer(wide) for outline in solids + leaves])
+    free = [(name, room.difference(taken)) for name, room in world.rooms.items()]
+    free = [(name, left) for name, left in free if left.area > 100]
+    places = []
+    while len(places) < count:
+        name, left = dice.choices(free, [left.area for _, left in free])[0]
+        low_x, low_y, high_x, high_y = left.bounds
+        x, y = dice.uniform(low_x, high_x), dice.uniform(low_y, high_y)
+        if left.contains(Point(x, y)):
+            places.append((name, x, y, dice.uniform(0, 360)))
+    return places
+
+
+def name_places(ortho, places):
+    """Has the map know them, as Goal 1 and so on."""
+    edits = [{"point": f"Goal {number}", "area": area, "pose": [x, y], "heading": heading}
+             for number, (area, x, y, heading) in enumerate(places, 1)]
+    ortho.edit({"edit": edits})
+
+
+def is_joined(world, ends, wide):
+    """Whether a disc comes from one place to the other, by outlines grown by its radius; doors that are shut are opened, if nothing
+    stands in the way of their leaves."""
+    solids = [solid.outline for solid in world.in_the_way()] + world.walls
+    leaves = []
+    for door in world.doors.values():
+        stands = door.status == "open" or not world.opens(door)
+        leaves += door.outlines(None if stands else 1.0)
+    floor = shapely.union_all(list(world.rooms.values()))
+    pieces = shapely.get_parts(floor.difference(shapely.union_all([outline.buffer(wide) for outline in solids + leaves])))
+    return any(all(piece.distance(Point(end[:2])) < 0.1 for end in ends) for piece in pieces)
