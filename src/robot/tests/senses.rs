@@ -2,7 +2,9 @@
 
 #![allow(clippy::print_stdout, reason = "figures for benches/README.md")]
 
+use std::io::{BufRead, BufReader, Write, pipe};
 use std::ops::ControlFlow;
+use std::thread;
 
 use orthoframe_geometry::{FloorPlan, Method, Target};
 use orthoframe_map::{Entity, World};
@@ -136,6 +138,44 @@ fn a_pilot_knows_where_it_is_though_its_wheels_slip() {
         "{ways} ways: off by {worst:.1} cm at most, wheels by {wheels:.0} cm, {contacts} contacts"
     );
     assert!(wheels > 15.0, "the wheels are to slip: {wheels}");
+}
+
+/// A vehicle may tell of its way by scans alone: each counts where its own line says that it was taken.
+#[test]
+fn scans_alone_tell_of_the_way() {
+    let world = example("rb2");
+    let (orders, to_vehicle) = pipe().unwrap();
+    let (said, says) = pipe().unwrap();
+    let (heard, mut to_mission) = pipe().unwrap();
+    let truth = world.clone();
+    let vehicle = thread::spawn(move || {
+        let mut body = robot(&truth, Senses::of_seed(5));
+        serve(&mut body, "test", &truth, orders, says, &mut |_| {});
+        body.body().pose()
+    });
+    thread::spawn(move || {
+        let lines = BufReader::new(said).lines().map_while(Result::ok);
+        for line in lines.filter(|line| !line.contains(r#""say":"going""#)) {
+            if to_mission.write_all((line + "\n").as_bytes()).is_err() {
+                return;
+            }
+        }
+    });
+    let floors = floors(&world);
+    let ground = Ground::of(&world, &floors, 20.0);
+    let finders = ground.finders();
+    let said = {
+        let mut remote =
+            RemoteVehicle::over(heard, to_vehicle, &world, Patience::default()).unwrap();
+        let start = starting_pose(&world).unwrap();
+        let mut pilot = Pilot::new(&ground, &finders, &mut remote, start).unwrap();
+        let (path, heading) = way(&world, &floors[&start.0], pilot.pose().1.at, "Точка-К");
+        let driven = pilot.follow(&path, heading, &mut Watch::none());
+        assert!(driven.is_ok(), "{driven:?}");
+        pilot.pose()
+    };
+    let (place, turn) = off(said, vehicle.join().unwrap());
+    assert!(place < 5.0 && turn < 3.0, "{place} cm, {turn}°");
 }
 
 /// Somebody carries it off while it stands: it finds itself again, and says so.

@@ -239,12 +239,17 @@ impl RemoteVehicle {
         if time < self.time {
             return Err(Failure::NoNumber);
         }
-        self.time = time;
         let map = self.names.map(&at.map).map_err(unknown)?;
-        self.at = (map, at.pose().ok_or(Failure::NoNumber)?);
-        let (map, pose) = self.at;
+        let pose = at.pose().ok_or(Failure::NoNumber)?;
+        let has_moved = self.time < time || self.at != (map, pose);
+        (self.time, self.at) = (time, (map, pose));
+        // Every line tells where the vehicle is, and a scan was taken there.
+        let is_on_way = matches!(what, Saying::Saw { .. } | Saying::Scan(_));
+        if matches!(what, Saying::Going) || (is_on_way && has_moved) {
+            watch.notice(&Notice::Moved(Moment { time, map, pose }));
+        }
         match what {
-            Saying::Going => watch.notice(&Notice::Moved(Moment { time, map, pose })),
+            Saying::Going => {}
             Saying::Saw { sighting } => {
                 let seen = self.names.sighting(&sighting).map_err(unknown)?;
                 watch.notice(&Notice::Saw(seen));
