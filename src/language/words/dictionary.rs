@@ -1,6 +1,7 @@
 //! The dictionary crate `rumorph` behind the two questions that this folder asks of it.
 //!
-//! The dictionary is opened at the first question (some 4 ms; its 20 MB are mapped, not read) and never before.
+//! The dictionary is opened at the first question (some 4 ms; its 20 MB are mapped, not read) and never before. With the
+//! feature `packed` it is unpacked then.
 //! Without the feature `rumorph` every answer is "not known", and the rules by ending decide alone.
 
 use super::grammar::Number;
@@ -103,7 +104,29 @@ mod source {
 
     fn dictionary() -> Option<&'static Dictionary> {
         static OPEN: OnceLock<Option<Dictionary>> = OnceLock::new();
-        OPEN.get_or_init(|| Dictionary::bundled().ok()).as_ref()
+        OPEN.get_or_init(|| open().ok()).as_ref()
+    }
+
+    #[cfg(not(feature = "packed"))]
+    fn open() -> Result<Dictionary, rumorph::Error> {
+        Dictionary::bundled()
+    }
+
+    #[cfg(feature = "packed")]
+    fn open() -> Result<Dictionary, rumorph::Error> {
+        Dictionary::from_bytes(&unpacked()?)
+    }
+
+    /// The dictionary as its crate publishes it.
+    #[cfg(feature = "packed")]
+    fn unpacked() -> std::io::Result<Vec<u8>> {
+        use std::io::Read as _;
+
+        const PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ru.dict.zst"));
+        let mut bytes = Vec::new();
+        let frame = ruzstd::decoding::StreamingDecoder::new(PACKED);
+        frame.map_err(std::io::Error::other)?.read_to_end(&mut bytes)?;
+        Ok(bytes)
     }
 
     pub(super) fn readings(word: &str) -> Readings {
@@ -333,6 +356,14 @@ mod source {
             "Fem" => Some(Gender::Feminine),
             "Neut" => Some(Gender::Neuter),
             _ => None,
+        }
+    }
+
+    #[cfg(all(test, feature = "packed"))]
+    mod tests {
+        #[test]
+        fn a_packed_dictionary_is_the_whole_one() {
+            assert!(super::unpacked().unwrap() == rumorph_dict_ru::DICTIONARY);
         }
     }
 }
