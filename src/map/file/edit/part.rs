@@ -47,11 +47,6 @@ pub(super) fn part_of(world: &World, edits: &Node, naming: &Naming<'_>) -> Optio
     let mut said = Said::default();
     said.hear(edits)?;
     let steps = edits.entry("edit").map_or(&[][..], |entry| entry.node.elements());
-    // Where a room stands on its Map, and which walls it shares there, is not part of it.
-    let apart = ["pose", "cut", "shape", "relink"];
-    if steps.iter().any(|step| apart.iter().any(|field| step.entry(field).is_some())) {
-        return None;
-    }
     let has = |verbs: &[&str]| steps.iter().any(|s| verbs.iter().any(|v| s.entry(v).is_some()));
     let mut spoken = Spoken::default();
     for text in &said.texts {
@@ -75,7 +70,11 @@ pub(super) fn part_of(world: &World, edits: &Node, naming: &Naming<'_>) -> Optio
         gathered.users(&spoken);
     }
     gathered.servants();
-    gathered.frame(&spoken, takes_away || has(&["lift"]));
+    let (reshapes, relinks) = (has(&["cut", "shape"]), has(&["cut", "shape", "relink"]));
+    if reshapes {
+        gathered.walls(&spoken);
+    }
+    gathered.frame(&spoken, takes_away || has(&["lift"]), relinks);
     Some(Part { world: gathered.part, stubs: gathered.stubs })
 }
 
@@ -383,8 +382,36 @@ impl Gathered<'_> {
         }
     }
 
-    /// The robot, and how Maps make up the building; of each Map the items and links of Areas that are spoken of.
-    fn frame(&mut self, spoken: &Spoken, with_lifts: bool) {
+    /// The parts of Areas that are spoken of, to be changed: whole, each with one more that is made of it if there is any, and
+    /// with those that have the key that a copy of it would get.
+    fn walls(&mut self, spoken: &Spoken) {
+        let whole = self.whole;
+        let areas = || spoken.areas.iter().filter_map(|id| whole.areas.get(id));
+        let items = || areas().flat_map(|area| area.items.iter().map(move |item| (area, item)));
+        let mut shared: BTreeSet<OrFrId> = items().map(|(_, item)| item.orthoframe).collect();
+        shared.iter().for_each(|&id| self.orthoframe(id));
+        let mut uses = |items: &[Item]| items.iter().any(|item| shared.remove(&item.orthoframe));
+        for area in whole.areas.values().filter(|area| !spoken.areas.contains(&area.id)) {
+            if uses(&area.items) {
+                self.area(area.id);
+            }
+        }
+        for object in whole.objects.values() {
+            if uses(&object.items) {
+                self.object(object.id);
+            }
+        }
+        let copies = items().map(|(area, item)| name_key(&format!("{}-{}", area.key, item.id)));
+        let copies: Vec<String> = copies.collect();
+        let is_like = |name: &str| copies.iter().any(|copy| name_key(name).starts_with(copy));
+        let named = whole.orthoframes.values();
+        let named = named.filter(|o| [&o.key, &o.name, &o.name_en].into_iter().any(|n| is_like(n)));
+        named.for_each(|part| self.stub_orthoframe(part.id));
+    }
+
+    /// The robot, and how Maps make up the building; of each Map the items and links of Areas that are spoken of, and, where
+    /// it `relinks` them, the items of those to which they are linked.
+    fn frame(&mut self, spoken: &Spoken, with_lifts: bool, relinks: bool) {
         let whole = self.whole;
         self.part.robot = whole.robot.clone();
         if let Some(start) = whole.robot.start.and_then(|id| whole.places.get(&id)) {
@@ -403,20 +430,23 @@ impl Gathered<'_> {
             self.part.domain.lifts.clear();
         }
         for map in whole.maps.values() {
-            self.map(map, spoken);
+            self.map(map, spoken, relinks);
         }
     }
 
-    fn map(&mut self, map: &Map, spoken: &Spoken) {
-        // The first one is the base where none is said to be, whichever are taken away.
-        let first = spoken.areas.len() + 2;
-        let is_in = |(no, item): &(usize, &MapItem)| {
-            *no < first || item.is_base || spoken.areas.contains(&item.area)
-        };
-        let items = map.items.iter().enumerate().filter(is_in).map(|(_, item)| item.clone());
+    fn map(&mut self, map: &Map, spoken: &Spoken, relinks: bool) {
         let is_of = |link: &&MapLink| {
             spoken.areas.contains(&link.area) || spoken.areas.contains(&link.to_area)
         };
+        let own = map.links.iter().filter(is_of).filter(|_| relinks);
+        let linked: BTreeSet<AreaId> = own.flat_map(|link| [link.area, link.to_area]).collect();
+        // The first one is the base where none is said to be, whichever are taken away.
+        let first = spoken.areas.len() + 2;
+        let is_in = |(no, item): &(usize, &MapItem)| {
+            let is_asked = spoken.areas.contains(&item.area) || linked.contains(&item.area);
+            *no < first || item.is_base || is_asked
+        };
+        let items = map.items.iter().enumerate().filter(is_in).map(|(_, item)| item.clone());
         let links = map.links.iter().filter(is_of).cloned();
         let part = Map { items: items.collect(), links: links.collect(), ..map.clone() };
         part.items.iter().for_each(|item| self.stub_area(item.area));

@@ -132,6 +132,48 @@ fn rebuild(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {
     }
 }
 
+/// A step that changes walls, or where rooms stand, or that tells of a place in the frame of the Map; sound or not.
+fn rewall(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {
+    let areas: Vec<&Area> = world.areas.values().collect();
+    let area = areas[throw(areas.len())];
+    let (name, item) = (&area.name, &area.items[throw(area.items.len())]);
+    let base = &world.orthoframe_of(item).base;
+    let side = &base[throw(base.len())];
+    let (x, y, n) = (throw(900) as i64 - 60, throw(900) as i64 - 60, throw(90));
+    match throw(9) {
+        0..=4 => {
+            let long = side.length().get() as usize;
+            let (from, to) = (throw(long / 3 + 1), long / 2 + throw(long / 2 + 2));
+            let door = [String::new(), "permeability = \"conditional\"\n".to_owned()];
+            let (item, side, door) = (&item.id, &side.id, &door[throw(2)]);
+            format!(
+                "[[edit]]\ncut = \"{name}\"\nside = \"{item}.{side}\"\nfrom = {from}\nto = {to}\n{door}"
+            )
+        }
+        5 => {
+            let inner = |p: crate::units::Point| item.frame.apply(p);
+            let shifted = |(k, v): (usize, &BaseVector)| {
+                let (p, by) = (inner(v.start), if k == n % base.len() { 3.0 } else { 0.0 });
+                format!("[{}, {}]", p.x + by, p.y)
+            };
+            let points: Vec<String> = base.iter().enumerate().map(shifted).collect();
+            let (points, item) = (points.join(", "), &item.id);
+            format!("[[edit]]\nshape = \"{name}\"\nitem = \"{item}\"\npoints = [{points}]\n")
+        }
+        6 => format!("[[edit]]\nstand = \"{name}\"\nat = [{x}, {y}]\nrelink = true\n"),
+        7 => {
+            let object = world.objects.values().nth(n % world.objects.len()).expect("some");
+            let object = &object.key;
+            format!(
+                "[[edit]]\nplace = \"Вещь {n}\"\nobject = \"{object}\"\narea = \"{name}\"\npose = [{x}, {y}]\n"
+            )
+        }
+        _ => format!(
+            "[[edit]]\npoint = \"Место {n}\"\narea = \"{name}\"\npose = [{x}, {y}]\nheading = 90\n"
+        ),
+    }
+}
+
 /// Worked into the part of which it speaks, an edit comes to the same map and the same faults, at the same places, as
 /// worked into the whole.
 #[test]
@@ -150,7 +192,11 @@ fn a_part_comes_to_what_the_whole_comes_to() {
         all.dedup_by_key(|text| text.split('\n').next().unwrap_or_default().to_owned());
         all.concat()
     };
+    let walls = |world: &World, throw: &mut dyn FnMut(usize) -> usize| {
+        (0..1 + throw(2)).map(|_| rewall(world, &mut |n| throw(n))).collect()
+    };
     for (seed, map) in ["rb2", "lab", "two-storeys"].into_iter().enumerate() {
+        compare(map, seed as u64 + 300, 120, walls);
         compare(map, seed as u64 + 3, 150, steps);
         compare(map, seed as u64 + 30, 120, buildings);
     }
