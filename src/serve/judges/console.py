@@ -11,7 +11,7 @@ import tempfile
 import time
 
 try:
-    from playwright.sync_api import expect, sync_playwright
+    from playwright.sync_api import Error, expect, sync_playwright
 except ImportError:
     sys.exit(77)
 

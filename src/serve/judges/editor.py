@@ -7,7 +7,7 @@ import struct
 import time
 import zlib
 
-from console import drag, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched
+from console import Error, drag, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched
 
 
 def revision(page):
@@ -24,6 +24,18 @@ def at(page, x, y):
     left, top, width, _ = [float(n) for n in page.locator("#map").get_attribute("viewBox").split()]
     k = box["width"] / width
     return box["x"] + (x - left) * k, box["y"] + (-y - top) * k
+
+
+def press(page, mark):
+    """Clicks a mark of the map, also where the map is drawn anew meanwhile."""
+    for again in range(5):
+        try:
+            expect(page.locator(mark).first).to_be_visible()
+            return page.locator(mark).first.click(force=True)
+        except Error:
+            if again == 4:
+                raise
+            time.sleep(0.2)
 
 
 def outline(page, *corners):
@@ -143,13 +155,13 @@ def run(browser, server, faults):
     # Open, shut, locked.
     page.keyboard.press("Escape")
     leaf = f'#map .door[data-name="{name}"] :is(.m-leaf, .m-locked)'
-    page.locator(leaf).first.click(force=True)
+    press(page, leaf)
     for word, state in [("Заперта", "locked"), ("Открыта", "open")]:
         page.locator("#panel").get_by_role("button", name=word, exact=True).click()
         write(page)
         doors = {door["name"]: door for door in get(page, "/api/drawing")["doors"] if door["name"]}
         assert doors[name]["state"] == state, doors[name]
-        page.locator(leaf).first.click(force=True)
+        press(page, leaf)
     print("locks a door and opens it")
 
     # A zone with an end in time.
@@ -173,7 +185,7 @@ def run(browser, server, faults):
     print("draws a zone with its end in time, and ends it")
 
     # The shape is locked until somebody unlocks it.
-    page.locator('#map [data-name="Кладовая"]').first.click(force=True)
+    press(page, '#map [data-name="Кладовая"]')
     assert page.locator("#map rect.m-handle").count() == 0, "no handle while the shape is locked"
     tool(page, "Форма заперта")
     page.wait_for_selector("#map rect.m-handle", state="attached")
@@ -229,7 +241,7 @@ def tasks(page, browser, server, faults):
     token = get_posted(page, "/api/edits", {"on": revision(page), "reason": "запереть", "edit": [
         {"state": door["name"], "is": "locked"} for door in get(page, "/api/drawing")["doors"] if door["name"] and door.get("leaves")]})
     assert token["outcome"] == "edited", token
-    page.locator('#map [data-name="Точка-К"]').first.click(force=True)
+    press(page, '#map [data-name="Точка-К"]')
     page.locator("#panel").get_by_role("button", name="Путь", exact=True).click()
     expect(page.locator(".next")).to_contain_text("Точка-К")
     picture(page, "way")
