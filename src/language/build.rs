@@ -1,7 +1,5 @@
 //! With the feature `packed`, compresses the dictionary of word forms for the program to carry.
 
-#![expect(clippy::print_stdout, reason = "a build script speaks to cargo by its output")]
-
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     #[cfg(feature = "packed")]
