@@ -25,6 +25,9 @@ const RIGHT: (f64, f64) = (50.0, 10.0);
 /// The way of odometry after which the place must be known, in cm.
 const WAY: f64 = 500.0;
 
+/// The room that a fit stands in.
+type RoomOf = fn(&Fit) -> Option<u32>;
+
 fn main() {
     let mut args = std::env::args().skip(1);
     let what = args.next().expect("halves, plan or made");
@@ -94,7 +97,7 @@ fn in_a_made_building(scans: usize) {
         let started = processor();
         let answer = localiser.locate(&sensor, &ranges);
         let time = processor() - started;
-        let rooms: Option<(_, fn(&Fit) -> Option<u32>)> = None;
+        let rooms: Option<(_, RoomOf)> = None;
         tally.take_in(|| format!("{pose}"), pose, &answer, rooms, time);
     }
     tally.tell();

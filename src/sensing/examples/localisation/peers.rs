@@ -107,7 +107,7 @@ fn descend(
             let along = (line.end - line.start).normalize();
             let n = Vector2::new(-along.y, along.x);
             let arm = at.coords - pose.translation.vector;
-            let row = Vector3::new(n.x, n.y, n.perp(&arm) * -1.0);
+            let row = Vector3::new(n.x, n.y, -n.perp(&arm));
             normal += row * row.transpose();
             right += row * n.dot(&(foot - at));
             count += 1;
