@@ -37,8 +37,9 @@ impl House {
         let done = command.output().map_err(|e| format!("{}: {e}", self.ortho.display()))?;
         let text = String::from_utf8_lossy(&done.stdout);
         let last = text.lines().last().unwrap_or_default();
-        serde_json::from_str(last).map_err(|_| {
-            format!("ortho did not answer: {}", String::from_utf8_lossy(&done.stderr).trim())
+        serde_json::from_str(last).map_err(|e| {
+            let said = String::from_utf8_lossy(&done.stderr);
+            format!("ortho did not answer ({e}): {}", said.trim())
         })
     }
 

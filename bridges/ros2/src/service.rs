@@ -37,13 +37,16 @@ struct UnderWay {
     last: Option<Value>,
 }
 
+/// An answer, and who asked.
+type Answered = (RmwRequestId, AskResponse);
+
 pub(crate) struct Service {
     house: House,
     asks: Server<AskRequest, AskResponse>,
     runs: ActionServer<RunGoal, RunResult, RunFeedback>,
     diagnostics: Publisher<DiagnosticArray>,
     /// Answers that are being looked for.
-    answers: (mpsc::Sender<(RmwRequestId, AskResponse)>, Receiver<(RmwRequestId, AskResponse)>),
+    answers: (mpsc::Sender<Answered>, Receiver<Answered>),
     under_way: Option<UnderWay>,
     ended: Vec<(GoalId, Time, GoalStatusEnum, RunResult)>,
     /// Who waits for the result of which goal.

@@ -303,7 +303,7 @@ impl Vehicle {
         // Who only looks on may be gone.
         let _ = self.path.publish(path.clone());
         let goals = match self.robot.by_poses {
-            true => path.poses.clone().into_iter().skip(1).map(Goal::Pose).collect(),
+            true => path.poses.into_iter().skip(1).map(Goal::Pose).collect(),
             false => vec![Goal::Path(path)],
         };
         for goal in goals {
