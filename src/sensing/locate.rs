@@ -91,6 +91,9 @@ const APART: f64 = 60.0;
 const MOST_PLACES: usize = 200;
 /// How far a beam ends from what it strikes, in cm and as a share of its range: the chart's errors, and the pose's.
 const NEAR: (f64, f64) = (4.0, 0.005);
+/// A place that is alone in fitting is the one only where it fits so well: where a map lacks furniture or is drawn otherwise, the
+/// true place fits worse, and a wrong one may fit best.
+const SURE: f64 = 0.65;
 /// Shorter lines, in cm, have no sure course.
 const LEAST_LINE: f64 = 40.0;
 /// Of a scan with fewer returns nothing can be said.
@@ -152,6 +155,7 @@ impl<'c> Localiser<'c> {
             return Answer::Unknown;
         }
         match fits.len() {
+            1 if fits[0].worth() < SURE => Answer::Unknown,
             1 => Answer::Unique(fits.swap_remove(0)),
             _ => Answer::Ambiguous(fits),
         }
