@@ -7,6 +7,7 @@ mod edits;
 #[allow(dead_code, reason = "its other users need the rest")]
 mod facts_naive;
 mod language;
+mod preprocessor;
 mod refused;
 mod souffle;
 mod threads;
