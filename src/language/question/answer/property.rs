@@ -13,6 +13,9 @@ use crate::question::{Doubt, Fact, Said};
 use crate::units::name_key;
 use crate::words::{Case, Language, enumerate};
 
+/// A room, and what the map keeps of its floor or walls.
+type Surface = (Thing, Option<(Option<ValueId>, String)>);
+
 impl Knowledge<'_> {
     /// The map's own name of a property.
     pub(in crate::question) fn property_name(&self, thing: Thing, property: &Property) -> String {
@@ -95,7 +98,7 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }
 
-    /// "Is the bathroom floor orange?": by what the map keeps of it.
+    /// "Is the bathroom floor orange?": by the value that the map keeps of it, told with the answer.
     pub(super) fn surface_is(
         &self,
         of: &Noun,
@@ -105,29 +108,31 @@ impl Knowledge<'_> {
         let [Claim::Value(filter)] = claims else {
             return Err(Doubt::NotUnderstood { words: of.text.clone() });
         };
-        let entry = self.lexicon().values.entry(filter.value);
-        let told = self.property_of_surface(&entry.property, of)?;
-        if told.said != Some(Said::Found) {
+        let values = &self.lexicon().values;
+        let property = &values.entry(filter.value).property;
+        let own: Vec<Option<ValueId>> = self
+            .surfaces(property, of)?
+            .into_iter()
+            .map(|(_, value)| value.and_then(|(value, _)| value))
+            .collect();
+        let told = self.property_of_surface(property, of)?;
+        // What the map does not say of one of them is not known of all.
+        let Some(own) = own.into_iter().collect::<Option<Vec<ValueId>>>() else {
             return Ok(told);
-        }
-        let wanted = match self.is_russian() {
-            true => entry.russian.to_lowercase(),
-            false => entry.english.to_lowercase(),
         };
-        let is = told.text.to_lowercase().ends_with(&wanted);
-        let yes = is != (negated != filter.negated);
-        let word = match (yes, self.is_russian()) {
-            (true, true) => "да",
-            (false, true) => "нет",
-            (true, false) => "yes",
-            (false, false) => "no",
+        let wanted: Vec<ValueId> = [filter.value].into_iter().chain(filter.or.clone()).collect();
+        let is_so = |own: &ValueId| wanted.iter().any(|wanted| values.is(*own, *wanted));
+        let is = own.iter().all(|own| is_so(own) != filter.negated);
+        let (said, word) = match is != negated {
+            true => (Said::Yes, self.pick("да", "yes")),
+            false => (Said::No, self.pick("нет", "no")),
         };
-        let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft { said: Some(said), text: format!("{word}, {}", told.text), ..told })
     }
 
-    /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.
-    fn property_of_surface(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+    /// What the map keeps of the floors or walls that a description means, by their rooms: the value, if it is one that is
+    /// known, and its words.
+    fn surfaces(&self, property: &Property, of: &Noun) -> Result<Vec<Surface>, Doubt> {
         let mut rooms: Vec<Thing> = Vec::new();
         for anchor in of.restrictions.iter().flat_map(|place| &place.anchors) {
             rooms.extend(self.definite(anchor)?.into_iter().filter(|t| t.area().is_some()));
@@ -138,19 +143,27 @@ impl Knowledge<'_> {
         if rooms.is_empty() {
             return Err(Doubt::NotUnderstood { words: of.text.clone() });
         }
-        let (surface, russian, english) = match self.is_floor(of) {
-            true => ("ПОЛА", "пола", "the floor"),
-            false => ("СТЕН", "стен", "the walls"),
-        };
+        let surface = if self.is_floor(of) { "ПОЛА" } else { "СТЕН" };
         let key = Property::of(&format!("{} {surface}", property.noun(Language::Russian)));
+        let value = |room: &Thing| {
+            let own = self.values(*room).into_iter().find(|(p, _, _)| *p == key);
+            own.map(|(_, value, text)| (value, text))
+        };
+        Ok(rooms.into_iter().map(|room| (room, value(&room))).collect())
+    }
+
+    /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.
+    fn property_of_surface(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+        let surfaces = self.surfaces(property, of)?;
+        let rooms: Vec<Thing> = surfaces.iter().map(|(room, _)| *room).collect();
+        let (russian, english) =
+            if self.is_floor(of) { ("пола", "the floor") } else { ("стен", "the walls") };
         let own = property.noun(self.language);
-        let mut known = false;
+        let known = surfaces.iter().any(|(_, value)| value.is_some());
         let mut parts = Vec::new();
-        for &room in &rooms {
+        for (room, value) in surfaces {
             let place = self.place(Rel::In, &[room]);
-            let value = self.values(room).into_iter().find(|(p, _, _)| *p == key);
-            known |= value.is_some();
-            let told = value.map(|(_, value, text)| match value {
+            let told = value.map(|(value, text)| match value {
                 Some(value) if !self.is_russian() => {
                     self.lexicon().values.entry(value).english.clone()
                 }
