@@ -106,6 +106,9 @@ impl Memory {
         if matches!(doubt, Doubt::Ambiguous { .. }) {
             return;
         }
+        // "And on the bed?" goes on from what was not understood, and not from the question before it.
+        self.query = None;
+        self.counted.clear();
         self.is_lost |= matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
         if names_nothing {
             self.exchanges.clear();

@@ -4,7 +4,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several};
 use crate::map::Entity;
-use crate::words::word_keys;
+use crate::words::{Language, word_keys, word_ranges};
 
 impl Asker<'_> {
     /// «А чайник?» after a question about something else: the same question about the kettle.
@@ -16,7 +16,7 @@ impl Asker<'_> {
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        if sentence.language == crate::words::Language::Russian
+        if sentence.language == Language::Russian
             && (0..sentence.keys.len()).any(|at| sentence.points_ahead(at))
         {
             return None;
@@ -174,7 +174,7 @@ impl Asker<'_> {
         let asks =
             matches!(first.as_str(), "one" | "any" | "some") && text.trim_end().ends_with('?');
         let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
-        let place = self.bare_place(text.get(first.len()..)?, memory)?;
+        let place = self.bare_place(&text[word_ranges(text).first()?.end..], memory)?;
         let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
         let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
         Some(Query::Exists { what, either: false, negated: false })

@@ -134,12 +134,6 @@ impl Memory {
         }
     }
 
-    /// Nothing that was asked goes on; what was spoken of is still spoken of.
-    pub(super) fn forget_question(&mut self) {
-        self.query = None;
-        self.counted.clear();
-    }
-
     /// Notes several things, none of which is more spoken of than the others.
     pub(super) fn list(&mut self, things: &[Thing]) {
         match things {

@@ -248,6 +248,14 @@ impl Answer {
         Self { topic: things.clone(), things, symbols, number, ..self }
     }
 
+    /// The same, with what was understood said before it.
+    fn understood_as(self, asked: &str, language: Language) -> Self {
+        let asked = asked.trim_end_matches(['?', '.', '!', ',', ' ']);
+        let understood =
+            language.pick(format!("Понял так: «{asked}?»"), format!("Understood as “{asked}?”"));
+        Self { text: format!("{understood} {}", self.text), ..self }
+    }
+
     /// One answer of several: their sentences in order, all that they found and rest on.
     fn joined(answers: Vec<Self>, language: Language) -> Self {
         let said = answers.first().map_or(Said::Unknown, |first| first.said);
@@ -379,10 +387,6 @@ impl Asker<'_> {
                 }
                 let names_nothing = memory.exchanges == before && !self.has_pronoun(text);
                 memory.miss(&doubt, names_nothing);
-                // "And on the bed?" goes on from what was not understood, and not from the question before it.
-                if !matches!(doubt, Doubt::Ambiguous { .. }) {
-                    memory.forget_question();
-                }
                 // «Это Часы-1 или Часы-2? – Где вторые?»
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
                     memory.listed.clone_from(candidates);

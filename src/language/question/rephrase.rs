@@ -365,21 +365,21 @@ fn of_this(words: &Words<'_>) -> Option<String> {
     })
 }
 
-/// "What else is there but an apple?", "other fruit but not apples": except the apple.
+/// "What else is there but an apple?", "all lamps but not the lamp on the desk": except the apple.
 fn everything_but(words: &Words<'_>) -> Option<String> {
-    const OTHER: [&str; 9] =
-        ["other", "else", "everything", "all", "anything", "nothing", "any", "something", "fruit"];
+    const OTHER: [&str; 6] = ["other", "else", "everything", "all", "anything", "nothing"];
     let but = words.find(&["but"]).filter(|but| *but > 0 && *but + 1 < words.keys.len())?;
-    let other = words.find(&OTHER[..8]).filter(|other| *other < but)?;
+    let other = words.find(&OTHER).filter(|other| *other < but)?;
     let comma = words.text[words.at[other].end..words.at[but].start].contains([',', '.', ';']);
-    let ends = if words.is(but + 1, &["not", "no"]) { but + 2 } else { but + 1 };
-    (!comma && !words.is(ends, &["where", "what", "is", "are", "i", "how", "which"]))
+    let ends = if words.is(but + 1, &["not"]) { but + 2 } else { but + 1 };
+    // "rooms with beds but no lamps" are without lamps.
+    (!comma && !words.is(ends, &["no", "where", "what", "is", "are", "i", "how", "which"]))
         .then(|| words.replaced(vec![(but..ends, "except".to_owned())]))
 }
 
 /// «процедурная номер два», "room number 5": the number of its name.
 fn numbered(words: &Words<'_>) -> Option<String> {
-    let number = (1..words.keys.len() - 1).find(|n| words.is(*n, &["номер", "number", "no"]))?;
+    let number = (1..words.keys.len() - 1).find(|n| words.is(*n, &["номер", "number"]))?;
     let counted = crate::question::grammar::number_of(&words.keys[number + 1])?;
     (words.keys[number - 1].chars().count() > 2 && !words.is(number - 1, &["the", "what"]))
         .then(|| words.replaced(vec![(number..number + 2, counted.to_string())]))

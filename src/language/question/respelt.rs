@@ -3,7 +3,7 @@
 //! Invariant: a word that is a word is never mended, nor one that could be either of two; what was understood is said with
 //! the answer.
 
-use super::grammar::Sentence;
+use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::{Answer, Asker, Memory, vocabulary};
 use crate::words::{self, Language, word_keys, word_ranges};
@@ -20,14 +20,8 @@ impl Asker<'_> {
         memory: &Memory,
     ) -> Option<Answer> {
         let mended = self.respelt(text)?;
-        let told = |answer: Answer| {
-            let asked = mended.trim_end_matches(['?', '.', '!', ' ']);
-            let understood = language
-                .pick(format!("Понял так: «{asked}?» "), format!("Understood as “{asked}?” "));
-            Answer { text: format!("{understood}{}", answer.text), ..answer }
-        };
         match self.answer(&mended, language, memory) {
-            Ok(answer) => Some(told(answer)),
+            Ok(answer) => Some(answer.understood_as(&mended, language)),
             // What asks of a longer line is told by that.
             Err(_) => self.salvaged(&mended, language, memory),
         }
@@ -61,7 +55,6 @@ impl Asker<'_> {
 
 /// The words of a sentence that nothing knows.
 fn unknown_keys(sentence: &Sentence<'_>) -> Vec<String> {
-    use super::grammar::Item;
     let items = sentence.items();
     let unknown = items.iter().filter_map(|item| match item {
         Item::Unknown(words) => Some(sentence.keys[words.clone()].to_vec()),

@@ -87,10 +87,7 @@ impl Asker<'_> {
                 if answer.said == Said::Unknown {
                     continue;
                 }
-                let asked = asked.trim_end_matches(['?', '.', '!', ',', ' ']);
-                let understood = language
-                    .pick(format!("Понял так: «{asked}?» "), format!("Understood as “{asked}?” "));
-                return Some(Answer { text: format!("{understood}{}", answer.text), ..answer });
+                return Some(answer.understood_as(asked, language));
             }
         }
         None

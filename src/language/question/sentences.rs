@@ -3,7 +3,8 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::{
-    Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, premise, several,
+    Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
+    several,
 };
 use crate::command::is_too_long;
 use crate::words::{Language, word_keys};
@@ -188,8 +189,10 @@ impl Asker<'_> {
             self.names_only(told, memory)?;
         }
         if let ([only], true) = (&parts[..], whole > 1) {
-            let answer = self.ask(only, memory);
-            return answer.is_ok().then_some(answer);
+            let mut after = memory.clone();
+            let answer = self.ask(only, &mut after).ok()?;
+            *memory = after;
+            return Some(Ok(answer));
         }
         let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
         let mut after = memory.clone();
@@ -270,25 +273,19 @@ impl Asker<'_> {
     pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let plural;
+        let nouns = sentence.items().into_iter().filter_map(|item| match item {
+            Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
+            _ => None,
+        });
+        let nouns: Vec<Noun> = nouns.collect();
         let named: Vec<Thing> = {
             let knowledge = self.knowledge(sentence.language, memory);
-            let nouns: Vec<super::Noun> = sentence
-                .items()
-                .into_iter()
-                .filter_map(|item| match item {
-                    Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
-                    _ => None,
-                })
-                .collect();
-            plural = nouns.iter().any(|noun| noun.plural);
-            let nouns = nouns.into_iter();
-            let found = nouns.filter_map(|noun| knowledge.find(&noun, true).ok());
+            let found = nouns.iter().filter_map(|noun| knowledge.find(noun, true).ok());
             found.filter(|found| found.len() == 1).flatten().collect()
         };
         if !named.is_empty() {
             memory.mention(&named);
-            memory.is_plural = plural;
+            memory.is_plural = nouns.iter().any(|noun| noun.plural);
         }
     }
 }
