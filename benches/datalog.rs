@@ -67,6 +67,10 @@ const CASES: [&str; 9] = [
     "spatial 30000 x 300",
 ];
 
+/// Of fewer than ten thousand rows or so: here a second thread must cost nothing.
+const SMALL: [&str; 6] =
+    ["chain 130", "grid 12", "random 100", "spatial 400", "three-way 2000", "counts 3000"];
+
 impl Case {
     fn of(name: &str) -> Self {
         let dense = |seed| inputs::random(20_000, 100_000, seed);
@@ -81,7 +85,17 @@ impl Case {
             "spatial 100000" => spatial(inputs::boxes(100_000, 50, 7)),
             "spatial hospital 50000" => spatial(inputs::boxes(50_000, 50, 7)),
             "spatial 30000 x 300" => spatial(inputs::boxes(30_000, 300, 7)),
-            other => panic!("no program «{other}»; there are {}", CASES.join(", ")),
+            "chain 130" => Self::Closure(inputs::chain(130)),
+            "grid 12" => Self::Closure(inputs::grid(12)),
+            "random 100" => Self::Closure(inputs::random(100, 200, 1)),
+            "spatial 400" => spatial(inputs::boxes(400, 50, 7)),
+            "three-way 2000" => {
+                Self::ThreeWay([5, 6, 7].map(|seed| inputs::random(400, 2_000, seed)))
+            }
+            "counts 3000" => Self::Counts(inputs::random(2_000, 3_000, 8)),
+            other => {
+                panic!("no program «{other}»; there are {}, {}", CASES.join(", "), SMALL.join(", "))
+            }
         }
     }
 
@@ -232,13 +246,13 @@ fn in_process(case: &str, engine: Engine) -> Figures {
 /// One thread against two: the middle of runs in turn on the clock, which needs two free cores, and the most memory.
 #[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 fn threads(only: Option<&str>) {
-    const RUNS: usize = 9;
     println!("| program | one thread, ms | two, ms | one of two | one, MiB | two, MiB |");
     println!("|---|---|---|---|---|---|");
-    for case in CASES.iter().filter(|case| only.is_none_or(|only| case.contains(only))) {
+    let all = CASES.iter().map(|case| (case, 9)).chain(SMALL.iter().map(|case| (case, 1001)));
+    for (case, runs) in all.filter(|(case, _)| only.is_none_or(|only| case.contains(only))) {
         let rules = Rules::of(Case::of(case));
         let mut times = [const { Vec::new() }; 2];
-        for _ in 0..RUNS {
+        for _ in 0..runs {
             for (threads, times) in (1..).zip(&mut times) {
                 let start = Instant::now();
                 black_box(rules.run_in(threads, false));
@@ -247,7 +261,7 @@ fn threads(only: Option<&str>) {
         }
         let [one, two] = times.map(|mut times| {
             times.sort_by(f64::total_cmp);
-            times[RUNS / 2]
+            times[runs / 2]
         });
         let memory = ["1", "2"].map(|threads| {
             let program = std::env::current_exe().expect("a running benchmark has a file");
@@ -256,7 +270,7 @@ fn threads(only: Option<&str>) {
             String::from_utf8_lossy(&told).trim().parse::<f64>().unwrap_or(f64::NAN) / 1024.0
         });
         println!(
-            "| {case} | {one:.1} | {two:.1} | {:.2} | {:.0} | {:.0} |",
+            "| {case} | {one:.3} | {two:.3} | {:.2} | {:.0} | {:.0} |",
             one / two,
             memory[0],
             memory[1]

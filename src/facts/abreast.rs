@@ -91,6 +91,10 @@ impl Evaluation<'_> {
         if limits.threads < 2 || derive < 2 || self.traced.is_some() {
             return false;
         }
+        let all = self.finished.rows.iter().flatten().map(|rows| rows.len()).sum::<usize>();
+        if all < MANY && !limits.spread_from.is_zero() {
+            return false;
+        }
         let mut read: Vec<RelationId> = Vec::new();
         for stratum in strata {
             self.program.each_read(stratum, &mut |relation| read.push(relation));

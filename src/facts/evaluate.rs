@@ -16,7 +16,7 @@ use super::limits::{Limits, MAX_ROWS, Reached, Watch};
 use super::plan::{Plan, Request, Task, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
 use super::rows::{RowSet, SharedRows, Sink, Version, heap};
-use super::spread::{Join, Makes, can_spread};
+use super::spread::{Join, Makes, can_spread, may_be_long};
 use super::step::Step;
 use super::strata::reads;
 use super::subsume::{Chosen, choosing};
@@ -330,7 +330,7 @@ impl<'a> Evaluation<'a> {
     ) {
         let watch = Rc::clone(&self.finished.watch);
         let started = self.traced.is_some().then(|| (Instant::now(), sink.len()));
-        if plan.can_spread {
+        if plan.can_spread && may_be_long(plan, &self.finished, parts) {
             let program = self.program;
             let join = Join { program, clause, plan, is_any_order, limit };
             join.run(&mut self.finished, parts, sink);

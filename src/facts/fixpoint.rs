@@ -24,6 +24,9 @@ use super::word::Word;
 /// are: most relations are done by then.
 const ROUNDS_ALONE: u32 = 2;
 
+/// With fewer rows they always go on in one thread: not even the clock is looked at.
+const FEWEST_ALONE: usize = 10_000;
+
 /// For relations with choice domains the combinations that have their tuple.
 type Choices = HashMap<RelationId, Chosen>;
 
@@ -132,6 +135,7 @@ impl Evaluation<'_> {
             let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
             self.finished.watch.hold(held);
             if let Some((relation, column)) = alone
+                && (growing[&relation].len() >= FEWEST_ALONE || limits.spread_from.is_zero())
                 && self.finished.watch.threads() > 1
                 && since.elapsed() >= ROUNDS_ALONE * limits.spread_from
                 && let Some(rows) = growing.remove(&relation)

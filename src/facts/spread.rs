@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use super::finished::Finished;
 use super::head::Head;
 use super::limits::Watch;
-use super::plan::Plan;
+use super::plan::{Plan, Request};
 use super::program::{Clause, Expr, Literal, Program};
 use super::rows::{Branch, Rename, RowSet, Sink, Taken};
 use super::run::{Plain, Source, extent, run, run_window};
@@ -84,7 +84,10 @@ pub(super) struct Join<'a> {
 /// Fewer rows are not worth a look at the clock: in rounds of some hundred rows the looks were a tenth of the time.
 const MIN_ROWS: usize = 512;
 /// Rows that are joined before it is asked whether the rest is worth a thread.
-const FIRST_ROWS: usize = 32;
+const FIRST_ROWS: usize = 256;
+/// Fewer rows are looked at in fewer parts: a part more costs about half a microsecond.
+const MANY: usize = 1 << 13;
+const FEW_PIECES: usize = 4;
 /// Pieces for each thread: rows may differ much in what they lead to.
 const PIECES: usize = 16;
 
@@ -100,7 +103,7 @@ impl Join<'_> {
         finished.with_sources(self.plan, parts, |sources, words, watch| {
             let window = extent(&self.plan.steps, sources, &mut registers, words, watch);
             let is_worth = |window: &Range<usize>| {
-                window.len() >= MIN_ROWS || watch.limits().spread_from.is_zero()
+                window.len() >= least_rows(self.plan) || watch.limits().spread_from.is_zero()
             };
             let Some(Range { start, end }) = window.filter(is_worth) else {
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
@@ -119,7 +122,8 @@ impl Join<'_> {
                     }
                 }
                 // A part at a time: another thread may come free.
-                let more = done.clamp(FIRST_ROWS, all.div_ceil(PIECES).max(FIRST_ROWS));
+                let most = all.div_ceil(if all < MANY { FEW_PIECES } else { PIECES });
+                let more = done.clamp(FIRST_ROWS, most.max(FIRST_ROWS));
                 let to = all.min(done + more);
                 let mut head = Head::new(self.program, self.clause, self.limit, sink, watch);
                 let steps = &self.plan.steps;
@@ -132,7 +136,7 @@ impl Join<'_> {
                     &mut head,
                     start + done..start + to,
                 );
-                if done < all / PIECES && to >= all / PIECES {
+                if all >= MANY && done < all / PIECES && to >= all / PIECES {
                     // A little more than it seems: room that is never written to costs nothing.
                     sink.expect(sink.len().saturating_mul(all - to) / to * 5 / 4);
                 }
@@ -282,6 +286,28 @@ impl Pieces {
         let to = self.rows.end.min(from + self.size);
         (number < self.count).then_some((number, from..to))
     }
+}
+
+/// Whether a plan's join may begin with so many rows that a look at the clock is worth it, by all rows of what it scans first.
+pub(super) fn may_be_long(
+    plan: &Plan,
+    finished: &Finished<'_>,
+    parts: &[Vec<Ref<'_, dyn RowSet>>],
+) -> bool {
+    let Some(Step::Scan(scan)) = plan.steps.first() else { return false };
+    let rows = match &plan.requests[scan.source] {
+        Request::Growing { .. } => parts[scan.source].iter().map(|rows| rows.len()).sum(),
+        Request::Whole(relation) | Request::Index { relation, .. } => {
+            finished.rows[relation.index()].as_ref().map_or(usize::MAX, |rows| rows.len())
+        }
+    };
+    rows >= least_rows(plan) || finished.watch.limits().spread_from.is_zero()
+}
+
+/// Fewer rows are not worth a look at the clock: more where a row leads to no others.
+fn least_rows(plan: &Plan) -> usize {
+    let leads_on = |step: &Step| matches!(step, Step::Scan(_) | Step::Each { .. });
+    if plan.steps.iter().skip(1).any(leads_on) { MIN_ROWS } else { MANY }
 }
 
 /// Whether a plan's join can be divided at all.
