@@ -355,7 +355,7 @@ pub(super) struct DoArgs {
     /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
     #[arg(long)]
     pub reset: bool,
-    /// The robot stands here: a name, or X,Y in cm; else where the last task left it, or at the map's start
+    /// The robot stands here: a name, or X,Y[,HEADING] in cm and degrees; else where the last task left it, or at the map's start
     #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
     pub from: Option<String>,
     #[command(flatten)]

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::FloorPlan;
-use crate::map::{DoorStatus, Replica, World, is_on, set_open, stands, switch};
+use crate::map::{DoorStatus, Entity, Replica, World, is_on, set_open, stands, switch};
 use crate::robot::{Belief, starting_pose};
 use crate::semantics::Followed;
 use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
@@ -15,6 +15,7 @@ use crate::units::{Deg, MapId, Point, Pose, ReplicaId};
 
 use super::known::Known;
 use super::obstacles::{is_obstacle, put_up};
+use super::route::{is_pair, parse_pose};
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError, State};
 
@@ -245,7 +246,8 @@ impl Engine {
         self.store.is_some()
     }
 
-    /// The robot stands at a place given by name or as `X,Y`, or as near to it as it fits: it was carried there, or the map does not say.
+    /// The robot stands at a place given by name, as `X,Y` or as `X,Y,HEADING`, or as near to it as it fits: it was carried there, or
+    /// the map does not say. It faces as the place says, or along x where none is said.
     ///
     /// # Errors
     /// The name means nothing, or no place; the disk refused.
@@ -254,9 +256,21 @@ impl Engine {
         let floor = self.around()?.floor(there.map)?;
         let at = floor.standing_at(there.at).ok_or(RequestError::RobotNowhere)?;
         self.next().forget_present();
-        let pose = Pose { at, heading: Deg::ZERO };
+        let pose = Pose { at, heading: self.heading_at(name)? };
         let store = self.writable()?;
         Ok(store.put_robot_pose(there.map, &pose, &change.user, change.at)?)
+    }
+
+    /// Where one faces who stands at a place given by name, or as numbers.
+    fn heading_at(&self, name: &str) -> Result<Deg, Error> {
+        if is_pair(name) {
+            return Ok(parse_pose(name)?.heading);
+        }
+        let Entity::Place(place) = self.find(name)? else { return Ok(Deg::ZERO) };
+        let world = self.world()?;
+        let place = &world.places[&place];
+        let turned = world.placement(place.area).map_or(Deg::ZERO, |(_, frame)| frame.angle);
+        Ok(place.heading.unwrap_or_default() + turned)
     }
 
     /// The robot is put back to the map's start, into a map as it was surveyed: what it saw and did counts no more.

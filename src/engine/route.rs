@@ -122,7 +122,7 @@ pub(super) fn stages(passed: &Passed) -> Vec<Stage> {
 }
 
 /// Numbers divided by commas, sound or not: coordinates are meant, not a name.
-fn is_pair(text: &str) -> bool {
+pub(super) fn is_pair(text: &str) -> bool {
     text.contains(',') && text.split(',').all(|part| part.trim().parse::<f64>().is_ok())
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::{NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
-use crate::map::{Entity, World};
+use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::{InitialFact, PlanPlace};
 use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts, predicate};
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
@@ -523,6 +523,11 @@ impl<'r> Mission<'r> {
                 self.belief.no_way_to(name) || moved
             }
             Surprise::Refused { refusal: Refusal::Stays(thing), .. } => self.belief.stays(*thing),
+            // The hand that tried a lock knows, whatever there is to see of the door.
+            Surprise::Refused { refusal: Refusal::Locked(door), .. } => {
+                self.name_this_point();
+                self.belief.learn(Sighting::Door { door: *door, state: DoorState::LOCKED })
+            }
             Surprise::Blocked { seen: Some(seen), .. }
             | Surprise::Refused { seen: Some(seen), .. } => {
                 // The robot stopped somewhere on its way; from here on that is its place.

@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 use std::thread;
 
 use orthoframe_geometry::{FloorPlan, Method, Target};
-use orthoframe_map::{Entity, World};
+use orthoframe_map::{DoorState, Entity, World};
 use orthoframe_robot::*;
 use orthoframe_units::{Deg, MapId, Point, Pose, Stop};
 
-use super::setting::{example, floors};
+use super::setting::{Setting, example, fact, floors};
 
 /// A robot in a truth, at the start of its Map.
 fn robot(truth: &World, senses: Senses) -> SensingRobot {
@@ -176,6 +176,38 @@ fn scans_alone_tell_of_the_way() {
     };
     let (place, turn) = off(said, vehicle.join().unwrap());
     assert!(place < 5.0 && turn < 3.0, "{place} cm, {turn}°");
+}
+
+/// Who tries a locked door knows that it is locked, though there is only to see that it is shut.
+#[test]
+fn a_lock_that_nobody_sees_leads_another_way() {
+    let setting = Setting::of(example("rb2"));
+    let mut truth = setting.world.clone();
+    let door = truth.doors.values_mut().find(|door| door.name == "Дверь-ВZ").unwrap();
+    door.state = DoorState::LOCKED;
+    let (orders, to_vehicle) = pipe().unwrap();
+    let (said, says) = pipe().unwrap();
+    let (heard, mut to_mission) = pipe().unwrap();
+    let (map, pose) = (setting.map, setting.pose);
+    thread::spawn(move || {
+        let mut body = Simulator::new(truth.clone(), map, pose);
+        serve(&mut body, "test", &truth, orders, says, &mut |_| {});
+    });
+    thread::spawn(move || {
+        for line in BufReader::new(said).lines().map_while(Result::ok) {
+            let is_look = line.contains(r#""say":"seen""#);
+            let line = if is_look { line.replace("locked", "closed") } else { line };
+            if to_mission.write_all((line + "\n").as_bytes()).is_err() {
+                return;
+            }
+        }
+    });
+    let mut remote =
+        RemoteVehicle::over(heard, to_vehicle, &setting.world, Patience::default()).unwrap();
+    let mut mission = setting.mission(setting.belief().unwrap());
+    let goal = [fact("РОБОТ-НАХОДИТСЯ-В", "Комната-Z")];
+    let ending = mission.run(&goal, &mut remote, &Stop::new(), &mut |_| {}).unwrap();
+    assert!(matches!(ending, Ending::Done), "{ending:?}");
 }
 
 /// Somebody carries it off while it stands: it finds itself again, and says so.

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::map::{Permeability, Properties};
+use crate::outline::contains;
 use crate::units::{Bilingual, Cm, Frame, Point, Source, bilingual};
 use crate::{
     Kind, Level, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
@@ -356,8 +357,10 @@ impl Reader {
             self.level.spots.push(spot);
         }
         let mut properties = Properties::new();
-        state(record.get("is_open").and_then(Value::as_bool), None, &mut properties);
-        if record.get("is_locked").and_then(Value::as_bool) == Some(true) {
+        let flag = |field: &str| record.get(field).and_then(Value::as_bool);
+        state(flag("is_open"), None, &mut properties);
+        // What is locked while it stands open cannot be shut.
+        if flag("is_locked") == Some(true) && flag("is_open") == Some(false) {
             properties.insert("СОСТОЯНИЕ".to_owned(), "Заперто".to_owned());
         }
         self.thing(&name, category, &look, height, &frame, (room, Some(0)), properties);
@@ -499,7 +502,13 @@ impl Reader {
             _ => None,
         };
         let told = record.get("pose").and_then(pose);
-        let frame = told.or_else(|| room.map(|r| frame_at(centroid(&r.outline), 0.0, 0.0)));
+        // One whose pose is drawn at random begins where the room has robots stand: its middle may be taken by a table.
+        let somewhere = |room: &Parent| {
+            let mut spots = self.level.spots.iter();
+            let spot = spots.find(|spot| contains(&room.outline, spot.at));
+            frame_at(spot.map_or_else(|| centroid(&room.outline), |spot| spot.at), 0.0, 0.0)
+        };
+        let frame = told.or_else(|| room.map(somewhere));
         if let Some(frame) = frame {
             let spot = Spot {
                 source: name.clone(),
