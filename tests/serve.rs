@@ -371,6 +371,86 @@ fn a_robot_of_another_program_drives_for_the_console() {
 }
 
 #[test]
+fn a_recording_is_played_on_its_own_map_and_nothing_else_is_driven() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let (store, file) = (dir.path().join("store"), dir.path().join("mission.mcap"));
+    let done = |arguments: &[&str]| {
+        let mut command = ortho();
+        command.current_dir(env!("CARGO_MANIFEST_DIR")).arg("--store").arg(&store);
+        let told = command.args(arguments).arg("--json").output().expect("the program starts");
+        assert!(told.status.success(), "{told:?}");
+        String::from_utf8(told.stdout).expect("text")
+    };
+    done(&["import", "maps/rb2.toml"]);
+    let path = file.to_str().expect("text");
+    let told = done(&["do", "Поезжай к Точке-К", "--record", path]);
+    let lines: Vec<Value> =
+        told.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let (task, directives) = lines.split_last().expect("the task");
+
+    let console = Console::start(&["--replay", path, "--pace", "20"]);
+    let operator = console.operator();
+    let played = events(&console, &operator.cookie, is_done);
+    let of = |kind: &str| -> Vec<Value> {
+        let mut lines = played.lines();
+        let mut found = Vec::new();
+        while let Some(line) = lines.next() {
+            if line == format!("event: {kind}") {
+                let data = lines.by_ref().find_map(|line| line.strip_prefix("data: "));
+                found.push(serde_json::from_str(data.expect("data")).expect("JSON"));
+            }
+        }
+        found
+    };
+    let again: Vec<Value> = of("directive")
+        .into_iter()
+        .map(|mut event| {
+            event.as_object_mut().expect("an event").remove("task");
+            event
+        })
+        .collect();
+    assert_eq!(again, directives, "{played}");
+    let tasks = of("task");
+    assert_eq!((tasks.len(), &tasks[0]["text"]), (2, &json!("Поезжай к Точке-К")), "{played}");
+    assert_eq!(tasks[0]["plan"]["directives"], task["directives"], "how long each took is known");
+    assert!(of("robot").len() > 3, "{played}");
+    let state = operator.get("/api/state");
+    assert_eq!(state["robot"]["place"]["pose"], task["end"], "{state}");
+    assert_eq!((&state["revision"], &state["task"]), (&json!(1), &Value::Null), "{state}");
+}
+
+#[test]
+fn what_the_console_drives_is_recorded_a_file_a_task() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let folder = dir.path().join("missions");
+    let drive = |folder: &std::path::Path| {
+        let folder = folder.to_str().expect("text");
+        let console = Console::start(&["--demo", "--pace", "100", "--record", folder]);
+        let operator = console.operator();
+        let begun = operator.get("/api/state")["event"].as_str().expect("an id").to_owned();
+        let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К" }));
+        operator.done(&format!("/api/tasks/{}/confirm", said["task"]["task"]), &json!({}));
+        let head = format!("{}Last-Event-ID: {begun}\r\n", operator.cookie);
+        let told = events(&console, &head, is_done);
+        let mut data = told.lines().filter_map(|line| line.strip_prefix("data: "));
+        let ended = data.rfind(|line| line.contains(r#""state":"done""#));
+        serde_json::from_str::<Value>(ended.expect("an end")).expect("JSON")
+    };
+    let ended = drive(&folder);
+    let file = ended["recorded"].as_str().expect("a file");
+    let replayed = ortho().args(["replay", file]).output().expect("the program starts");
+    let words = String::from_utf8_lossy(&replayed.stdout).into_owned();
+    assert!(replayed.status.success() && words.contains("Поезжай к Точке-К"), "{words}");
+    assert_eq!(std::fs::read_dir(&folder).expect("a folder").count(), 1);
+
+    // A disk that refuses stops no robot.
+    std::fs::write(dir.path().join("file"), "").expect("it can be written");
+    let ended = drive(&dir.path().join("file"));
+    assert!(ended["not_recorded"].as_str().is_some_and(|told| told.contains("file")), "{ended}");
+    assert_eq!(ended["state"], "done", "{ended}");
+}
+
+#[test]
 fn an_edit_that_an_assistant_proposed_is_written_when_the_operator_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let store = folder.path().join("store");
@@ -531,6 +611,11 @@ fn events(console: &Console, head: &str, until: impl Fn(&str) -> bool) -> String
         }
     }
     text
+}
+
+/// A task is done, and all of it was told.
+fn is_done(text: &str) -> bool {
+    text.rsplit_once(r#""state":"done""#).is_some_and(|(_, rest)| rest.contains("\n\n"))
 }
 
 #[test]

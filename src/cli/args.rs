@@ -15,6 +15,7 @@ use crate::units::{Bilingual, Language, Timestamp};
 use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
+use super::lengths::Lengths;
 use super::locate::LocateArgs;
 use super::map_from::MapFromArgs;
 use super::observe::ObserveCommand;
@@ -85,6 +86,16 @@ pub(super) struct Common {
         value_name = "WHEN"
     )]
     pub color: Color,
+    /// Of lengths in arguments and of points in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value = "cm",
+        hide_default_value = true,
+        value_name = "UNIT"
+    )]
+    pub units: Lengths,
     /// Tell on standard error what is done inside and how long it takes; -vv and -vvv tell more
     #[arg(short, long, global = true, action = ArgAction::Count)]
     pub verbose: u8,
@@ -311,6 +322,25 @@ pub(super) enum Command {
     Draw(DrawArgs),
 }
 
+impl Command {
+    /// It speaks only when it is done, which may take a while.
+    pub(super) fn may_be_silent(&self) -> bool {
+        #[cfg(feature = "serve")]
+        let serves = matches!(self, Self::Serve(_) | Self::Mcp(_));
+        #[cfg(not(feature = "serve"))]
+        let serves = false;
+        !serves
+            && !matches!(
+                self,
+                Self::Simulate(_)
+                    | Self::Watch { .. }
+                    | Self::Talk(_)
+                    | Self::Replay(_)
+                    | Self::LanguageServer
+            )
+    }
+}
+
 /// How much is said of a place or a way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Detail {
@@ -355,7 +385,7 @@ pub(super) struct DoArgs {
     /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
     #[arg(long)]
     pub reset: bool,
-    /// The robot stands here: a name, or X,Y[,HEADING] in cm and degrees; else where the last task left it, or at the map's start
+    /// The robot stands here: a name, or X,Y[,HEADING]; else where the last task left it, or at the map's start
     #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
     pub from: Option<String>,
     #[command(flatten)]

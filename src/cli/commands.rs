@@ -12,6 +12,7 @@ use crate::engine::{
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
+use crate::recording::Played;
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 
@@ -55,7 +56,24 @@ pub(super) fn open_to_write(common: &Common) -> Result<Engine, Failure> {
 
 #[expect(clippy::print_stderr, reason = "notes go to standard error")]
 pub(super) fn note(text: &str) {
+    super::waiting::over();
     eprintln!("{text}");
+}
+
+/// Notes where a recording was cut off, if it was.
+pub(super) fn note_cut(common: &Common, played: &Played) {
+    let Some(cut) = &played.cut else { return };
+    let begun = played.told.first().map_or(0, |first| first.time);
+    let (lasted, cut) = (seconds(played.end(), begun), cut.say(common.lang.language()));
+    note(&match common.lang {
+        Lang::Ru => format!("Запись обрывается на {lasted} с: {cut}."),
+        Lang::En => format!("The recording breaks off after {lasted} s: {cut}."),
+    });
+}
+
+/// Of a recording, to the millisecond.
+pub(super) fn seconds(time: u64, begun: u64) -> f64 {
+    (time.saturating_sub(begun) / 1_000_000) as f64 / 1000.0
 }
 
 pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
@@ -402,7 +420,7 @@ pub(super) fn route(
     } else {
         let mut parts = Vec::new();
         for (k, leg) in journey.legs.iter().enumerate() {
-            parts.push(text::route(world, engine.floor(leg.map)?, leg, common.lang));
+            parts.push(text::route(world, engine.floor(leg.map)?, leg, common));
             parts.extend(journey.rides.get(k).map(|r| ride_in_words(world, r, language)));
         }
         let opens = opens_in_words(world, &journey.opens, language);

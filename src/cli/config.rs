@@ -11,6 +11,7 @@ use crate::units::Source;
 
 use super::args::Arguments;
 use super::config_error::ConfigError;
+use super::lengths::{Lengths, in_centimetres};
 
 /// What the file says.
 #[derive(Debug, Default, Deserialize)]
@@ -22,6 +23,14 @@ struct Config {
     vehicle: Option<Vehicle>,
     user: Option<String>,
     color: Option<Color>,
+    units: Option<Units>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Units {
+    Cm,
+    M,
 }
 
 /// `ru` or `en`.
@@ -60,12 +69,12 @@ const NAME: &str = "ortho.toml";
 /// The arguments of this call, with what the settings say where they say nothing; and why a file of settings that was
 /// named, or found, cannot be used.
 pub(super) fn arguments() -> (Arguments, Option<Box<ConfigError>>) {
-    let given = Arguments::parse_whole(Arguments::command());
+    let given = Arguments::parse_whole(&Arguments::command());
     let found = given.common.config.clone().map_or_else(found, Some);
     let Some(path) = found else { return (given, None) };
     match Config::read(&path) {
         Ok(config) => {
-            (Arguments::parse_whole(config.laid_under(Arguments::command(), &path)), None)
+            (Arguments::parse_whole(&config.laid_under(Arguments::command(), &path)), None)
         }
         Err(error) => (given, Some(Box::new(error))),
     }
@@ -82,9 +91,18 @@ fn found() -> Option<PathBuf> {
 }
 
 impl Arguments {
-    fn parse_whole(command: clap::Command) -> Self {
-        let matches: ArgMatches = command.get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    fn parse_whole(command: &clap::Command) -> Self {
+        let read = |unit| {
+            let words = in_centimetres(command, std::env::args_os(), unit);
+            let matches: ArgMatches = command.clone().get_matches_from(words);
+            Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        };
+        // In which unit the lengths are is itself an argument.
+        let read_in_cm = read(Lengths::Cm);
+        match read_in_cm.common.units {
+            Lengths::Cm => read_in_cm,
+            unit => read(unit),
+        }
     }
 }
 
@@ -117,8 +135,13 @@ impl Config {
             Color::Always => "always".to_owned(),
             Color::Never => "never".to_owned(),
         });
+        let units = self.units.map(|units| match units {
+            Units::Cm => "cm".to_owned(),
+            Units::M => "m".to_owned(),
+        });
         let told = [
             ("lang", language),
+            ("units", units),
             ("store", self.store.and_then(path)),
             ("rules", self.rules.and_then(path)),
             ("user", self.user),

@@ -15,7 +15,7 @@ pub(super) enum ConfigError {
     #[error("настройки: {what}")]
     #[diagnostic(
         code(config::syntax),
-        help("бывают: language, store, rules, vehicle, user, color (docs/cli.md)")
+        help("бывают: language, store, rules, vehicle, user, color, units (docs/cli.md)")
     )]
     Syntax {
         what: String,
@@ -38,7 +38,8 @@ impl InEnglish for ConfigError {
         Some(match self {
             Self::Unreadable { .. } => "check the path and the permissions".to_owned(),
             Self::Syntax { .. } => {
-                "there are: language, store, rules, vehicle, user, color (docs/cli.md)".to_owned()
+                "there are: language, store, rules, vehicle, user, color, units (docs/cli.md)"
+                    .to_owned()
             }
         })
     }

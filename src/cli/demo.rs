@@ -1,11 +1,12 @@
 //! The main job, told as it goes: a task in words, planned, driven, reported, drawn.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::engine::{
     Dialogue, Engine, Error, Event, Heard, Outcome, Progress, Reply, TaskAnswer, change_now,
 };
+use crate::recording::{Played, RecordingError};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 use crate::units::write_file;
@@ -124,8 +125,8 @@ pub(super) fn perform_scenario(
 
 /// A directory for the time of one run.
 pub(super) struct Scratch {
-    dir: std::path::PathBuf,
-    pub(super) store: std::path::PathBuf,
+    dir: PathBuf,
+    pub(super) store: PathBuf,
 }
 
 impl Scratch {
@@ -140,13 +141,24 @@ impl Scratch {
     }
 
     /// The papers' map: the file beside the program's sources, else the copy built in.
-    pub(super) fn map(&self) -> Result<std::path::PathBuf, Failure> {
+    pub(super) fn map(&self) -> Result<PathBuf, Failure> {
         let file = Path::new(RB2.0);
         if file.is_file() {
             return Ok(file.to_owned());
         }
         let copy = self.dir.join("rb2.toml");
         write_file(&copy, RB2.1.as_bytes()).map_err(|e| Failure::file(&copy, &e))?;
+        Ok(copy)
+    }
+
+    /// The map with which a recording began.
+    pub(super) fn map_of(&self, file: &Path, played: &Played) -> Result<PathBuf, Failure> {
+        let Some(text) = &played.map else {
+            let path = file.display().to_string();
+            return Err(crate::engine::Error::from(RecordingError::Foreign { path }).into());
+        };
+        let copy = self.dir.join("map.toml");
+        write_file(&copy, text.as_bytes()).map_err(|e| Failure::file(&copy, &e))?;
         Ok(copy)
     }
 }

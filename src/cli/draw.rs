@@ -125,6 +125,7 @@ pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
             return say(sheet);
         }
         let picture = picture(sheet, args.width)?;
+        super::waiting::over();
         let mut out = std::io::stdout().lock();
         out.write_all(&picture).and_then(|()| out.flush()).map_err(|e| Failure::output(&e))?;
         return Ok(Answer::Yes);

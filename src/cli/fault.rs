@@ -70,6 +70,7 @@ impl Failure {
     /// Prints the faults and says with which code to end.
     #[expect(clippy::print_stderr, reason = "this is where faults are printed")]
     pub(super) fn show(&self, as_json: bool, lang: Lang) -> ExitCode {
+        super::waiting::over();
         match self {
             Self::Output(reason) => {
                 eprintln!("ortho: {}: {reason}", lang.pick("вывод прерван", "output broke off"));

@@ -32,7 +32,7 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
         value["faults"] = json::log_faults(log.faults()).into();
         say(&value.to_string())?;
     } else {
-        let lines: Vec<String> = found.iter().map(|scan| tell(common.lang, scan)).collect();
+        let lines: Vec<String> = found.iter().map(|scan| tell(common, scan)).collect();
         say(&lines.join("\n"))?;
         warn_of_lines(&log, common.lang);
     }
@@ -43,11 +43,12 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
     })
 }
 
-fn tell(lang: Lang, found: &FoundScan) -> String {
+fn tell(common: &Common, found: &FoundScan) -> String {
+    let lang = common.lang;
     let scan = format!("{} {}", lang.pick("Скан", "Scan"), found.scan);
     let event = found.event_in_words(lang.language());
     let event = event.map_or_else(String::new, |event| format!(" ({event})"));
-    let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(lang, pose)).collect();
+    let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(common, pose)).collect();
     match &poses[..] {
         [] => format!("{scan}{event}: {}", lang.pick("неизвестно где", "place unknown")),
         [only] if found.is_unique => format!("{scan}{event}: {only}"),
@@ -69,18 +70,15 @@ fn tell(lang: Lang, found: &FoundScan) -> String {
     }
 }
 
-fn tell_pose(lang: Lang, found: &FoundPose) -> String {
+fn tell_pose(common: &Common, found: &FoundPose) -> String {
+    let (lang, lengths) = (common.lang, common.units);
     let place = found.place.as_ref().map_or_else(
         || lang.pick("Это вне всех комнат.", "That is outside of all rooms.").to_owned(),
         |place| place.position.say_in(lang.language(), Detail::Region),
     );
     let (at, heading) = (found.pose.at, found.pose.heading.get());
     let (cm, degrees) = found.deviation;
-    let unit = lang.pick("см", "cm");
-    format!(
-        "({:.0}, {:.0}), {heading:.0}°, ± {:.0} {unit} {degrees:.1}°. {place}",
-        at.x,
-        at.y,
-        cm.max(1.0)
-    )
+    let (at, unit) = (lengths.point(at.x, at.y, 0), lengths.word(lang.language()));
+    let off = lengths.number(cm.max(1.0), 0);
+    format!("{at}, {heading:.0}°, ± {off} {unit} {degrees:.1}°. {place}")
 }

@@ -18,6 +18,7 @@ mod fault;
 mod import;
 mod inside;
 mod language_server;
+mod lengths;
 mod locate;
 mod manual;
 mod map_from;
@@ -35,6 +36,7 @@ mod talk;
 mod teller;
 mod text;
 mod vehicle;
+mod waiting;
 mod watch;
 mod why;
 mod words;
@@ -70,8 +72,12 @@ pub fn run() -> ExitCode {
     }
     fault::colour(common.color);
     inside::tell(common.verbose);
+    if !common.json && arguments.command.may_be_silent() {
+        waiting::begin(common.lang.language());
+    }
     // A pipe that is closed early (`ortho relations | head`) ends the output, not the program's good name.
     let outcome = std::panic::catch_unwind(|| dispatch(&arguments));
+    waiting::over();
     match outcome {
         Ok(Ok(Answer::Yes)) => ExitCode::SUCCESS,
         Ok(Ok(Answer::No)) => ExitCode::from(1),
@@ -186,6 +192,7 @@ fn came_to(task: &TaskAnswer) -> Answer {
 
 /// Prints a text with a line end.
 fn say(text: &str) -> Result<Answer, Failure> {
+    waiting::over();
     let mut out = std::io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::output(&e)),

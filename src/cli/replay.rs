@@ -9,13 +9,14 @@ use crate::recording::{Played, Told};
 use crate::units::Timestamp;
 
 use super::args::{Common, Lang, ReplayArgs};
-use super::commands::note;
+use super::commands::{note_cut, seconds};
 use super::fault::Failure;
 use super::{Answer, say};
 
 /// Tells a recording again, and where it was cut off.
 pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure> {
-    let Played { about, told, cut, .. } = Recording::read(&args.file)?;
+    let played = Recording::read(&args.file)?;
+    let Played { about, told, cut, .. } = &played;
     let begun = told.first().map_or(0, |first| first.time);
     if !common.json {
         let domain = about.get("domain").map_or("", String::as_str);
@@ -26,7 +27,7 @@ pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure>
         })?;
     }
     let mut before = begun;
-    for one in &told {
+    for one in told {
         let Some(line) = line(common, one, begun) else { continue };
         if let Some(pace) = args.pace {
             let seconds = one.time.saturating_sub(before) as f64 / 1e9 / pace;
@@ -35,18 +36,13 @@ pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure>
         before = one.time;
         say(&line)?;
     }
-    let lasted = seconds(told.last().map_or(begun, |last| last.time), begun);
-    let cut = cut.as_ref().map(|cut| cut.say(common.lang.language()));
     if common.json {
-        let whole = json!({ "outcome": "replayed", "seconds": lasted, "cut": cut });
+        let cut = cut.as_ref().map(|cut| cut.say(common.lang.language()));
+        let whole =
+            json!({ "outcome": "replayed", "seconds": seconds(played.end(), begun), "cut": cut });
         return say(&whole.to_string());
     }
-    if let Some(cut) = cut {
-        note(&match common.lang {
-            Lang::Ru => format!("Запись обрывается на {lasted} с: {cut}."),
-            Lang::En => format!("The recording breaks off after {lasted} s: {cut}."),
-        });
-    }
+    note_cut(common, &played);
     Ok(Answer::Yes)
 }
 
@@ -70,9 +66,4 @@ fn line(common: &Common, told: &Told, begun: u64) -> Option<String> {
         }
         _ => None,
     }
-}
-
-/// To the millisecond.
-fn seconds(time: u64, begun: u64) -> f64 {
-    (time.saturating_sub(begun) / 1_000_000) as f64 / 1000.0
 }

@@ -12,6 +12,7 @@ use super::args::{Common, Lang};
 use super::commands::warn_of_lines;
 use super::draw::put_drawing;
 use super::fault::Failure;
+use super::lengths::Lengths;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -73,22 +74,25 @@ fn shown(common: &Common, args: &SeeArgs, sighted: &Sighted) -> Result<Shown, Fa
         let things = sighted.things(args.scan)?;
         let draw = || if args.tree { things.draw_tree(language) } else { things.draw(language) };
         let drawing = wanted.then(draw);
-        let (value, words) = (json::things(&things), tell_things(common.lang, &things));
+        let (value, words) = (json::things(&things), tell_things(common, &things));
         return Ok(Shown { value, words, drawing });
     }
     if let Some(against) = args.against {
         let changes = sighted.changes(scan, against)?;
         let drawing = wanted.then(|| changes.draw(language));
-        let (value, words) = (json::changes(&changes), tell_changes(common.lang, &changes));
+        let (value, words) = (json::changes(&changes), tell_changes(common, &changes));
         return Ok(Shown { value, words, drawing });
     }
     let view = sighted.view(scan, args.vertices)?;
     let drawing = wanted.then(|| view.draw(language));
-    let words = tell_view(common.lang, &view, sighted.scans());
+    let words = tell_view(common, &view, sighted.scans());
     Ok(Shown { value: json::view(&view), words, drawing })
 }
 
-fn tell_view(lang: Lang, view: &View, scans: usize) -> String {
+fn tell_view(common: &Common, view: &View, scans: usize) -> String {
+    let lang = common.lang;
+    // The points of a picture are its own.
+    let lengths = if view.is_picture { Lengths::Cm } else { common.units };
     let head = match (lang, view.is_picture) {
         (Lang::Ru, true) => format!("Картинка: отрезков {}", view.segments.len()),
         (Lang::En, true) => format!("Picture: {} segments", view.segments.len()),
@@ -109,27 +113,26 @@ fn tell_view(lang: Lang, view: &View, scans: usize) -> String {
             view.segments.len()
         ),
     };
-    let lines = view.segments.iter().enumerate().map(|(k, s)| tell(lang, k, s, view.is_picture));
+    let lines =
+        view.segments.iter().enumerate().map(|(k, s)| tell(lang, lengths, k, s, view.is_picture));
     let points = view.points.iter().map(|p| match lang {
-        Lang::Ru => format!("  тонкое у ({:.0}, {:.0})", p.x, p.y),
-        Lang::En => format!("  thin at ({:.0}, {:.0})", p.x, p.y),
+        Lang::Ru => format!("  тонкое у {}", lengths.point(p.x, p.y, 0)),
+        Lang::En => format!("  thin at {}", lengths.point(p.x, p.y, 0)),
     });
     std::iter::once(head).chain(lines).chain(points).collect::<Vec<_>>().join("\n")
 }
 
 /// A segment: ends, length, what the ends are.
-fn tell(lang: Lang, k: usize, segment: &Segment<2>, is_picture: bool) -> String {
-    let unit = if is_picture { lang.pick("тчк", "px") } else { lang.pick("см", "cm") };
-    let length = decimal(segment.length(), unit, lang.language());
+fn tell(lang: Lang, lengths: Lengths, k: usize, segment: &Segment<2>, is_picture: bool) -> String {
+    let unit = if is_picture { lang.pick("тчк", "px") } else { lengths.word(lang.language()) };
+    let length = decimal(lengths.of(segment.length()), unit, lang.language());
     let (a, b) = (segment.start, segment.end);
     let [first, last] = json::ends(segment).map(|end| word(lang, end));
     format!(
-        "{:>3}. ({:.0}, {:.0}) – ({:.0}, {:.0}), {length}: {first} – {last}",
+        "{:>3}. {} – {}, {length}: {first} – {last}",
         k + 1,
-        a.x,
-        a.y,
-        b.x,
-        b.y
+        lengths.point(a.x, a.y, 0),
+        lengths.point(b.x, b.y, 0)
     )
 }
 
@@ -146,7 +149,9 @@ fn word(lang: Lang, end: &str) -> &str {
     lang.pick(russian, end)
 }
 
-fn tell_things(lang: Lang, things: &Things) -> String {
+fn tell_things(common: &Common, things: &Things) -> String {
+    let lang = common.lang;
+    let lengths = if things.is_picture { Lengths::Cm } else { common.units };
     let count = things.scene.things().len();
     let mut lines = vec![match lang {
         Lang::Ru => format!("Вещей {count}, сканов соединено {}", things.views),
@@ -162,20 +167,17 @@ fn tell_things(lang: Lang, things: &Things) -> String {
         let model = things.scene.seen(k);
         let at = things.scene.frames()[k].translation.vector;
         let whole = model.segments().iter().filter(|s| s.is_whole()).count();
-        let (id, all) = (thing.id.0, model.len());
+        let (id, all, at) = (thing.id.0, model.len(), lengths.point(at.x, at.y, 0));
         lines.push(match lang {
-            Lang::Ru => {
-                format!("{id:>4}. у ({:.0}, {:.0}): отрезков {all}, целых {whole}", at.x, at.y)
-            }
-            Lang::En => {
-                format!("{id:>4}. at ({:.0}, {:.0}): {all} segments, {whole} whole", at.x, at.y)
-            }
+            Lang::Ru => format!("{id:>4}. у {at}: отрезков {all}, целых {whole}"),
+            Lang::En => format!("{id:>4}. at {at}: {all} segments, {whole} whole"),
         });
     }
     lines.join("\n")
 }
 
-fn tell_changes(lang: Lang, changes: &Changes) -> String {
+fn tell_changes(common: &Common, changes: &Changes) -> String {
+    let (lang, lengths) = (common.lang, common.units);
     let found = &changes.difference;
     let (pairs, gone, new) = (found.pairs.len(), found.vanished.len(), found.appeared.len());
     let mut lines = vec![match lang {
@@ -185,16 +187,11 @@ fn tell_changes(lang: Lang, changes: &Changes) -> String {
     for part in &found.parts {
         let motion = part.motion.isometry;
         let (shift, turn) = (motion.translation.vector, motion.rotation.angle().to_degrees());
-        let count = part.members.len();
+        let (count, unit) = (part.members.len(), lengths.word(lang.language()));
+        let shift = lengths.point(shift.x, shift.y, 1);
         lines.push(match lang {
-            Lang::Ru => format!(
-                "  отрезков {count}: сдвиг ({:.1}, {:.1}) см, поворот {turn:.1}°",
-                shift.x, shift.y
-            ),
-            Lang::En => format!(
-                "  {count} segments: shift ({:.1}, {:.1}) cm, turn {turn:.1}°",
-                shift.x, shift.y
-            ),
+            Lang::Ru => format!("  отрезков {count}: сдвиг {shift} {unit}, поворот {turn:.1}°"),
+            Lang::En => format!("  {count} segments: shift {shift} {unit}, turn {turn:.1}°"),
         });
     }
     lines.join("\n")

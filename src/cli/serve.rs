@@ -1,17 +1,17 @@
 //! `ortho serve`: the operator's console in the browser; `ortho mcp`: the same house for an assistant.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{Engine, change_now};
+use crate::engine::{Engine, Recording, change_now};
 use crate::robot::Address;
 use crate::serve::{Bounds, ServeError, Settings, beside, run as serve, run_for_assistant};
 
 use super::args::Common;
-use super::commands::{note_repairs, rules_dir, store_dir};
+use super::commands::{note_cut, note_repairs, rules_dir, store_dir};
 use super::demo::Scratch;
 use super::fault::Failure;
 use super::signals::stopped_by_signals;
@@ -26,9 +26,12 @@ pub(super) struct Opened {
     /// The papers' flat with the simulated robot, in a store that lasts as long as the program unless --store names one
     #[arg(long)]
     demo: bool,
-    /// The simulated robot drives so many times as fast as the clock
+    /// The simulated robot drives, or a recording is played, so many times as fast as the clock
     #[arg(long, default_value_t = 1.0, value_name = "TIMES", value_parser = super::vehicle::pace)]
     pace: f64,
+    /// Record each task that is driven in a file of this folder, as "do --record" does
+    #[arg(long, value_name = "DIR")]
+    record: Option<PathBuf>,
     /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
     #[arg(long, value_name = "ADDRESS", value_parser = super::vehicle::address, conflicts_with = "pace")]
     vehicle: Option<Address>,
@@ -50,6 +53,9 @@ pub(super) struct McpArgs {
 pub(super) struct ServeArgs {
     #[command(flatten)]
     opened: Opened,
+    /// Play a recording of "do --record", on the map with which it began
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["map", "demo", "vehicle"])]
+    replay: Option<PathBuf>,
     /// Port; 0 takes a free one
     #[arg(long, default_value_t = 8430, value_name = "PORT")]
     port: u16,
@@ -65,21 +71,33 @@ pub(super) struct ServeArgs {
 }
 
 /// The engine, and what both faces need of it. The folder lasts as long as the [`Scratch`].
-fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), Failure> {
-    let lasts = common.store.is_some() || (args.map.is_none() && !args.demo);
+fn open(
+    common: &Common,
+    args: &Opened,
+    replay: Option<&Path>,
+) -> Result<(Engine, Settings, Scratch), Failure> {
+    let replay =
+        replay.map(|file| Recording::read(file).map(|played| (file, played))).transpose()?;
+    if let Some((_, played)) = &replay {
+        note_cut(common, played);
+    }
+    let begins_anew = args.map.is_some() || args.demo;
+    // What is played leaves every store as it is.
+    let lasts = replay.is_none() && (common.store.is_some() || !begins_anew);
     let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
     let store = if lasts { store_dir(common) } else { scratch.store.clone() };
     let rules = rules_dir(common);
-    let mut engine = match args.map.is_some() || args.demo {
+    let mut engine = match begins_anew || replay.is_some() {
         true => Engine::open(&store, rules.as_deref())?,
         false => Engine::open_existing(&store, rules.as_deref())?,
     };
     note_repairs(&engine, common.lang);
     // What a store that lasts has become is not overwritten by what it once began with.
-    if engine.world().is_err() && (args.map.is_some() || args.demo) {
-        let map = match &args.map {
-            Some(map) => map.clone(),
-            None => scratch.map()?,
+    if engine.world().is_err() && (begins_anew || replay.is_some()) {
+        let map = match (&args.map, &replay) {
+            (Some(map), _) => map.clone(),
+            (None, Some((file, played))) => scratch.map_of(file, played)?,
+            (None, None) => scratch.map()?,
         };
         engine.import(&map, &change_now(&common.user, "serve"))?;
     }
@@ -91,6 +109,8 @@ fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), F
         rules,
         sessions: lasts.then(|| beside(&store, ".sessions")),
         pace: args.pace,
+        records: args.record.clone(),
+        replay: replay.map(|(_, played)| played),
         vehicle: args
             .vehicle
             .clone()
@@ -104,7 +124,7 @@ fn open(common: &Common, args: &Opened) -> Result<(Engine, Settings, Scratch), F
 }
 
 pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> {
-    let (engine, settings, _scratch) = open(common, &args.opened)?;
+    let (engine, settings, _scratch) = open(common, &args.opened, args.replay.as_deref())?;
     let ip = args.listen.unwrap_or(settings.listen.ip());
     let settings = Settings {
         listen: SocketAddr::new(ip, args.port),
@@ -122,7 +142,7 @@ pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> 
 
 /// Speaks the Model Context Protocol on the standard streams.
 pub(super) fn assist(common: &Common, args: &McpArgs) -> Result<Answer, Failure> {
-    let (engine, settings, _scratch) = open(common, &args.opened)?;
+    let (engine, settings, _scratch) = open(common, &args.opened, None)?;
     came_to(run_for_assistant(engine, &settings, &stopped_by_signals()))
 }
 

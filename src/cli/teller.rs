@@ -14,7 +14,7 @@ use crate::units::write_file;
 
 use super::args::{Common, Lang, RecordArgs};
 use super::fault::Failure;
-use super::say;
+use super::{say, waiting};
 
 /// Tells a dialogue, or a task alone.
 pub(super) struct Teller {
@@ -83,10 +83,13 @@ impl Teller {
             Event::Ordered(order) => {
                 self.bar = bar();
                 match (self.is_task, self.lang) {
-                    (false, _) => Ok(()),
-                    (true, Lang::Ru) => put(&format!("Задание: «{order}»")),
-                    (true, Lang::En) => put(&format!("Task: \"{order}\"")),
+                    (false, _) => {}
+                    (true, Lang::Ru) => put(&format!("Задание: «{order}»"))?,
+                    (true, Lang::En) => put(&format!("Task: \"{order}\""))?,
                 }
+                // A plan may be long in coming.
+                waiting::begin(self.lang.language());
+                Ok(())
             }
             Event::Progress { progress, world, language } => {
                 for line in event.in_words() {

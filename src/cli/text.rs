@@ -15,7 +15,7 @@ use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFault, RuleFaults, Wording};
 use crate::units::{English, capitalized};
 
-use super::args::Lang;
+use super::args::{Common, Lang};
 
 impl Lang {
     pub(super) fn pick<'a>(self, russian: &'a str, english: &'a str) -> &'a str {
@@ -141,7 +141,13 @@ fn reasons(faults: &RuleFaults, lang: Lang) -> String {
 }
 
 /// A way in words: through which rooms and doors, how long, and where it bends.
-pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang: Lang) -> String {
+pub(super) fn route(
+    world: &World,
+    floor: &FloorPlan,
+    answer: &RouteAnswer,
+    common: &Common,
+) -> String {
+    let (lang, lengths) = (common.lang, common.units);
     let route = match &answer.route {
         Ok(route) => route,
         Err(why) => {
@@ -186,18 +192,22 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
     };
     let frames: Vec<String> = answer.chain.iter().map(|(_, id)| id.to_string()).collect();
     text.push_str(&format!("\n{} {}", lang.pick("Пассфреймы:", "Passframes:"), frames.join(" → ")));
-    let points: Vec<String> =
-        route.points.iter().map(|p| format!("({:.1}, {:.1})", p.x, p.y)).collect();
-    text.push_str(&format!("\n{} {}", lang.pick("Точки, см:", "Points, cm:"), points.join(" → ")));
+    let points_in = lang.pick("Точки", "Points");
+    let points: Vec<String> = route.points.iter().map(|p| lengths.point(p.x, p.y, 1)).collect();
+    text.push_str(&format!(
+        "\n{points_in}, {}: {}",
+        lengths.word(lang.language()),
+        points.join(" → ")
+    ));
     for (moved, what) in [
-        (&route.moved_start, lang.pick("Начало", "The start")),
-        (&route.moved_goal, lang.pick("Цель", "The goal")),
+        (&route.moved_start, lang.pick("Начало занято", "The start")),
+        (&route.moved_goal, lang.pick("Цель занята", "The goal")),
     ] {
         if let Some(moved) = moved {
-            let to = format!("({:.1}, {:.1})", moved.to.x, moved.to.y);
+            let to = lengths.point(moved.to.x, moved.to.y, 1);
             text.push_str(&match lang {
                 Lang::Ru => {
-                    format!("\n{what} занято: робот там не помещается; взято ближайшее место {to}.")
+                    format!("\n{what}: робот там не помещается; взято ближайшее место {to}.")
                 }
                 Lang::En => format!(
                     "\n{what} is taken: the robot does not fit there; the nearest place is {to}."

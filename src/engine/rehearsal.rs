@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
+use super::directive_words::name_in;
 use super::{
-    Dialogue, Engine, Error, Event, Heard, Outcome, Queue, QueuedTask, Reply, State, TaskEvents,
-    json,
+    Dialogue, Engine, Error, Event, Heard, Outcome, Progress, Queue, QueuedTask, Reply, State,
+    TaskEvents, json, progress_in_words,
 };
+use crate::map::{DoorStatus, World};
+use crate::robot::{Deed, Planned};
 use crate::units::Language;
 
 /// What is heard.
@@ -58,7 +61,65 @@ pub(crate) fn plans_of(plan: &Value) -> impl Iterator<Item = &Value> {
 
 /// Whether two lines heard apart would do the same, and rest on the same.
 pub(crate) fn is_same_plan(one: &Value, other: &Value) -> bool {
-    plans_of(one).eq(plans_of(other)) && one["assumptions"] == other["assumptions"]
+    plans_of(one).eq(plans_of(other))
+}
+
+/// What a person is told of a plan before saying yes, beside its steps and what it rests on: how long it is and whether
+/// that is proven; what it opens, and what it takes along or pushes away.
+#[derive(Debug, Default)]
+struct Outlook {
+    proof_ru: Vec<String>,
+    proof_en: Vec<String>,
+    /// None until there is a plan; false where one of several is not proven.
+    is_shortest: Option<bool>,
+    opens: Vec<String>,
+    carries: Vec<String>,
+}
+
+impl Outlook {
+    fn add(&mut self, world: &World, planned: &Planned) {
+        let proof = |language| -> Vec<String> {
+            let told = progress_in_words(world, &Progress::Planned(planned), language);
+            // What stands above the steps.
+            let head =
+                told.iter().flat_map(|text| text.lines().take_while(|l| !l.starts_with(' ')));
+            head.map(str::to_owned).collect()
+        };
+        let (russian, english) = (proof(Language::Russian), proof(Language::English));
+        if russian.is_empty() {
+            return;
+        }
+        self.proof_ru.extend(russian);
+        self.proof_en.extend(english);
+        let is_shortest = planned.solved.is_shortest && self.is_shortest != Some(false);
+        self.is_shortest = Some(is_shortest);
+        for deed in planned.steps.iter().flatten().flat_map(|directive| directive.deeds()) {
+            let (list, name) = match deed {
+                Deed::SetDoor { door, status: DoorStatus::Open } => (&mut self.opens, door),
+                Deed::SetOpen { thing, open: true } => (&mut self.opens, thing),
+                Deed::Take(thing) | Deed::Push(thing) => (&mut self.carries, thing),
+                _ => continue,
+            };
+            if !list.contains(&name) {
+                list.push(name);
+            }
+        }
+    }
+
+    fn put_into(self, plan: &mut Value, world: &World) {
+        let named = |names: Vec<String>| {
+            let both = names.into_iter().map(|name| {
+                let english = name_in(world, &name, Language::English);
+                json!({ "ru": name, "en": english })
+            });
+            Value::from_iter(both)
+        };
+        plan["proof_ru"] = json!(self.proof_ru.join("\n"));
+        plan["proof_en"] = json!(self.proof_en.join("\n"));
+        plan["is_shortest"] = json!(self.is_shortest);
+        plan["opens"] = named(self.opens);
+        plan["carries"] = named(self.carries);
+    }
 }
 
 /// What is replied to a line that is heard apart, and by nobody else.
@@ -81,9 +142,12 @@ pub(crate) fn rehearse(
     let mut engine = Engine::beside(Arc::clone(state));
     let mut dialogue = before.apart().keeping_nothing();
     let (mut told, mut events) = (Vec::new(), TaskEvents::default());
-    let mut is_first = true;
+    let (mut outlook, mut is_first) = (Outlook::default(), true);
     let heard = hear(&mut dialogue, &mut engine, line, &mut |_, event| match event {
         Event::Progress { progress, world, .. } if is_first => {
+            if let Progress::Planned(planned) = progress {
+                outlook.add(world, planned);
+            }
             if let Some(event) = events.of(world, progress) {
                 told.push(event);
             }
@@ -116,6 +180,7 @@ pub(crate) fn rehearse(
                 Line::Waited(task) => task.text.as_str(),
             });
             plan["events"] = json!(told);
+            outlook.put_into(&mut plan, engine.world()?);
             let others = heard.replies.iter().filter(|reply| drives(reply)).count();
             // Of what is ordered behind it the plan is made when its turn comes.
             plan["more"] = json!(others - 1);

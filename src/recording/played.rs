@@ -39,6 +39,12 @@ pub struct Played {
 }
 
 impl Played {
+    /// When something was told last; the beginning of time where nothing was.
+    #[must_use]
+    pub fn end(&self) -> u64 {
+        self.told.last().map_or(0, |last| last.time)
+    }
+
     /// Reads a file.
     ///
     /// # Errors

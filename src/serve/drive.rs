@@ -8,6 +8,7 @@
 //! with stands in the store before it is begun, and until it has ended.
 
 use std::collections::VecDeque;
+use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -17,6 +18,7 @@ use crate::engine::{
     After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvent,
     TaskEvents, json, rehearsal,
 };
+use crate::recording::Played;
 use crate::robot::{Address, Moment, Patience, Vehicle};
 use crate::units::{Language, Stop};
 
@@ -24,11 +26,12 @@ use super::book::{Book, Leased, Running, Task};
 use super::desk::Desk;
 use super::events::Events;
 use super::gate::Session;
+use super::recorded::Recorded;
 
 /// Between two looks whether the robot is to stop.
-const GLANCE: Duration = Duration::from_millis(20);
+pub(super) const GLANCE: Duration = Duration::from_millis(20);
 /// Between two poses that are told.
-const TELL: Duration = Duration::from_millis(90);
+pub(super) const TELL: Duration = Duration::from_millis(90);
 
 /// What drives.
 #[derive(Debug, Clone)]
@@ -74,6 +77,8 @@ pub(super) struct Tasks {
     pub(super) desk: Arc<Desk>,
     pub(super) events: Arc<Events>,
     wheels: Wheels,
+    /// The folder in which what is driven is recorded.
+    records: Option<PathBuf>,
     book: Mutex<Book>,
     /// Held while the store is brought to what the book says.
     ledger: Mutex<()>,
@@ -81,15 +86,25 @@ pub(super) struct Tasks {
 }
 
 impl Tasks {
-    /// Begins to wait for tasks; those that were left wait until somebody has them gone on with.
+    /// Plays what is to be played, so many times as fast as it was, and begins to wait for tasks; those that were left wait
+    /// until somebody has them gone on with.
     #[must_use]
-    pub(super) fn begin(desk: Arc<Desk>, events: Arc<Events>, wheels: Wheels) -> Arc<Self> {
+    pub(super) fn begin(
+        desk: Arc<Desk>,
+        events: Arc<Events>,
+        wheels: Wheels,
+        records: Option<PathBuf>,
+        replay: Option<(Played, f64)>,
+    ) -> Arc<Self> {
         let left = desk.state().waiting().unwrap_or_default();
         let book = Mutex::new(Book::kept(left));
         let (ledger, wake) = (Mutex::default(), Condvar::new());
-        let tasks = Arc::new(Self { desk, events, wheels, book, ledger, wake });
+        let tasks = Arc::new(Self { desk, events, wheels, records, book, ledger, wake });
         let driver = Arc::clone(&tasks);
         std::thread::spawn(move || {
+            if let Some((played, pace)) = replay {
+                driver.replay(&played, pace);
+            }
             while let Some(task) = driver.take_up() {
                 driver.drive(task);
             }
@@ -332,8 +347,15 @@ impl Tasks {
         };
         let mut engine = Engine::beside(Arc::clone(&state));
         let mut drive = Drive::new(self, &task, stop);
+        let records = self.records.as_ref();
+        let mut recorded = records.map(|folder| Recorded::begin(folder, task.id, &state));
         let heard = self.connect(&state, dialogue).and_then(|mut dialogue| {
-            let mut tell = |engine: &Engine, event: &Event<'_>| drive.follow(engine, event);
+            let mut tell = |engine: &Engine, event: &Event<'_>| {
+                if let Some(Ok(recorded)) = &mut recorded {
+                    recorded.tell(engine, event);
+                }
+                drive.follow(engine, event);
+            };
             let heard = rehearsal::hear(&mut dialogue, &mut engine, &line, &mut tell)?;
             Ok((heard, dialogue))
         });
@@ -364,6 +386,16 @@ impl Tasks {
         };
         if let Some(failure) = failed_to_note {
             view["not_noted"] = json!(failure);
+        }
+        if let Some(recorded) = recorded {
+            let kept = recorded.and_then(|recorded| {
+                view["recorded"] = json!(recorded.file.display().to_string());
+                recorded.end()
+            });
+            if let Err(error) = kept {
+                tracing::error!(%error, "a task is not recorded");
+                view["not_recorded"] = json!(error.to_string());
+            }
         }
         self.ended(task, view, dialogue);
     }

@@ -71,6 +71,12 @@ impl Events {
         self.robot.send_replace(data);
     }
 
+    /// Whether anybody listens.
+    #[must_use]
+    pub(super) fn is_heard(&self) -> bool {
+        self.robot.receiver_count() > 0
+    }
+
     /// Where the robot was last told to be, while it drives.
     #[must_use]
     pub(super) fn robot(&self) -> Value {

@@ -23,6 +23,8 @@ mod listen;
 mod proposed;
 mod queue;
 mod read;
+mod recorded;
+mod replay;
 mod routes;
 
 use std::net::SocketAddr;
@@ -31,6 +33,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::engine::{Engine, Error};
+use crate::recording::Played;
 use crate::robot::{Address, Patience};
 use crate::units::Stop;
 
@@ -60,8 +63,12 @@ pub struct Settings {
     pub rules: Option<PathBuf>,
     /// Where sessions outlive the program.
     pub sessions: Option<PathBuf>,
-    /// The simulator's time, times as fast as the clock.
+    /// The time of the simulator, or of what is played, times as fast as the clock.
     pub pace: f64,
+    /// A folder in which each task that is driven is recorded.
+    pub records: Option<PathBuf>,
+    /// Is played before anything else is done.
+    pub replay: Option<Played>,
     /// The robot that drives in place of the simulated one.
     pub vehicle: Option<(Address, Patience)>,
     pub is_demo: bool,
@@ -97,7 +104,9 @@ impl House {
             }
             None => Wheels::Simulated { pace: settings.pace },
         };
-        let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), wheels);
+        let replay = settings.replay.clone().map(|played| (played, settings.pace));
+        let records = settings.records.clone();
+        let tasks = Tasks::begin(Arc::clone(&desk), Arc::clone(&events), wheels, records, replay);
         let gate = Gate::new(at, &settings.hosts, settings.sessions.clone());
         let (rules, is_demo) = (settings.rules.clone(), settings.is_demo);
         let beside = settings.store.as_deref().map(|store| beside(store, ".proposed"));

@@ -67,12 +67,34 @@ fn an_argument_counts_before_the_environment_and_that_before_the_settings() {
 }
 
 #[test]
+fn lengths_are_in_the_unit_of_the_settings_and_in_centimetres_for_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let (_, err, code) = run(here, &["import", &project("maps/rb2.toml").display().to_string()]);
+    assert_eq!(code, Some(0), "{err}");
+    let way = |from: &str, to: &str| run(here, &["route", "--from", from, "--to", to]).0;
+    let (usual, place) = (way("225,380", "70,60"), run(here, &["where", "--at", "225,380"]).0);
+    assert!(usual.contains("Точки, см: (225.0, 380.0)"), "{usual}");
+    let json = run(here, &["--json", "route", "--from", "225,380", "--to", "70,60"]).0;
+
+    assert_eq!(way("2.25m,3800mm", "70cm,60"), usual);
+    std::fs::write(here.join("ortho.toml"), "units = \"m\"\n").unwrap();
+    assert_eq!(run(here, &["where", "--at", "2.25,3.8"]).0, place);
+    let told = way("2.25,3.8", "0.7,0.6");
+    assert!(told.contains("Точки, м: (2.250, 3.800)"), "{told}");
+    assert_eq!(run(here, &["--json", "route", "--from", "2.25,3.8", "--to", "0.7,0.6"]).0, json);
+    let centimetres = ["--units", "cm", "route", "--from", "225,380", "--to", "70,60"];
+    assert_eq!(run(here, &centimetres).0, usual);
+}
+
+#[test]
 fn faulty_settings_are_refused_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
     for (text, line, word) in [
         ("language = \"en\"\ncolour = \"never\"\n", 2, "colour"),
         ("language = \"fr\"\n", 1, "fr"),
         ("store = 3\n", 1, "3"),
+        ("units = \"feet\"\n", 1, "feet"),
         ("vehicle = \"pigeon\"\n", 1, "cmd:"),
         ("store = \"\n", 1, ""),
     ] {
@@ -198,4 +220,31 @@ fn a_map_is_checked_and_drawn_again_when_it_changes() {
     // SIGINT ends it in good order.
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(child.wait().unwrap().success());
+}
+
+#[test]
+fn what_takes_long_shows_a_sign_on_a_terminal_and_nowhere_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // It never ends by itself, so it lasts as long on every machine.
+    let endless = ".decl n(x: number)\nn(0).\nn(x + 1) :- n(x), x < 1000000000.\n";
+    std::fs::write(here.join("endless.dl"), endless).unwrap();
+    let arguments = ["--lang", "en", "datalog", "endless.dl", "--time-limit", "2"];
+    let (out, err, code) = run(here, &arguments);
+    assert_eq!((out.as_str(), code), ("", Some(2)), "{err}");
+    assert!(!err.contains("working"), "{err}");
+
+    let ortho = ortho(here);
+    let line = format!("'{}' {}", ortho.get_program().display(), arguments.join(" "));
+    // A terminal by util-linux's script.
+    let mut terminal = Command::new("script");
+    terminal.args(["-qec", &line, "/dev/null"]).current_dir(here);
+    let Ok(told) = terminal.stdin(Stdio::null()).output() else {
+        assert!(std::env::var_os("CI").is_none(), "script is missing");
+        return;
+    };
+    let told = String::from_utf8_lossy(&told.stdout).into_owned();
+    let (signs, fault) = told.rsplit_once("\u{1b}[2K").expect("the sign is wiped away");
+    assert!(signs.contains("working, 1s"), "{told}");
+    assert!(!fault.contains("working") && fault.contains("facts::time"), "{told}");
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::http::StatusCode;
-use rmcp::model::{CallToolRequestParams, InputRequiredResult};
+use rmcp::model::{CallToolRequestParams, InputRequiredResult, Task};
 use rmcp::service::{RequestContext, RoleServer};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -23,6 +23,8 @@ pub(super) enum Told {
     Picture(Vec<u8>, Value),
     /// The client's user is to be asked first.
     Waits(Box<InputRequiredResult>),
+    /// It goes on by itself; the client asks how far it is.
+    Begun(Box<Task>),
 }
 
 pub(super) type Answer = Result<Told, Fault>;

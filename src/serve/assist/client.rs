@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use rmcp::service::{RequestContext, RoleServer};
+use rmcp::task_manager::TaskManager;
 
 use super::super::gate::{Role, Session};
 use super::super::{House, beside};
@@ -15,11 +16,13 @@ use super::calls::Calls;
 const FIRST_SESSION: u64 = 1 << 40;
 
 /// One client over the standard streams, or all clients of a server over HTTP.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(in super::super) struct Assistant {
     pub(super) house: Arc<House>,
     pub(super) calls: Arc<Calls>,
     pub(super) asked: Arc<Asked>,
+    /// Plans that are carried out for clients that speak of tasks.
+    pub(super) tasks: TaskManager,
     /// The client's program asks its user before it calls what acts.
     pub(super) trusts_host: bool,
 }
@@ -35,6 +38,7 @@ impl Assistant {
             house,
             calls: Arc::new(Calls::new(beside(".calls.jsonl"))),
             asked: Arc::default(),
+            tasks: TaskManager::new(),
             trusts_host,
         }
     }

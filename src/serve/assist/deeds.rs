@@ -1,9 +1,7 @@
 //! What acts or adds: plans, and drives that a person agreed to; observations; edits that are proposed.
 
-use std::sync::Arc;
-use std::time::{Duration, SystemTime};
+use std::time::SystemTime;
 
-use rmcp::model::ProgressNotificationParam;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -11,11 +9,11 @@ use crate::engine::{Error, Mode, change_now, rehearsal, waiting};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
-use super::super::gate::Session;
 use super::super::proposed::Waits;
-use super::super::{House, act, apart, desk};
+use super::super::{act, apart, desk};
 use super::approval::{Word, ask};
 use super::call::{Answer, Call, Said, Told, refuse, said};
+use super::driven::Driven;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -81,7 +79,11 @@ impl Call<'_> {
         if let Some(waits) = self.approved(&about, &question).await? {
             return Ok(waits);
         }
-        self.drive(plan.id).await
+        let driven = Driven::begin(house, self.session.clone(), plan.id).await?;
+        if self.context.client_capabilities().is_some_and(|can| can.supports_tasks()) {
+            return Ok(Told::Begun(Box::new(driven.into_task(&self.assistant.tasks))));
+        }
+        driven.within(self.context).await.map(Told::Value)
     }
 
     /// A person's yes is none; what is to be returned, where it is not there yet.
@@ -105,59 +107,6 @@ impl Call<'_> {
                 "Спросить некого: эта программа не умеет спрашивать человека (elicitation). Если она сама спрашивает его перед каждым вызовом, запустите сервер с --trust-client.",
                 "There is nobody to ask: this client cannot ask its user (elicitation). If it asks before every call by itself, start the server with --trust-client.",
             )),
-        }
-    }
-
-    async fn drive(&self, id: u64) -> Answer {
-        let house = self.house();
-        let mut hearing = house.events.listen();
-        let (asked, session) = (Arc::clone(&house), self.session.clone());
-        apart(move || Ok(asked.tasks.confirm_alone(&session, id))).await??;
-        let mut watch = Watch { house: &house, session: self.session, id, is_over: false };
-        let token = self.context.meta.get_progress_token();
-        let mut steps = 0.0;
-        // Whoever drives must be heard of.
-        let mut beat = tokio::time::interval(Duration::from_secs(20));
-        loop {
-            let happened = tokio::select! {
-                happened = house.events.next(&mut hearing) => happened,
-                () = self.context.ct.cancelled() => {
-                    let (house, session) = (Arc::clone(&house), self.session.clone());
-                    apart(move || Ok(house.tasks.cancel(&session, id))).await?;
-                    tokio::time::sleep(Duration::from_millis(50)).await;
-                    Vec::new()
-                }
-                _ = beat.tick() => {
-                    let _ = house.tasks.lease(self.session);
-                    Vec::new()
-                }
-            };
-            for (kind, data) in happened {
-                let event: Value = serde_json::from_str(&data).unwrap_or_default();
-                if event["task"] != json!(id) {
-                    continue;
-                }
-                if kind == "task"
-                    && !["queued", "running"].contains(&event["state"].as_str().unwrap_or_default())
-                {
-                    watch.is_over = true;
-                    return Ok(Told::Value(ended(event)));
-                }
-                if kind == "directive"
-                    && let Some(token) = &token
-                {
-                    steps += 1.0;
-                    let told = event["en"]
-                        .as_str()
-                        .or(event["do_en"].as_str())
-                        .or(event["explanation_en"].as_str());
-                    let told = told.or(event["event"].as_str()).unwrap_or_default();
-                    let progress =
-                        ProgressNotificationParam::new(token.clone(), steps).with_message(told);
-                    // Who has gone hears nothing; the call is cancelled then.
-                    let _ = self.context.peer.notify_progress(progress).await;
-                }
-            }
         }
     }
 
@@ -259,49 +208,36 @@ impl Call<'_> {
     }
 }
 
-/// Has the robot stop when the call that drives it is dropped before its end.
-struct Watch<'w> {
-    house: &'w Arc<House>,
-    session: &'w Session,
-    id: u64,
-    is_over: bool,
-}
-
-impl Drop for Watch<'_> {
-    fn drop(&mut self) {
-        if !self.is_over {
-            // What drops a call must not wait for the disk.
-            let (house, session, id) = (Arc::clone(self.house), self.session.clone(), self.id);
-            std::thread::spawn(move || house.tasks.cancel(&session, id));
-        }
-    }
-}
-
-fn ended(mut event: Value) -> Value {
-    event["text"] = event["text_end"].clone();
-    event
-}
-
 /// A plan as it is shown to a person.
 fn plan_in_words(task: &Value, language: Language) -> String {
     let plan = &task["plan"];
-    let field = |name: &str| format!("{name}{}", language.pick("", "_en"));
-    let mut lines = vec![format!(
-        "{}: {}",
-        language.pick("Задание", "Task"),
-        task["text"].as_str().unwrap_or_default()
-    )];
-    let directive = language.pick("do_ru", "do_en");
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let field = language.pick("ru", "en");
+    let order = language.pick("Задание", "Task");
+    let mut lines = vec![format!("{order}: {}", text(&task["text"]))];
+    lines.push(text(&plan[format!("proof_{field}")]));
     let steps = rehearsal::plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
     let steps = steps.filter_map(|step| step.as_array()).flatten();
     for (number, step) in (1..).zip(steps) {
-        lines.push(format!("{number}. {}", step[directive].as_str().unwrap_or_default()));
+        lines.push(format!("{number}. {}", text(&step[format!("do_{field}")])));
     }
-    let assumed = plan[field("assumptions")].as_array().into_iter().flatten();
-    let assumed: Vec<&str> = assumed.filter_map(Value::as_str).collect();
+    let assumed = rehearsal::plans_of(plan).map(|plan| &plan[format!("assumptions_{field}")]);
+    let mut assumed: Vec<String> =
+        assumed.filter_map(Value::as_array).flatten().map(text).collect();
+    assumed.dedup();
     if !assumed.is_empty() {
         let head = language.pick("Если так и есть", "Assuming");
         lines.push(format!("{head}: {}", assumed.join("; ")));
+    }
+    for (what, head) in [
+        ("opens", language.pick("Откроет", "It opens")),
+        ("carries", language.pick("Возьмёт или отодвинет", "It takes or pushes")),
+    ] {
+        let names = plan[what].as_array().into_iter().flatten();
+        let names: Vec<String> = names.map(|name| text(&name[field])).collect();
+        if !names.is_empty() {
+            lines.push(format!("{head}: {}", names.join(", ")));
+        }
     }
     if plan["more"] != json!(0) {
         lines.push(

@@ -16,6 +16,7 @@ mod call;
 mod calls;
 mod client;
 mod deeds;
+mod driven;
 mod look;
 mod tools;
 
@@ -23,8 +24,9 @@ use std::sync::Arc;
 
 use rmcp::handler::server::ServerHandler;
 use rmcp::model::{
-    CallToolRequestParams, CallToolResponse, CallToolResult, ContentBlock, Implementation,
-    ListToolsResult, PaginatedRequestParams, ServerCapabilities, ServerConfig, Tool,
+    CallToolRequestParams, CallToolResponse, CallToolResult, CancelTaskParams, ContentBlock,
+    CreateTaskResult, GetTaskParams, GetTaskResult, Implementation, ListToolsResult,
+    PaginatedRequestParams, ServerCapabilities, ServerConfig, Tool, UpdateTaskParams,
 };
 use rmcp::service::{RequestContext, RoleServer, ServiceExt as _};
 use serde_json::Value;
@@ -45,7 +47,7 @@ Names of things are those of the map, in either language. To have the robot do s
 
 impl ServerHandler for Assistant {
     fn get_info(&self) -> ServerConfig {
-        let capabilities = ServerCapabilities::builder().enable_tools().build();
+        let capabilities = ServerCapabilities::builder().enable_tools().enable_tasks().build();
         ServerConfig::new(capabilities)
             .with_server_info(Implementation::new("orthoframe", env!("CARGO_PKG_VERSION")))
             .with_instructions(ABOUT)
@@ -89,12 +91,14 @@ impl ServerHandler for Assistant {
         };
         let outcome = match &told {
             Ok(call::Told::Waits(_)) => "asked",
+            Ok(call::Told::Begun(_)) => "begun",
             Ok(_) => "answered",
             Err(_) => "refused",
         };
         self.calls.note(&session.name, row.name, &arguments, outcome);
         Ok(match told {
             Ok(call::Told::Waits(question)) => (*question).into(),
+            Ok(call::Told::Begun(task)) => CreateTaskResult::new(*task).into(),
             Ok(call::Told::Value(value)) => complete(vec![], value).into(),
             Ok(call::Told::Picture(png, value)) => {
                 use base64::Engine as _;
@@ -103,6 +107,34 @@ impl ServerHandler for Assistant {
             }
             Err(fault) => refused(&fault).into(),
         })
+    }
+
+    async fn get_task(
+        &self,
+        asked: GetTaskParams,
+        _: RequestContext<RoleServer>,
+    ) -> Result<GetTaskResult, McpError> {
+        self.tasks.get_task(&asked.task_id).map(GetTaskResult::new)
+    }
+
+    async fn update_task(
+        &self,
+        said: UpdateTaskParams,
+        _: RequestContext<RoleServer>,
+    ) -> Result<(), McpError> {
+        // Nothing is asked of a person any more when a task is there.
+        self.tasks.update_task(&said.task_id, said.input_responses)
+    }
+
+    /// Needs nobody's word, as a stop does.
+    async fn cancel_task(
+        &self,
+        said: CancelTaskParams,
+        context: RequestContext<RoleServer>,
+    ) -> Result<(), McpError> {
+        let by = self.session(&context).name;
+        self.calls.note(&by, "tasks/cancel", &Value::from(said.task_id.clone()), "answered");
+        self.tasks.cancel_task(&said.task_id)
     }
 }
 

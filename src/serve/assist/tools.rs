@@ -189,7 +189,7 @@ const ROWS: &[Row] = &[
     Row {
         name: "run",
         title: "Carry out a plan",
-        about: "Has the robot carry out a plan by its id, that plan and no other. A person is asked first. Refused when the map, or anything that the plan rests on, has changed since. Tells of its progress; cancelling the call stops the robot.",
+        about: "Has the robot carry out a plan by its id, that plan and no other. A person is asked first. Refused when the map, or anything that the plan rests on, has changed since. Tells of its progress, as a task where the client speaks of tasks; cancelling stops the robot.",
         needs: Role::Drive,
         deed: Deed::Acts,
         takes: || {

@@ -9,12 +9,14 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any, Literal
 
 try:
     import httpx2
-    from mcp import Client, StdioServerParameters
+    from mcp import Client, MCPError, StdioServerParameters
+    from mcp.client.extension import ClientExtension, ResultClaim
     from mcp.client.streamable_http import streamable_http_client
-    from mcp.types import ElicitResult, Implementation
+    from mcp.types import CallToolResult, ElicitResult, Implementation, Request, RequestParams, Result
 except ImportError:
     sys.exit(77)
 
@@ -34,6 +36,102 @@ def asker(answers, asked):
         return ElicitResult(action="accept", content={"approve": answers.pop(0)})
 
     return ask
+
+
+class Begun(Result):
+    result_type: Literal["task"] = "task"
+    task_id: str
+    status: str
+    poll_interval_ms: int
+
+
+class State(Result):
+    task_id: str
+    status: str
+    status_message: str | None = None
+    result: dict[str, Any] | None = None
+
+
+class Of(RequestParams):
+    task_id: str
+
+
+class OfTask(Request[Of, str]):
+    # By which a server over HTTP is told the task in a header.
+    name_param = "taskId"
+
+
+class Tasks(ClientExtension):
+    """The protocol's tasks, as the Python client lets an extension of its own speak of them."""
+
+    identifier = "io.modelcontextprotocol/tasks"
+
+    def __init__(self, give_up_at=None):
+        self.give_up_at, self.heard, self.begun, self.last = give_up_at, [], None, None
+
+    def claims(self):
+        return [ResultClaim(result_type="task", model=Begun, resolve=self.resolve)]
+
+    async def ask(self, session, method, result=State, task=None):
+        request = OfTask(method=method, params=Of(task_id=task or self.begun.task_id))
+        return await session.send_request(request, result)
+
+    async def resolve(self, begun, context):
+        check(begun.status == "working", begun)
+        self.begun = begun
+        while True:
+            self.last = await self.ask(context.session, "tasks/get")
+            said = self.last.status_message
+            if said and (not self.heard or self.heard[-1] != said):
+                self.heard.append(said)
+            if len(self.heard) == self.give_up_at:
+                await self.ask(context.session, "tasks/cancel", Result)
+                self.give_up_at = None
+            if self.last.status != "working":
+                break
+            await asyncio.sleep(0.05)
+        return CallToolResult.model_validate(self.last.result or {"content": [], "isError": True})
+
+
+async def as_a_task(connect):
+    """Where the client speaks of tasks, a plan that is carried out is one: asked how far it is, given up."""
+    asked = []
+    tasks = Tasks()
+    async with connect("auto", asker([True], asked), extensions=[tasks]) as client:
+        plan = (await client.call_tool("plan", {"text": "Go to Point K"})).structured_content
+        told = await client.call_tool("run", {"id": plan["task"]["task"]})
+        check(tasks.last.status == "completed" and not told.is_error, tasks.last)
+        check(told.structured_content["state"] == "done" and len(asked) == 1, told)
+        steps = [int(said.split("/")[0]) for said in tasks.heard]
+        of = {said.split(":")[0].split("/")[1] for said in tasks.heard}
+        check(steps and steps == sorted(steps) and len(of) == 1, tasks.heard)
+        again = await tasks.ask(client.session, "tasks/get")
+        check(again.result["structuredContent"]["state"] == "done", "what ended is still known")
+        for method in ("tasks/get", "tasks/cancel"):
+            try:
+                await tasks.ask(client.session, method, Result, "no such task")
+                check(False, f"{method} of no task is refused")
+            except MCPError as error:
+                check(error.error.code == -32602, error)
+        # What is refused before anything is begun is no task.
+        told = await client.call_tool("run", {"id": plan["task"]["task"]})
+        check(told.is_error and told.structured_content["code"] == "serve::no_such_task", told)
+
+    tasks = Tasks(give_up_at=1)
+    async with connect("auto", asker([True], asked), extensions=[tasks]) as client:
+        plan = (await client.call_tool("plan", {"text": "Bring Cup 1"})).structured_content
+        told = await client.call_tool("run", {"id": plan["task"]["task"]})
+        check(tasks.last.status == "cancelled" and told.is_error, tasks.last)
+        now = (await client.call_tool("tasks", {})).structured_content
+        check(now["task"] is None and now["ended"][-1]["state"] == "cancelled", now)
+
+    # Who does not speak of tasks has none, and waits for the end of the call.
+    async with connect("auto", asker([True], asked)) as client:
+        try:
+            await Tasks().ask(client.session, "tasks/get", Result, tasks.begun.task_id)
+            check(False, "tasks are not spoken of")
+        except MCPError as error:
+            check(error.error.code < 0, error)
 
 
 async def work(connect, mode, log=None):
@@ -81,13 +179,26 @@ async def work(connect, mode, log=None):
         _, value = await call("ask", text="x" * 100000)
         check(value["replies"][0]["outcome"] != "answered", "a line of nonsense is not understood")
 
+        # A person is shown what they agree to: the steps, their proof, what they rest on, what is opened and carried.
+        told, plan = await call("plan", text="Bring the medicine")
+        check("fewer steps are proven impossible" in told.content[0].text, told.content[0].text)
+        plan = plan["task"]
+        check(plan["plan"]["is_shortest"] and [c["ru"] for c in plan["plan"]["carries"]] == ["Лекарство"], plan["plan"])
+        answers.append(False)
+        await call("run", id=plan["task"])
+        for said in ("6. take the medicine", "proven impossible", "Assuming: Door ZY is open", "pushes: the medicine"):
+            check(said in asked[-1], asked[-1])
+        told, _ = await call("plan", text="Принеси лекарство")
+        for said in ("6. взять Лекарство", "это доказано", "Если так и есть: Дверь-ZY открыта", "отодвинет: Лекарство"):
+            check(said in told.content[0].text, told.content[0].text)
+
         # A plan, declined, then carried out with progress.
         told, plan = await call("plan", text="Go to Point K")
         check(plan["task"]["plan"]["outcome"] in ("done", "plan") or plan["task"]["plan"], plan)
         number = plan["task"]["task"]
         answers.append(False)
         told, value = await call("run", id=number)
-        check(told.is_error and value["code"] == "assist::declined" and len(asked) == 1, value)
+        check(told.is_error and value["code"] == "assist::declined" and len(asked) == 2, value)
         heard = []
 
         async def hear(progress, _total, message):
@@ -145,10 +256,12 @@ async def work(connect, mode, log=None):
 
 
 def over_streams(store):
-    def connect(mode, ask, more=("--pace", "5")):
+    def connect(mode, ask, more=("--pace", "5"), extensions=()):
         arguments = ["mcp", "--demo", "--store", store, *more]
         server = StdioServerParameters(command=ORTHO, args=arguments)
-        return Client(server, mode=mode, elicitation_callback=ask, client_info=ME, read_timeout_seconds=120)
+        return Client(
+            server, mode=mode, elicitation_callback=ask, client_info=ME, read_timeout_seconds=120, extensions=extensions
+        )
 
     return connect
 
@@ -156,8 +269,8 @@ def over_streams(store):
 class OverHttp:
     """A console of its own, and a client that bears its token."""
 
-    def __init__(self, mode, ask):
-        self.mode, self.ask = mode, ask
+    def __init__(self, mode, ask, extensions=()):
+        self.mode, self.ask, self.extensions = mode, ask, extensions
 
     async def __aenter__(self):
         command = [ORTHO, "serve", "--demo", "--port", "0", "--pace", "5", "--token", TOKEN]
@@ -167,6 +280,7 @@ class OverHttp:
         self.client = Client(
             streamable_http_client(url, http_client=self.http),
             mode=self.mode, elicitation_callback=self.ask, client_info=ME, read_timeout_seconds=120,
+            extensions=self.extensions,
         )
         try:
             return await self.client.__aenter__()
@@ -202,6 +316,9 @@ async def main():
             await work(over_streams(store), mode, f"{store}.calls.jsonl")
         await work(OverHttp, mode)
         print(mode, "works")
+    with tempfile.TemporaryDirectory() as folder:
+        await as_a_task(over_streams(f"{folder}/store"))
+        await as_a_task(OverHttp)
     with tempfile.TemporaryDirectory() as folder:
         await nobody_to_ask(f"{folder}/store")
     print("all works")

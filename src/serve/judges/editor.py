@@ -285,6 +285,8 @@ def tasks(page, browser, server, faults):
     expect(page.locator("#panel .queue li")).to_have_count(2)
     picture(page, "broken-off")
     page.locator("#panel").get_by_role("button", name="Продолжить", exact=True).click()
+    # Between the two it stands for a moment.
+    expect(page.locator("#panel .queue li")).to_have_count(0, timeout=60_000)
     ended = idle(page)["ended"]
     assert [task["state"] for task in ended] == ["done", "done"], ended
     expect(page.locator("#panel")).to_contain_text("Избранное")
