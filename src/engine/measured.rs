@@ -13,8 +13,10 @@ use crate::units::{MapId, Point};
 use super::talk::RobotSenses;
 use super::{Error, State};
 
-/// Lengths stand in facts in tenths of a millimetre, angles in hundredths of a degree.
+/// Lengths stand in facts in tenths of a millimetre.
 const IN_CM: f64 = 100.0;
+/// The columns that say how far two are from each other, aside or in height: what else is measured has no place between them.
+const BETWEEN: [&str; 4] = ["d", "distance", "gap", "escape"];
 
 /// A measurement where it was made.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +28,7 @@ pub(crate) struct Measurement {
     /// Where the two are nearest to each other; twice the same point where one lies over the other.
     pub ends: [Point; 2],
     /// cm
-    pub length: Option<f64>,
+    pub length: f64,
     /// The measurement in a sentence.
     pub text: Option<String>,
     /// Whether a condition on it failed: of what does not hold.
@@ -91,13 +93,10 @@ impl State {
     fn measurement(&self, name: &str, values: &[Value]) -> Option<Measurement> {
         let measured = MEASURED.iter().find(|measured| measured.name == name)?;
         let columns = || measured.columns.iter().zip(values);
-        let number = |unit: &str| {
-            columns().find_map(|((_, _, is), value)| match value {
-                Value::Number(number) if *is == unit => Some(*number as f64 / IN_CM),
-                _ => None,
-            })
-        };
-        let length = number("0.1 mm");
+        let length = columns().find_map(|((column, ..), value)| match value {
+            Value::Number(number) if BETWEEN.contains(column) => Some(*number as f64 / IN_CM),
+            _ => None,
+        })?;
         let texts = columns().filter_map(|(_, value)| match value {
             Value::Symbol(text) => Some(&**text),
             _ => None,
@@ -163,12 +162,12 @@ impl Outline {
     }
 
     /// The ends of the shortest line between two; of a room's walls it goes to the one that lies as far away as was measured.
-    fn nearest(&self, other: &Self, measured: Option<f64>) -> [Point; 2] {
+    fn nearest(&self, other: &Self, measured: f64) -> [Point; 2] {
         let inside = self.edges().map(|(a, _)| a).find(|p| other.holds(*p));
         if let Some(p) = inside.or_else(|| other.edges().map(|(a, _)| a).find(|p| self.holds(*p))) {
             return [p, p];
         }
-        let wanted = measured.filter(|_| self.is_room || other.is_room);
+        let wanted = (self.is_room || other.is_room).then_some(measured);
         let mut best: Option<(f64, [Point; 2])> = None;
         for one in self.edges() {
             for two in other.edges() {

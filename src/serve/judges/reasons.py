@@ -27,7 +27,7 @@ def tags(page):
 def measured(page, relation, *of):
     """The lengths that a reason rests on, as the map is to show them."""
     told = get(page, f"/api/why?relation={relation}&of={','.join(of)}&lang=ru")
-    return told, [f"{one['length_cm']:.1f} см".replace(".", ",") for one in told["measures"] if one["length_cm"] is not None and one["length_cm"] < 1000]
+    return told, [f"{one['length_cm']:.1f} см".replace(".", ",") for one in told["measures"] if one["length_cm"] < 1000]
 
 
 def ortho(server, *arguments):

@@ -264,7 +264,6 @@ function measured(d, top) {
       const [nx, ny] = [(-dy / l) * 6 / k, (dx / l) * 6 / k], end = ([x, y]) => P([[x + nx, y + ny], [x - nx, y - ny]]);
       top.append(sv('path', { class: 'm-halo', d: P([a, b]), 'stroke-width': 5 / k }), sv('path', { class: `m-measure${cls}`, d: P([a, b]) + end(a) + end(b), 'stroke-width': 1.8 / k }));
     } else top.append(sv('circle', { class: `m-measure${cls}`, cx: a[0], cy: -a[1], r: 4 / k, 'stroke-width': 1.8 / k }));
-    if (cm === null) continue;
     // Where two would lie over each other, the later one goes below.
     let [x, y] = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - (l * k > 90 ? 0 : 18 / k)];
     while (tags.some(([tx, ty]) => Math.abs(tx - x) < 80 / k && Math.abs(ty - y) < 24 / k)) y -= 25 / k;

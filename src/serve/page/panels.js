@@ -150,7 +150,7 @@ function ground(proof) {
   const measured = proof.measures.filter((m) => m.text && !proof.words.includes(m.text));
   const rules = (proof.steps ?? []).map((step) => el('li', null, el('b', null, `${step.relation}(${step.args.join(', ')})`), (step.compared ?? []).map((c) => el('div', null, `${c.text}: ${c.left} ${c.op} ${c.right}`))));
   if (proof.rule) rules.push(el('li', null, el('b', null, proof.rule), (proof.failed ?? []).map((c) => el('div', null, `${c.text}: ${c.left} ${c.op} ${c.right}`))));
-  return [el('p', null, proof.words, /[.!?]$/.test(proof.words) ? '' : '.'), measured.length ? el('ul', null, measured.map((m) => el('li', { class: m.fails ? 'bad' : null }, m.text, m.length_cm === null ? '' : ''))) : null,
+  return [el('p', null, proof.words, /[.!?]$/.test(proof.words) ? '' : '.'), measured.length ? el('ul', null, measured.map((m) => el('li', { class: m.fails ? 'bad' : null }, m.text))) : null,
     rules.length ? el('details', null, el('summary', null, L('по каким правилам', 'by which rules')), el('ul', null, rules)) : null];
 }
 
