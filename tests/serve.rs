@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+#[path = "serve/described.rs"]
+mod described;
 mod judged;
 
 use judged::judged;
@@ -135,6 +137,7 @@ impl Operator<'_> {
     fn get(&self, path: &str) -> Value {
         let answer = self.console.get(path, &self.cookie);
         assert_eq!(answer.status, 200, "{path}: {answer:?}");
+        described::holds("get", path, &answer.json());
         answer.json()
     }
 
@@ -146,6 +149,7 @@ impl Operator<'_> {
     fn done(&self, path: &str, body: &Value) -> Value {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path}: {answer:?}");
+        described::holds("post", path, &answer.json());
         answer.json()
     }
 
@@ -853,6 +857,98 @@ fn the_protocol_of_assistants_is_kept() {
     judged("python3", &[script, ortho, text(node), text(suite)]);
 }
 
+/// All that may be asked is answered as it is described; the other tests look at what they ask for too.
+#[test]
+fn whatever_may_be_asked_is_answered_as_described() {
+    let console = Console::demo();
+    let operator = console.operator();
+    for path in [
+        "/api/state",
+        "/api/drawing",
+        "/api/drawing?most=1",
+        "/api/drawing?as_of=1",
+        "/api/drawing?box=0,0,300,300",
+        "/api/floor",
+        "/api/kinds",
+        "/api/complete?text=%D0%B3%D0%B4%D0%B5",
+        "/api/history",
+        "/api/diff?from=0",
+        "/api/diff?from=0&to=1",
+        "/api/proposals",
+        "/api/tasks",
+        "/api/edits",
+    ] {
+        operator.get(path);
+    }
+    let percent = |text: &str| text.bytes().map(|b| format!("%{b:02X}")).collect::<String>();
+    let drawing = operator.get("/api/drawing");
+    for sort in ["things", "rooms", "doors", "places"] {
+        for one in drawing[sort].as_array().into_iter().flatten().take(12) {
+            let Some(name) = one["name"].as_str().map(percent) else { continue };
+            let about = operator.get(&format!("/api/thing?name={name}&lang=en"));
+            operator.get(&format!("/api/route?to={name}&lang=en"));
+            for relation in about["relations"].as_array().into_iter().flatten().take(6) {
+                let args = relation["args"].as_array().into_iter().flatten();
+                let args: Option<Vec<&str>> = args.map(Value::as_str).collect();
+                let Some(of) = args.map(|args| percent(&args.join(","))) else { continue };
+                let relation = relation["relation"].as_str().map(percent).unwrap_or_default();
+                let why = operator.get(&format!("/api/why?relation={relation}&of={of}&lang=en"));
+                assert_eq!(why["holds"], true, "{why}");
+            }
+        }
+    }
+    let why = |relation: &str, of: &str| {
+        operator.get(&format!("/api/why?relation={}&of={}&lang=ru", percent(relation), percent(of)))
+    };
+    let far = why("НАХОДИТСЯ_РЯДОМ_С", "Стул-1,Кресло-1");
+    assert_eq!(far["holds"], false, "{far}");
+    assert!(far["about"].as_array().is_some_and(|about| about.contains(&json!("Кресло-1"))));
+    let near = why("НАХОДИТСЯ_СВЕРХУ_НА", "Книга-4,Стол-1");
+    let over = near["measures"].as_array().into_iter().flatten();
+    let mut over = over.filter(|m| m["of"] == json!(["Книга-4", "Стол-1"]));
+    let over = over.next().unwrap_or_else(|| panic!("it is measured: {near}"));
+    assert_eq!(over["ends"][0], over["ends"][1], "one lies over the other: {over}");
+    for role in ["take", "keep", "give"] {
+        operator.done("/api/lease", &json!({ "do": role }));
+    }
+    operator.done("/api/later", &json!({ "text": "Поезжай к Точке-К" }));
+    operator.done("/api/shortest", &json!({}));
+    operator.done("/api/pause", &json!({}));
+    operator.done("/api/stop", &json!({}));
+    operator.done("/api/reset", &json!({}));
+}
+
+/// A point of the floor is driven to, and what cannot be one is refused.
+#[test]
+fn a_point_of_the_floor_is_driven_to() {
+    let console = Console::demo();
+    let operator = console.operator();
+    let rooms = operator.get("/api/drawing")["rooms"].clone();
+    for (number, room) in rooms.as_array().into_iter().flatten().enumerate() {
+        let [x, y] = [0, 1].map(|axis| room["middle"][axis].as_f64().expect("a number").round());
+        let (text, lang) = match number % 2 {
+            0 => (format!("Поезжай в точку ({x}; {y})"), "ru"),
+            _ => (format!("Go to the point ({x}, {y})"), "en"),
+        };
+        let said = operator.done("/api/say", &json!({ "text": text, "lang": lang }));
+        let task = said["task"]["task"].as_u64().unwrap_or_else(|| panic!("{text}: {said}"));
+        operator.done(&format!("/api/tasks/{task}/confirm"), &json!({}));
+        assert_eq!(operator.waits()["state"], "done", "{text}");
+        let pose = operator.get("/api/state")["robot"]["place"]["pose"].clone();
+        let [at_x, at_y] = ["x", "y"].map(|axis| pose[axis].as_f64().expect("a number"));
+        // Where a thing stands there, as near to it as the robot fits.
+        assert!((at_x - x).hypot(at_y - y) < 75.0, "{text}: {pose}");
+    }
+    for text in [
+        "Поезжай в точку (-90000; 0)",
+        "Положи лекарство в точку (330; 265)",
+        "Go to the point (0, 90000)",
+    ] {
+        let said = operator.post("/api/say", &json!({ "text": text, "lang": "ru" })).json();
+        assert!(said["task"].is_null(), "{text}: {said}");
+    }
+}
+
 /// What an operator does, done in a real Chromium.
 #[test]
 fn an_operator_works_in_a_browser() {
@@ -863,6 +959,18 @@ fn an_operator_works_in_a_browser() {
 #[test]
 fn an_editor_draws_in_a_browser() {
     judged("python3", &["src/serve/judges/editor.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
+}
+
+/// Reasons on the map, what was seen elsewhere, points of the floor, any two revisions.
+#[test]
+fn a_person_looks_into_things_in_a_browser() {
+    judged("python3", &["src/serve/judges/reasons.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
+}
+
+/// By keys alone, and as axe sees it.
+#[test]
+fn the_console_is_used_without_a_pointer() {
+    judged("python3", &["src/serve/judges/access.py".into(), env!("CARGO_BIN_EXE_ortho").into()]);
 }
 
 /// The house of docs/start.md, in the console: an order is driven, a thing is moved, and both stand in the store.

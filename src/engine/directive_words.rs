@@ -147,7 +147,7 @@ struct TaskPoint {
     case: Case,
 }
 
-const TASK_POINTS: [TaskPoint; 12] = [
+const TASK_POINTS: [TaskPoint; 13] = [
     TaskPoint {
         prefix: OPERATOR_PLACE,
         dative: "оператору",
@@ -177,6 +177,14 @@ const TASK_POINTS: [TaskPoint; 12] = [
         dative: "середине",
         other: "середину",
         english: "the middle of",
+        preposition: None,
+        case: Case::Genitive,
+    },
+    TaskPoint {
+        prefix: AT_SPOT,
+        dative: "точке",
+        other: "точку",
+        english: "the point",
         preposition: None,
         case: Case::Genitive,
     },
@@ -249,6 +257,7 @@ const TASK_POINTS: [TaskPoint; 12] = [
 const BY_WINDOW: &str = "Место-у-окна-в-";
 const ON_FLOOR: &str = "Место-на-полу-в-";
 const IN_MIDDLE: &str = "Место-посреди-";
+const AT_SPOT: &str = "Точка-пола-";
 const FACING_WINDOW: &str = "Место-лицом-к-окну-в-";
 const FACING_WALL: &str = "Место-лицом-к-стене-в-";
 const FACING: &str = "Место-лицом-к-";
@@ -282,6 +291,11 @@ pub(super) fn floor_place(room: &str) -> String {
 /// The name of the point in the middle of a room, for the time of a task.
 pub(super) fn middle_place(room: &str) -> String {
     format!("{IN_MIDDLE}{room}")
+}
+
+/// The name of a point of the floor that was told by its coordinates, for the time of a task.
+pub(super) fn spot_place(x: i32, y: i32) -> String {
+    format!("{AT_SPOT}({x}; {y})")
 }
 
 /// The name of a point from which the robot is to look at something, for the time of a task.
@@ -420,6 +434,9 @@ impl Words<'_> {
     fn name(&self, name: &str, case: Case) -> String {
         for point in &TASK_POINTS {
             let Some(at) = name.strip_prefix(point.prefix) else { continue };
+            if point.prefix == AT_SPOT && self.language == Language::English {
+                return format!("{} {}", point.english, at.replace("; ", ", "));
+            }
             let told: Vec<String> = at.split(AND).map(|name| self.name(name, point.case)).collect();
             let told = told.join(self.language.pick(" и ", " and "));
             let of = if case == Case::Dative { point.dative } else { point.other };

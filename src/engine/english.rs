@@ -55,6 +55,10 @@ impl RequestError {
             Self::NoFloorThere { name } => {
                 format!("there is no floor for the robot on that side of {}", called(name))
             }
+            Self::NoFloorAt { x, y } => {
+                format!("the robot does not fit at the point ({x}, {y}), nor close by")
+            }
+            Self::OnlyGoneTo { x, y } => format!("to the point ({x}, {y}) I can only go"),
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}",
                 called(name)
@@ -179,6 +183,10 @@ impl InEnglish for RequestError {
             Self::WhichMap { .. } => "name one of them",
             Self::NoFloorThere { .. } => {
                 "name another side: in front, behind, to the left or to the right"
+            }
+            Self::NoFloorAt { .. } => "choose a point of the free floor",
+            Self::OnlyGoneTo { .. } => {
+                "to put something there, name a thing, a room or a place of the map"
             }
             Self::NotPutThere { .. } => "say onto or into what to put it, or in which room",
             Self::NoCharger => {

@@ -257,6 +257,19 @@ pub enum RequestError {
     )]
     NoFloorThere { name: String },
 
+    /// A point that was told by its coordinates, where the robot does not fit.
+    #[error("в точке ({x}; {y}) и возле неё робот не встанет")]
+    #[diagnostic(code(engine::no_floor_at), help("выберите точку на свободном полу"))]
+    NoFloorAt { x: i32, y: i32 },
+
+    /// A point that was told by its coordinates, where more than to go there was ordered.
+    #[error("в точку ({x}; {y}) я могу только приехать")]
+    #[diagnostic(
+        code(engine::only_gone_to),
+        help("чтобы что-то там положить, назовите вещь, помещение или место карты")
+    )]
+    OnlyGoneTo { x: i32, y: i32 },
+
     /// Something that is to be put where nothing is put: under a bed.
     #[error(
         "«{name}»: кладу я на вещь, в вещь, рядом с ней или в помещение, но не под, не за, не перед и не сбоку"

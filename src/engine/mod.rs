@@ -55,6 +55,7 @@ mod lexicon;
 mod load;
 mod localisation;
 mod logged;
+mod measured;
 mod memory;
 mod narration;
 mod news;

@@ -1,7 +1,9 @@
 //! Where a thing is, was, and since when; what people and the robot saw of it; corrections of the map (D5, M8).
 
 use crate::map::{Entity, Replica};
-use crate::store::{Belief, Change, ImportReport, Observation, Reader, Seen, Store, Timestamp};
+use crate::store::{
+    Belief, Change, ImportReport, Key, Observation, Reader, Seen, Stamp, Store, Table, Timestamp,
+};
 use crate::units::{AreaId, Frame, MapId, ReplicaId};
 
 use super::history::in_memory;
@@ -99,6 +101,27 @@ impl State {
         }
         story.sort_by_key(|s| s.at);
         Ok(story)
+    }
+
+    /// The revisions that made or changed the record of something on the map, the oldest first.
+    ///
+    /// # Errors
+    /// The store cannot be read, or there is none.
+    pub(crate) fn changes_of(&self, entity: Entity) -> Result<Vec<Stamp>, Error> {
+        let (world, reader) = (self.world()?, self.reader()?);
+        let one = |table: Table, id: u32| reader.history(table, &Key::new().id(id));
+        let versions = match entity {
+            Entity::Replica(id) => reader.replica_history(id),
+            Entity::Door(id) => one(Table::Door, id.0),
+            Entity::Area(id) => one(Table::Area, id.0),
+            Entity::Zone(id) => one(Table::Zones, id.0),
+            Entity::Map(id) => one(Table::Map, id.0),
+            Entity::Place(id) => {
+                let area = world.places.get(&id).map_or(0, |place| place.area.0);
+                reader.history(Table::Places, &Key::new().id(area).id(id.0))
+            }
+        };
+        Ok(versions?.into_iter().map(|version| version.stamp).collect())
     }
 
     /// The store's records at this moment.

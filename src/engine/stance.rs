@@ -10,7 +10,7 @@ use crate::units::{AreaId, Deg, MapId, Point, Vector};
 
 use super::directive_words::{
     between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
-    window_place,
+    spot_place, window_place,
 };
 use super::memory::Now;
 use super::{Error, Method, RequestError, State};
@@ -37,6 +37,7 @@ impl State {
     ) -> Result<GoalFact, Error> {
         let stance = match (to.relation, to.and, facing) {
             (Relation::AtWindow(window), ..) => self.at_window(window)?,
+            (Relation::Spot(x, y), ..) => self.at_spot(to.anchor, x, y)?,
             (Relation::Between, Some(other), _) => self.between(to.anchor, other)?,
             (side, ..) if side_of(side).is_some() && matches!(to.anchor, Entity::Replica(_)) => {
                 self.on_side(side, to.anchor, now, relations)?
@@ -134,6 +135,22 @@ impl State {
         let at = nalgebra::center(&window.ends.0, &window.ends.1);
         let at = self.around()?.floor(map)?.standing_in(window.area, at).ok_or_else(unreached)?;
         Ok(Stance { area: window.area, at, name: window_place(room) })
+    }
+
+    /// As near to a point of a room as the robot can stand, if that is near.
+    fn at_spot(&self, room: Entity, x: i32, y: i32) -> Result<Stance, Error> {
+        /// What is farther from the point is another place, cm.
+        const NEAR: f64 = 60.0;
+        let name = spot_place(x, y);
+        let none_there = || Error::from(RequestError::NoFloorAt { x, y });
+        let Entity::Area(area) = room else { return Err(self.not_a_place(room)) };
+        let (map, _) = self.world()?.placement(area).ok_or_else(none_there)?;
+        let wanted = Point::new(f64::from(x), f64::from(y));
+        let at = self.around()?.floor(map)?.standing_in(area, wanted).ok_or_else(none_there)?;
+        if (at - wanted).norm() > NEAR {
+            return Err(none_there());
+        }
+        Ok(Stance { area, at, name })
     }
 
     fn between(&self, one: Entity, other: Entity) -> Result<Stance, Error> {

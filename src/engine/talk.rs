@@ -270,8 +270,8 @@ impl State {
     }
 }
 
-struct RobotSenses<'e> {
-    engine: &'e State,
+pub(super) struct RobotSenses<'e> {
+    pub(super) engine: &'e State,
 }
 
 impl RobotSenses<'_> {

@@ -214,6 +214,21 @@ pub(super) fn walls(world: &World, area: AreaId) -> Vec<Value> {
     room.items.iter().map(part).collect()
 }
 
+/// Kinds of things: what one of them would look like, put down with its origin at that of a room.
+pub(super) fn objects(world: &World) -> Vec<Value> {
+    let object = |object: &crate::map::Object| {
+        let part = |item: &Item| {
+            let corners = world.orthoframe_of(item).corners();
+            corners.map(|p| point(item.frame.apply(p))).collect::<Vec<_>>()
+        };
+        json!({
+            "object": object.key, "name": object.name, "name_en": object.name_en,
+            "polygons": object.items.iter().map(part).collect::<Vec<_>>(),
+        })
+    };
+    world.objects.values().map(object).collect()
+}
+
 /// The free floor of a Map: its Passframes, dead zones, and the network over them.
 ///
 /// # Errors
@@ -340,7 +355,7 @@ fn places(world: &World, map: MapId) -> Vec<Value> {
         (*on == map).then(|| {
             json!({
                 "id": place.id.0, "name": place.name, "name_en": place.name_en,
-                "at": point(frame.apply(place.at)),
+                "at": point(frame.apply(place.at)), "room": world.areas[&place.area].name,
             })
         })
     };
@@ -389,7 +404,7 @@ fn outline(polygon: &Polygon) -> Vec<[f64; 2]> {
     polygon.corners.iter().map(|corner| point(*corner)).collect()
 }
 
-fn point(p: Point) -> [f64; 2] {
+pub(super) fn point(p: Point) -> [f64; 2] {
     [round(p.x), round(p.y)]
 }
 

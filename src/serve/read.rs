@@ -14,7 +14,7 @@ use crate::engine::{
     Believed, Drawing, Engine, Error, RequestError, Source, State, When, json as views,
     question_beginnings,
 };
-use crate::facts::{Because, Premise, WhyNot};
+use crate::facts::{Because, Kind, Premise, WhyNot};
 use crate::map::{Entity, Replica};
 use crate::store::Seen;
 use crate::units::{Language, MapId};
@@ -227,6 +227,12 @@ pub(super) fn about(state: &State, name: &str, language: Language) -> Result<Val
     });
     let mut view = json!({ "name": name, "relations": facts.collect::<Vec<_>>() });
     view["seen"] = json!(drawing::seen(state, entity));
+    // A state of the past has no store behind it.
+    let changes = state.changes_of(entity).unwrap_or_default();
+    view["changes"] = changes
+        .iter()
+        .map(|made| json!({ "revision": made.revision, "user": made.user, "at": made.at.to_string() }))
+        .collect();
     match entity {
         Entity::Replica(id) => {
             let replica = &world.replicas[&id];
@@ -344,6 +350,24 @@ pub(super) fn reasons(
     language: Language,
 ) -> Result<Value, Error> {
     let relations = state.relations()?;
+    let reason = state.reason(relation, of, language)?;
+    let map = |id: &MapId| state.world().map(|world| world.maps[id].name.clone());
+    let measures: Vec<Value> = reason
+        .measurements
+        .iter()
+        .map(|m| {
+            Ok(json!({
+                "of": m.of, "map": map(&m.map)?, "ends": m.ends.map(drawing::point),
+                "length_cm": m.length, "text": m.text, "fails": m.fails,
+            }))
+        })
+        .collect::<Result<_, Error>>()?;
+    let with_reason = |mut view: Value| {
+        view["words"] = json!(reason.text);
+        view["about"] = json!(reason.about);
+        view["measures"] = json!(measures);
+        view
+    };
     let compared = |premises: &[Premise]| -> Vec<Value> {
         let measure = |premise: &Premise| match premise {
             Premise::Compared { text, left, op, right } => Some(json!({
@@ -371,9 +395,9 @@ pub(super) fn reasons(
             view
         };
         let steps: Vec<Value> = proof.steps.iter().map(step).collect();
-        return Ok(json!({ "holds": true, "steps": steps }));
+        return Ok(with_reason(json!({ "holds": true, "steps": steps })));
     }
-    Ok(match relations.why_not(relation, of)? {
+    Ok(with_reason(match relations.why_not(relation, of)? {
         WhyNot::Nearest(rule) => {
             let failed = rule.premises.iter().filter(|(_, holds)| *holds == Some(false));
             let failed: Vec<Premise> = failed.map(|(premise, _)| premise.clone()).collect();
@@ -383,7 +407,26 @@ pub(super) fn reasons(
             })
         }
         WhyNot::NotTold | WhyNot::Holds => json!({ "holds": false }),
+    }))
+}
+
+/// What can be asked of two things, and what kinds of things can be put down.
+pub(super) async fn kinds(Of(house): Of<Arc<House>>) -> Answer {
+    let state = house.desk.state();
+    apart(move || {
+        let relations = state.relations()?;
+        let between = relations.derived().relations().filter(|(_, info)| {
+            let is_shown = !info.outputs.is_empty() && info.columns.len() == 2;
+            is_shown && info.columns.iter().all(|column| column.kind == Kind::Symbol)
+        });
+        let names = between.filter_map(|(_, info)| Some([&info.name, info.second_name.as_ref()?]));
+        Ok(json!({
+            "relations": names.collect::<Vec<_>>(),
+            "objects": drawing::objects(state.world()?),
+        }))
     })
+    .await
+    .map(Json)
 }
 
 /// The way between two places, with what would open it.

@@ -41,6 +41,7 @@ pub(super) const ROUTES: &[Route] = &[
     ("get", "/api/svg", Role::Look, || get(read::svg)),
     ("get", "/api/thing", Role::Look, || get(read::thing)),
     ("get", "/api/why", Role::Look, || get(read::why)),
+    ("get", "/api/kinds", Role::Look, || get(read::kinds)),
     ("get", "/api/route", Role::Look, || get(read::route)),
     ("get", "/api/complete", Role::Look, || get(read::complete)),
     ("get", "/api/history", Role::Look, || get(read::history)),

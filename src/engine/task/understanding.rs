@@ -1,14 +1,19 @@
 //! The commands of a sentence: heard, their names found on the map, and what of them is so already.
 
+use std::borrow::Cow;
+
+use crate::engine::position::nowhere_on;
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{
-    Command, Facing, Listener, Misheard, Placement, Relation, preamble, without_clock,
+    Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
+    without_clock,
 };
 use crate::language::question::{
     Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
 };
 use crate::map::Entity;
+use crate::units::Point;
 
 impl State {
     /// The commands of a sentence, with everything that it names found on the map.
@@ -108,7 +113,8 @@ impl State {
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
         without_clock(sentence)?;
-        let settled = self.settle(sentence, memory)?;
+        let (sentence, spots) = self.rooms_for_points(sentence)?;
+        let settled = self.settle(&sentence, memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),
             _ => None,
@@ -152,6 +158,9 @@ impl State {
         };
         self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
+        if let Some((_, x, y)) = place_spots(&mut commands, spots) {
+            return Err(RequestError::OnlyGoneTo { x, y }.into());
+        }
         if let [Command::ComeBack] = commands[..] {
             if let Some(gone) = memory.lost_place(Language::of(&settled)) {
                 return Err(Misheard::NoneSuch(Box::new(gone)).into());
@@ -228,6 +237,36 @@ impl State {
         Ok(area.is_some_and(|area| Entity::Area(area) == place || on_map(area) == Some(place)))
     }
 
+    /// A sentence with the rooms in place of the points that it names by coordinates, and these in their order.
+    fn rooms_for_points<'s>(&self, sentence: &'s str) -> Result<(Cow<'s, str>, Spots), Error> {
+        let (mut told, mut rest, mut spots) = (String::new(), sentence, Spots::new());
+        while let Some(Pointed { at, x, y, storey }) = pointed(rest) {
+            let map = match (&storey, self.robot_pose()) {
+                (None, Some((map, _))) => map,
+                (storey, _) => self.map_named(storey.as_deref())?,
+            };
+            let point = Point::new(f64::from(x), f64::from(y));
+            let around = self.around()?;
+            let (world, floor) = (around.world(), around.floor(map)?);
+            let area = floor.scene().area_at(point);
+            let area = area.ok_or_else(|| nowhere_on(world, floor, point))?;
+            let room = Entity::Area(area);
+            spots.push((room, x, y));
+            told.push_str(&rest[..at.start]);
+            let name = world.name(room);
+            told.push_str(&match Language::of(sentence) {
+                Language::Russian => format!("в «{name}»"),
+                Language::English => format!("to \"{name}\""),
+            });
+            rest = &rest[at.end..];
+        }
+        if spots.is_empty() {
+            return Ok((Cow::Borrowed(sentence), spots));
+        }
+        told.push_str(rest);
+        Ok((Cow::Owned(told), spots))
+    }
+
     /// Of what a command means, a room, or the room of a window with the window's number.
     fn gone_to(&self, thing: Thing) -> Option<(Entity, Option<u32>)> {
         match thing {
@@ -274,6 +313,22 @@ impl State {
         };
         all.iter().min_by(order).copied()
     }
+}
+
+/// Points told by coordinates, each with the room in which it lies.
+type Spots = Vec<(Entity, i32, i32)>;
+
+/// A command that names a room for a point in it gets that back, in the order of the sentence; the first point that is left.
+fn place_spots(commands: &mut [Command<Entity>], spots: Spots) -> Option<(Entity, i32, i32)> {
+    let mut left = spots.into_iter().peekable();
+    for command in commands {
+        if let Command::GoTo { to, .. } = command
+            && let Some((_, x, y)) = left.next_if(|(room, ..)| *room == to.anchor)
+        {
+            to.relation = Relation::Spot(x, y);
+        }
+    }
+    left.next()
 }
 
 /// Windows have no names: a command that names a room for its window gets it back, in the order of the sentence.

@@ -27,6 +27,7 @@ mod misheard;
 mod quantity;
 mod roles;
 mod spoken;
+mod spot;
 mod time;
 mod verbs;
 mod vocabulary;
@@ -36,6 +37,7 @@ pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
 pub use misheard::Misheard;
 pub(crate) use spoken::lost;
+pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{
     Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words,
     without_verbs,
@@ -69,6 +71,8 @@ pub enum Relation {
     Facing,
     /// At a window of the Area that is the anchor: its number among the windows of the map.
     AtWindow(u32),
+    /// At a point of the Area that is the anchor: whole cm of its Map.
+    Spot(i32, i32),
 }
 
 /// A place told by a thing or an Area: «на стол», «в Комнату-Y», «у окна в кухне».

@@ -538,6 +538,24 @@ impl Asker<'_> {
         self.knowledge(language, &Memory::default()).proof_lines(fact)
     }
 
+    /// A fact, or that it is none, with its reasons in a sentence.
+    #[must_use]
+    pub fn because(&self, fact: &Fact, language: Language) -> String {
+        let text = self.knowledge(language, &Memory::default()).because(fact);
+        crate::units::capitalized(&text)
+    }
+
+    /// A measured fact in words; none for what says nothing to a person.
+    #[must_use]
+    pub fn measurement(
+        &self,
+        name: &str,
+        values: &[crate::facts::Value],
+        language: Language,
+    ) -> Option<String> {
+        self.knowledge(language, &Memory::default()).measurement(name, values)
+    }
+
     /// A text in words that the map knows: "upstairs" is a storey, «столик» a table, «закрыта на ключ» locked.
     fn plain(&self, text: &str) -> String {
         let here = self.senses.robot().map(|(map, _)| map);

@@ -58,13 +58,20 @@ impl Knowledge<'_> {
                 .to_owned();
             return Ok(Draft::plain(Said::Nothing, text));
         };
+        let mut draft = Draft::plain(Said::Found, self.because(fact));
+        draft.rest_on(fact.clone());
+        Ok(draft)
+    }
+
+    /// A fact, or that it is none, with its reasons: «Книга-4 находится на Столе-1, потому что …».
+    pub(super) fn because(&self, fact: &Fact) -> String {
         let lines = self.reasons(fact);
         let what = self.fact_words(&fact.relation, &fact.args);
         let because = match lines.is_empty() {
             true => self.pick("так указано на карте", "the map says so").to_owned(),
             false => enumerate(&lines, self.language),
         };
-        let text = match (fact.holds, self.is_russian()) {
+        match (fact.holds, self.is_russian()) {
             (true, true) => format!("{what}, потому что {because}"),
             (true, false) => format!("{what}, because {because}"),
             (false, russian) => match (self.fact_denied(fact), russian) {
@@ -73,10 +80,7 @@ impl Knowledge<'_> {
                 (None, true) => format!("неверно, что {what}: {because}"),
                 (None, false) => format!("it is not so that {what}: {because}"),
             },
-        };
-        let mut draft = Draft::plain(Said::Found, text);
-        draft.rest_on(fact.clone());
-        Ok(draft)
+        }
     }
 
     /// "Why can't I go there directly?": no door joins the two.
@@ -245,7 +249,7 @@ impl Knowledge<'_> {
     }
 
     /// A measured fact in words; none for what says nothing to a person.
-    fn measurement(&self, name: &str, values: &[Value]) -> Option<String> {
+    pub(super) fn measurement(&self, name: &str, values: &[Value]) -> Option<String> {
         let word = |n: usize| match values.get(n) {
             Some(Value::Symbol(text)) => self.symbol_words(text),
             Some(number) => number.to_string(),

@@ -64,6 +64,11 @@ impl Offset {
     }
 }
 
+/// Whether a frame stands with its own origin at that of whatever it is told in.
+pub(super) fn keeps_origin(frame: &Frame) -> bool {
+    frame.origin().coords.norm() <= TOLERANCE && frame.z.get().abs() <= TOLERANCE
+}
+
 impl Offset {
     pub(super) fn in_words(&self) -> Bilingual {
         let Self { x, y, z, angle } = *self;
@@ -229,8 +234,13 @@ impl<'w> Checker<'w> {
         bodies_of(self.world, items)
     }
 
+    /// The base item gives the group its coordinates: a corner of it stands at the origin, or, in an Area whose corners were
+    /// put elsewhere since, the origin of its own frame.
     fn origin(&mut self, group: &Group<'_>) {
         for (i, item) in group.items.iter().enumerate().filter(|(_, item)| item.is_base) {
+            if group.is_area && keeps_origin(&item.frame) {
+                continue;
+            }
             let orthoframe = self.world.orthoframe_of(item);
             let corners = orthoframe.corners().map(|p| item.frame.apply(p));
             let nearest = corners

@@ -8,7 +8,7 @@ use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame};
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
 use super::group::{
-    Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,
+    Body, Group, Offset, Openings, Parts, PlacedSide, keeps_origin, openings, overlap, same_length,
 };
 use super::plane::{Bounds, bounds, near_pairs};
 use super::{Checker, MOST_OVERLAPS, Short, TOLERANCE, area_title, at};
@@ -82,7 +82,8 @@ impl<'w> Checker<'w> {
         self.connected_areas(map, &title, spot);
     }
 
-    /// The base Area stands with a corner of its base item at the origin of the Map, where the coordinates are its own.
+    /// The base Area stands with a corner of its base item, or with that one's own origin, at the origin of the Map, where the
+    /// coordinates are its own.
     fn map_origin(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         if !map.frame.is_empty() {
             return;
@@ -94,6 +95,9 @@ impl<'w> Checker<'w> {
                 continue;
             }
             let frame = item.frame.compose(&base.frame);
+            if keeps_origin(&frame) {
+                continue;
+            }
             let corners = self.world.orthoframe_of(base).corners().map(|p| frame.apply(p));
             let nearest = corners
                 .min_by(|p, q| p.coords.norm().total_cmp(&q.coords.norm()))

@@ -405,7 +405,7 @@ tables! {
         at: At;
         /// Degrees counter-clockwise.
         angle: Option<Number>;
-        /// The item with a corner at the origin; the first one if none says so.
+        /// The item with a corner, or its own origin, at the origin; the first one if none says so.
         base: bool;
     }
 
@@ -554,7 +554,8 @@ tables! {
         description: String;
         /// Name of an entry of `type.map`.
         r#type: Option<String>;
-        /// Whose coordinates the map's are, where no corner of the base Area stands at its origin: of which file or survey.
+        /// Whose coordinates the map's are, where no corner of the base Area stands at its origin: of which file or survey, or
+        /// the map's own from before.
         frame: String;
         links: Vec<PlanLinkFile>;
     }
@@ -568,7 +569,7 @@ tables! {
         at: At;
         /// Degrees counter-clockwise.
         angle: Option<Number>;
-        /// The Area with a corner at the origin; the first one if none says so.
+        /// The Area with a corner, or its own origin, at the origin; the first one if none says so.
         base: bool;
     }
 

@@ -1,10 +1,11 @@
 """What the console's promises come to, measured in a real Chromium: python3 figures.py ORTHO [WARDS [MINUTES]].
 
-A hospital of WARDS rooms (2000), and MINUTES of simulated driving (60), sixty times as fast as the clock. Nothing is asserted:
-benches/README.md tells what was measured, and what was promised.
+A hospital of WARDS rooms (2000), and MINUTES of simulated driving (60), sixty times as fast as the clock. It prints the table of
+benches/README.md, a row as soon as it is known, with the load that the machine was under; nothing is asserted.
 """
 
 import http.client
+import os
 import pathlib
 import statistics
 import sys
@@ -53,6 +54,10 @@ def hospital(wards):
 
 def seconds(values):
     return f"median {statistics.median(values):.3f} s, worst {max(values):.3f} s of {len(values)}"
+
+
+def row(what, measured, promised):
+    print(f"| {what} | {measured} | {promised} |", flush=True)
 
 
 def shown(page, address):
@@ -143,11 +148,11 @@ def flat(browser, folder):
         owner = watched(browser, server, [])
         opened(owner, server.address)
         took, nodes = ready(browser, server, owner, 7)
-        print(f"rb2, page ready: {seconds(took)}; {nodes} nodes")
+        row("rb2, page ready", f"{seconds(took)}; {nodes} nodes", "1 s")
         page = watched(browser, server, [])
         token = get_posted(owner, "/api/invite", {"role": "look", "name": "Вера"})["token"]
         opened(page, f"{server.base}/?token={token}")
-        print(f"event on the screen, request included: {seconds(until_seen(page, owner))}")
+        row("a request until the frame that shows its event", seconds(until_seen(page, owner)), "100 ms")
         alone = [drive(owner, to) for to in ["Поезжай к Точке-К", "Поезжай к Точке-А"] * 2]
         token = get_posted(owner, "/api/invite", {"role": "look", "name": "Хор"})["token"]
         cookie = cookie_of(server.base, token)
@@ -156,7 +161,8 @@ def flat(browser, folder):
             one.start()
         time.sleep(1)
         watched_by = [drive(owner, to) for to in ["Поезжай к Точке-К", "Поезжай к Точке-А"] * 2]
-        print(f"a drive with 1 client: {seconds(alone)}; with 50 more: {seconds(watched_by)}; each heard {min(o.heard for o in choir)} lines or more")
+        heard = min(one.heard for one in choir)
+        row("a drive with 1 client, with 50 more", f"{seconds(alone)}; {seconds(watched_by)}; each heard {heard} lines or more", "no slower")
     finally:
         server.kill()
 
@@ -167,16 +173,16 @@ def wards(browser, folder):
     begun = time.monotonic()
     server = Server(f"{folder}/hospital", "--map", str(file))
     try:
-        print(f"hospital of {WARDS} rooms: imported and derived in {time.monotonic() - begun:.1f} s")
+        imported = time.monotonic() - begun
         owner = watched(browser, server, [])
         first = shown(owner, server.address)
         took, nodes = ready(browser, server, owner, 5)
-        print(f"hospital, page ready: first {first:.3f} s, then {seconds(took)}; {nodes} nodes at full view")
+        row(f"hospital of {WARDS} rooms ({20 * WARDS} things), page ready", f"{seconds(took)}; the first {first:.3f} s, {imported:.0f} s after the start; {nodes} nodes at full view", "2 s")
         frames = """(steps) => new Promise((done) => { const map = document.querySelector('#map'), took = []; let last = performance.now(), n = 0;
             map.focus(); const step = () => { const now = performance.now(); took.push(now - last); last = now; n += 1;
             if (n > steps) { done(took.slice(1)); return; } map.dispatchEvent(new KeyboardEvent('keydown', { key: n % 2 ? 'ArrowRight' : 'ArrowLeft', bubbles: true })); requestAnimationFrame(step); }; requestAnimationFrame(step); })"""
         took = owner.evaluate(frames, 60)
-        print(f"hospital, frames while panning at full view: median {statistics.median(took):.1f} ms, worst {max(took):.1f} ms")
+        row("its frames while panning, at full view", f"median {statistics.median(took):.1f} ms, worst {max(took):.1f} ms", "16 ms")
         owner.locator("#map").focus()
         for _ in range(16):
             owner.keyboard.press("+")
@@ -184,7 +190,7 @@ def wards(browser, folder):
         time.sleep(1)
         nodes = owner.evaluate("document.querySelectorAll('*').length")
         took = owner.evaluate(frames, 60)
-        print(f"hospital, close by: {nodes} nodes, frames median {statistics.median(took):.1f} ms, worst {max(took):.1f} ms")
+        row("its frames while panning, close by", f"median {statistics.median(took):.1f} ms, worst {max(took):.1f} ms; {nodes} nodes", "16 ms")
     finally:
         server.kill()
 
@@ -207,9 +213,9 @@ def hour(browser, folder):
                 said += 1
             marks.append((simulated / 60, memory(server), heap(page)))
         third = len(marks) // 3
-        for minutes, server_mib, page_mb in [marks[0], marks[third], marks[2 * third], marks[-1]]:
-            print(f"after {minutes:.0f} simulated minutes: server {server_mib:.1f} MiB, page {page_mb:.1f} MB")
-        print(f"tasks driven: {said}")
+        shown = [marks[0], marks[third], marks[2 * third], marks[-1]]
+        told = "; ".join(f"{minutes:.0f} min {mib:.0f} MiB, page {mb:.1f} MB" for minutes, mib, mb in shown)
+        row(f"memory in {MINUTES} minutes of simulated driving, {said} tasks", told, "no growth")
     finally:
         server.kill()
 
@@ -217,6 +223,7 @@ def hour(browser, folder):
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox"])
+        print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores\n\n| what | measured | promised |\n|---|---|---|", flush=True)
         for measure in [flat, wards, hour]:
             measure(browser, folder)
         browser.close()

@@ -118,7 +118,7 @@ def run(browser, server, faults):
     page.locator('#map .thing[data-name="Кровать-1"]').click()
     expect(page.locator("#panel .title")).to_contain_text("Кровать")
     page.locator("#panel .why").first.click()
-    page.wait_for_selector("#panel .pf li")
+    page.wait_for_selector("#panel .pf p")
     assert page.locator("#map .m-reason").count() > 0, "reasons are on the map"
     picture(page, "why")
     print("selects a thing and asks why")

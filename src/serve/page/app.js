@@ -1,5 +1,5 @@
 // The page put together: what is heard from the server, what the operator does, and what is drawn anew for it.
-import { S, L, N, I, $, el, api, ask, announce, length, names, may, Refused } from './base.js';
+import { S, L, N, I, $, el, api, ask, announce, length, names, may, reasons, Refused } from './base.js';
 import { connect, refresh } from './link.js';
 import { beyond, centre, fit, named, paint, show, under, view, zoom } from './map.js';
 import { note, reason, renderLog, renderTalk, send } from './talk.js';
@@ -26,15 +26,15 @@ function render(anew = false) {
 function stopButton(cls = '') {
   const off = S.linked !== 'yes';
   const text = S.stopping ? L('посылаю…', 'sending…') : L('Стоп', 'Stop');
-  return el('button', { class: `stop ${cls}`, type: 'button', onclick: stop, 'aria-keyshortcuts': 'Control+.', 'aria-label': off ? L('Стоп: связи нет', 'Stop: no link') : L('Стоп', 'Stop') }, I('stop'), el('span', null, text), el('kbd', { 'aria-hidden': 'true' }, 'Ctrl .'));
+  return el('button', { class: `stop ${cls}`, type: 'button', onclick: stop, 'aria-keyshortcuts': 'Control+.' }, I('stop'), el('span', null, text), off ? el('span', { class: 'vh' }, L(', связи нет', ', no link')) : null, ' ', el('kbd', null, 'Ctrl .'));
 }
 function bar() {
   const [words, cls] = S.linked === 'begin' ? ['…', 'warn'] : S.linked !== 'yes' ? [L('связи нет', 'no link'), 'bad'] : S.stopping ? [L('останавливается', 'stopping'), 'warn'] : S.task ? [L('едет', 'driving'), 'go'] : [L('стоит, готов', 'idle, ready'), ''];
   const lease = S.lease ? (S.lease.session === S.state?.session ? L('управляете вы', 'you drive') : L(`управляет ${S.lease.holder}`, `${S.lease.holder} drives`)) : '';
   $('.bar').replaceChildren(
-    el('div', { class: 'brand' }, mark(), el('span', { class: 'w' }, 'orthoframe'), el('small', null, S.state ? N(S.state) || L('карты нет', 'no map') : '')),
+    el('h1', { class: 'brand' }, mark(), el('span', { class: 'w' }, 'orthoframe'), el('small', null, S.state ? N(S.state) || L('карты нет', 'no map') : '')),
     el('div', { class: 'live', role: 'status' }, el('span', { class: `dot ${cls}` }), el('span', null, words), lease ? el('span', { class: 'long lease' }, `· ${lease}`) : null), el('span', { class: 'sp' }),
-    el('div', { class: 'seg lang', role: 'group', 'aria-label': L('Язык', 'Language') }, [['ru', 'РУ', 'Русский'], ['en', 'EN', 'English']].map(([lang, text, name]) => el('button', { type: 'button', lang, 'aria-pressed': String(S.lang === lang), 'aria-label': name, onclick: () => { S.lang = lang; keep(); renderTalk(talkers); render(); paint(); if (S.selected) select(S.selected); } }, text))),
+    el('div', { class: 'seg lang', role: 'group', 'aria-label': L('Язык', 'Language') }, [['ru', 'РУ', 'Русский'], ['en', 'EN', 'English']].map(([lang, text, name]) => el('button', { type: 'button', lang, 'aria-pressed': String(S.lang === lang), 'aria-label': `${text}, ${name}`, onclick: () => { S.lang = lang; keep(); renderTalk(talkers); render(); paint(); if (S.selected) select(S.selected); } }, text))),
     el('button', { class: 'ib', type: 'button', 'aria-label': L('Светлая или тёмная', 'Light or dark'), onclick: () => { S.theme = S.theme === 'dark' ? 'light' : 'dark'; keep(); render(); } }, I(S.theme === 'dark' ? 'sun' : 'moon')), stopButton());
 }
 const mark = () => { const icon = I('room'); icon.classList.add('mark'); return icon; };
@@ -62,24 +62,32 @@ function over() {
   else {
     parts.push(el('div', { class: 'card nowhere', role: 'status' }, el('span', null, L('Здесь ничего нет: план в стороне.', 'There is nothing here: the plan lies elsewhere.')), el('button', { class: 'btn', type: 'button', onclick: () => fit() }, L('Показать всё', 'Show all'), ' ', el('kbd', null, '0'))));
     if (S.state?.missing?.includes('robot')) parts.push(el('div', { class: 'card lacks' }, L('Карта не говорит, где стоит робот: назовите его место (start) в файле карты, и он поедет.', 'The map does not say where the robot stands: name its place (start) in the map file, and it will drive.')));
+    if (going) parts.push(el('div', { class: 'card lacks', role: 'status' }, L('Щёлкните, куда ехать; с клавиатуры – подведите стрелками крест в середине карты и нажмите Enter. Esc – не ехать.', 'Click where to drive; by the keyboard, bring the spot beneath the cross with the arrows and press Enter. Esc: do not drive.')), el('div', { class: 'cross', 'aria-hidden': 'true' }));
     if (S.map && !S.drawing && S.linked === 'yes') parts.push(el('div', { class: 'card lacks' }, L('План загружается…', 'The plan is being fetched…')));
   }
   const now = S.edit && S.asOf === null ? editBar() : card(acts);
   if (now) parts.push(now);
-  parts.push(el('div', { class: 'card tools' }, may('drive') ? tool('pin', L('Ехать туда, куда щёлкну (G)', 'Drive where I click (G)'), going, () => { going = !going; over(); }) : null, may('edit') ? tool('pen', L('Править (E)', 'Edit (E)'), Boolean(S.edit), edit.toggle) : null, tool('layers', L('Слои (L)', 'Layers (L)'), open, () => { open = !open; over(); })));
+  parts.push(el('div', { class: 'card tools' }, may('drive') ? tool('pin', L('Ехать туда, куда щёлкну (G)', 'Drive where I click (G)'), going, () => { going = !going; over(); }) : null, may('edit') ? tool('pen', L('Править (E)', 'Edit (E)'), Boolean(S.edit), edit.toggle) : null, tool('layers', L('Слои (L)', 'Layers (L)'), open, () => { open = !open; over(); }), tool('why', L('Клавиши (?)', 'Keys (?)'), keysShown, () => { keysShown = !keysShown; over(); }, 'opt')));
   if (open) parts.push(layers());
+  if (keysShown) parts.push(keyCard());
   if (maps.length > 1) parts.push(el('div', { class: 'card storeys', role: 'group', 'aria-label': L('Этаж', 'Storey') }, maps.slice().reverse().map((map, i) => el('button', { type: 'button', 'aria-pressed': String(map.name === S.map), 'aria-label': N(map), title: N(map), class: S.robot?.map === map.name ? 'here' : '', onclick: () => storey(map.name) }, String(maps.length - i)))));
   parts.push(el('div', { class: 'card zoom' }, tool('follow', L('За роботом (F)', 'Follow the robot (F)'), S.follow, follow), tool('fit', L('Показать всё (0)', 'Fit (0)'), null, () => fit()), tool('plus', L('Крупнее', 'Zoom in'), null, () => zoom(1.4), 'z'), tool('minus', L('Мельче', 'Zoom out'), null, () => zoom(1 / 1.4), 'z')));
   parts.push(el('div', { class: 'scale', 'aria-hidden': 'true' }, ' ', el('i')));
   if (S.toast) parts.push(el('div', { class: 'card toast' }, el('span', null, S.toast), may('edit') ? el('button', { class: 'btn', type: 'button', onclick: () => { S.toast = null; acts.undo(); } }, I('undo'), L('Отменить', 'Undo')) : null, el('button', { class: 'btn', type: 'button', 'aria-label': L('Закрыть', 'Close'), onclick: () => { S.toast = null; over(); } }, I('x'))));
   const had = document.activeElement?.closest?.('.over') ? document.activeElement.getAttribute('aria-label') : null;
   $('.over').replaceChildren(...parts);
+  $('.canvas').classList.toggle('aiming', going);
   if (had) [...$('.over').querySelectorAll('button')].find((one) => one.getAttribute('aria-label') === had)?.focus();
   paint();
 }
 let open = false;
 /** The next click on the map says where to drive. */
 let going = false;
+let keysShown = false;
+function keyCard() {
+  const all = [['/', 'спросить или приказать', 'ask or order'], ['Enter · Esc', 'ехать или записать · отказаться', 'drive or write · decline'], ['Ctrl .', 'стоп, откуда угодно', 'stop, from anywhere'], ['← ↑ → ↓  + −  0', 'двигать план, крупнее, мельче, весь', 'pan, zoom, fit'], ['F  G', 'за роботом; ехать сюда', 'follow; drive here'], ['L  [  ]', 'слои; этаж ниже, выше', 'layers; storey down, up'], ['E', 'править', 'edit'], ['← ↑ → ↓  R', 'двигать на 1 см (Shift: 10), повернуть', 'move 1 cm (Shift: 10), turn'], ['Ctrl Z · Ctrl Shift Z', 'отменить · вернуть', 'undo · redo'], ['Tab', 'к следующему', 'to the next']];
+  return el('div', { class: 'card layers keys' }, el('h2', null, L('Клавиши', 'Keys')), el('dl', { class: 'kv' }, all.map(([key, ru, en]) => [el('dt', null, el('kbd', null, key)), el('dd', null, L(ru, en))])));
+}
 function layers() {
   const one = (name, ru, en, cls) => el('label', null, el('input', { type: 'checkbox', checked: S.layers[name], onchange: async (event) => { S.layers[name] = event.target.checked; if (['frames', 'dead', 'network'].includes(name) && event.target.checked) await floor(); paint(); } }), L(ru, en), cls ? el('span', { class: `sw ${cls}` }) : null);
   return el('div', { class: 'card layers' }, el('h2', null, L('Слои', 'Layers')), one('names', 'Имена', 'Names'), one('things', 'Вещи', 'Things', 'sw-thing'), one('places', 'Места', 'Places'), one('zones', 'Зоны', 'Zones', 'sw-zone'), one('belief', 'Что в руке и что не на месте', 'Carried, and believed elsewhere', 'sw-belief'), one('frames', 'Пассфреймы', 'Passframes', 'sw-frame'), one('dead', 'Мёртвые зоны', 'Dead zones', 'sw-dead'), one('network', 'Сеть', 'Network', 'sw-net'), one('relations', 'Отношения выбранного', 'Relations of what is selected', 'sw-rel'));
@@ -88,7 +96,7 @@ function editBar() {
   const tb = (icon, text, work, more = {}) => el('button', { class: 'tb s', type: 'button', onclick: work, 'aria-label': text, title: text, ...more }, I(icon), el('span', null, text));
   const { edit: now } = S, tool = (name, icon, ru, en) => tb(icon, L(ru, en), () => tools.take(name), { 'aria-pressed': String(now.tool === name) });
   return el('div', { class: 'card edbar', role: 'toolbar', 'aria-label': L('Правка', 'Editing') },
-    tool('room', 'room', 'Помещение', 'Room'), tool('door', 'door', 'Дверь', 'Door'), tool('zone', 'zone', 'Зона', 'Zone'), tool('plan', 'img', 'Рисунок', 'Picture'),
+    tool('thing', 'thing', 'Вещь', 'Thing'), tool('point', 'pin', 'Место', 'Place'), tool('room', 'room', 'Помещение', 'Room'), tool('door', 'door', 'Дверь', 'Door'), tool('zone', 'zone', 'Зона', 'Zone'), tool('plan', 'img', 'Рисунок', 'Picture'),
     tb('lock', L('Форма заперта', 'Shape locked'), () => { tools.take('shape'); if (S.edit.tool === 'shape' && S.selected) tools.choose(S.selected); }, { 'aria-pressed': String(now.tool !== 'shape') }), el('hr'),
     tb('undo', L('Отменить', 'Undo'), acts.undo), tb('redo', L('Вернуть', 'Redo'), acts.redo),
     now.kind === 'thing' ? [el('hr'), tb('turn', L('Повернуть', 'Turn'), () => edit.nudge(0, 0, 15)), tb('plus', L('Ещё такую', 'One more'), () => { S.tab = 'map'; edit.add(); }), tb('x', L('Убрать', 'Remove'), () => { S.tab = 'map'; edit.remove(); })] : null,
@@ -157,9 +165,10 @@ async function everything() {
 
 /* what the operator does */
 async function select(name, open = true) {
-  if (S.selected !== name) S.proof = null;
+  if (S.selected !== name) reasons();
   S.selected = name; S.marked = []; S.barred = null;
   S.thing = name ? await ask('/api/thing', { name, lang: S.lang }).catch(() => null) : null;
+  S.reason = null;
   if (S.edit?.tool === 'shape' && named(name)?.frame) tools.choose(name);
   else if (S.edit && !S.edit.tool && name && !S.edit.steps) edit.choose(name);
   if (open && name) S.tab = S.edit ? 'map' : 'thing';
@@ -213,6 +222,14 @@ const acts = {
     }
     over(); paint();
   },
+  whyNot: async (relation, other) => {
+    const of = [S.selected, other];
+    const found = await attempt(() => ask('/api/why', { relation, of: of.join(','), lang: S.lang }));
+    if (!found) return;
+    reasons(found.about, found.measures); S.marked = [];
+    note({ q: L(`Почему ${found.holds ? '' : 'не '}так: ${relation.toLowerCase().replaceAll('_', ' ')} (${of.map(N).join(', ')})?`, `Why ${found.holds ? '' : 'not '}${relation.toLowerCase().replaceAll('_', ' ')} (${of.map(N).join(', ')})?`), lines: [found.words, ...found.measures.map((m) => m.text).filter((text) => text && !found.words.includes(text))] });
+    S.reason = { ...found, relation, other }; announce(found.words); side(true); paint();
+  },
   compare: async (from, to) => { if (from === null) { S.changes = null; over(); paint(); return; } await compare(from, to); over(); paint(); },
   judge: async (id, verdict) => { await change(`/api/edits/${encodeURIComponent(id)}`, { verdict }); history(); },
   shut: edit.shut, ends: edit.ends,
@@ -224,7 +241,7 @@ const acts = {
   select: (name) => select(name),
   go: (thing) => send(L(`Поезжай к: ${thing.name}`, `Go to ${N(thing)}`)),
   edit: () => { if (!S.edit) edit.toggle(); S.tab = 'map'; render(); },
-  turn: (by) => edit.nudge(0, 0, by), add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: async () => { await tools.settle(); await edit.write(); }, drop: edit.drop, onTop: edit.onTop,
+  turn: (by) => edit.nudge(0, 0, by), place: edit.put, add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: async () => { await tools.settle(); await edit.write(); }, drop: edit.drop, onTop: edit.onTop,
   undo: async () => { const done = await change('/api/undo'); if (done) { S.toast = null; announce(L('Отменено', 'Undone')); } },
   redo: async () => { const done = await change('/api/redo'); if (done) announce(L('Возвращено', 'Redone')); },
   restore: async () => { if (await change('/api/restore', { revision: S.asOf })) asOf(Infinity); },
@@ -288,7 +305,7 @@ const heard = {
     if (S.toast && S.written !== revision.revision) { S.toast = null; over(); }
     time(); if (S.asOf === null) await draw(); history();
     // What is edited may have moved under one's hands.
-    if (S.edit?.name && !S.edit.steps) { edit.choose(S.edit.name); render(); }
+    if (S.edit?.name && !S.edit.steps) { if (S.edit.tool === 'shape') tools.choose(S.edit.name); else { edit.choose(S.edit.name); render(); } }
   },
   lease: (lease) => { S.lease = lease; bar(); },
   stop: () => { S.plan = null; render(); },
@@ -325,7 +342,7 @@ const up = (event) => {
   if (gesture.pinch) { if (!pointers.size) gesture = null; return; }
   const { moved, grabbed, name } = gesture; gesture = null;
   if (!moved && event.type === 'pointerup' && grabbed?.click) { grabbed.click(event); return; }
-  if (!moved && event.type === 'pointerup' && going) { going = false; over(); if (name) goTo(name, event); return; }
+  if (!moved && event.type === 'pointerup' && going) { goTo(name, under(event)); return; }
   if (moved && grabbed) { grabbed.end(); S.tab = 'map'; render(); } else if (!moved && event.type === 'pointerup') select(name);
 };
 map.addEventListener('pointerup', up);
@@ -333,29 +350,39 @@ map.addEventListener('pointercancel', up);
 map.addEventListener('dblclick', (event) => { if (S.edit?.tool) return; const name = nameAt(event); if (name) show(name); else { const [x, y] = under(event); zoom(1.6); centre(x, y); paint(); } });
 map.addEventListener('wheel', (event) => { event.preventDefault(); S.follow = false; const r = map.getBoundingClientRect(); zoom(Math.exp(-event.deltaY * 0.0015), event.clientX - r.left, event.clientY - r.top); }, { passive: false });
 
-/** Orders a drive to what was clicked. */
-const goTo = (name) => acts.go({ name, name_en: named(name)?.name_en });
+/** Orders a drive to what was clicked, or to that very point of the floor. */
+function goTo(name, [x, y]) {
+  going = false; over();
+  const one = named(name);
+  if (one && !one.frame && one.rule === undefined) { acts.go(one); return; }
+  const storey = S.robot?.map && S.robot.map !== S.map ? [S.map] : [], at = [Math.round(x), Math.round(y), ...storey];
+  send(L(`Поезжай в точку (${at.join('; ')})`, `Go to the point (${at.join(storey.length ? '; ' : ', ')})`));
+}
+/** Where the arrows aim, without a pointer: the middle of what is in view. */
+const aim = () => [view.x + view.w / view.k / 2, -(view.y + view.h / view.k / 2)];
 
 /* keys */
 document.addEventListener('keydown', (event) => {
   if (event.ctrlKey && event.key === '.') { event.preventDefault(); stop(); return; }
   const typing = /INPUT|TEXTAREA|SELECT/.test(event.target.tagName) && event.target.type !== 'checkbox';
   if (event.ctrlKey && !typing && /^[zя]$/i.test(event.key) && may('edit')) { event.preventDefault(); if (event.shiftKey) acts.redo(); else acts.undo(); return; }
-  if (event.key === 'Escape') { if (S.plan && !(typing && $('#say').value)) acts.decline(); else if (S.edit) edit.drop(); else if (S.asOf !== null) acts.now(); else if (typing) event.target.blur(); else if (S.selected) select(null); return; }
+  if (event.key === 'Escape') { if (keysShown || open) { keysShown = open = false; over(); } else if (going) { going = false; over(); } else if (S.plan && !(typing && $('#say').value)) acts.decline(); else if (S.edit) edit.drop(); else if (S.asOf !== null) acts.now(); else if (typing) event.target.blur(); else if (S.selected) select(null); return; }
   if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
   const onMap = event.target === map, arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
   if (event.target.getAttribute?.('role') === 'tab' && arrow?.[0]) { const all = [...document.querySelectorAll('[role=tab]')].filter((one) => one.offsetParent); all[(all.indexOf(event.target) + arrow[0] + all.length) % all.length].click(); return; }
-  if (arrow && onMap) { event.preventDefault(); const by = event.shiftKey ? 10 : 1; if (!(S.edit && edit.nudge(arrow[0] * by, arrow[1] * by))) { S.follow = false; view.x += arrow[0] * 48 / view.k; view.y -= arrow[1] * 48 / view.k; paint(); } return; }
+  if (arrow && onMap) { event.preventDefault(); const by = event.shiftKey ? 10 : 1; if (!(S.edit && (tools.nudge(arrow[0] * by, arrow[1] * by) || edit.nudge(arrow[0] * by, arrow[1] * by)))) { S.follow = false; view.x += arrow[0] * 48 / view.k; view.y -= arrow[1] * 48 / view.k; paint(); } return; }
+  if (event.key === 'Enter' && onMap && going) { const at = aim(), r = map.getBoundingClientRect(); goTo(nameAt({ clientX: r.left + r.width / 2, clientY: r.top + r.height / 2 }), at); return; }
   if (event.key === 'Enter' && event.target.tagName !== 'BUTTON') { if (tools.close()) return; if (S.plan) acts.confirm(); else if (S.edit?.steps) acts.write(); return; }
   const key = event.code.replace(/^Key/, '');
-  if (event.key === '/' || event.code === 'Slash') { event.preventDefault(); if (!wide()) { S.tab = 'talk'; render(); } $('#say').focus(); }
+  if (event.key === '?') { keysShown = !keysShown; over(); }
+  else if (event.key === '/' || (event.code === 'Slash' && !event.shiftKey)) { event.preventDefault(); if (!wide()) { S.tab = 'talk'; render(); } $('#say').focus(); }
   else if (event.key === '+' || event.key === '=') zoom(1.25);
   else if (event.key === '-') zoom(0.8);
   else if (event.key === '0') fit();
   else if (key === 'F') follow();
   else if (key === 'L') { open = !open; over(); }
   else if (key === 'E' && may('edit')) edit.toggle();
-  else if (key === 'G' && may('drive')) { going = !going; over(); }
+  else if (key === 'G' && may('drive')) { going = !going; over(); if (going) map.focus({ preventScroll: true }); }
   else if (key === 'R' && S.edit) edit.nudge(0, 0, event.shiftKey ? -15 : 15);
   else if (key === 'BracketLeft' || key === 'BracketRight') { const maps = S.state.maps, at = maps.findIndex((one) => one.name === S.map) + (key === 'BracketRight' ? 1 : -1); if (maps[at]) storey(maps[at].name); }
 });

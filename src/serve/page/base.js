@@ -11,6 +11,12 @@ export const S = {
   /** A plan that waits for a word, the task that is driven, and its directives. */
   plan: null, task: null, step: 0, queue: [], ended: [], lease: null,
   selected: null, thing: null, marked: [], proof: null,
+  /** Where on the map a reason was measured: of the answer of `GET /api/why`. */
+  measures: [],
+  /** What `GET /api/kinds` said, once it was asked for. */
+  kinds: null,
+  /** What was asked of what is selected: the answer of `GET /api/why`. */
+  reason: null,
   linked: 'begin', stoppedBy: null, stopping: false, paused: null,
   asOf: null, history: [], proposals: [], edits: [], changes: null,
   /** What would open a way that there is not: the answer of `GET /api/route`. */
@@ -33,6 +39,10 @@ export const num = (value, digits = 1) => {
   return S.lang === 'ru' ? text.replace('.', ',') : text;
 };
 export const length = (cm) => (cm >= 100 ? `${num(cm / 100)} ${L('м', 'm')}` : `${num(cm, 0)} ${L('см', 'cm')}`);
+/** A measurement, to the millimetre. */
+export const exact = (cm) => (cm >= 1000 ? length(cm) : `${num(cm)} ${L('см', 'cm')}`);
+/** Marks on the map what a reason speaks of, or nothing any more. */
+export const reasons = (about = null, measures = []) => { S.proof = about; S.measures = measures; };
 export const seconds = (s) => `${num(s, s < 10 ? 1 : 0)} ${L('с', 's')}`;
 export const $ = (selector) => document.querySelector(selector);
 

@@ -1,5 +1,5 @@
 // Editing: every gesture is one edit, tried while it is made, written as one revision when it is meant.
-import { S, L, N, api, announce, length } from './base.js';
+import { S, L, N, api, announce, length, reasons } from './base.js';
 import { boxOf, named, paint, view, under } from './map.js';
 import { reason } from './talk.js';
 
@@ -10,7 +10,8 @@ const tenth = (value) => Math.round(value * 10) / 10;
 
 export function toggle() {
   S.edit = S.edit ? null : { on: S.state.revision };
-  if (S.edit && S.selected) choose(S.selected);
+  reasons();
+  if (S.edit) { S.tab = 'map'; if (S.selected) choose(S.selected); }
   render();
 }
 
@@ -20,12 +21,13 @@ export function choose(name) {
   if (one?.gap) Object.assign(edit, { name, kind: 'door' });
   else if (one?.rule !== undefined) Object.assign(edit, { name, kind: 'zone', zone: one });
   else if (one?.frame) Object.assign(edit, { name, kind: 'room', room: one });
+  else if (one?.at && !one.on_map && !one.gap) Object.assign(edit, { name, kind: 'place', place: one });
   else if (one?.on_map) Object.assign(edit, { name, kind: 'thing', thing: one, from: one.at, at: { ...one.at } });
   S.edit = edit;
 }
 
 /** The room's frame: its angle, by which the thing's own numbers are turned. */
-const roomAngle = (thing) => S.drawing.rooms.find((room) => room.name === thing.room)?.frame.angle_deg ?? 0;
+export const roomAngle = (thing) => S.drawing.rooms.find((room) => room.name === thing.room)?.frame.angle_deg ?? 0;
 
 function turned([x, y], about, degrees) {
   const [c, s] = [Math.cos(radians(degrees)), Math.sin(radians(degrees))], [dx, dy] = [x - about[0], y - about[1]];
@@ -40,7 +42,7 @@ function place(dx, dy, turn) {
   const step = turned([origin[0] + dx - thing.on_map.x, origin[1] + dy - thing.on_map.y], [0, 0], -roomAngle(thing));
   S.edit.at = { ...thing.at, x: tenth(thing.at.x + step[0]), y: tenth(thing.at.y + step[1]), angle_deg: (((thing.at.angle_deg + turn) % 360) + 360) % 360 };
   S.edit.ghost = { name: thing.name, polygons: moved };
-  Object.assign(S.edit, { shift: [dx, dy, turn], tried: null, wrong: null, theirs: null, asking: null });
+  Object.assign(S.edit, { shift: [dx, dy, turn], tried: null, theirs: null, asking: null });
   S.edit.steps = [{ move: thing.name, to: [S.edit.at.x, S.edit.at.y], carry: true }];
   if (turn) S.edit.steps.push({ turn: thing.name, to: S.edit.at.angle_deg, carry: true });
   sizes(b, dx, dy);
@@ -77,6 +79,7 @@ export function grab(event, name) {
   const one = named(name);
   if (!S.edit || S.edit.tool) return null;
   if (one?.rule !== undefined) return one.rooms.length || S.edit.name !== name ? null : zone(event, one);
+  if (one?.at && !one.on_map && !one.gap) return spot(event, one);
   if (!one?.on_map) return null;
   if (S.edit.name !== name) { choose(name); render(); }
   const begun = under(event), [bx, by, turn] = S.edit.shift ?? [0, 0, 0];
@@ -87,8 +90,9 @@ export function grab(event, name) {
       if (next.shiftKey) { if (Math.abs(dx - bx) > Math.abs(dy - by)) dy = by; else dx = bx; }
       if (!next.altKey) [dx, dy] = snapped(dx, dy); else S.edit.snaps = [];
       place(tenth(dx), tenth(dy), turn);
+      live();
     },
-    end() { S.edit.snaps = []; test(); },
+    end() { S.edit.snaps = []; live(); },
   };
 }
 
@@ -97,25 +101,54 @@ function zone(event, one) {
   const begun = under(event);
   return {
     move(next) {
-      const [x, y] = under(next), by = [tenth(x - begun[0]), tenth(y - begun[1])];
-      S.edit.by = by;
-      S.edit.ghost = { name: one.name, polygons: one.polygons.map((polygon) => polygon.map((p) => [p[0] + by[0], p[1] + by[1]])) };
-      paint();
+      const [x, y] = under(next);
+      shiftZone(one, [tenth(x - begun[0]), tenth(y - begun[1])]);
+      live();
     },
-    end() { will([{ move: one.name, by: S.edit.by }]); },
+    end: live,
   };
+}
+function shiftZone(one, by) {
+  Object.assign(S.edit, { by, tried: null, theirs: null, steps: [{ move: one.name, by }], ghost: { name: one.name, polygons: one.polygons.map((polygon) => polygon.map((p) => [p[0] + by[0], p[1] + by[1]])) } });
+  paint();
+}
+/** A place to stand at is dragged. */
+function spot(event, one) {
+  if (S.edit.name !== one.name) { choose(one.name); render(); }
+  const begun = under(event);
+  return {
+    move(next) {
+      const [x, y] = under(next);
+      shiftPlace(one, [tenth(x - begun[0]), tenth(y - begun[1])]);
+      live();
+    },
+    end: live,
+  };
+}
+/** By map cm; the step counts along the axes of the place's room. */
+function shiftPlace(one, by) {
+  const [x, y] = [one.at[0] + by[0], one.at[1] + by[1]], r = 8, inner = turned(by, [0, 0], -roomAngle(one)).map(tenth);
+  Object.assign(S.edit, { by, tried: null, theirs: null, steps: [{ move: one.name, by: inner }], ghost: { name: one.name, polygons: [[[x - r, y], [x, y - r], [x + r, y], [x, y + r]]] }, sizes: [[x, y + 18 / view.k, length(Math.hypot(...by))]] });
+  paint();
 }
 
 /** Moves or turns by a key. */
 export function nudge(dx, dy, turn = 0) {
-  if (S.edit?.kind !== 'thing') return false;
-  const [x, y, t] = S.edit.shift ?? [0, 0, 0];
-  place(x + dx, y + dy, t + turn);
-  later(); render();
+  const { kind, zone: area, place: point, by: [bx, by] = [0, 0] } = S.edit ?? {};
+  if (kind === 'zone' && !turn && !area.rooms.length) shiftZone(area, [bx + dx, by + dy]);
+  else if (kind === 'place' && !turn) shiftPlace(point, [bx + dx, by + dy]);
+  else if (kind === 'thing') { const [x, y, t] = S.edit.shift ?? [0, 0, 0]; place(x + dx, y + dy, t + turn); } else return false;
+  live(); render();
   return true;
 }
-let timer = 0;
-const later = () => { clearTimeout(timer); timer = setTimeout(test, 250); };
+/** Has the server check what is dragged, while it is: one request at a time, of what it is by then. */
+let flying = false, again = false;
+export async function live() {
+  if (flying) { again = true; return; }
+  flying = true;
+  do { again = false; await test(); } while (again);
+  flying = false;
+}
 
 /** Has the server check what would be written. */
 async function test() {
@@ -131,12 +164,12 @@ function refused(edit, error) {
   edit.tried = null;
   if (error.status === 409) { edit.theirs = error.body.theirs; edit.wrong = null; return; }
   const faults = error.body?.faults ?? [];
-  edit.wrong = faults.length ? faults.slice(0, 5).map((fault) => [(S.lang === 'en' && fault.message_en) || fault.message, fault.help].filter(Boolean).join(' ')) : [reason(error)];
+  edit.wrong = faults.length ? faults.slice(0, 5).map((fault) => [(S.lang === 'en' && fault.message_en) || fault.message, (S.lang === 'en' && fault.help_en) || fault.help].filter(Boolean).join('. ').replace(/([.!?])\. /g, '$1 ')) : [reason(error)];
   announce(edit.wrong.join(' '), true);
 }
 
 /** Sets what is to be written, and tries it. */
-export function will(steps, more) { Object.assign(S.edit, { steps, more, tried: null, wrong: null, theirs: null, asking: null }); test(); render(); }
+export function will(steps, more) { Object.assign(S.edit, { steps, more, tried: null, theirs: null, asking: null }); render(); return live(); }
 
 export async function write() {
   const edit = S.edit;
@@ -155,7 +188,7 @@ export async function write() {
 }
 export function drop() { const { edit } = S; S.edit = edit?.steps || edit?.tool || edit?.draft ? { on: S.state.revision } : null; render(); paint(); }
 /** Others came first, and this is meant all the same. */
-export function onTop() { S.edit.on = S.state.revision; S.edit.theirs = null; test(); }
+export function onTop() { S.edit.on = S.state.revision; S.edit.theirs = null; live(); }
 
 const asked = (value, done) => { S.edit.asking = { value, done }; render(); document.querySelector('#newname')?.focus(); };
 export const rename = () => asked(S.edit.name, (name) => will([{ rename: S.edit.name, to: name }]));

@@ -1,5 +1,5 @@
 // The drawing: rooms, things and doors once for a revision; what changes (robot, route, selection) as an overlay.
-import { S, L, N, num, sv, $, ask, length, names } from './base.js';
+import { S, L, N, num, sv, $, ask, exact, length, names } from './base.js';
 import { overlay as changes } from './changes.js';
 import { draw as drawPicture } from './picture.js';
 
@@ -21,6 +21,13 @@ const bounds = (polygons) => {
 export const boxOf = (thing) => (thing.box ??= bounds(thing.polygons ?? [thing.gap?.flat() ?? [thing.at]]));
 const meets = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
 export const middle = (of) => { const b = boxOf(of); return [(b[0] + b[2]) / 2, -(b[1] + b[3]) / 2]; };
+
+/** Whether a polygon holds a point of the map. */
+export const holds = (points, [x, y]) => {
+  let is = false;
+  points.forEach(([ax, ay], i) => { const [bx, by] = points[(i + 1) % points.length]; if ((ay > y) !== (by > y) && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) is = !is; });
+  return is;
+};
 
 /** Room, thing, door or place of this name on the storey that is shown. */
 export const named = (name) => {
@@ -111,8 +118,9 @@ function labels(d, taken, bold) {
     }
     spots.sort((p, q) => p[2] - q[2]);
     const half = wide(N(room), px) / 2;
-    const clear = spots.filter(([x, y]) => !solid.some((s) => meets([x - half, y - 12 / k, x + half, y + 28 / k], s)) && x - half > b[0] && x + half < b[2]);
-    const at = place(N(room), 'm-room', px, clear.length ? clear : spots.slice(0, 12), fine ? 2.2 : 1);
+    const own = spots.filter(([x, y]) => [x - half, x + half].every((side) => room.polygons.some((polygon) => holds(polygon, [side, -y]))));
+    const clear = own.filter(([x, y]) => !solid.some((s) => meets([x - half, y - 12 / k, x + half, y + 28 / k], s)));
+    const at = place(N(room), 'm-room', px, clear.length ? clear : own.length ? own.slice(0, 40) : spots.slice(0, 12), fine ? 2.2 : 1);
     if (at && fine) g.append(text(at[0], at[1] + 18 / k, `${num(room.m2)} ${L('м²', 'm²')}`, 'm-m2lab', 12));
   }
   if (detail() < 2 || !S.layers.things) return g;
@@ -183,20 +191,16 @@ function overlay(d, taken, bold) {
     }
   }
   const chosen = named(S.selected);
-  if (S.proof) for (const one of S.proof.map(named).filter(Boolean)) { g.append(sv('rect', { class: 'm-reason', ...rect(boxOf(one), 3 / k), 'stroke-width': 2 / k })); bold.push(one); }
+  if (S.proof) for (const one of S.proof.map(named).filter(Boolean)) { g.append(one.frame ? sv('path', { class: 'm-reason room', d: one.polygons.map(Z).join(''), 'stroke-width': 2 / k }) : sv('rect', { class: 'm-reason', ...rect(boxOf(one), 3 / k), 'stroke-width': 2 / k })); if (!one.frame) bold.push(one); }
   for (const one of S.marked.map(named).filter(Boolean)) { g.append(sv('rect', { class: 'm-mark', ...rect(boxOf(one), 4 / k), rx: 4 / k, 'stroke-width': 2.4 / k })); if (!bold.includes(one)) bold.push(one); }
   if (chosen) {
-    if (S.layers.relations && S.thing?.name === chosen.name && chosen.polygons) {
-      const others = new Map();
-      for (const relation of S.thing.relations) for (const other of relation.args) if (other !== chosen.name && named(other)?.on_map) others.set(other, relation.relation);
-      const [x, y] = middle(chosen);
-      for (const other of [...others.keys()].slice(0, 12)) { const [ox, oy] = middle(named(other)); g.append(sv('path', { class: 'm-rel', d: P([[x, y], [ox, oy]]), 'stroke-width': 1.5 / k }), sv('circle', { class: 'm-reldot', cx: ox, cy: -oy, r: 3.5 / k })); }
-    }
+    if (S.layers.relations && S.thing?.name === chosen.name && !S.measures.length) related(chosen, g, top, taken);
     if (chosen.polygons) for (const polygon of chosen.polygons) g.append(sv('path', { class: 'm-sel', d: Z(polygon), 'stroke-width': 2.2 / k }));
     else g.append(sv('rect', { class: 'm-sel', ...rect(boxOf(chosen), 6 / k), 'stroke-width': 2.2 / k }));
     if (!bold.includes(chosen)) bold.push(chosen);
   }
   g.append(changes(k));
+  measured(d, top);
   if (S.barred) remedy(g, top);
   if (S.layers.belief) for (const thing of d.carried ?? []) {
     const at = named(thing.name);
@@ -225,6 +229,46 @@ function overlay(d, taken, bold) {
     if (held.length && S.layers.belief) top.append(tag(x, y + r + 16 / k, held.map(N).join(', '), 'belief'));
   }
   return [g, top];
+}
+/** Lines from what is selected to what it stands in a relation to, each with the word for it where that has room. */
+const MOST_RELATED = 14;
+function related(chosen, g, top, taken) {
+  const k = view.k, [x, y] = middle(chosen), others = new Map(), boxes = [];
+  for (const { relation, args } of S.thing.relations) for (const other of args) {
+    // In which room a thing stands is to be seen.
+    if (typeof other !== 'string' || other === chosen.name || !named(other) || (chosen.on_map && named(other).frame)) continue;
+    if (!others.has(other)) others.set(other, new Set());
+    others.get(other).add(relation.toLowerCase().replaceAll('_', ' ').replace(/^находится /, ''));
+  }
+  const all = [...others].map(([name, words]) => ({ one: named(name), words: [...words], at: middle(named(name)) }));
+  const far = ({ at }) => Math.hypot(at[0] - x, at[1] - y);
+  // What a room has to do with is in it or at its walls.
+  const [l, t, r, b] = boxOf(chosen), around = [l - 60, t - 60, r + 60, b + 60], near = ({ one }) => !chosen.frame || meets(boxOf(one), around);
+  for (const { one, words, at: [ox, oy] } of all.filter(near).sort((a, b) => far(a) - far(b)).slice(0, MOST_RELATED)) {
+    g.append(sv('path', { class: 'm-rel', d: P([[x, y], [ox, oy]]), 'stroke-width': 1.5 / k }), sv('circle', { class: 'm-reldot', cx: ox, cy: -oy, r: 3.5 / k }, sv('title', null, `${N(one)}: ${words.join(', ')}`)));
+    const said = words.sort((a, b) => a.length - b.length)[0] + (words.length > 1 ? ` +${words.length - 1}` : ''), w = said.length * 6 / k, h = 14 / k;
+    for (const along of [0.5, 0.65, 0.35]) {
+      const [tx, ty] = [x + (ox - x) * along, -(y + (oy - y) * along)], box = [tx - w / 2, ty - h / 2, tx + w / 2, ty + h / 2];
+      if (Math.hypot(ox - x, oy - y) * k < 46 || boxes.some((other) => meets(other, box))) continue;
+      boxes.push(box); taken.push(box); top.append(text(tx, ty, said, 'm-rellab', 11)); break;
+    }
+  }
+}
+/** What a reason was measured by, where that was: lines with their lengths. */
+function measured(d, top) {
+  const k = view.k, tags = [];
+  for (const { map, ends: [a, b], length_cm: cm, fails } of S.measures) {
+    if (map !== d.map) continue;
+    const [dx, dy] = [b[0] - a[0], b[1] - a[1]], l = Math.hypot(dx, dy), cls = fails ? ' bad' : '';
+    if (l * k > 3) {
+      const [nx, ny] = [(-dy / l) * 6 / k, (dx / l) * 6 / k], end = ([x, y]) => P([[x + nx, y + ny], [x - nx, y - ny]]);
+      top.append(sv('path', { class: 'm-halo', d: P([a, b]), 'stroke-width': 5 / k }), sv('path', { class: `m-measure${cls}`, d: P([a, b]) + end(a) + end(b), 'stroke-width': 1.8 / k }));
+    } else top.append(sv('circle', { class: `m-measure${cls}`, cx: a[0], cy: -a[1], r: 4 / k, 'stroke-width': 1.8 / k }));
+    // Where two would lie over each other, the later one goes below.
+    let [x, y] = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - (l * k > 90 ? 0 : 18 / k)];
+    while (tags.some(([tx, ty]) => Math.abs(tx - x) < 80 / k && Math.abs(ty - y) < 24 / k)) y -= 25 / k;
+    tags.push([x, y]); top.append(tag(x, y, exact(cm), fails ? 'bad' : 'know'));
+  }
 }
 /** What would open a way that there is not. */
 function remedy(g, top) {

@@ -1,9 +1,9 @@
 // What stands beside the map and over it: the task, the thing, the map's history, and the card that says what matters now.
-import { S, L, N, I, $, el, num, ask, may, length, seconds } from './base.js';
+import { S, L, N, I, $, el, num, ask, may, exact, length, reasons, seconds } from './base.js';
 import { directives, doorState, show, paint, zoneTime } from './map.js';
 import { nameButton, planInWords } from './talk.js';
 import { told as changesTold } from './changes.js';
-import { form as toolForm, hint } from './tools.js';
+import { cornerFields, form as toolForm, hint } from './tools.js';
 import { form as pictureForm } from './picture.js';
 
 const words = (step) => { const text = L(step.do_ru, step.do_en) ?? ''; return text.charAt(0).toUpperCase() + text.slice(1); };
@@ -106,37 +106,64 @@ function thingTab(act) {
   const kind = { thing: L('вещь', 'thing'), room: L('комната', 'room'), door: L('дверь', 'door'), place: L('место', 'place'), zone: L('зона', 'zone'), map: L('этаж', 'storey') }[thing.kind];
   const parts = [el('div', { class: 'sec' }, el('div', { class: 'row' }, pill('v', kind), thing.state ? pill(thing.state === 'locked' ? 'bad' : thing.state === 'open' ? 'ok' : 'mute', doorState(thing)) : null, el('button', { class: 'lnk end', type: 'button', onclick: () => act.select(null) }, L('Весь список', 'Whole list'))),
     el('h2', { class: 'title' }, N(thing)), thing.object ? el('p', { class: 'sub' }, `${L(...thing.object)} · ${N(thing.room)}`) : null,
-    el('div', { class: 'btns' }, may('drive') && thing.kind !== 'zone' && thing.kind !== 'map' ? button('', [I('pin'), L('Ехать сюда', 'Drive here')], () => act.go(thing)) : null, may('drive') && thing.kind !== 'zone' && thing.kind !== 'map' ? button('', [I('ahead'), L('Путь', 'Way')], () => act.way(thing)) : null, thing.kind !== 'place' && thing.kind !== 'map' && may('edit') ? button('', [I('pen'), L('Править', 'Edit')], act.edit) : null))];
+    el('div', { class: 'btns' }, may('drive') && thing.kind !== 'zone' && thing.kind !== 'map' ? button('', [I('pin'), L('Ехать сюда', 'Drive here')], () => act.go(thing)) : null, may('drive') && thing.kind !== 'zone' && thing.kind !== 'map' ? button('', [I('ahead'), L('Путь', 'Way')], () => act.way(thing)) : null, thing.kind !== 'map' && may('edit') ? button('', [I('pen'), L('Править', 'Edit')], act.edit) : null))];
   if (thing.rule) { const zone = S.drawing?.zones?.find((one) => one.name === thing.name); parts.push(el('div', { class: `note ${zone?.in_force ? 'warn' : ''}` }, el('span', null, thing.rule), zone ? el('span', { class: 'sub' }, zone.in_force ? L('действует сейчас', 'in force now') : L('сейчас не действует', 'not in force now'), zoneTime(zone) ? ` · ${zoneTime(zone)}` : '') : null)); }
   const believed = thing.believed;
-  if (believed && !believed.is_surveyed) parts.push(el('div', { class: 'note warn' }, el('b', null, L('Скорее всего, стоит не там', 'Probably stands elsewhere')), el('span', null, placeWords(believed.place), ` · ${Math.round(believed.confidence * 100)} %`)));
+  const seen = believed?.last_seen ? L(`видели ${when(believed.last_seen)}`, `seen ${when(believed.last_seen)}`) : L('не видели', 'never seen');
+  if (believed && !believed.is_surveyed) parts.push(el('div', { class: 'note warn' }, el('b', null, L('Скорее всего, стоит не там', 'Probably stands elsewhere')), el('span', null, placeWords(believed.place)), el('span', { class: 'sub' }, `${surely(believed.confidence)} · ${seen}`)));
+  else if (believed) parts.push(el('p', { class: 'sub' }, `${L('Здесь по карте', 'Here by the map')} · ${surely(believed.confidence)} · ${seen}`));
   if (believed?.carried !== null && believed?.carried !== undefined) parts.push(el('div', { class: 'note warn' }, believed.carried ? `${L('Отдано:', 'Given to:')} ${believed.carried}` : L('У робота в руке', 'In the robot’s hand')));
   const properties = Object.entries(thing.properties ?? {});
   if (properties.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Свойства', 'Properties')), el('dl', { class: 'kv' }, properties.map(([name, value]) => [el('dt', null, name), el('dd', null, value)]))));
   if (thing.things) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Здесь', 'Here'), el('span', { class: 'num' }, String(thing.things.length))), el('div', { class: 'acts' }, thing.things.map(([name]) => nameButton(name)))));
   const relations = thing.relations.filter((relation) => relation.args.length > 1).slice(0, 120);
   if (relations.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Отношения', 'Relations'), el('span', { class: 'num' }, String(relations.length))), el('ul', { class: 'rel' }, relations.map((relation) => relationRow(relation, thing)))));
+  if (thing.kind === 'thing') parts.push(whyNot(thing, act));
   if (thing.story?.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Где бывала', 'Where it was')), el('ul', { class: 'list' }, thing.story.slice(-10).reverse().map((one) => el('li', null, I(one.source.observer ? 'eye' : 'map'), el('span', { class: 'g' }, one.place ? placeWords(one.place) : L('не на месте', 'not there'), el('div', { class: 'sub' }, `${when(one.at)} · ${one.source.observer ? `${one.source.observer}, ${Math.round(one.source.sure * 100)} %` : `${L('карта', 'map')} ${one.source.revision}, ${one.source.user}`}`)))))));
+  if (thing.changes?.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Правки на карте', 'Edits on the map')), el('ul', { class: 'list' }, thing.changes.slice(-10).reverse().map((one) => el('li', null, I('clock'), el('span', { class: 'g' }, L(`ревизия ${one.revision}`, `revision ${one.revision}`), el('div', { class: 'sub' }, `${one.user} · ${when(one.at)}`)), one.revision > 1 ? el('button', { class: 'lnk', type: 'button', 'aria-label': L(`Что изменила ревизия ${one.revision}`, `What revision ${one.revision} changed`), onclick: () => act.compare(one.revision - 1, one.revision) }, L('что', 'what')) : null)))));
   return parts;
 }
+const surely = (share) => L(`уверенность ${Math.round(share * 100)} %`, `${Math.round(share * 100)} % sure`);
 const placeWords = (where) => (where ? `${S.lang === 'en' && where.room_en ? where.room_en : where.room} (${num(where.at[0], 0)}; ${num(where.at[1], 0)})` : '?');
 const when = (at) => new Date(at).toLocaleString(S.lang === 'ru' ? 'ru' : 'en-GB', { dateStyle: 'short', timeStyle: 'short' });
 
 function relationRow(relation, thing) {
-  const others = relation.args.map((arg) => (arg === thing.name ? el('span', { class: 'v' }, '·') : typeof arg === 'string' && Number.isNaN(Number(arg)) ? nameButton(arg) : el('span', { class: 'num' }, String(arg))));
-  const row = el('li', null, el('span', null, el('span', { class: 'v' }, `${relation.relation.toLowerCase().replaceAll('_', ' ')} `), others.flatMap((one, i) => [i ? ' ' : null, one])));
+  const others = relation.args.map((arg) => (arg === thing.name ? el('span', { class: 'own' }, N(thing)) : typeof arg === 'string' && Number.isNaN(Number(arg)) ? nameButton(arg) : el('span', { class: 'num' }, String(arg))));
+  // The relation stands where a verb would: «Чашка-1 находится сверху на Стол-1».
+  const row = el('li', null, el('span', null, others[0], el('span', { class: 'v' }, ` ${relation.relation.toLowerCase().replaceAll('_', ' ')} `), others.slice(1).flatMap((one, i) => [i ? ' ' : null, one])));
   const why = el('button', { class: 'why', type: 'button', 'aria-expanded': 'false' }, L('почему', 'why'));
   why.addEventListener('click', async () => {
     const open = row.querySelector('.pf');
     why.setAttribute('aria-expanded', String(!open));
-    if (open) { open.remove(); S.proof = null; paint(); return; }
-    const proof = await ask('/api/why', { relation: relation.relation, of: relation.args.join(','), lang: S.lang }).catch((error) => ({ steps: [], text: error.message }));
-    const steps = proof.steps ?? [];
-    S.proof = [...new Set(steps.flatMap((step) => step.args).filter((arg) => typeof arg === 'string'))]; paint();
-    row.append(el('ul', { class: 'pf' }, steps.map((step) => el('li', null, el('b', null, `${step.relation}(${step.args.join(', ')})`), step.measured ? ` – ${L('измерено', 'measured')}` : '', (step.compared ?? []).map((c) => el('div', null, `${c.text}: ${c.left} ${c.op} ${c.right}`)))), proof.text ? el('li', null, proof.text) : null));
+    if (open) { open.remove(); reasons(); paint(); return; }
+    const proof = await ask('/api/why', { relation: relation.relation, of: relation.args.join(','), lang: S.lang }).catch((error) => ({ words: error.message, about: [], measures: [] }));
+    if (!row.isConnected) return;
+    reasons(proof.about, proof.measures); S.marked = []; paint();
+    row.append(el('div', { class: 'pf' }, ground(proof)));
   });
   row.append(why);
   return row;
+}
+
+/** A reason: the sentence, what was measured, and the rules that made it of that. */
+function ground(proof) {
+  const measured = proof.measures.filter((m) => m.text && !proof.words.includes(m.text));
+  const rules = (proof.steps ?? []).map((step) => el('li', null, el('b', null, `${step.relation}(${step.args.join(', ')})`), (step.compared ?? []).map((c) => el('div', null, `${c.text}: ${c.left} ${c.op} ${c.right}`))));
+  if (proof.rule) rules.push(el('li', null, el('b', null, proof.rule), (proof.failed ?? []).map((c) => el('div', null, `${c.text}: ${c.left} ${c.op} ${c.right}`))));
+  return [el('p', null, proof.words, /[.!?]$/.test(proof.words) ? '' : '.'), measured.length ? el('ul', null, measured.map((m) => el('li', { class: m.fails ? 'bad' : null }, m.text))) : null,
+    rules.length ? el('details', null, el('summary', null, L('по каким правилам', 'by which rules')), el('ul', null, rules)) : null];
+}
+
+/** Why something is not so with another: a relation and a name. */
+function whyNot(thing, act) {
+  const list = el('datalist', { id: 'others' }, [...S.drawing?.things ?? [], ...S.drawing?.rooms ?? []].filter((one) => one.name !== thing.name).slice(0, 400).map((one) => el('option', { value: N(one) })));
+  const relation = el('select', { id: 'not-relation', 'aria-label': L('Отношение', 'Relation') }), words = (name) => name.toLowerCase().replaceAll('_', ' ');
+  const fill = () => relation.replaceChildren(...S.kinds.relations.map((names) => el('option', { value: L(...names), selected: names.includes(S.reason?.relation) }, words(L(...names)))));
+  if (S.kinds) fill(); else ask('/api/kinds', {}).then((kinds) => { S.kinds = kinds; fill(); }).catch(() => {});
+  const other = el('input', { id: 'not-other', list: 'others', 'aria-label': L('С чем', 'With what'), placeholder: L('с чем', 'with what'), value: S.reason?.other ?? '' });
+  return el('form', { class: 'sec draft', onsubmit: (event) => { event.preventDefault(); if (relation.value && other.value.trim()) act.whyNot(relation.value, other.value.trim()); } },
+    el('h2', null, L('Почему не…', 'Why not…')), el('div', { class: 'four' }, relation, other), list, el('div', { class: 'btns' }, el('button', { class: 'btn' }, [I('why'), L('Спросить', 'Ask')])),
+    S.reason ? el('div', { class: 'pf' }, ground(S.reason)) : null);
 }
 
 function mapTab(act) {
@@ -153,7 +180,7 @@ function mapTab(act) {
   parts.push(el('div', { class: 'sec' }, el('div', { class: 'row' }, el('h2', null, L('История', 'History')), may('edit') ? el('span', { class: 'end btns' }, button('', [I('undo'), L('Отменить', 'Undo')], act.undo), button('', [I('redo'), L('Вернуть', 'Redo')], act.redo)) : null),
     el('ul', { class: 'rev' }, edits.slice(0, 60).map((one) => el('li', { class: one.revision === S.asOf ? 'at' : '' }, el('span', { class: 'r' }, String(one.revision)),
       el('span', null, revisionWords(one), el('div', { class: 'sub' }, `${one.user} · ${when(one.at)}`), one.told ? el('ul', { class: 'diff' }, some(one.told, 20)) : null),
-      el('span', { class: 'btns' }, el('button', { class: 'lnk', type: 'button', onclick: () => act.told(one) }, L('что', 'what')), el('button', { class: 'lnk', type: 'button', onclick: () => act.asOf(one.revision) }, L('показать', 'show'))))))));
+      el('span', { class: 'btns' }, el('button', { class: 'lnk', type: 'button', onclick: () => act.told(one) }, L('что', 'what')), el('button', { class: 'lnk', type: 'button', onclick: () => act.asOf(one.revision) }, L('показать', 'show')), S.asOf !== null && one.revision !== S.asOf ? el('button', { class: 'lnk', type: 'button', onclick: () => act.compare(Math.min(S.asOf, one.revision), Math.max(S.asOf, one.revision)) }, L(`сравнить с ${S.asOf}`, `compare with ${S.asOf}`)) : null))))));
   if (S.asOf !== null && may('edit')) parts.push(button('dan', L(`Вернуть карту к ревизии ${S.asOf}`, `Return the map to revision ${S.asOf}`), act.restore));
   if (may('edit')) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Позвать ещё кого-то', 'Invite somebody')), el('div', { class: 'btns' }, [['look', L('смотреть', 'to look')], ['drive', L('управлять', 'to drive')], ['edit', L('править', 'to edit')]].map(([role, text]) => button('', text, () => act.invite(role)))), S.invited ? el('p', { class: 'sub mono wrap' }, S.invited) : null));
   return parts;
@@ -162,7 +189,9 @@ const KINDS = { import: ['импорт', 'import'], edit: ['правка', 'edit
 const revisionWords = (one) => `${L(...(KINDS[one.kind] ?? [one.kind, one.kind]))}${one.undoes ? ` ${one.undoes}` : ''}${one.reason ? `: ${one.reason}` : ''}`;
 /** The first of many, and how many more there are. */
 const some = (all, most = 6) => [all.slice(0, most).map(difference), all.length > most ? el('li', null, el('span', { class: 'sub' }, L(`и ещё ${all.length - most}`, `and ${all.length - most} more`))) : null];
-const difference = (d) => el('li', { class: d.fate === 'deleted' ? 'm' : 'p' }, el('span', null, L(d.ru, d.en)));
+/** Numbers are told to the millimetre. */
+const rounded = (text) => text.replace(/\d+\.\d+/g, (n) => num(n).replace(/[.,]0$/, ''));
+const difference = (d) => el('li', { class: d.fate === 'deleted' ? 'm' : 'p' }, el('span', null, rounded(L(d.ru, d.en))));
 
 function editSection(act) {
   const edit = S.edit, parts = [el('div', { class: 'row' }, pill('v', L(`Правка на ревизии ${edit.on}`, `Edit on revision ${edit.on}`)))];
@@ -170,12 +199,14 @@ function editSection(act) {
   const drawn = edit.tool ? toolForm() : null;
   if (drawn) parts.push(drawn);
   else if (edit.tool && !edit.name) parts.push(el('p', { class: 'sub' }, hint()));
-  else if (!edit.name) parts.push(el('p', { class: 'sub' }, L('Выберите вещь, дверь, комнату или зону на карте. Вещь можно тащить; стрелки двигают на 1 см, с Shift на 10, R поворачивает.', 'Choose a thing, a door, a room or a zone on the map. Drag a thing; arrows move it 1 cm, with Shift 10, R turns it.')));
+  else if (!edit.name) parts.push(el('p', { class: 'sub' }, L('Выберите вещь, дверь, комнату, место или зону: на карте или в списке на вкладке «Вещь». Вещи, места и зоны можно тащить; стрелки на карте двигают на 1 см, с Shift на 10, R поворачивает.', 'Choose a thing, a door, a room, a place or a zone: on the map, or in the list of tab Thing. Drag things, places and zones; arrows on the map move them 1 cm, with Shift 10, R turns.')));
   else parts.push(el('h2', { class: 'title' }, N(edit.name)));
   if (edit.at) parts.push(el('dl', { class: 'kv' }, el('dt', null, 'X'), el('dd', null, `${num(edit.from.x)} → ${num(edit.at.x)} ${L('см', 'cm')}`), el('dt', null, 'Y'), el('dd', null, `${num(edit.from.y)} → ${num(edit.at.y)} ${L('см', 'cm')}`), el('dt', null, L('Поворот', 'Turn')), el('dd', null, `${num(edit.at.angle_deg, 0)}°`)));
   if (edit.name && edit.kind === 'thing') parts.push(el('div', { class: 'btns' }, button('', [I('turn'), L('Повернуть', 'Turn')], () => act.turn(15)), button('', [I('plus'), L('Ещё такую', 'One more')], act.add), button('', L('Назвать', 'Rename'), act.rename), button('dan', L('Убрать', 'Remove'), act.remove)));
   if (edit.name && edit.kind === 'door') parts.push(el('div', { class: 'btns' }, [['open', L('Открыта', 'Open')], ['closed', L('Закрыта', 'Closed')], ['locked', L('Заперта', 'Locked')]].map(([state, text]) => button('', text, () => act.door(state))), button('', L('Назвать', 'Rename'), act.rename), button('dan', L('Убрать', 'Remove'), act.remove)));
   if (edit.name && edit.kind === 'room') parts.push(edit.parts ? el('p', { class: 'sub' }, hint()) : null, el('div', { class: 'btns' }, button('', L('Назвать', 'Rename'), act.rename), button('', [I('zone'), L('Закрыть для робота', 'Shut to the robot')], act.shut), button('dan', L('Убрать', 'Remove'), act.remove)));
+  if (edit.name && edit.kind === 'room' && edit.parts) parts.push(cornerFields());
+  if (edit.name && edit.kind === 'place') parts.push(el('div', { class: 'btns' }, button('', L('Назвать', 'Rename'), act.rename), button('dan', L('Убрать', 'Remove'), act.remove)));
   if (edit.name && edit.kind === 'zone') parts.push(el('p', { class: 'sub' }, L(edit.zone.rule, edit.zone.rule_en)), el('div', { class: 'btns' }, edit.zone.in_force ? button('', [I('clock'), L('Кончается сейчас', 'Ends now')], act.ends) : null, button('', L('Назвать', 'Rename'), act.rename), button('dan', L('Убрать', 'Remove'), act.remove)));
   if (edit.asking) parts.push(el('form', { class: 'sec', onsubmit: (event) => { event.preventDefault(); edit.asking.done($('#newname').value.trim()); } }, el('div', { class: 'field' }, el('input', { id: 'newname', value: edit.asking.value, 'aria-label': L('Имя', 'Name'), maxlength: '120' })), el('div', { class: 'btns' }, el('button', { class: 'btn pri' }, L('Дальше', 'Go on')))));
   parts.push(el('div', { id: 'verdict', class: 'sec' }, verdict(act)));

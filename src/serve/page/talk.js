@@ -1,5 +1,5 @@
 // The talk: one line for questions and orders, answers with what they name on the map, the plan before it is driven.
-import { S, L, N, I, $, el, api, ask, announce, Refused, may, length, seconds } from './base.js';
+import { S, L, N, I, $, el, api, ask, announce, reasons, Refused, may, length, seconds } from './base.js';
 import { named, show, paint } from './map.js';
 
 const log = [];
@@ -28,6 +28,16 @@ function mentioned(reply) {
   return [...found].slice(0, 12);
 }
 
+/** Points on the map at what the facts of an answer rest on: the things, and what was measured of them. */
+async function point(reply, about) {
+  reasons(about); paint();
+  const facts = (reply.facts ?? []).slice(0, 4);
+  const all = await Promise.all(facts.map(({ relation, args }) => ask('/api/why', { relation, of: args.join(','), lang: S.lang }).catch(() => null)));
+  if (S.proof !== about) return;
+  reasons([...new Set([...about, ...all.flatMap((one) => one?.about ?? [])])], all.flatMap((one) => one?.measures ?? []));
+  paint();
+}
+
 /** Notes something in the talk. */
 export function note(entry) {
   log.push({ at: now(), ...entry });
@@ -42,7 +52,7 @@ function turn(entry) {
     return [
       el('div', { class: 'a' }, reply.text),
       (about.length || proof.length) ? el('div', { class: 'acts' }, about.map(nameButton),
-        proof.length ? el('button', { class: 'lnk', type: 'button', 'aria-expanded': 'false', onclick: (event) => { why.hidden = !why.hidden; event.target.setAttribute('aria-expanded', String(!why.hidden)); S.proof = why.hidden ? null : about; paint(); } }, L('Почему?', 'Why?')) : null) : null,
+        proof.length ? el('button', { class: 'lnk', type: 'button', 'aria-expanded': 'false', onclick: (event) => { why.hidden = !why.hidden; event.target.setAttribute('aria-expanded', String(!why.hidden)); if (why.hidden) { reasons(); paint(); } else point(reply, about); } }, L('Почему?', 'Why?')) : null) : null,
       why,
     ];
   });
@@ -127,7 +137,10 @@ export async function send(given) {
   try {
     const answer = await api('/api/say', { text, lang: S.lang });
     entry.lines = []; entry.replies = answer.replies; entry.caution = answer.caution;
-    S.marked = answer.replies.flatMap(mentioned).slice(0, 8); S.proof = null;
+    S.marked = answer.replies.flatMap(mentioned).slice(0, 8); reasons();
+    // What was asked for its reason is shown with it.
+    const asked = answer.replies.find((reply) => reply.kind === 'why');
+    if (asked) point(asked, mentioned(asked));
     const barred = answer.replies.find((reply) => ['no_plan', 'stuck'].includes(reply.outcome));
     if (barred) hear.barred(barred);
     if (answer.task) {
@@ -140,7 +153,7 @@ export async function send(given) {
 }
 
 /** Why something was refused, in words. */
-export const reason = (error) => (error instanceof Refused ? [error.message, error.body.help].filter(Boolean).join(' ') : L('Сервер не отвечает.', 'The server does not answer.'));
+export const reason = (error) => (error instanceof Refused ? [error.message, (S.lang === 'en' && error.body.help_en) || error.body.help].filter(Boolean).join(' ') : L('Сервер не отвечает.', 'The server does not answer.'));
 
 export function planInWords(plan) {
   const n = plan.directives.length;

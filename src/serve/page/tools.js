@@ -1,7 +1,7 @@
-// What is drawn anew: rooms, doors in walls, zones, corners put elsewhere. A drawing becomes the steps of one edit, and is tried
+// What is drawn anew: rooms, doors in walls, zones, things and places put down, corners put elsewhere. A drawing becomes the steps of one edit, and is tried
 // while it is made.
 import { S, L, N, ask, el, announce, num } from './base.js';
-import { boxOf, centre, named, paint, under, view } from './map.js';
+import { boxOf, centre, holds, named, paint, under, view } from './map.js';
 import { will, write } from './edit.js';
 
 const tenth = (value) => Math.round(value * 10) / 10 + 0;
@@ -12,13 +12,17 @@ export const begin = (redraw) => { render = redraw; };
 /** A name that nothing on this storey bears yet. */
 function fresh(ru, en) {
   let n = 1;
-  const name = () => L(`${ru}-${n}`, `${en} ${n}`);
-  while (named(name()) || (S.drawing.zones ?? []).some((zone) => zone.name === name())) n += 1;
+  const name = () => L(`${ru}-${n}`, `${en} ${n}`), d = S.drawing;
+  // Either name of a thing may be the one that is taken.
+  const taken = new Set([...d.rooms, ...d.things, ...d.doors, ...d.places, ...d.zones ?? []].flatMap((one) => [one.name, one.name_en]));
+  while (taken.has(name())) n += 1;
   return name();
 }
 const key = (name) => name.trim().replaceAll('.', '-');
 
 const FIELDS = {
+  thing: () => ({ name: '', kind: '', x: '', y: '', z: 0, angle: 0 }),
+  point: () => ({ name: fresh('Место', 'Place'), x: '', y: '', heading: 0, serves: '' }),
   room: () => ({ name: fresh('Помещение', 'Room'), height: 270 }),
   zone: () => ({ name: fresh('Зона', 'Zone'), kind: 'keep-out', speed: 20, heading: 90, reason: '', from: '', until: '' }),
   door: () => ({ name: fresh('Дверь-новая', 'New door'), kind: 'hinged', width: 90, height: 210, hinge: 'left', opens: 'inside', one: '', other: '', along: 0 }),
@@ -30,15 +34,18 @@ export function take(tool) {
   const on = S.state.revision;
   if (S.edit.tool === tool) { S.edit = { on }; render(); paint(); return; }
   S.edit = { on, tool, draft: null, fields: FIELDS[tool]?.() ?? {} };
+  if (tool === 'thing' && !S.kinds) ask('/api/kinds', {}).then((kinds) => { S.kinds = kinds; render(true); }).catch(() => {});
   S.tab = 'map';
   announce(HINTS[tool]?.() ?? '');
   render(); paint();
 }
 const HINTS = {
+  thing: () => L('Выберите, что поставить, и щёлкните куда: на пол или на то, что там стоит.', 'Choose what to put down, and click where: on the floor, or on what stands there.'),
+  point: () => L('Щёлкните, где роботу вставать.', 'Click where the robot is to stand.'),
   room: () => L('Потяните прямоугольник или отмечайте углы щелчками; Enter замыкает. Числа – в полях.', 'Drag a rectangle, or click corners; Enter closes. Numbers: in the fields.'),
   zone: () => L('Потяните прямоугольник или отмечайте углы щелчками; Enter замыкает.', 'Drag a rectangle, or click corners; Enter closes.'),
   door: () => L('Щёлкните по стене, или выберите в полях, между какими помещениями.', 'Click a wall, or choose in the fields between which rooms.'),
-  shape: () => L('Тяните углы выбранного помещения, или его самого.', 'Drag the corners of the chosen room, or the room itself.'),
+  shape: () => L('Тяните углы выбранного помещения, или его самого; стрелки двигают его на 1 см, углы – числами в полях.', 'Drag the corners of the chosen room, or the room itself; arrows move it 1 cm, corners also by numbers in the fields.'),
   plan: () => L('Тяните рисунок; две точки с известным расстоянием задают масштаб.', 'Drag the picture; two points with a known distance give its scale.'),
 };
 export const hint = () => HINTS[S.edit?.tool]?.();
@@ -65,6 +72,7 @@ export function grab(event, name) {
   const edit = S.edit;
   if (!edit?.tool || S.asOf !== null) return null;
   if (edit.tool === 'room' || edit.tool === 'zone') return outline(event);
+  if (edit.tool === 'thing' || edit.tool === 'point') return { move() {}, end() {}, click: (at) => putDown(under(at)) };
   if (edit.tool === 'door') return { move() {}, end() {}, click: (at) => doorAt(under(at)) };
   if (edit.tool === 'shape') return corners(event, name);
   return null;
@@ -75,9 +83,9 @@ function outline(event) {
     move(next) {
       const from = snapped(begun), to = snapped(under(next));
       edit.draft = { closed: true, points: [from, [to[0], from[1]], to, [from[0], to[1]]] };
-      paint();
+      paint(); soon();
     },
-    end: rebuild,
+    end: () => soon(),
     click(at) {
       if (!edit.draft || edit.draft.closed) edit.draft = { closed: false, points: [] };
       const { points } = edit.draft, point = snapped(under(at), points.at(-1));
@@ -91,7 +99,7 @@ function outline(event) {
 export function close() {
   const draft = S.edit?.draft;
   if (!draft || draft.closed || draft.points.length < 3) return false;
-  draft.closed = true; rebuild();
+  draft.closed = true; soon();
   return true;
 }
 
@@ -101,7 +109,7 @@ export async function choose(name) {
   if (!room?.frame) return;
   const about = await ask('/api/thing', { name, lang: S.lang }).catch(() => null);
   if (S.edit !== edit || !about) return;
-  Object.assign(edit, { name, kind: 'room', room, parts: about.parts.map((part) => ({ id: part.id, points: part.sides.map((side) => side.from) })), steps: null, tried: null, wrong: null });
+  Object.assign(edit, { name, kind: 'room', room, parts: about.parts.map((part) => ({ id: part.id, points: part.sides.map((side) => [...side.from]), was: part.sides.map((side) => side.from) })), shift: null, steps: null, tried: null, wrong: null });
   render(); paint();
 }
 function corners(event, name) {
@@ -109,18 +117,33 @@ function corners(event, name) {
   if (!edit.parts || (edit.name !== name && !onCorner(event))) return { move() {}, end() {}, click: () => { if (name) choose(name); } };
   const held = onCorner(event), begun = under(event);
   if (held) {
-    return { move(next) { held.part.points[held.at] = snapped(under(next)); paint(); }, end: () => reshape(held.part), click() {} };
+    const reshaped = () => reshape(held.part);
+    return { move(next) { held.part.points[held.at] = snapped(under(next)); paint(); reshaped(); }, end: reshaped, click() {} };
   }
-  const was = edit.parts.map((part) => part.points.map((p) => [...p]));
-  return {
-    move(next) {
-      const [x, y] = under(next), d = [tenth(x - begun[0]), tenth(y - begun[1])];
-      edit.parts.forEach((part, i) => { part.points = was[i].map((p) => [p[0] + d[0], p[1] + d[1]]); });
-      edit.shift = d; paint();
-    },
-    end: () => { const { x, y } = edit.room.frame; will([{ stand: edit.name, map: S.map, at: [tenth(x + edit.shift[0]), tenth(y + edit.shift[1])], relink: true }]); },
-    click() {},
-  };
+  const [bx, by] = edit.shift ?? [0, 0];
+  const moved = (next) => { const [x, y] = under(next); shift(bx + x - begun[0], by + y - begun[1]); };
+  return { move: moved, end: moved, click() {} };
+}
+/** Puts the chosen room elsewhere, by cm from where it stands. */
+function shift(dx, dy) {
+  const { edit } = S, { x, y } = edit.room.frame, d = [tenth(dx), tenth(dy)];
+  edit.parts.forEach((part) => { part.points = part.was.map((p) => [tenth(p[0] + d[0]), tenth(p[1] + d[1])]); });
+  edit.shift = d; paint();
+  will([{ stand: edit.name, map: S.map, at: [tenth(x + d[0]), tenth(y + d[1])], relink: true }]);
+}
+/** Moves the chosen room by a key; false where none is chosen with its shape unlocked. */
+export function nudge(dx, dy) {
+  if (S.edit?.tool !== 'shape' || !S.edit.parts) return false;
+  const [x, y] = S.edit.shift ?? [0, 0];
+  shift(x + dx, y + dy);
+  return true;
+}
+/** The corners of the chosen room as numbers. */
+export function cornerFields() {
+  const many = S.edit.parts.length > 1, name = (part, i) => `${many ? `${part.id}, ` : ''}${i + 1}`;
+  const one = (part, i, axis, sign) => el('label', null, el('span', null, L(`Угол ${name(part, i)}, ${sign}`, `Corner ${name(part, i)}, ${sign}`)), el('input', { type: 'number', step: '1', id: `f-corner-${part.id}-${i}-${axis}`, value: tenth(part.points[i][axis]), onchange: (event) => { part.points[i][axis] = Number(event.target.value); paint(); reshape(part); } }));
+  const all = S.edit.parts.map((part) => part.points.map((_, i) => [one(part, i, 0, 'X'), one(part, i, 1, 'Y')]));
+  return el('form', { class: 'draft', onsubmit: (event) => { event.preventDefault(); write(); } }, el('div', { class: 'four' }, all), el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
 }
 function onCorner(event) {
   const [x, y] = under(event);
@@ -135,6 +158,45 @@ function reshape(part) {
   const { x, y, angle_deg: angle } = S.edit.room.frame, [c, s] = [Math.cos(radians(angle)), Math.sin(radians(angle))];
   const inner = part.points.map(([px, py]) => { const [dx, dy] = [px - x, py - y]; return [tenth(c * dx + s * dy), tenth(c * dy - s * dx)]; });
   will([{ shape: S.edit.name, item: part.id, points: inner }]);
+}
+
+/* things and places put down */
+const roomAt = (p) => S.drawing.rooms.find((room) => room.polygons.some((polygon) => holds(polygon, p)));
+/** The highest thing under a point, which bears what is put there. */
+function beneath(p) {
+  const all = S.drawing.things.filter((thing) => thing.polygons.some((polygon) => holds(polygon, p)));
+  return all.sort((a, b) => b.z[1] - a.z[1])[0] ?? null;
+}
+function putDown([x, y]) {
+  const { fields, tool } = S.edit, room = roomAt([x, y]);
+  if (!room) { announce(L('Здесь нет помещения', 'There is no room here'), true); return; }
+  Object.assign(fields, { x: tenth(x), y: tenth(y) });
+  if (tool === 'thing') fields.z = tenth((beneath([x, y])?.z[1] ?? room.frame.z) - room.frame.z);
+  render(true); soon();
+}
+/** The steps that put a thing or a place down where the fields say, and how that will look. */
+function put(edit) {
+  const { fields, tool } = edit, [x, y] = [Number(fields.x), Number(fields.y)];
+  edit.ghost = null;
+  if (fields.x === '' || fields.y === '' || !fields.name.trim()) return null;
+  const room = roomAt([x, y]);
+  if (!room) throw new Error(L('Здесь нет помещения', 'There is no room here'));
+  const name = fields.name.trim();
+  if (tool === 'point') {
+    const step = { point: name, area: room.name, pose: [x, y], heading: Number(fields.heading) }, r = 8;
+    if (fields.serves) step.serves = fields.serves;
+    edit.ghost = { name, polygons: [[[x - r, y], [x, y - r], [x + r, y], [x, y + r]]] };
+    return { steps: [step] };
+  }
+  const kind = S.kinds?.objects.find((one) => one.object === fields.kind);
+  if (!kind) return null;
+  // Its middle comes where the click was.
+  const all = kind.polygons.flat(), middle = [0, 1].map((axis) => (Math.min(...all.map((p) => p[axis])) + Math.max(...all.map((p) => p[axis]))) / 2);
+  const angle = Number(fields.angle), [c, s] = [Math.cos(radians(angle)), Math.sin(radians(angle))];
+  const onMap = ([px, py]) => { const [dx, dy] = [px - middle[0], py - middle[1]]; return [x + c * dx - s * dy, y + s * dx + c * dy]; };
+  const [ox, oy] = onMap([0, 0]).map(tenth);
+  edit.ghost = { name, polygons: kind.polygons.map((polygon) => polygon.map(onMap)) };
+  return { steps: [{ place: name, object: kind.object, area: room.name, pose: [ox, oy, tenth(room.frame.z + Number(fields.z))], angle }] };
 }
 
 /* a door in a wall */
@@ -216,13 +278,21 @@ async function hung(room, ends, door, opens, permeability) {
 }
 
 /* the steps of what is drawn */
+/** While something is drawn: one after another, of what it is by then. */
+let busy = false, more = false;
+async function soon() {
+  if (busy) { more = true; return; }
+  busy = true;
+  do { more = false; await rebuild(); } while (more);
+  busy = false;
+}
 let number = 0;
 export async function rebuild() {
   const { edit } = S, mine = ++number;
   try {
     const made = await steps(edit);
     if (S.edit !== edit || mine !== number) return;
-    if (made) will(made.steps, made.more); else { Object.assign(edit, { steps: null, tried: null, wrong: null }); render(); paint(); }
+    if (made) await will(made.steps, made.more); else { Object.assign(edit, { steps: null, tried: null, wrong: null }); render(); paint(); }
   } catch (error) {
     if (S.edit !== edit || mine !== number) return;
     Object.assign(edit, { steps: null, tried: null, wrong: [error.message] });
@@ -231,6 +301,7 @@ export async function rebuild() {
 }
 async function steps(edit) {
   const { fields, draft, tool } = edit;
+  if (tool === 'thing' || tool === 'point') return put(edit);
   if (tool === 'door') {
     const [one, other] = [named(fields.one), named(fields.other)];
     if (!one) return null;
@@ -294,7 +365,7 @@ function set(name, value) {
   clearTimeout(timer); timer = setTimeout(() => { timer = 0; rebuild(); }, 250);
 }
 const field = (name, label, kind = 'text', more = {}) => el('label', null, el('span', null, label), el('input', { id: `f-${name}`, type: kind, value: S.edit.fields[name], oninput: (event) => set(name, event.target.value), ...more }));
-const choice = (name, label, options) => el('label', null, el('span', null, label), el('select', { id: `f-${name}`, onchange: (event) => { set(name, event.target.value); render(true); } }, options.map(([value, text]) => el('option', { value, selected: S.edit.fields[name] === value }, text))));
+const choice = (name, label, options, chosen = () => {}) => el('label', null, el('span', null, label), el('select', { id: `f-${name}`, onchange: (event) => { chosen(event.target.value); set(name, event.target.value); render(true); } }, options.map(([value, text]) => el('option', { value, selected: S.edit.fields[name] === value }, text))));
 const cm = L.bind(null, 'см', 'cm');
 
 /** The box of a rectangle that is drawn, as numbers. */
@@ -308,7 +379,7 @@ function rectangle() {
     if (i < 2) now[i] = value; else size[i - 2] = value;
     const [x, y] = now, [w, h] = size;
     S.edit.draft = { closed: true, points: [[x, y], [tenth(x + w), y], [tenth(x + w), tenth(y + h)], [x, tenth(y + h)]] };
-    paint(); rebuild();
+    paint(); soon();
   } }));
   return el('div', { class: 'four' }, number(0, `X, ${cm()}`), number(1, `Y, ${cm()}`), number(2, L('Ширина', 'Width')), number(3, L('Глубина', 'Depth')));
 }
@@ -318,7 +389,15 @@ export function form() {
   const { tool } = S.edit;
   if (!FIELDS[tool]) return null;
   const rooms = S.drawing.rooms.map((room) => [room.name, N(room)]).sort((a, b) => a[1].localeCompare(b[1]));
-  const parts = [field('name', L('Имя', 'Name'), 'text', { maxlength: 120, required: true })];
+  const spot = () => el('div', { class: 'four' }, field('x', `X, ${cm()}`, 'number', { step: 'any' }), field('y', `Y, ${cm()}`, 'number', { step: 'any' }), tool === 'thing' ? [field('z', L('Над полом, см', 'Above the floor, cm'), 'number', { step: 'any' }), field('angle', L('Поворот, °', 'Turn, °'), 'number')] : field('heading', L('Смотрит, °', 'Looks, °'), 'number'));
+  const parts = [];
+  if (tool === 'thing') {
+    const kinds = (S.kinds?.objects ?? []).map((one) => [one.object, N(one)]).sort((a, b) => a[1].localeCompare(b[1]));
+    parts.push(choice('kind', L('Что', 'What'), [['', '–'], ...kinds], (key) => { const one = S.kinds.objects.find((kind) => kind.object === key); if (one) S.edit.fields.name = fresh(L(one.name, one.name_en || one.name), one.name_en || one.name); }));
+  }
+  parts.push(field('name', L('Имя', 'Name'), 'text', { maxlength: 120, required: true }));
+  if (tool === 'thing' || tool === 'point') parts.push(spot());
+  if (tool === 'point') parts.push(choice('serves', L('Отсюда берут с', 'From here one takes from'), [['', '–'], ...S.drawing.things.map((one) => [one.name, N(one)]).sort((a, b) => a[1].localeCompare(b[1]))]));
   if (tool === 'room') parts.push(rectangle(), field('height', L('Высота, см', 'Height, cm'), 'number', { min: 1 }));
   if (tool === 'zone') {
     parts.push(choice('kind', L('Правило', 'Rule'), [['keep-out', L('не въезжать', 'keep out')], ['closed', L('закрыто', 'closed')], ['slow', L('медленно', 'slow')], ['one-way', L('в одну сторону', 'one way')]]), rectangle());

@@ -7,7 +7,7 @@ use crate::file::edit::tree::{Handle, Kind, entry};
 use crate::file::node::{Entry, Node, Value};
 
 impl Steps<'_> {
-    /// Where an Area stands on a Map; with `relink` what its links say of that is told anew.
+    /// Where an Area stands on a Map; with `relink` what its links say of that is told anew, and the Map keeps its coordinates.
     pub(super) fn stand(&mut self, step: &Step<'_>) -> Done {
         let area = self.find(&step.verb.node, &[Kind::Area])?;
         let map = match step.field("map") {
@@ -16,6 +16,7 @@ impl Steps<'_> {
         };
         self.put_down("items", "area", area, map, step)?;
         if step.field("relink").is_some_and(|node| node.value == Value::Bool(true)) {
+            self.keep_coordinates(area, step.span());
             self.relink(area);
         }
         Ok(())

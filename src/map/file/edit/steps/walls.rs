@@ -2,7 +2,8 @@
 //!
 //! **Invariant**: a side keeps its id, and with it its links, doors and properties; what is cut off gets an id of its own, and
 //! what links say of where sides lie is told anew. An Orthoframe that others are made of too is left to them: the room gets a
-//! copy.
+//! copy. Coordinates stay what they were: whatever stands in a room, on its Map, or was seen there, stays where it is, also
+//! where a corner leaves the origin.
 
 use std::collections::BTreeSet;
 
@@ -16,6 +17,10 @@ use crate::file::node::{Entry, Node, Span, Value};
 
 /// Shorter than this is no side, cm.
 const LEAST: f64 = 1.0;
+/// What is nearer to the origin than this stands there, cm.
+const THERE: f64 = 0.01;
+/// What differs by no more is the same number, worked out in another way; cm or degrees.
+const EXACT: f64 = 1e-6;
 
 /// One base vector as it is written, with what else is said of it.
 struct Side {
@@ -128,19 +133,74 @@ impl Steps<'_> {
                 &points_node.span,
             ));
         }
-        let Stands { at: origin, degrees } = self.frame_of(area, &item)?;
-        let (sin, cos) = sin_cos(degrees);
-        let inner = |p: &Vec<f64>| {
-            let (dx, dy) = (p[0] - origin[0], p[1] - origin[1]);
-            [cos * dx + sin * dy, cos * dy - sin * dx]
-        };
-        let corners: Vec<[f64; 2]> = points.iter().map(inner).collect();
+        let mut stands = self.frame_of(area, &item)?;
+        // The base item gives the room its coordinates: where no corner of it stands at their origin any more, its own
+        // origin does.
+        let leaves = !points.iter().any(|p| p[0].hypot(p[1]) < THERE) && !stands.is_at_origin();
+        if leaves && self.is_base(area, &item) {
+            stands = Stands::default();
+            self.stand_at_origin(area, &item);
+        }
+        let corners: Vec<[f64; 2]> = points.iter().map(|p| stands.invert([p[0], p[1]])).collect();
         for (index, side) in sides.iter_mut().enumerate() {
             (side.from, side.to) = (corners[index], corners[(index + 1) % corners.len()]);
         }
         self.put_sides(own, sides, step.span());
+        self.keep_coordinates(area, step.span());
         self.relink(area);
         Ok(())
+    }
+
+    /// Whether an item is the one that gives its Area the coordinates.
+    fn is_base(&self, area: Handle, item: &str) -> bool {
+        let items = self.tree.get(area).and_then(|n| n.entry("items"));
+        let base = base_of(items.map_or(&[][..], |e| e.node.elements()));
+        base.and_then(|n| n.entry("id")).and_then(|e| e.node.text()) == Some(item)
+    }
+
+    /// An item that stands with its own origin at that of its Area, and along its axes.
+    fn stand_at_origin(&mut self, area: Handle, item: &str) {
+        let items = self.change(area).entry_mut("items").map(|e| &mut e.node.value);
+        let Some(Value::List(items)) = items else { return };
+        let is_it = |n: &&mut Node| n.entry("id").and_then(|e| e.node.text()) == Some(item);
+        items.iter_mut().filter(is_it).for_each(|n| {
+            n.drop_entry("at");
+            n.drop_entry("angle");
+        });
+    }
+
+    /// A Map whose coordinates an Area gave keeps them as its own when that one leaves their origin: what was seen there, and
+    /// the robot, are told in them.
+    pub(super) fn keep_coordinates(&mut self, area: Handle, span: &Span) {
+        let key = self.tree.key(area).to_owned();
+        for map in self.tree.all(Kind::Map) {
+            let Some(record) = self.tree.get(map) else { continue };
+            let has_own = record.entry("frame").and_then(|e| e.node.text());
+            let items = record.entry("items").map_or(&[][..], |e| e.node.elements());
+            let base = base_of(items);
+            let is_of = |n: &&Node| n.entry("area").and_then(|e| e.node.text()) == Some(&key);
+            let Some(base) = base.filter(is_of) else { continue };
+            if has_own.is_some_and(|frame| !frame.is_empty()) || self.is_at_origin(area, base) {
+                continue;
+            }
+            let frame = Value::Text(self.tree.key(map).to_owned());
+            self.change(map).put(entry("frame", span, frame));
+        }
+    }
+
+    /// Whether the base item of an Area that stands so on a Map has a corner, or its own origin, at that of the Map. What cannot
+    /// be measured is told by the checks.
+    fn is_at_origin(&self, area: Handle, on_map: &Node) -> bool {
+        let items = self.tree.get(area).and_then(|n| n.entry("items"));
+        let Some(base) = base_of(items.map_or(&[][..], |e| e.node.elements())) else { return true };
+        let (Ok(inner), Ok(outer)) = (Stands::of(base), Stands::of(on_map)) else { return true };
+        let Some(sides) = self.sides_of(base) else { return true };
+        let corners = sides.iter().map(|side| side.from);
+        let mut all = corners.map(|p| inner.apply(p)).chain([inner.at]);
+        all.any(|p| {
+            let [x, y] = outer.apply(p);
+            x.hypot(y) < THERE
+        })
     }
 
     /// The Orthoframe of an Area's item, made its own where others have it too, and the item's name. Without a name it is the
@@ -272,39 +332,78 @@ impl Steps<'_> {
         items.iter().find(is_it).map_or(Ok(Stands::default()), Stands::of)
     }
 
-    /// Where the sides of an Area lie to those that they are linked with on the Map is told anew.
+    /// Where the sides of an Area lie to those that they are linked with, on the Map and in the Area, is told anew.
     pub(super) fn relink(&mut self, area: Handle) {
         let key = self.tree.key(area).to_owned();
         let speaks = |text: &str| text.strip_prefix(&key).is_some_and(|rest| rest.starts_with('.'));
         for map in self.tree.all(Kind::Map) {
-            let links = self.tree.get(map).and_then(|m| m.entry("links"));
-            let links = links.map_or(&[][..], |e| e.node.elements());
-            let text = |link: &Node, end: &str| Some(link.entry(end)?.node.text()?.to_owned());
-            let mut found = Vec::new();
-            for (number, link) in links.iter().enumerate() {
-                let (Some(from), Some(to)) = (text(link, "from"), text(link, "to")) else {
-                    continue;
-                };
-                if !speaks(&from) && !speaks(&to) {
-                    continue;
-                }
-                // What cannot be measured is told by the checks.
-                if let (Some(one), Some(other)) = (self.placed(map, &from), self.placed(map, &to)) {
-                    let height = link.entry("rel").and_then(|e| numbers(&e.node).ok());
-                    let height = height.and_then(|rel| rel.get(2).copied()).unwrap_or(0.0);
-                    found.push((number, offset(&one, &other), height));
-                }
+            self.relink_in(map, speaks, |steps, side| steps.placed(map, side));
+        }
+        self.relink_in(area, |_| true, |steps, side| steps.placed_in(area, side));
+    }
+
+    /// The links of a Map or an Area that speak of what was changed, by where their sides are placed now.
+    fn relink_in(
+        &mut self,
+        owner: Handle,
+        speaks: impl Fn(&str) -> bool,
+        placed: impl Fn(&Self, &str) -> Option<[[f64; 2]; 2]>,
+    ) {
+        let links = self.tree.get(owner).and_then(|m| m.entry("links"));
+        let links = links.map_or(&[][..], |e| e.node.elements());
+        let text = |link: &Node, end: &str| Some(link.entry(end)?.node.text()?.to_owned());
+        let mut found = Vec::new();
+        for (at, link) in links.iter().enumerate() {
+            let (Some(from), Some(to)) = (text(link, "from"), text(link, "to")) else { continue };
+            if !speaks(&from) && !speaks(&to) {
+                continue;
             }
-            let links = self.change(map).entry_mut("links").map(|e| &mut e.node.value);
-            let Some(Value::List(links)) = links else { continue };
-            for (number, (by, degrees), height) in found {
-                let span = links[number].span.clone();
-                let node = |x: f64| Node { span: span.clone(), value: written(x) };
-                let rel = [by[0], by[1], height].map(node);
-                links[number].put(entry("rel", &span, Value::List(rel.into())));
-                links[number].put(entry("angle", &span, written(degrees)));
+            // What cannot be measured is told by the checks.
+            if let (Some(one), Some(other)) = (placed(self, &from), placed(self, &to)) {
+                let rel = link.entry("rel").and_then(|e| numbers(&e.node).ok()).unwrap_or_default();
+                let angle = link.entry("angle").and_then(|e| number(&e.node).ok()).unwrap_or(0.0);
+                let told = |axis: usize| rel.get(axis).copied().unwrap_or(0.0);
+                let (by, degrees) = offset(&one, &other);
+                let is_as_told = |is: f64, told: f64| (is - told).abs() < EXACT;
+                if !(is_as_told(by[0], told(0)) && is_as_told(by[1], told(1)))
+                    || !is_as_told(degrees, angle)
+                {
+                    found.push((at, (by, degrees), told(2)));
+                }
             }
         }
+        if found.is_empty() {
+            return;
+        }
+        let links = self.change(owner).entry_mut("links").map(|e| &mut e.node.value);
+        let Some(Value::List(links)) = links else { return };
+        for (at, (by, degrees), height) in found {
+            let span = links[at].span.clone();
+            let node = |x: f64| Node { span: span.clone(), value: written(x) };
+            let rel = [by[0], by[1], height].map(node);
+            links[at].put(entry("rel", &span, Value::List(rel.into())));
+            links[at].put(entry("angle", &span, written(degrees)));
+        }
+    }
+
+    /// A side «item.side» of an Area, in its frame; none where that is no side.
+    fn placed_in(&self, area: Handle, side: &str) -> Option<[[f64; 2]; 2]> {
+        let (item, side) = side.rsplit_once('.')?;
+        let items = self.tree.get(area)?.entry("items")?.node.elements();
+        let id = |n: &Node| Some(n.entry("id")?.node.text()?.to_owned());
+        let item = items.iter().find(|n| id(n).as_deref() == Some(item))?;
+        let stands = Stands::of(item).ok()?;
+        let sides = self.sides_of(item)?;
+        let side = sides.iter().find(|s| s.id == side)?;
+        Some([side.from, side.to].map(|p| stands.apply(p)))
+    }
+
+    /// The base of what an item is made of, where it is written soundly.
+    fn sides_of(&self, item: &Node) -> Option<Vec<Side>> {
+        let key = item.entry("orthoframe")?.node.text()?;
+        let all = self.tree.find(key, &[Kind::Orthoframe]);
+        let base = all.into_iter().find(|h| self.tree.key(*h) == key)?;
+        self.sides(base, &item.span).ok()
     }
 
     /// A side «area.item.side» or «area.side» on a Map: where it begins and where it ends.
@@ -325,17 +424,18 @@ impl Steps<'_> {
             Some(name) => items.iter().find(|i| text(i, "id").as_deref() == Some(name))?,
             None => items.first()?,
         };
-        let base = text(item, "orthoframe")?;
-        let base = self
-            .tree
-            .find(&base, &[Kind::Orthoframe])
-            .into_iter()
-            .find(|h| self.tree.key(*h) == base)?;
-        let sides = self.sides(base, &item.span).ok()?;
+        let sides = self.sides_of(item)?;
         let side = sides.iter().find(|s| s.id == side)?;
         let (inner, outer) = (Stands::of(item).ok()?, Stands::of(on_map).ok()?);
         Some([side.from, side.to].map(|p| outer.apply(inner.apply(p))))
     }
+}
+
+/// Of the items of an Area, or of a Map, the one that gives it its coordinates: that which says so, or else the first.
+fn base_of(items: &[Node]) -> Option<&Node> {
+    let mut standing = items.iter().filter(|n| n.value != Value::Nothing);
+    let is_base = |n: &&Node| n.entry("base").is_some_and(|e| e.node.value == Value::Bool(true));
+    standing.clone().find(is_base).or_else(|| standing.next())
 }
 
 /// Where something stands: its origin, and its angle in degrees.
@@ -353,6 +453,16 @@ impl Stands {
             at: at.map_or([0.0; 2], |list| [list[0], list[1]]),
             degrees: degrees.unwrap_or(0.0),
         })
+    }
+
+    fn is_at_origin(self) -> bool {
+        self.at[0].hypot(self.at[1]) < THERE
+    }
+
+    fn invert(self, p: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = sin_cos(self.degrees);
+        let (dx, dy) = (p[0] - self.at[0], p[1] - self.at[1]);
+        [cos * dx + sin * dy, cos * dy - sin * dx]
     }
 
     fn apply(self, p: [f64; 2]) -> [f64; 2] {
@@ -531,5 +641,152 @@ mod tests {
         assert_eq!(room(&shaped, "Два"), room(&world, "Два"));
         let fewer = "[[edit]]\nshape = \"Раз\"\npoints = [[300, 0], [300, 400], [0, 0]]\n";
         assert!(edited(&world, fewer).is_err());
+    }
+
+    /// Where all things, places and rooms but one are on their Maps.
+    fn standing(world: &World, but: AreaId) -> Vec<(String, [f64; 4])> {
+        let placed = |area: AreaId| world.placement(area).expect("every room stands on a map").1;
+        let things = world.replicas.values().map(|r| {
+            let on = placed(r.area).compose(&r.frame);
+            (r.name.clone(), [on.x.get(), on.y.get(), on.z.get(), on.angle.get()])
+        });
+        let places = world.places.values().map(|p| {
+            let at = placed(p.area).apply(p.at);
+            (p.name.clone(), [at.x, at.y, 0.0, 0.0])
+        });
+        let rooms = world.areas.values().filter(|area| area.id != but).flat_map(|area| {
+            let corners = world.area_polygons(area.id).concat().into_iter();
+            corners
+                .map(|p| placed(area.id).apply(p))
+                .map(|p| (area.name.clone(), [p.x, p.y, 0.0, 0.0]))
+        });
+        things.chain(places).chain(rooms).collect()
+    }
+
+    fn is_same(was: &[(String, [f64; 4])], is: &[(String, [f64; 4])]) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6;
+        was.len() == is.len()
+            && was.iter().zip(is).all(|((a, p), (b, q))| a == b && p.iter().zip(q).all(near))
+    }
+
+    /// The corners of the parts of an Area as they stand in it, by the item's id.
+    fn corners(world: &World, area: AreaId) -> Vec<(String, Vec<Point>)> {
+        let items = world.areas[&area].items.iter();
+        let of = |item: &crate::Item| {
+            let corners = world.orthoframe_of(item).corners();
+            (item.id.clone(), corners.map(|p| item.frame.apply(p)).collect())
+        };
+        items.map(of).collect()
+    }
+
+    /// Puts every corner of every room elsewhere, those at the origins among them; how many edits there were, and how many of
+    /// these of corners at the origin of their room.
+    fn put_elsewhere(world: &World, by: [f64; 2]) -> (usize, usize) {
+        let (mut done, mut at_origin) = (0, 0);
+        for area in world.areas.values() {
+            let before = standing(world, area.id);
+            for (item, was) in corners(world, area.id) {
+                for moved in 0..was.len() {
+                    let mut wanted = was.clone();
+                    (wanted[moved].x, wanted[moved].y) =
+                        (wanted[moved].x + by[0], wanted[moved].y + by[1]);
+                    let points: Vec<String> =
+                        wanted.iter().map(|p| format!("[{}, {}]", p.x, p.y)).collect();
+                    let text = format!(
+                        "[[edit]]\nshape = {:?}\nitem = {item:?}\npoints = [{}]\n",
+                        area.name,
+                        points.join(", ")
+                    );
+                    let after = match edited(world, &text) {
+                        Ok(after) => after,
+                        Err(why) => {
+                            // A door that would not fit, a room that would lie over another: never the origin.
+                            assert!(!why.contains("начале координат"), "{text}: {why}");
+                            continue;
+                        }
+                    };
+                    assert!(is_same(&before, &standing(&after, area.id)), "{text}");
+                    for (id, is) in corners(&after, area.id) {
+                        let own = was_of(world, area.id, &id);
+                        let wanted = if id == item { &wanted } else { &own };
+                        assert!(
+                            is.iter().zip(wanted).all(|(p, q)| (p - q).norm() < 1e-6),
+                            "{text}: {is:?}"
+                        );
+                    }
+                    // What is written reads back as the same map.
+                    let file = Source::new("map.toml", after.to_toml());
+                    let again = World::parse(&file, Format::Toml).expect("it is sound");
+                    assert!(is_same(&standing(&after, area.id), &standing(&again, area.id)));
+                    done += 1;
+                    at_origin += usize::from(was[moved].coords.norm() < 0.01);
+                }
+            }
+        }
+        (done, at_origin)
+    }
+
+    fn was_of(world: &World, area: AreaId, item: &str) -> Vec<Point> {
+        let all = corners(world, area);
+        all.into_iter().find(|(id, _)| id == item).expect("no item goes").1
+    }
+
+    #[test]
+    fn a_corner_at_the_origin_is_put_elsewhere_and_all_that_stands_there_stays() {
+        let mut sums = (0, 0);
+        for map in ["rb2", "lab", "two-storeys"] {
+            let path = format!("{}/../../maps/{map}.toml", env!("CARGO_MANIFEST_DIR"));
+            let world = World::load(path).expect("the map is sound");
+            for by in [[0.0, 3.0], [4.0, 0.0], [-2.0, -2.0], [2.5, 1.5]] {
+                let (done, at_origin) = put_elsewhere(&world, by);
+                sums = (sums.0 + done, sums.1 + at_origin);
+            }
+        }
+        assert!(sums.0 > 60 && sums.1 > 5, "{sums:?}");
+    }
+
+    /// A room whose base item stands turned, with another part linked to it, which gives the Map its coordinates too.
+    #[test]
+    fn a_room_of_two_parts_gives_up_the_origin_of_its_map() {
+        let text = r#"
+            format = 1
+            [orthoframe.square]
+            height = 270
+            rect = [400, 300]
+            [orthoframe.annex]
+            height = 270
+            rect = [200, 400]
+            [object.box]
+            name = "Ящик"
+            items = [{ id = "A", orthoframe = "cube" }]
+            [orthoframe.cube]
+            height = 30
+            rect = [30, 30]
+            [area.one]
+            name = "Раз"
+            items = [
+                { id = "A", orthoframe = "square", angle = 90, at = [300, 0] },
+                { id = "B", orthoframe = "annex", at = [300, 0] },
+            ]
+            links = [{ from = "A.A", to = "B.D" }]
+            replicas = [{ name = "Ящик-1", object = "box", at = [100, 100] }]
+            places = [{ name = "Пост", at = [200, 200] }]
+            [map.floor]
+            name = "Этаж"
+            items = [{ area = "one", angle = 90, at = [400, 0] }]
+            [robot]
+            start = "Пост"
+        "#;
+        let world = World::parse(&Source::new("map.toml", text), Format::Toml);
+        let world = world.unwrap_or_else(|faults| panic!("{faults}"));
+        for by in [[0.0, 30.0], [15.0, 0.0], [-20.0, -25.0]] {
+            let (done, at_origin) = put_elsewhere(&world, by);
+            assert!(done >= 4 && at_origin >= 1, "{by:?}: {done} {at_origin}");
+        }
+        let stands = "[[edit]]\nstand = \"Раз\"\nat = [340, 25]\nrelink = true\n";
+        let moved = edited(&world, stands).expect("the map keeps its coordinates");
+        assert_eq!(moved.maps.values().next().expect("there is one").frame, "floor");
+        let told = "[[edit]]\nstand = \"Раз\"\nat = [340, 25]\n";
+        assert!(edited(&world, told).is_err(), "a file says what it means");
     }
 }
