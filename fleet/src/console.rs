@@ -1,7 +1,8 @@
-//! The fleet as an operator sees it: one page, and the JSON behind it, under what the operator's key may see.
+//! The fleet as an operator sees it: a page, and the JSON behind it, under what the operator's key may see and do.
 
 use axum::extract::{Query, State};
-use axum::response::Html;
+use axum::http::header::{CONTENT_TYPE, SET_COOKIE};
+use axum::response::IntoResponse;
 use axum::{Json, Router, routing::get, routing::post};
 use deadpool_postgres::Transaction;
 use serde::{Deserialize, Serialize};
@@ -9,97 +10,214 @@ use serde::{Deserialize, Serialize};
 use crate::ask::{Answer, ask, rows};
 use crate::db::{Who, enter};
 use crate::error::{FleetError, Result};
+use crate::handout::now;
+use crate::keys;
+use crate::map::{Format, World};
+use crate::picture::{Wanted, plan, world};
 use crate::query::{Question, Table};
+use crate::revise::{self, Edit, Revised};
 use crate::serve::{Centre, Key};
 use crate::sheets::revision;
+use crate::store::Change;
+use crate::units::{Language, Source};
 
-const PAGE: &str = include_str!("console.html");
+/// Of each list so many rows at most; a page of more is read by nobody.
+const MOST: usize = 300;
+
+/// The paths of operators.
+pub(crate) fn router() -> Router<Centre> {
+    let file = |kind: &'static str, text: &'static str| {
+        get(move || async move { ([(CONTENT_TYPE, kind)], text) })
+    };
+    Router::new()
+        .route("/", file("text/html; charset=utf-8", include_str!("page/index.html")))
+        .route("/app.js", file("text/javascript; charset=utf-8", include_str!("page/app.js")))
+        .route("/style.css", file("text/css; charset=utf-8", include_str!("page/style.css")))
+        .route("/icon.svg", file("image/svg+xml", include_str!("page/icon.svg")))
+        .route("/v1/enter", post(entered))
+        .route("/v1/leave", post(left))
+        .route("/v1/fleet", get(fleet))
+        .route("/v1/building", get(building))
+        .route("/v1/plan", get(drawn))
+        .route("/v1/map.toml", get(file_of))
+        .route("/v1/ask", post(asked))
+        .route("/v1/query", post(queried))
+        .route("/v1/edit", post(edited))
+        .route("/v1/revise", post(revised))
+        .route("/v1/adopt", post(adopted))
+        .route("/v1/insist", post(insisted))
+}
+
+#[derive(Deserialize)]
+struct Entering {
+    key: String,
+}
+
+async fn entered(
+    State(centre): State<Centre>,
+    Json(entering): Json<Entering>,
+) -> Result<impl IntoResponse> {
+    let client = centre.client().await?;
+    let session = keys::enter(&client, entering.key.trim()).await?;
+    Ok(([(SET_COOKIE, centre.gate.cookie(&session))], Json(())))
+}
+
+async fn left(State(centre): State<Centre>, key: Key) -> Result<impl IntoResponse> {
+    keys::leave(&*centre.client().await?, &key.0).await?;
+    Ok(([(SET_COOKIE, centre.gate.cookie(""))], Json(())))
+}
+
+async fn operator(transaction: &Transaction<'_>, key: &Key) -> Result<bool> {
+    match enter(transaction, &key.0).await? {
+        Who::Operator { edits, .. } => Ok(edits),
+        Who::Robot { .. } => Err(FleetError::Forbidden),
+    }
+}
+
+/// An operator who edits, as the author of a revision.
+async fn editor(transaction: &Transaction<'_>, key: &Key, reason: String) -> Result<Change> {
+    if !operator(transaction, key).await? {
+        return Err(FleetError::Forbidden);
+    }
+    let name: String = transaction.query_one("SELECT fleet.my_name()", &[]).await?.get(0);
+    Ok(Change::new(name, now(), reason))
+}
+
+fn moment(column: &str) -> String {
+    format!("to_char({column} AT TIME ZONE 'UTC', 'YYYY-MM-DD\"T\"HH24:MI:SS\"Z\"')")
+}
 
 /// What the page shows.
 #[derive(Debug, Serialize)]
 struct Fleet {
+    name: String,
+    edits: bool,
+    /// How many there are of each, whatever is shown.
+    totals: Table,
     buildings: Table,
     robots: Table,
     missions: Table,
     proposals: Table,
     conflicts: Table,
+    /// What could not be derived, and why.
+    stuck: Table,
 }
 
-/// The paths of operators.
-pub(crate) fn router() -> Router<Centre> {
-    Router::new()
-        .route("/", get(|| async { Html(PAGE) }))
-        .route("/v1/fleet", get(fleet))
-        .route("/v1/building", get(building))
-        .route("/v1/ask", post(asked))
-        .route("/v1/query", post(queried))
+#[derive(Deserialize)]
+struct Found {
+    /// Part of the name of a building or robot.
+    #[serde(default)]
+    find: String,
 }
 
-async fn operator(transaction: &Transaction<'_>, key: &Key) -> Result<()> {
-    match enter(transaction, &key.0).await? {
-        Who::Operator { .. } => Ok(()),
-        Who::Robot { .. } => Err(FleetError::Forbidden),
-    }
-}
+const TOTALS: &str = "SELECT (SELECT count(*) FROM fleet.building)::text, (SELECT count(*) FROM fleet.robot WHERE robot > 0)::text, \
+    (SELECT count(*) FROM fleet.mission WHERE ended IS NULL)::text, (SELECT count(*) FROM fleet.proposal)::text, \
+    (SELECT count(*) FROM (SELECT DISTINCT building, robot FROM fleet.conflict WHERE settled IS NULL) c)::text";
 
-const MOMENT: &str = "to_char($ AT TIME ZONE 'UTC', 'YYYY-MM-DD HH24:MI:SS')";
-
-fn moment(column: &str) -> String {
-    MOMENT.replace('$', column)
-}
-
-async fn fleet(State(centre): State<Centre>, key: Key) -> Result<Json<Fleet>> {
+async fn fleet(
+    State(centre): State<Centre>,
+    key: Key,
+    Query(Found { find }): Query<Found>,
+) -> Result<Json<Fleet>> {
     let mut client = centre.client().await?;
     let transaction = client.build_transaction().read_only(true).start().await?;
-    operator(&transaction, &key).await?;
+    let edits = operator(&transaction, &key).await?;
+    let name = transaction.query_one("SELECT fleet.my_name()", &[]).await?.get(0);
+    let columns = ["buildings", "robots", "missions", "proposals", "apart"];
+    let totals = rows(&transaction, &columns, TOTALS, &[]).await?;
+    let like = format!("%{}%", find.replace(['%', '_', '\\', '\0'], ""));
     let sql = format!(
         "SELECT b.building::text, b.name, count(r.robot) FILTER (WHERE r.robot > 0)::text, \
                 max(r.revision) FILTER (WHERE r.robot = 0)::text, {} \
-         FROM fleet.building b LEFT JOIN fleet.robot r USING (building) GROUP BY b.building, b.name ORDER BY b.building",
-        moment("max(r.reported)")
+         FROM fleet.building b LEFT JOIN fleet.robot r USING (building) WHERE b.name ILIKE $1 \
+         GROUP BY b.building, b.name ORDER BY b.building LIMIT {MOST}",
+        moment("max(r.reported) FILTER (WHERE r.robot > 0)")
     );
     let columns = ["building", "name", "robots", "centre", "reported"];
-    let buildings = rows(&transaction, &columns, &sql, &[]).await?;
+    let buildings = rows(&transaction, &columns, &sql, &[&like]).await?;
+    // Those that want somebody come first.
     let sql = format!(
-        "SELECT r.building::text, b.name, r.robot::text, r.name, r.revision::text, r.sequence::text, {}, \
+        "SELECT building::text, building_name, robot::text, name, state, {}, revision::text, sequence::text FROM ( \
+           SELECT r.*, b.name AS building_name, \
                 CASE WHEN r.reported IS NULL THEN 'silent' WHEN EXISTS (SELECT FROM fleet.conflict c \
                   WHERE c.building = r.building AND c.robot = r.robot AND c.settled IS NULL) THEN 'apart' \
+                WHEN r.reported < now() - interval '1 hour' THEN 'away' \
                 WHEN EXISTS (SELECT FROM fleet.mission m WHERE m.building = r.building AND m.robot = r.robot \
-                  AND m.ended IS NULL AND m.state = 'begun') THEN 'works' \
-                WHEN r.reported < now() - interval '1 hour' THEN 'away' ELSE 'here' END \
-         FROM fleet.robot r JOIN fleet.building b USING (building) WHERE r.robot > 0 ORDER BY r.building, r.robot",
-        moment("r.reported")
+                  AND m.ended IS NULL AND m.state = 'begun') THEN 'works' ELSE 'here' END AS state \
+           FROM fleet.robot r JOIN fleet.building b USING (building) \
+           WHERE r.robot > 0 AND (r.name ILIKE $1 OR b.name ILIKE $1)) r \
+         ORDER BY array_position(ARRAY['apart', 'away', 'works', 'here', 'silent'], state), building, robot LIMIT {MOST}",
+        moment("reported")
     );
     let columns =
-        ["building", "building_name", "robot", "name", "revision", "sequence", "reported", "state"];
-    let robots = rows(&transaction, &columns, &sql, &[]).await?;
+        ["building", "building_name", "robot", "name", "state", "reported", "revision", "sequence"];
+    let robots = rows(&transaction, &columns, &sql, &[&like]).await?;
+    let of = "JOIN fleet.building b USING (building) \
+              JOIN fleet.robot r ON r.building = x.building AND r.robot = x.robot \
+              WHERE (r.name ILIKE $1 OR b.name ILIKE $1)";
     let sql = format!(
-        "SELECT b.name, r.name, m.text, m.given_by, {}, CASE WHEN m.ended IS NOT NULL THEN 'ended' ELSE m.state END, {} \
-         FROM fleet.mission m JOIN fleet.building b USING (building) \
-         JOIN fleet.robot r ON r.building = m.building AND r.robot = m.robot \
-         ORDER BY m.ended IS NOT NULL, m.given DESC LIMIT 500",
-        moment("m.given"),
-        moment("m.ended")
+        "SELECT b.name, r.name, x.text, CASE WHEN x.ended IS NOT NULL THEN 'ended' ELSE x.state END, x.given_by, {}, {} \
+         FROM fleet.mission x {of} ORDER BY x.ended IS NOT NULL, x.given DESC LIMIT {MOST}",
+        moment("x.given"),
+        moment("x.ended")
     );
-    let columns = ["building", "robot", "text", "given_by", "given", "state", "ended"];
-    let missions = rows(&transaction, &columns, &sql, &[]).await?;
+    let columns = ["building_name", "robot_name", "text", "state", "given_by", "given", "ended"];
+    let missions = rows(&transaction, &columns, &sql, &[&like]).await?;
     let sql = format!(
-        "SELECT b.name, r.name, p.thing, p.mapped_area, p.area, round(p.apart)::text, round((p.sure * 100)::numeric)::text, {} \
-         FROM fleet.proposal p JOIN fleet.building b USING (building) \
-         JOIN fleet.robot r ON r.building = p.building AND r.robot = p.robot \
-         ORDER BY p.sure DESC, b.name, p.thing LIMIT 500",
-        moment("p.seen")
+        "SELECT x.building::text, x.robot::text, b.name, r.name, x.thing, x.mapped_area, x.area, round(x.apart)::text, \
+                round((x.sure * 100)::numeric)::text, {} \
+         FROM fleet.proposal x {of} ORDER BY x.sure DESC, b.name, x.thing LIMIT {MOST}",
+        moment("x.seen")
     );
-    let columns =
-        ["building", "robot", "thing", "map_area", "seen_area", "apart_cm", "sure_percent", "seen"];
-    let proposals = rows(&transaction, &columns, &sql, &[]).await?;
-    let sql = "SELECT b.name, r.name, c.centre_revision::text, c.thing, c.centre, c.robots \
-               FROM fleet.conflict c JOIN fleet.building b USING (building) \
-               JOIN fleet.robot r ON r.building = c.building AND r.robot = c.robot \
-               WHERE c.settled IS NULL ORDER BY 1, 2, 4 LIMIT 500";
-    let columns = ["building", "robot", "centre_revision", "thing", "centre", "robots"];
-    let conflicts = rows(&transaction, &columns, sql, &[]).await?;
-    Ok(Json(Fleet { buildings, robots, missions, proposals, conflicts }))
+    let columns = [
+        "building",
+        "robot",
+        "building_name",
+        "robot_name",
+        "thing",
+        "map_area",
+        "seen_area",
+        "apart_cm",
+        "sure_percent",
+        "seen",
+    ];
+    let proposals = rows(&transaction, &columns, &sql, &[&like]).await?;
+    let sql = format!(
+        "SELECT x.building::text, x.robot::text, b.name, r.name, x.centre_revision::text, x.robot_revision::text, \
+                x.thing, x.centre, x.robots, {} \
+         FROM fleet.conflict x {of} AND x.settled IS NULL ORDER BY 1, 2, 7 LIMIT {MOST}",
+        moment("x.noted")
+    );
+    let columns = [
+        "building",
+        "robot",
+        "building_name",
+        "robot_name",
+        "centre_revision",
+        "robot_revision",
+        "thing",
+        "centre",
+        "robots",
+        "noted",
+    ];
+    let conflicts = rows(&transaction, &columns, &sql, &[&like]).await?;
+    let sql = format!(
+        "SELECT b.name, x.robot::text, x.revision::text, x.fault FROM fleet.work x JOIN fleet.building b USING (building) \
+         WHERE x.fault <> '' ORDER BY x.asked LIMIT {MOST}"
+    );
+    let stuck =
+        rows(&transaction, &["building_name", "robot", "revision", "fault"], &sql, &[]).await?;
+    Ok(Json(Fleet {
+        name,
+        edits,
+        totals,
+        buildings,
+        robots,
+        missions,
+        proposals,
+        conflicts,
+        stuck,
+    }))
 }
 
 #[derive(Deserialize)]
@@ -108,11 +226,17 @@ struct Of {
     robot: i64,
 }
 
-/// A building as one of its robots has it: maps, revisions and what follows from the map.
+/// A building as one of its robots has it: maps, revisions, what stands there, and what follows from the map.
 #[derive(Debug, Serialize)]
 struct Building {
+    name: String,
+    revision: i64,
+    edits: bool,
+    robots: Table,
     maps: Table,
+    things: Table,
     revisions: Table,
+    conflicts: Table,
     facts: Table,
 }
 
@@ -123,23 +247,82 @@ async fn building(
 ) -> Result<Json<Building>> {
     let mut client = centre.client().await?;
     let transaction = client.build_transaction().read_only(true).start().await?;
-    operator(&transaction, &key).await?;
-    revision(&transaction, of.building, of.robot).await?;
-    let sql = "SELECT \"ID\"::text, \"Name\" FROM map.\"Map\" WHERE building = $1 AND robot = $2 \
-               AND revision_to IS NULL AND NOT \"Deleted\" ORDER BY \"ID\"";
-    let maps = rows(&transaction, &["map", "name"], sql, &[&of.building, &of.robot]).await?;
+    let edits = operator(&transaction, &key).await?;
+    let revision = revision(&transaction, of.building, of.robot).await?;
+    let name = transaction
+        .query_one("SELECT name FROM fleet.building WHERE building = $1", &[&of.building])
+        .await?
+        .get(0);
     let sql = format!(
-        "SELECT \"Revision\"::text, {}, \"RecUser\", \"Reason\" FROM log.\"Revisions\" \
+        "SELECT robot::text, name, revision::text, {} FROM fleet.robot WHERE building = $1 ORDER BY robot LIMIT {MOST}",
+        moment("reported")
+    );
+    let columns = ["robot", "name", "revision", "reported"];
+    let robots = rows(&transaction, &columns, &sql, &[&of.building]).await?;
+    let asked: [&(dyn tokio_postgres::types::ToSql + Sync); 2] = [&of.building, &of.robot];
+    let sql = "SELECT m.\"ID\"::text, m.\"Name\" FROM map.\"DomainMaps\" d JOIN map.\"Map\" m \
+                 ON m.building = d.building AND m.robot = d.robot AND m.\"ID\" = d.\"MapID\" \
+                 AND m.revision_to IS NULL AND NOT m.\"Deleted\" \
+               WHERE d.building = $1 AND d.robot = $2 AND d.revision_to IS NULL AND NOT d.\"Deleted\" ORDER BY m.\"ID\"";
+    let maps = rows(&transaction, &["map", "name"], sql, &asked).await?;
+    let sql = "SELECT t.\"Name\", a.\"Name\", round(t.\"X\"::numeric, 1)::text, round(t.\"Y\"::numeric, 1)::text, \
+                 round(t.\"Ang\"::numeric, 1)::text FROM map.\"AreaObjects\" t LEFT JOIN map.\"Area\" a \
+                 ON a.building = t.building AND a.robot = t.robot AND a.\"ID\" = t.\"AreaID\" AND a.revision_to IS NULL \
+               WHERE t.building = $1 AND t.robot = $2 AND t.revision_to IS NULL AND NOT t.\"Deleted\" ORDER BY 2, 1 LIMIT 5000";
+    let columns = ["thing", "area", "x", "y", "angle"];
+    let things = rows(&transaction, &columns, sql, &asked).await?;
+    let sql = format!(
+        "SELECT \"Revision\"::text, {}, \"RecUser\", \"Reason\", \
+           (\"CreatedCount\" + \"ChangedCount\" + \"DeletedCount\")::text FROM log.\"Revisions\" \
          WHERE building = $1 AND robot = $2 ORDER BY \"Revision\" DESC LIMIT 100",
         moment("\"RecDate\"")
     );
-    let columns = ["revision", "at", "author", "reason"];
-    let revisions = rows(&transaction, &columns, &sql, &[&of.building, &of.robot]).await?;
+    let columns = ["revision", "at", "author", "reason", "records"];
+    let revisions = rows(&transaction, &columns, &sql, &asked).await?;
+    let sql = "SELECT robot::text, thing, centre, robots FROM fleet.conflict \
+               WHERE building = $1 AND ($2::bigint = 0 OR robot = $2) AND settled IS NULL ORDER BY robot, thing LIMIT 1000";
+    let conflicts =
+        rows(&transaction, &["robot", "thing", "centre", "robots"], sql, &asked).await?;
     let sql = "SELECT relation, subject, object FROM fleet.fact WHERE building = $1 AND robot = $2 \
-               AND revision_to IS NULL ORDER BY 1, 2, 3 LIMIT 5000";
-    let columns = ["relation", "subject", "object"];
-    let facts = rows(&transaction, &columns, sql, &[&of.building, &of.robot]).await?;
-    Ok(Json(Building { maps, revisions, facts }))
+               AND revision_to IS NULL ORDER BY 1, 2, 3 LIMIT 2000";
+    let facts = rows(&transaction, &["relation", "subject", "object"], sql, &asked).await?;
+    Ok(Json(Building { name, revision, edits, robots, maps, things, revisions, conflicts, facts }))
+}
+
+#[derive(Deserialize)]
+struct OfPlan {
+    building: i64,
+    robot: i64,
+    map: Option<u32>,
+    #[serde(default)]
+    believed: bool,
+}
+
+async fn drawn(
+    State(centre): State<Centre>,
+    key: Key,
+    Query(of): Query<OfPlan>,
+) -> Result<impl IntoResponse> {
+    let mut client = centre.client().await?;
+    let transaction = client.build_transaction().read_only(true).start().await?;
+    operator(&transaction, &key).await?;
+    let OfPlan { building, robot, map, believed } = of;
+    let language = Language::Russian;
+    let wanted = Wanted { building, robot, map, as_believed: believed, language };
+    Ok(([(CONTENT_TYPE, "image/svg+xml")], plan(&transaction, wanted).await?))
+}
+
+/// The map as a file, to be corrected and given back.
+async fn file_of(
+    State(centre): State<Centre>,
+    key: Key,
+    Query(of): Query<Of>,
+) -> Result<impl IntoResponse> {
+    let mut client = centre.client().await?;
+    let transaction = client.build_transaction().read_only(true).start().await?;
+    operator(&transaction, &key).await?;
+    let world = world(&transaction, of.building, of.robot).await?;
+    Ok(([(CONTENT_TYPE, "text/plain; charset=utf-8")], world.to_toml()))
 }
 
 #[derive(Deserialize)]
@@ -169,4 +352,97 @@ async fn queried(
     // Joins of anything with anything end.
     transaction.batch_execute("SET LOCAL statement_timeout = '30s'").await?;
     Ok(Json(Question::parse(&asked.question)?.run(&transaction).await?))
+}
+
+#[derive(Deserialize)]
+struct Editing {
+    building: i64,
+    /// The revision that it was made on.
+    on: i64,
+    #[serde(default)]
+    reason: String,
+    /// Check and tell what would change; write nothing.
+    #[serde(default)]
+    r#try: bool,
+    /// Steps and sections as of a map file, in TOML or JSON.
+    text: String,
+}
+
+async fn edited(
+    State(centre): State<Centre>,
+    key: Key,
+    Json(editing): Json<Editing>,
+) -> Result<Json<Revised>> {
+    let mut client = centre.client().await?;
+    let transaction = client.transaction().await?;
+    let change = editor(&transaction, &key, editing.reason).await?;
+    let Editing { building, on, r#try: tries, text, .. } = editing;
+    let format = Format::of_text(std::path::Path::new("правка"), &text);
+    let revised =
+        revise::edit(&transaction, &Edit { building, on, text, format, tries }, &change).await?;
+    if !tries {
+        transaction.commit().await?;
+    }
+    Ok(Json(revised))
+}
+
+#[derive(Deserialize)]
+struct Revising {
+    building: i64,
+    on: i64,
+    #[serde(default)]
+    reason: String,
+    /// A map file.
+    map: String,
+}
+
+async fn revised(
+    State(centre): State<Centre>,
+    key: Key,
+    Json(revising): Json<Revising>,
+) -> Result<Json<i64>> {
+    let mut client = centre.client().await?;
+    let transaction = client.transaction().await?;
+    let change = editor(&transaction, &key, revising.reason).await?;
+    let format = Format::of_text(std::path::Path::new("карта"), &revising.map);
+    let world = World::parse(&Source::new("карта", revising.map), format)
+        .map_err(|faulty| FleetError::content(revise::faults(&faulty).join("\n")))?;
+    let Revising { building, on, .. } = revising;
+    let made = revise::revise(&transaction, building, Some(on), &world, &change).await?;
+    transaction.commit().await?;
+    Ok(Json(made))
+}
+
+#[derive(Deserialize)]
+struct Settling {
+    building: i64,
+    robot: i64,
+    #[serde(default)]
+    reason: String,
+}
+
+async fn adopted(
+    State(centre): State<Centre>,
+    key: Key,
+    Json(settling): Json<Settling>,
+) -> Result<Json<i64>> {
+    let mut client = centre.client().await?;
+    let transaction = client.transaction().await?;
+    let change = editor(&transaction, &key, settling.reason).await?;
+    let made = revise::adopt(&transaction, settling.building, settling.robot, &change).await?;
+    transaction.commit().await?;
+    Ok(Json(made))
+}
+
+async fn insisted(
+    State(centre): State<Centre>,
+    key: Key,
+    Json(settling): Json<Settling>,
+) -> Result<Json<()>> {
+    let mut client = centre.client().await?;
+    let transaction = client.transaction().await?;
+    editor(&transaction, &key, String::new()).await?;
+    revise::insist(&transaction, settling.building, settling.robot).await?;
+    transaction.commit().await?;
+    Ok(Json(()))
 }

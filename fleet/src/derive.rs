@@ -143,7 +143,7 @@ async fn put_facts(
     let [r, s, o] = columns(derived.difference(&before).collect());
     if !r.is_empty() {
         let sql = "INSERT INTO fleet.fact (building, robot, relation, subject, object, revision, since) \
-                   SELECT $1, $2, u.r, u.s, u.o, $3, $4 FROM unnest($5::text[], $6::text[], $7::text[]) AS u (r, s, o)";
+                   SELECT $1, $2, unnest($5::text[]), unnest($6::text[]), unnest($7::text[]), $3, $4";
         transaction.execute(sql, &[&building, &robot, &revision, &at, &r, &s, &o]).await?;
         let kinds =
             r.iter().zip(&o).filter(|(relation, _)| *relation == IS_A).map(|(_, kind)| kind);

@@ -18,6 +18,12 @@ impl InEnglish for FleetError {
             Self::Plain { address } => {
                 format!("without TLS the server listens to this machine only, not to {address}")
             }
+            Self::PlainDatabase { host } => {
+                format!("there is no connection without TLS to the database at {host}")
+            }
+            Self::Moved { revision } => {
+                format!("the centre's map has changed meanwhile: it is at revision {revision}")
+            }
             Self::Unknown { what } => format!("the centre does not have: {what}"),
             Self::Io { path, source } => format!("{path}: {source}"),
             Self::Store(error) => error.english(),
@@ -33,6 +39,10 @@ impl InEnglish for FleetError {
             Self::Diverged { .. } => "send the whole store",
             Self::Line { .. } => "check the line and the address",
             Self::Plain { .. } => "give --cert and --tls-key, or listen to 127.0.0.1",
+            Self::PlainDatabase { .. } => {
+                "take sslmode=disable out of the address; a certificate of one's own: --db-authority"
+            }
+            Self::Moved { .. } => "look at the new revision and try again",
             Self::Store(error) => return error.english_help(),
             Self::Content { .. } | Self::Unknown { .. } | Self::Io { .. } => return None,
         };

@@ -52,6 +52,19 @@ pub enum FleetError {
     #[diagnostic(code(fleet::plain), help("дайте --cert и --tls-key или слушайте 127.0.0.1"))]
     Plain { address: String },
 
+    /// A plain connection to a database beyond this machine.
+    #[error("к базе данных на {host} без TLS не подключаемся")]
+    #[diagnostic(
+        code(fleet::plain_database),
+        help("уберите sslmode=disable из адреса; чужой сертификат: --db-authority")
+    )]
+    PlainDatabase { host: String },
+
+    /// A revision that was made on an older one.
+    #[error("карта центра тем временем изменилась: сейчас ревизия {revision}")]
+    #[diagnostic(code(fleet::moved), help("посмотрите на новую ревизию и повторите"))]
+    Moved { revision: i64 },
+
     /// There is no such thing at the centre.
     #[error("в центре нет: {what}")]
     #[diagnostic(code(fleet::unknown))]
@@ -70,14 +83,17 @@ pub enum FleetError {
 
 impl From<tokio_postgres::Error> for FleetError {
     fn from(error: tokio_postgres::Error) -> Self {
-        // The client's own text of a server's refusal is "db error" and no more.
-        let what = error.as_db_error().map_or_else(
-            || error.to_string(),
-            |told| {
-                let place = told.table().map_or_else(String::new, |t| format!(" ({t})"));
-                format!("{}{place}", told.message())
-            },
-        );
+        // The client's own text of a server's refusal is "db error" and no more; and of a line's fault, that there is one.
+        let told = || match std::error::Error::source(&error) {
+            Some(cause) if !error.to_string().contains(&cause.to_string()) => {
+                format!("{error}: {cause}")
+            }
+            _ => error.to_string(),
+        };
+        let what = error.as_db_error().map_or_else(told, |told| {
+            let place = told.table().map_or_else(String::new, |t| format!(" ({t})"));
+            format!("{}{place}", told.message())
+        });
         Self::Database { what }
     }
 }

@@ -1,6 +1,6 @@
 //! The centre's own map of a building, and how it goes to the building's robots.
 //!
-//! The map of robot 0 is the one that is handed out; it grows by revisions, as a robot's does. What both sides last agreed
+//! The map of robot 0 is the one that is handed out; it grows by revisions (see [`revise`](crate::revise)), as a robot's does. What both sides last agreed
 //! on is noted as a pair of revisions: the centre's, and the robot's own in which it stood there then. A robot that has
 //! changed its map since keeps it, the centre keeps its own, and what either changed is noted thing by thing (see
 //! [`pull`](crate::pull)). A person settles it by making a revision of one of the two.
@@ -14,12 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::db::{Who, enter};
 use crate::error::{FleetError, Result};
-use crate::ingest::put_centre;
-use crate::map::World;
 use crate::sheets::{revision, sheet};
-use crate::store::records::Revisions;
-use crate::store::shipping::{Written, pack_rows};
-use crate::store::{Change, Record, Row, Sheet, Stamp, Store, Table, Version};
+use crate::store::Sheet;
+use crate::store::shipping::pack_rows;
 use crate::units::Timestamp;
 
 /// What a robot hears of the centre's map.
@@ -50,132 +47,6 @@ pub struct Conflict {
     pub centre: i64,
     pub robot: i64,
     pub things: Vec<Apart>,
-}
-
-/// Makes the centre's map of a building equal to a world from a map file: what bears a known name keeps its id. Returns the
-/// revision, or the old one where nothing changed.
-///
-/// # Errors
-/// [`FleetError::Store`] where the world is ambiguous, [`FleetError::Database`].
-pub async fn revise(
-    client: &mut Object,
-    building: i64,
-    world: &World,
-    change: &Change,
-) -> Result<i64> {
-    let world = world.clone();
-    let given = change.clone();
-    become_sheet(client, building, change, move |old| numbered(old, &world, &given)).await
-}
-
-/// Makes the centre's map of a building equal to a robot's, as it is here, and notes that the two agree.
-///
-/// # Errors
-/// [`FleetError::Unknown`], [`FleetError::Database`].
-pub async fn adopt(client: &mut Object, building: i64, robot: i64, change: &Change) -> Result<i64> {
-    let transaction = client.transaction().await?;
-    let theirs = revision(&transaction, building, robot).await?;
-    let map = sheet(&transaction, building, robot, theirs).await?;
-    transaction.commit().await?;
-    let centre = become_sheet(client, building, change, move |_| Ok(map)).await?;
-    let sql = "UPDATE fleet.robot SET agreed_centre = $3, agreed_robot = $4 WHERE building = $1 AND robot = $2";
-    client.execute(sql, &[&building, &robot, &centre, &theirs]).await?;
-    let sql = "UPDATE fleet.conflict SET settled = now() WHERE building = $1 AND robot = $2 AND settled IS NULL";
-    client.execute(sql, &[&building, &robot]).await?;
-    Ok(centre)
-}
-
-/// Settles a conflict for the centre's map: the robot takes the newest one the next time, whatever it changed until now.
-///
-/// # Errors
-/// [`FleetError::Unknown`], [`FleetError::Database`].
-pub async fn insist(client: &mut Object, building: i64, robot: i64) -> Result<()> {
-    let transaction = client.transaction().await?;
-    let theirs = revision(&transaction, building, robot).await?;
-    let sql = "UPDATE fleet.robot SET agreed_robot = $3, agreed_centre = 0 WHERE building = $1 AND robot = $2";
-    transaction.execute(sql, &[&building, &robot, &theirs]).await?;
-    transaction.commit().await?;
-    Ok(())
-}
-
-/// The sheet of a world under the ids of an older one: a store does it, in a folder of its own.
-fn numbered(old: &Sheet, world: &World, change: &Change) -> Result<Sheet> {
-    let failed = |source| FleetError::Io { path: "TMPDIR".to_owned(), source };
-    let dir = tempfile::tempdir().map_err(failed)?;
-    let (mut store, _) = Store::open(dir.path().join("store"))?;
-    if !old.is_empty() {
-        store.import_sheet(old, change)?;
-    }
-    store.import(world, change)?;
-    Ok(store.reader().sheet()?)
-}
-
-async fn become_sheet(
-    client: &mut Object,
-    building: i64,
-    change: &Change,
-    make: impl FnOnce(&Sheet) -> Result<Sheet> + Send,
-) -> Result<i64> {
-    let transaction = client.transaction().await?;
-    let lock = "SELECT revision FROM fleet.robot WHERE building = $1 AND robot = 0 FOR UPDATE";
-    let row = transaction.query_opt(lock, &[&building]).await?;
-    let before: i64 =
-        row.ok_or_else(|| FleetError::Unknown { what: format!("здание {building}") })?.get(0);
-    let old = sheet(&transaction, building, 0, before).await?;
-    let new = tokio::task::block_in_place(|| make(&old))?;
-    if new.world()?.is_none() {
-        return Err(FleetError::content("на карте нет Домейна"));
-    }
-    let written = changes(&old, &new, before + 1, change);
-    if written.is_empty() {
-        return Ok(before);
-    }
-    put_centre(&transaction, building, before + 1, written).await?;
-    transaction.commit().await?;
-    Ok(before + 1)
-}
-
-/// What turns one sheet into another, as versions of a revision, with the entry in the list of revisions.
-fn changes(old: &Sheet, new: &Sheet, number: i64, change: &Change) -> Vec<Written> {
-    let revision = number.unsigned_abs();
-    let version = |row: &Row, deleted: bool| Version {
-        stamp: Stamp { revision, at: change.at, user: change.user.clone(), deleted },
-        row: row.clone(),
-    };
-    let mut written = Vec::new();
-    let mut counts = [0_u32; 3];
-    for (table, key, row) in new.iter() {
-        let before = old.get(table, key);
-        if before != Some(row) {
-            counts[usize::from(before.is_some())] += 1;
-            written.push(Written { table, version: version(row, false), replaces: Some(0) });
-        }
-    }
-    for (table, key, row) in old.iter() {
-        if new.get(table, key).is_none() {
-            counts[2] += 1;
-            written.push(Written { table, version: version(row, true), replaces: Some(0) });
-        }
-    }
-    if !written.is_empty() {
-        let [created, changed, deleted] = counts;
-        let entry = Revisions {
-            revision: u32::try_from(number).unwrap_or(u32::MAX),
-            kind: "edit".to_owned(),
-            reason: change.reason.clone(),
-            undoes: None,
-            created,
-            changed,
-            deleted,
-        };
-        let row = entry.to_row();
-        written.push(Written {
-            table: Table::Revisions,
-            version: version(&row, false),
-            replaces: None,
-        });
-    }
-    written
 }
 
 /// The centre's map for the robot of a key, with the packed rows; none where it has that revision already.

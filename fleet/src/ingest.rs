@@ -4,12 +4,16 @@
 //! here already are passed over if they are the same, a gap is asked for again, and a frame with a known number and other
 //! bytes tells of another past: then the robot sends the whole of its store, which takes the place of what was here.
 //!
+//! Rows go as one array a column, unnested side by side in the list of what is selected: there the server goes through them
+//! in step, while in `FROM` it would first lay each of them out as a table.
+//!
 //! **Invariant**: after each transaction the tables hold what the robot's store held after the frame `fleet.robot.sequence`.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use deadpool_postgres::{Object, Transaction};
 use futures_util::future::try_join_all;
+use tokio_postgres::error::SqlState;
 use tokio_postgres::types::ToSql;
 
 use crate::db::{Who, enter};
@@ -39,13 +43,17 @@ struct Robot {
     is_whole: bool,
 }
 
-/// Where a robot's journal stands here.
+/// Where a robot's journal stands here. That it asks is a sign of life, which is noted once a minute.
 ///
 /// # Errors
 /// [`FleetError::Key`], [`FleetError::Forbidden`], [`FleetError::Database`].
 pub async fn position(client: &mut Object, key: &str) -> Result<Position> {
     let transaction = client.transaction().await?;
     let robot = robot_of(&transaction, key, "").await?;
+    let sql = "UPDATE fleet.robot SET reported = now() WHERE building = $1 AND robot = $2 \
+               AND (reported IS NULL OR reported < now() - interval '1 minute')";
+    let statement = transaction.prepare_cached(sql).await?;
+    transaction.execute(&statement, &[&robot.building, &robot.robot]).await?;
     transaction.commit().await?;
     Ok(robot.at)
 }
@@ -107,11 +115,15 @@ pub async fn take_frames(
         return Ok(robot.at);
     };
     robot.at = Position { sequence: number(last.sequence)?, checksum: Some(last.checksum) };
-    keep_frames(&transaction, &robot, &new).await?;
-    let mut written = Vec::new();
-    for frame in &new {
-        written.extend(frame.written()?);
-    }
+    // What they hold is read while the server keeps them.
+    let new = std::sync::Arc::new(new);
+    let reading = tokio::task::spawn_blocking({
+        let new = std::sync::Arc::clone(&new);
+        move || records_of(&new)
+    });
+    let (kept, read) = tokio::join!(keep_frames(&transaction, &robot, &new), reading);
+    kept?;
+    let written = read.map_err(|error| FleetError::content(error.to_string()))??;
     drop(new);
     put_records(&transaction, &mut robot, written).await?;
     note_robot(&transaction, &robot).await?;
@@ -126,10 +138,9 @@ pub async fn take_frames(
 pub async fn take_whole(client: &mut Object, key: &str, whole: Whole) -> Result<Position> {
     let transaction = client.transaction().await?;
     let mut robot = robot_of(&transaction, key, "FOR UPDATE").await?;
-    let mut written = Vec::new();
-    for piece in &whole.pieces {
-        written.extend(piece.written()?);
-    }
+    let pieces = whole.pieces;
+    let reading = tokio::task::spawn_blocking(move || records_of(&pieces));
+    let written = reading.await.map_err(|error| FleetError::content(error.to_string()))??;
     for table in Table::ALL.iter().copied().filter(|table| table.is_stored()) {
         let sql = format!("DELETE FROM {} WHERE building = $1 AND robot = $2", place(table));
         transaction.execute(&sql, &[&robot.building, &robot.robot]).await?;
@@ -142,6 +153,15 @@ pub async fn take_whole(client: &mut Object, key: &str, whole: Whole) -> Result<
     note_robot(&transaction, &robot).await?;
     transaction.commit().await?;
     Ok(robot.at)
+}
+
+/// What frames wrote, in their order.
+fn records_of(frames: &[Frame]) -> Result<Vec<Written>> {
+    let mut written = Vec::new();
+    for frame in frames {
+        written.extend(frame.written()?);
+    }
+    Ok(written)
 }
 
 fn number(n: u64) -> Result<i64> {
@@ -175,7 +195,7 @@ async fn keep_frames(transaction: &Transaction<'_>, robot: &Robot, frames: &[Fra
     let checksums: Vec<i64> = frames.iter().map(|f| i64::from(f.checksum)).collect();
     let bytes: Vec<&[u8]> = frames.iter().map(|f| &f.bytes[..]).collect();
     let sql = "INSERT INTO fleet.frame (building, robot, epoch, sequence, checksum, bytes) \
-               SELECT $1, $2, $3, u.s, u.c, u.b FROM unnest($4::bigint[], $5::bigint[], $6::bytea[]) AS u (s, c, b)";
+               SELECT $1, $2, $3, unnest($4::bigint[]), unnest($5::bigint[]), unnest($6::bytea[])";
     let statement = transaction.prepare_cached(sql).await?;
     let Robot { building, robot, epoch, .. } = robot;
     transaction
@@ -218,9 +238,19 @@ async fn put_records(
         }
         tables.entry(record.table).or_default().push(record);
     }
-    // Of one table after the other; of all tables at once, without waiting for the answers.
     let now: &Robot = robot;
-    let tables_put = tables.iter().map(|(table, records)| async move {
+    let many = |table: &Table| tables.get(table).filter(|records| records.len() >= MANY);
+    let mut added = Vec::new();
+    for table in ADDED_TO {
+        if let Some(records) = many(&table)
+            && add_notes(transaction, now, table, records).await?
+        {
+            added.push(table);
+        }
+    }
+    // Of one table after the other; of all tables at once, without waiting for the answers.
+    let left = tables.iter().filter(|(table, _)| !added.contains(*table));
+    let tables_put = left.map(|(table, records)| async move {
         if table.is_map() {
             put_versions(transaction, now, *table, records).await
         } else {
@@ -265,7 +295,10 @@ pub(crate) async fn put_centre(
         is_whole: false,
     };
     put_records(transaction, &mut centre, written).await?;
-    note_robot(transaction, &centre).await
+    let sql =
+        "UPDATE fleet.robot SET revision = $2, reported = now() WHERE building = $1 AND robot = 0";
+    transaction.execute(sql, &[&building, &centre.revision]).await?;
+    Ok(())
 }
 
 fn key_columns(table: Table) -> impl Iterator<Item = (usize, &'static Column)> {
@@ -287,33 +320,30 @@ fn names(table: Table) -> Vec<String> {
     table.columns().iter().map(|column| quoted(column.name)).collect()
 }
 
-/// The part of an insert that is the same for map and notes: columns, their arrays as `u`, and how many parameters.
+/// The part of an insert that is the same for map and notes: columns, what is selected for them, and the next parameter.
 struct Insert {
     columns: String,
-    arrays: String,
     chosen: String,
     next: usize,
 }
 
+/// A parameter's elements, one a row.
+fn each(parameter: usize, kind: &str) -> String {
+    format!("unnest(${parameter}::{kind}[])")
+}
+
 fn insert(table: Table) -> Insert {
     let names = names(table);
-    let arrays: Vec<String> =
-        (3..).zip(table.columns()).map(|(n, column)| format!("${n}::{}[]", kind(column))).collect();
-    let next = 3 + names.len();
-    let stamps = format!(
-        "${next}::timestamptz[], ${}::text[], ${}::boolean[], ${}::bigint[]",
-        next + 1,
-        next + 2,
-        next + 3
-    );
+    let kinds = table.columns().iter().map(kind);
+    let kinds = kinds.chain(["timestamptz", "text", "boolean", "bigint"]);
+    let chosen: Vec<String> = (3..).zip(kinds).map(|(n, kind)| each(n, kind)).collect();
     Insert {
         columns: format!(
             "building, robot, {}, \"RecDate\", \"RecUser\", \"Deleted\", revision",
             names.join(", ")
         ),
-        arrays: format!("{}, {stamps}", arrays.join(", ")),
-        chosen: "$1, $2, u.*".to_owned(),
-        next: next + 4,
+        next: 3 + chosen.len(),
+        chosen: format!("$1, $2, {}", chosen.join(", ")),
     }
 }
 
@@ -362,12 +392,12 @@ async fn put_versions(
     if !first.is_empty() {
         end_versions(transaction, robot, table, first.iter().map(|at| all[*at]).collect()).await?;
     }
-    let Insert { columns, arrays, chosen, next } = insert(table);
+    let Insert { columns, chosen, next } = insert(table);
     let sql = format!(
-        "INSERT INTO {} ({columns}, revision_to, valid_to) \
-         SELECT {chosen} FROM unnest({arrays}, ${next}::bigint[], ${}::timestamptz[]) AS u",
+        "INSERT INTO {} ({columns}, revision_to, valid_to) SELECT {chosen}, {}, {}",
         place(table),
-        next + 1
+        each(next, "bigint"),
+        each(next + 1, "timestamptz")
     );
     let statement = transaction.prepare_cached(&sql).await?;
     let (cells, stamps) = (values(table, &all), Stamps::of(&all));
@@ -395,9 +425,12 @@ async fn end_versions(
     by: Vec<&Written>,
 ) -> Result<()> {
     let keys: Vec<_> = key_columns(table).collect();
-    let arrays: Vec<String> =
-        (3..).zip(&keys).map(|(n, (_, column))| format!("${n}::{}[]", kind(column))).collect();
     let aliases: Vec<String> = (0..keys.len()).map(|n| format!("k{n}")).collect();
+    let arrays: Vec<String> = (3..)
+        .zip(&keys)
+        .zip(&aliases)
+        .map(|((n, (_, column)), alias)| format!("{} AS {alias}", each(n, kind(column))))
+        .collect();
     let same: Vec<String> = aliases
         .iter()
         .zip(&keys)
@@ -406,12 +439,12 @@ async fn end_versions(
     let next = 3 + keys.len();
     let sql = format!(
         "UPDATE {} t SET revision_to = u.by, valid_to = u.at \
-         FROM unnest({}, ${next}::bigint[], ${}::timestamptz[]) AS u ({}, by, at) \
+         FROM (SELECT {}, {} AS by, {} AS at) AS u \
          WHERE t.building = $1 AND t.robot = $2 AND {} AND t.revision_to IS NULL",
         place(table),
         arrays.join(", "),
-        next + 1,
-        aliases.join(", "),
+        each(next, "bigint"),
+        each(next + 1, "timestamptz"),
         same.join(" AND ")
     );
     let statement = transaction.prepare_cached(&sql).await?;
@@ -425,32 +458,30 @@ async fn end_versions(
     Ok(())
 }
 
-/// What a robot notes: of each record the last word counts.
-async fn put_notes(
-    transaction: &Transaction<'_>,
-    robot: &Robot,
-    table: Table,
-    records: &[Written],
-) -> Result<()> {
+/// Tables whose records are added and never written again, as far as a store of today goes.
+const ADDED_TO: [Table; 2] = [Table::Observations, Table::Revisions];
+
+/// So many records of a table are worth a savepoint.
+const MANY: usize = 64;
+
+/// Of each record the last word, where it stands among all.
+fn last_words(table: Table, records: &[Written]) -> Vec<&Written> {
     let mut seen = HashSet::new();
     let mut last: Vec<&Written> =
         records.iter().rev().filter(|w| seen.insert(key_of(table, &w.version.row))).collect();
     last.reverse();
-    let Insert { columns, arrays, chosen, .. } = insert(table);
-    let keys: Vec<String> = key_columns(table).map(|(_, c)| quoted(c.name)).collect();
-    let own = table.columns().iter().filter(|c| !c.is_key).map(|c| quoted(c.name));
-    let stamps = ["\"RecDate\"", "\"RecUser\"", "\"Deleted\"", "revision"].map(str::to_owned);
-    let sets: Vec<String> =
-        own.chain(stamps).map(|name| format!("{name} = excluded.{name}")).collect();
-    let sql = format!(
-        "INSERT INTO {} ({columns}) SELECT {chosen} FROM unnest({arrays}) AS u \
-         ON CONFLICT (building, robot, {}) DO UPDATE SET {}",
-        place(table),
-        keys.join(", "),
-        sets.join(", ")
-    );
-    let statement = transaction.prepare_cached(&sql).await?;
-    let (cells, stamps) = (values(table, &last), Stamps::of(&last));
+    last
+}
+
+async fn insert_notes(
+    transaction: &Transaction<'_>,
+    robot: &Robot,
+    sql: &str,
+    table: Table,
+    last: &[&Written],
+) -> Result<(), tokio_postgres::Error> {
+    let statement = transaction.prepare_cached(sql).await?;
+    let (cells, stamps) = (values(table, last), Stamps::of(last));
     let mut parameters: Vec<&(dyn ToSql + Sync)> = vec![&robot.building, &robot.robot];
     parameters.extend(cells.iter().map(Values::as_parameter));
     parameters.extend([
@@ -461,6 +492,52 @@ async fn put_notes(
     ]);
     transaction.execute(&statement, &parameters).await?;
     Ok(())
+}
+
+/// Adds what is taken to be new, without looking for each row whether it is there; false where one was, and nothing is done.
+async fn add_notes(
+    transaction: &Transaction<'_>,
+    robot: &Robot,
+    table: Table,
+    records: &[Written],
+) -> Result<bool> {
+    let Insert { columns, chosen, .. } = insert(table);
+    let sql = format!("INSERT INTO {} ({columns}) SELECT {chosen}", place(table));
+    transaction.batch_execute("SAVEPOINT adding").await?;
+    match insert_notes(transaction, robot, &sql, table, &last_words(table, records)).await {
+        Ok(()) => {
+            transaction.batch_execute("RELEASE SAVEPOINT adding").await?;
+            Ok(true)
+        }
+        Err(error) if error.code() == Some(&SqlState::UNIQUE_VIOLATION) => {
+            transaction.batch_execute("ROLLBACK TO SAVEPOINT adding").await?;
+            Ok(false)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// What a robot notes: of each record the last word counts.
+async fn put_notes(
+    transaction: &Transaction<'_>,
+    robot: &Robot,
+    table: Table,
+    records: &[Written],
+) -> Result<()> {
+    let Insert { columns, chosen, .. } = insert(table);
+    let keys: Vec<String> = key_columns(table).map(|(_, c)| quoted(c.name)).collect();
+    let own = table.columns().iter().filter(|c| !c.is_key).map(|c| quoted(c.name));
+    let stamps = ["\"RecDate\"", "\"RecUser\"", "\"Deleted\"", "revision"].map(str::to_owned);
+    let sets: Vec<String> =
+        own.chain(stamps).map(|name| format!("{name} = excluded.{name}")).collect();
+    let sql = format!(
+        "INSERT INTO {} ({columns}) SELECT {chosen} \
+         ON CONFLICT (building, robot, {}) DO UPDATE SET {}",
+        place(table),
+        keys.join(", "),
+        sets.join(", ")
+    );
+    Ok(insert_notes(transaction, robot, &sql, table, &last_words(table, records)).await?)
 }
 
 /// Tasks that came, went on, or left the queue.

@@ -1,4 +1,4 @@
-//! Buildings, robots and their keys.
+//! Buildings, robots and their keys; a browser's session is a key that ends by itself.
 
 use tokio_postgres::Client;
 
@@ -28,12 +28,53 @@ pub async fn add_robot(client: &Client, building: i64, robot: i64, name: &str) -
     add_key(client, "robot", Some(building), Some(robot), name).await
 }
 
-/// A key of an operator of one building, or of all.
+/// A key of an operator of one building, or of all, who looks and asks.
 ///
 /// # Errors
 /// [`FleetError::Database`].
 pub async fn add_operator(client: &Client, building: Option<i64>, name: &str) -> Result<String> {
     add_key(client, "operator", building, None, name).await
+}
+
+/// A key of an operator who makes revisions at the centre, too.
+///
+/// # Errors
+/// [`FleetError::Database`].
+pub async fn add_editor(client: &Client, building: Option<i64>, name: &str) -> Result<String> {
+    let key = add_operator(client, building, name).await?;
+    let sql = "UPDATE fleet.key SET edits = true WHERE hash = sha256(convert_to($1, 'UTF8'))";
+    client.execute(sql, &[&key]).await?;
+    Ok(key)
+}
+
+/// A session of an operator's key: a key of its own, of the same name and rights, good for twelve hours.
+///
+/// # Errors
+/// [`FleetError::Key`]: it is no operator's, or a session itself. [`FleetError::Database`].
+pub async fn enter(client: &Client, key: &str) -> Result<String> {
+    if key.contains('\0') {
+        return Err(FleetError::Key);
+    }
+    let session = secret()?;
+    let sql = "INSERT INTO fleet.key (hash, kind, building, name, edits, until) \
+               SELECT sha256(convert_to($2, 'UTF8')), kind, building, name, edits, now() + interval '12 hours' FROM fleet.key \
+               WHERE hash = sha256(convert_to($1, 'UTF8')) AND kind = 'operator' AND revoked IS NULL AND until IS NULL";
+    if client.execute(sql, &[&key, &session]).await? == 0 {
+        return Err(FleetError::Key);
+    }
+    client.execute("DELETE FROM fleet.key WHERE until < now()", &[]).await?;
+    Ok(session)
+}
+
+/// Ends a session; a key that is none stays.
+///
+/// # Errors
+/// [`FleetError::Database`].
+pub async fn leave(client: &Client, session: &str) -> Result<()> {
+    let sql =
+        "DELETE FROM fleet.key WHERE hash = sha256(convert_to($1, 'UTF8')) AND until IS NOT NULL";
+    client.execute(sql, &[&session.replace('\0', "")]).await?;
+    Ok(())
 }
 
 /// No key of this name serves any more.
@@ -55,12 +96,17 @@ async fn add_key(
     robot: Option<i64>,
     name: &str,
 ) -> Result<String> {
-    let mut secret = [0_u8; 32];
-    getrandom::fill(&mut secret)
-        .map_err(|error| FleetError::content(format!("нет случайных чисел: {error}")))?;
-    let key: String = secret.iter().map(|byte| format!("{byte:02x}")).collect();
+    let key = secret()?;
     let sql = "INSERT INTO fleet.key (hash, kind, building, robot, name) \
                VALUES (sha256(convert_to($1, 'UTF8')), $2, $3, $4, $5)";
     client.execute(sql, &[&key, &kind, &building, &robot, &name]).await?;
     Ok(key)
+}
+
+/// 256 random bits, in hexadecimal digits.
+fn secret() -> Result<String> {
+    let mut bytes = [0_u8; 32];
+    getrandom::fill(&mut bytes)
+        .map_err(|error| FleetError::content(format!("нет случайных чисел: {error}")))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }

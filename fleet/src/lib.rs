@@ -12,7 +12,9 @@
 //! - Whatever is done in a robot's name is done under the role `fleet_robot` with its key set: row security decides.
 //! - The embedded store knows nothing of the centre.
 
+use orthoframe_draw as draw;
 use orthoframe_facts as facts;
+use orthoframe_geometry as geometry;
 use orthoframe_language as language;
 use orthoframe_map as map;
 use orthoframe_semantics as semantics;
@@ -25,15 +27,22 @@ pub mod db;
 pub mod derive;
 mod english;
 mod error;
+pub mod gate;
 pub mod handout;
 pub mod ingest;
 pub mod keys;
+/// The engine's own way with the load of what an edit moves.
+#[path = "../../src/engine/load.rs"]
+mod load;
 pub mod migrate;
+pub mod picture;
 pub mod pull;
 pub mod push;
 pub mod query;
+pub mod revise;
 pub mod rows;
 pub mod serve;
 pub mod sheets;
+pub mod tls;
 
 pub use error::{FleetError, Result};

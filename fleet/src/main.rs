@@ -11,10 +11,10 @@ use clap::{Parser, Subcommand};
 use orthoframe_fleet::pull::Pulled;
 use orthoframe_fleet::push::Line;
 use orthoframe_fleet::serve::{Tls, serve};
-use orthoframe_fleet::{FleetError, Result, db, derive, handout, keys, migrate};
+use orthoframe_fleet::{FleetError, Result, db, derive, handout, keys, migrate, revise};
 use orthoframe_map::World;
 use orthoframe_semantics::RelationRules;
-use orthoframe_store::Change;
+use orthoframe_store::{Change, StoreError};
 
 /// Many robots, many buildings: one centre on PostgreSQL.
 #[derive(Parser)]
@@ -29,6 +29,15 @@ struct Database {
     /// The database: `postgresql://user@host/name`, or `host=… dbname=…`.
     #[arg(long, env = "ORTHO_FLEET_DB", hide_env_values = true)]
     db: String,
+    /// The authority that signed the database's certificate (PEM), where it is none of the usual ones.
+    #[arg(long, env = "ORTHO_FLEET_DB_AUTHORITY")]
+    db_authority: Option<PathBuf>,
+}
+
+impl Database {
+    fn server(&self) -> Result<db::Server> {
+        db::Server::new(&self.db, self.db_authority.as_deref())
+    }
 }
 
 #[derive(clap::Args)]
@@ -71,6 +80,9 @@ enum Command {
         /// Goes on, with so many seconds between; a line that is cut is waited for.
         #[arg(long)]
         every: Option<u64>,
+        /// Takes the centre's map each time, too, where the robot's own program does not hold the store just then.
+        #[arg(long)]
+        pull: bool,
     },
     /// The robot: takes the centre's map, if its own was not changed meanwhile; else tells what went apart (exit code 1).
     Pull {
@@ -127,6 +139,9 @@ enum AtCentre {
         name: String,
         #[arg(long)]
         building: Option<i64>,
+        /// May make revisions at the centre from the fleet's page, too.
+        #[arg(long)]
+        edits: bool,
     },
     /// The keys of this name serve no more.
     Revoke {
@@ -180,6 +195,9 @@ enum AtCentre {
         /// The certificate's key, PEM.
         #[arg(long, requires = "cert")]
         tls_key: Option<PathBuf>,
+        /// What browsers call this server, as `fleet.example`, or `fleet.example:443` where the port is another.
+        #[arg(long = "name")]
+        names: Vec<String>,
         /// Connections to the database.
         #[arg(long, default_value_t = 16)]
         connections: usize,
@@ -222,8 +240,10 @@ fn told(error: &FleetError) -> String {
 
 fn run(command: Command) -> Result<Came> {
     let command = match command {
-        Command::Push { centre, store, every } => return push(&centre, &store, every),
-        Command::Pull { centre, store } => return pull(&centre, &store),
+        Command::Push { centre, store, every, pull } => {
+            return push(&line(&centre)?, &store, every, pull);
+        }
+        Command::Pull { centre, store } => return pull(&line(&centre)?, &store),
         Command::Ask { centre, question } => {
             let answer = line(&centre)?.ask(&question)?;
             println!("{}", answer.text);
@@ -248,41 +268,54 @@ fn run(command: Command) -> Result<Came> {
 async fn at_the_centre(command: AtCentre) -> Result<Came> {
     match command {
         AtCentre::Migrate { database, undivided } => {
-            let mut client = db::connect(&database.db).await?;
+            let mut client = database.server()?.connect().await?;
             for name in migrate::migrate(&mut client, undivided).await? {
                 println!("{name}");
             }
         }
         AtCentre::Building { database, number, name } => {
-            keys::add_building(&db::connect(&database.db).await?, number, &name).await?;
+            keys::add_building(&database.server()?.connect().await?, number, &name).await?;
         }
         AtCentre::Robot { database, building, number, name } => {
-            let client = db::connect(&database.db).await?;
+            let client = database.server()?.connect().await?;
             println!("{}", keys::add_robot(&client, building, number, &name).await?);
         }
-        AtCentre::Key { database, name, building } => {
-            let client = db::connect(&database.db).await?;
-            println!("{}", keys::add_operator(&client, building, &name).await?);
+        AtCentre::Key { database, name, building, edits } => {
+            let client = database.server()?.connect().await?;
+            let key = match edits {
+                true => keys::add_editor(&client, building, &name).await?,
+                false => keys::add_operator(&client, building, &name).await?,
+            };
+            println!("{key}");
         }
         AtCentre::Revoke { database, name } => {
-            keys::revoke(&db::connect(&database.db).await?, &name).await?;
+            keys::revoke(&database.server()?.connect().await?, &name).await?;
         }
         AtCentre::Revise { database, building, map, by } => {
             let world =
                 World::load(&map).map_err(|faults| FleetError::content(faults.to_string()))?;
-            let mut client = db::pool(&database.db, 1)?.get().await?;
-            println!("{}", handout::revise(&mut client, building, &world, &by.change()).await?);
+            let mut client = database.server()?.pool(1)?.get().await?;
+            let transaction = client.transaction().await?;
+            let revision =
+                revise::revise(&transaction, building, None, &world, &by.change()).await?;
+            transaction.commit().await?;
+            println!("{revision}");
         }
         AtCentre::Adopt { database, building, robot, by } => {
-            let mut client = db::pool(&database.db, 1)?.get().await?;
-            println!("{}", handout::adopt(&mut client, building, robot, &by.change()).await?);
+            let mut client = database.server()?.pool(1)?.get().await?;
+            let transaction = client.transaction().await?;
+            let revision = revise::adopt(&transaction, building, robot, &by.change()).await?;
+            transaction.commit().await?;
+            println!("{revision}");
         }
         AtCentre::Insist { database, building, robot } => {
-            let mut client = db::pool(&database.db, 1)?.get().await?;
-            handout::insist(&mut client, building, robot).await?;
+            let mut client = database.server()?.pool(1)?.get().await?;
+            let transaction = client.transaction().await?;
+            revise::insist(&transaction, building, robot).await?;
+            transaction.commit().await?;
         }
         AtCentre::Work { database, once } => {
-            let pool = db::pool(&database.db, 1)?;
+            let pool = database.server()?.pool(1)?;
             let rules = RelationRules::standard();
             loop {
                 match derive::work_once(&mut pool.get().await?, &rules).await {
@@ -298,11 +331,11 @@ async fn at_the_centre(command: AtCentre) -> Result<Came> {
                 tokio::time::sleep(Duration::from_secs(1)).await;
             }
         }
-        AtCentre::Serve { database, listen, cert, tls_key, connections } => {
+        AtCentre::Serve { database, listen, cert, tls_key, names, connections } => {
             let tls = cert.zip(tls_key).map(|(certificate, key)| Tls { certificate, key });
             let scheme = if tls.is_some() { "https" } else { "http" };
-            let pool = db::pool(&database.db, connections)?;
-            serve(pool, listen, tls, |address| println!("{scheme}://{address}")).await?;
+            let pool = database.server()?.pool(connections)?;
+            serve(pool, listen, tls, &names, |address| println!("{scheme}://{address}")).await?;
         }
     }
     Ok(Came::Through)
@@ -312,12 +345,23 @@ fn line(centre: &ToCentre) -> Result<Line> {
     Line::new(&centre.to, &centre.key, centre.authority.as_deref())
 }
 
-fn push(centre: &ToCentre, store: &Path, every: Option<u64>) -> Result<Came> {
-    let line = line(centre)?;
+fn push(line: &Line, store: &Path, every: Option<u64>, pulls: bool) -> Result<Came> {
     loop {
-        let done = line.push(store);
+        let done = line.push(store).and_then(|pushed| {
+            if !pulls {
+                return Ok((pushed, Came::Through));
+            }
+            match pull(line, store) {
+                // The robot works; between two runs, or when it has ended, there will be room.
+                Err(FleetError::Store(StoreError::Locked { .. })) => {
+                    println!("Хранилище держит программа робота: карта центра подождёт.");
+                    Ok((pushed, Came::Through))
+                }
+                pulled => Ok((pushed, pulled?)),
+            }
+        });
         match (&done, every) {
-            (Ok(pushed), _) => {
+            (Ok((pushed, _)), _) => {
                 let whole = if pushed.whole { ", хранилище целиком" } else { "" };
                 println!(
                     "Кадров отправлено: {}{whole}; в центре – до {}.",
@@ -326,15 +370,15 @@ fn push(centre: &ToCentre, store: &Path, every: Option<u64>) -> Result<Came> {
             }
             // The line will come back; a key will not.
             (Err(error @ FleetError::Line { .. }), Some(_)) => eprintln!("{}", told(error)),
-            (Err(_), _) => return done.map(|_| Came::Through),
+            (Err(_), _) => return done.map(|(_, came)| came),
         }
-        let Some(seconds) = every else { return Ok(Came::Through) };
+        let Some(seconds) = every else { return done.map(|(_, came)| came) };
         std::thread::sleep(Duration::from_secs(seconds.max(1)));
     }
 }
 
-fn pull(centre: &ToCentre, store: &Path) -> Result<Came> {
-    match line(centre)?.pull(store)? {
+fn pull(line: &Line, store: &Path) -> Result<Came> {
+    match line.pull(store)? {
         Pulled::Nothing => println!("Нового в центре нет."),
         Pulled::Same { centre } => println!("Карта уже такая, как в центре (ревизия {centre})."),
         Pulled::Taken { centre, revision } => {

@@ -31,32 +31,32 @@ const MIGRATIONS: &[Migration] = &[
     migration!("0005_views", false),
     migration!("0006_security", false),
     migration!("0007_fact_building", false),
+    migration!("0008_editors", false),
+    migration!("0009_work_asked", false),
 ];
 
 /// What a distributed server takes away from the files; see `docs/fleet.md`.
 const DIVIDED: &str = " PARTITION BY HASH (building)";
 
 const NOTES: &str = "CREATE TABLE IF NOT EXISTS public.fleet_migration (
-    number bigint PRIMARY KEY, name text NOT NULL, checksum bigint NOT NULL, ran timestamptz NOT NULL DEFAULT now())";
+    number bigint PRIMARY KEY, name text NOT NULL, checksum bigint NOT NULL, ran timestamptz NOT NULL DEFAULT now());
+    INSERT INTO public.fleet_migration (number, name, checksum) VALUES (0, 'lock', 0) ON CONFLICT DO NOTHING";
+
+const LOCK: &str = "SELECT FROM public.fleet_migration WHERE number = 0 FOR UPDATE";
 
 /// Runs what was not run yet, each file in a transaction of its own; returns their names.
 ///
 /// # Errors
 /// The database refused; or a file that was run before is not the one of this program.
 pub async fn migrate(client: &mut Client, undivided: bool) -> Result<Vec<&'static str>> {
-    // Two at once would run a file twice; the lock goes with the connection.
-    client.execute("SELECT pg_advisory_lock(33)", &[]).await?;
-    let done = run(client, undivided).await;
-    client.execute("SELECT pg_advisory_unlock(33)", &[]).await?;
-    done
-}
-
-async fn run(client: &mut Client, undivided: bool) -> Result<Vec<&'static str>> {
     client.batch_execute(NOTES).await?;
     let mut ran = Vec::new();
     for (number, migration) in (1_i64..).zip(MIGRATIONS) {
         let checksum = i64::from(crc32fast::hash(migration.sql.as_bytes()));
-        let known = client
+        let transaction = client.transaction().await?;
+        // Two at once would run a file twice. A row's lock is what distributed servers have, too.
+        transaction.execute(LOCK, &[]).await?;
+        let known = transaction
             .query_opt("SELECT checksum FROM public.fleet_migration WHERE number = $1", &[&number])
             .await?;
         match known.map(|row| row.get::<_, i64>(0)) {
@@ -67,7 +67,6 @@ async fn run(client: &mut Client, undivided: bool) -> Result<Vec<&'static str>> 
             }
             None => {}
         }
-        let transaction = client.transaction().await?;
         if !(undivided && migration.divides) {
             let sql = migration.sql.to_owned();
             let sql = if undivided { sql.replace(DIVIDED, "") } else { sql };

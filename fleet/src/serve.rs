@@ -9,13 +9,17 @@
 //! | `POST /v1/agreed?centre=N&robot=M` | robot | its revision is the centre's |
 //! | `POST /v1/conflict` | robot | what both changed, thing by thing |
 //! | `GET /` | anybody | the page of the fleet, which asks for an operator's key |
-//! | `GET /v1/fleet`, `/v1/building`, `POST /v1/ask`, `/v1/query` | operator | what the page shows; questions |
+//! | `POST /v1/enter`, `/v1/leave` | operator | a browser's session, as a cookie |
+//! | `GET /v1/fleet`, `/v1/building`, `/v1/plan`, `POST /v1/ask`, `/v1/query` | operator | what the page shows; questions |
+//! | `POST /v1/edit`, `/v1/revise`, `/v1/adopt`, `/v1/insist` | operator who edits | revisions at the centre |
 //!
-//! A key comes as `Authorization: Bearer …`. Beyond this machine there is no connection without TLS.
+//! A key comes as `Authorization: Bearer …`, or as the cookie of a session; see [`gate`](crate::gate). Beyond this machine
+//! there is no connection without TLS.
 
 use std::io::Read;
 use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, FromRequestParts, Query, State};
@@ -28,6 +32,7 @@ use deadpool_postgres::{Object, Pool};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{FleetError, Result};
+use crate::gate::{Gate, guard};
 use crate::handout::{Conflict, agree, handout, note_conflict};
 use crate::ingest::{Position, position, take_frames, take_whole};
 use crate::push::gzip;
@@ -41,7 +46,7 @@ const MOST_UNPACKED: u64 = 1 << 30;
 /// What a fault is called on the line.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refusal {
-    /// `gap`, `diverged`, `key`, `forbidden`, `content`, `database`.
+    /// `gap`, `diverged`, `key`, `forbidden`, `content`, `moved`, `unknown`, `database`.
     pub fault: String,
     pub what: String,
     /// With `gap`: how far the journal is here.
@@ -55,9 +60,14 @@ impl IntoResponse for FleetError {
             Self::Forbidden => (StatusCode::FORBIDDEN, "forbidden"),
             Self::Gap { .. } => (StatusCode::CONFLICT, "gap"),
             Self::Diverged { .. } => (StatusCode::CONFLICT, "diverged"),
+            Self::Moved { .. } => (StatusCode::CONFLICT, "moved"),
             Self::Unknown { .. } => (StatusCode::NOT_FOUND, "unknown"),
             Self::Content { .. } | Self::Store(_) => (StatusCode::BAD_REQUEST, "content"),
-            Self::Database { .. } | Self::Line { .. } | Self::Plain { .. } | Self::Io { .. } => {
+            Self::Database { .. }
+            | Self::Line { .. }
+            | Self::Plain { .. }
+            | Self::PlainDatabase { .. }
+            | Self::Io { .. } => {
                 tracing::error!(error = %self, "a request failed");
                 (StatusCode::SERVICE_UNAVAILABLE, "database")
             }
@@ -77,13 +87,15 @@ impl IntoResponse for FleetError {
 /// The key of a request.
 pub struct Key(pub String);
 
-impl<S: Sync> FromRequestParts<S> for Key {
+impl FromRequestParts<Centre> for Key {
     type Rejection = FleetError;
 
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self> {
-        let told = parts.headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
-        let key = told.and_then(|value| value.strip_prefix("Bearer ")).ok_or(FleetError::Key)?;
-        Ok(Self(key.trim().to_owned()))
+    async fn from_request_parts(parts: &mut Parts, centre: &Centre) -> Result<Self> {
+        let Some(told) = parts.headers.get(header::AUTHORIZATION) else {
+            return centre.gate.session(&parts.headers).map(Self).ok_or(FleetError::Key);
+        };
+        let key = told.to_str().ok().and_then(|value| value.strip_prefix("Bearer "));
+        Ok(Self(key.ok_or(FleetError::Key)?.trim().to_owned()))
     }
 }
 
@@ -91,6 +103,7 @@ impl<S: Sync> FromRequestParts<S> for Key {
 #[derive(Clone)]
 pub struct Centre {
     pool: Pool,
+    pub(crate) gate: Arc<Gate>,
 }
 
 impl Centre {
@@ -100,7 +113,8 @@ impl Centre {
 }
 
 /// All paths of the centre.
-pub fn router(pool: Pool) -> Router {
+pub fn router(pool: Pool, gate: Gate) -> Router {
+    let gate = Arc::new(gate);
     Router::new()
         .route("/v1/position", get(where_is))
         .route("/v1/frames", post(frames))
@@ -110,7 +124,8 @@ pub fn router(pool: Pool) -> Router {
         .route("/v1/conflict", post(conflict))
         .merge(crate::console::router())
         .layer(DefaultBodyLimit::max(MOST_BYTES))
-        .with_state(Centre { pool })
+        .layer(axum::middleware::from_fn_with_state(Arc::clone(&gate), guard))
+        .with_state(Centre { pool, gate })
 }
 
 /// Unpacks a body and cuts it into frames, on a thread where that harms nobody.
@@ -219,7 +234,8 @@ pub struct Tls {
     pub key: PathBuf,
 }
 
-/// Serves until the process ends; `ready` hears the address that is listened to.
+/// Serves until the process ends; `ready` hears the address that is listened to. `names` are what browsers call this server,
+/// where that is not this machine's own name or its number.
 ///
 /// # Errors
 /// [`FleetError::Plain`], [`FleetError::Io`].
@@ -227,6 +243,7 @@ pub async fn serve(
     pool: Pool,
     listen: SocketAddr,
     tls: Option<Tls>,
+    names: &[String],
     ready: impl FnOnce(SocketAddr),
 ) -> Result<()> {
     if tls.is_none() && !listen.ip().is_loopback() {
@@ -236,7 +253,8 @@ pub async fn serve(
     let listener = TcpListener::bind(listen).map_err(failed)?;
     listener.set_nonblocking(true).map_err(failed)?;
     let address = listener.local_addr().map_err(failed)?;
-    let service = router(pool).into_make_service();
+    let gate = Gate::new(address, tls.is_some(), names);
+    let service = router(pool, gate).into_make_service();
     match tls {
         None => {
             ready(address);

@@ -1,6 +1,7 @@
 //! The maps that the centre holds, read back as records and as worlds.
 
 use deadpool_postgres::Transaction;
+use futures_util::future::try_join_all;
 
 use crate::error::{FleetError, Result};
 use crate::rows::{cell, place, quoted};
@@ -54,10 +55,13 @@ pub async fn sheet(
     robot: i64,
     revision: i64,
 ) -> Result<Sheet> {
+    // All are asked for before the first answer is there.
+    let tables: Vec<Table> = Table::ALL.iter().copied().filter(|table| table.is_map()).collect();
+    let asked = tables.iter().map(|table| rows_of(transaction, building, robot, *table, revision));
     let mut sheet = Sheet::default();
-    for table in Table::ALL.iter().copied().filter(|table| table.is_map()) {
-        for row in rows_of(transaction, building, robot, table, revision).await? {
-            sheet.add(table, row)?;
+    for (table, rows) in tables.iter().zip(try_join_all(asked).await?) {
+        for row in rows {
+            sheet.add(*table, row)?;
         }
     }
     Ok(sheet)

@@ -7,9 +7,10 @@ use std::path::Path;
 
 use common::robot::{home, live, must_be_same};
 use common::{Centre, Postgres, furnish};
+use deadpool_postgres::Object;
 use orthoframe_fleet::pull::Pulled;
 use orthoframe_fleet::push::Line;
-use orthoframe_fleet::{db, handout, sheets};
+use orthoframe_fleet::{FleetError, db, revise, sheets};
 use orthoframe_map::World;
 use orthoframe_store::{Change, Store, Timestamp};
 use orthoframe_units::{Frame, ReplicaId};
@@ -29,6 +30,20 @@ fn edit(store: &Path, alter: impl FnOnce(&mut World)) {
     alter(&mut after);
     let change = Change::new("робот", Timestamp(1_850_000_000_000), "сам");
     store.commit_change(&before, &after, &change).expect("commits");
+}
+
+async fn revised(client: &mut Object, building: i64, world: &World, change: &Change) -> i64 {
+    let transaction = client.transaction().await.expect("begins");
+    let made = revise::revise(&transaction, building, None, world, change).await.expect("revises");
+    transaction.commit().await.expect("commits");
+    made
+}
+
+async fn adopted(client: &mut Object, building: i64, robot: i64, change: &Change) -> i64 {
+    let transaction = client.transaction().await.expect("begins");
+    let made = revise::adopt(&transaction, building, robot, change).await.expect("adopts");
+    transaction.commit().await.expect("commits");
+    made
 }
 
 fn world_of(store: &Path) -> World {
@@ -53,7 +68,7 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
         assert_eq!(line(n).pull(&stores[n]).expect("answers"), Pulled::Nothing);
     }
     let by = |reason: &str| Change::new("оператор", Timestamp(1_860_000_000_000), reason);
-    assert_eq!(handout::adopt(&mut client, 1, 1, &by("от робота 1")).await.expect("adopts"), 1);
+    assert_eq!(adopted(&mut client, 1, 1, &by("от робота 1")).await, 1);
     assert_eq!(line(0).pull(&stores[0]).expect("answers"), Pulled::Nothing, "it is its own");
     // A robot with nothing yet takes all of it.
     assert_eq!(
@@ -69,8 +84,8 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
     let names: Vec<String> = corrected.replicas.values().map(|r| r.name.clone()).collect();
     let [first, second] = [&names[0], &names[1]];
     move_thing(&mut corrected, first, 10.0);
-    assert_eq!(handout::revise(&mut client, 1, &corrected, &by("поправка")).await.expect("ok"), 2);
-    assert_eq!(handout::revise(&mut client, 1, &corrected, &by("ещё раз")).await.expect("ok"), 2);
+    assert_eq!(revised(&mut client, 1, &corrected, &by("поправка")).await, 2);
+    assert_eq!(revised(&mut client, 1, &corrected, &by("ещё раз")).await, 2);
     let Pulled::Taken { centre: 2, revision } = line(0).pull(&stores[0]).expect("answers") else {
         panic!("it is taken");
     };
@@ -115,8 +130,10 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
     // A person puts both into one map, and insists on it.
     let mut both = corrected.clone();
     move_thing(&mut both, second, -7.0);
-    assert_eq!(handout::revise(&mut client, 1, &both, &by("обе")).await.expect("ok"), 3);
-    handout::insist(&mut client, 1, 2).await.expect("ok");
+    assert_eq!(revised(&mut client, 1, &both, &by("обе")).await, 3);
+    let transaction = client.transaction().await.expect("begins");
+    revise::insist(&transaction, 1, 2).await.expect("ok");
+    transaction.commit().await.expect("commits");
     let pulled = line(1).pull(&stores[1]).expect("answers");
     assert!(matches!(pulled, Pulled::Taken { centre: 3, .. }), "{pulled:?}");
     assert_eq!(world_of(&stores[1]), both);
@@ -132,4 +149,83 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
     let transaction = client.transaction().await.expect("begins");
     let first_map = sheets::sheet(&transaction, 1, 0, 1).await.expect("reads").world().expect("ok");
     assert_ne!(first_map.expect("a map"), both);
+}
+
+/// An id that the centre or a robot of the building has ever given is not given again: a robot would refuse the map.
+#[tokio::test(flavor = "multi_thread")]
+async fn what_is_new_at_the_centre_has_an_id_that_no_robot_of_the_building_knows() {
+    let Some(postgres) = Postgres::start("-c fsync=off") else { return };
+    let keys = furnish(&postgres.address(), &[(1, 1)]).await;
+    let centre = Centre::start(&postgres.address());
+    let pool = db::pool(&postgres.address(), 2).expect("an address");
+    let mut client = pool.get().await.expect("connects");
+    let dir = tempfile::tempdir().expect("a folder");
+    let store = dir.path().join("store");
+    let line = Line::new(&centre.url(), &keys[0], None).expect("loopback");
+    live(&store, 0, 1, &home(), false);
+    // The last thing of the robot came and went again, so its map as it is does not tell of it.
+    let last = *world_of(&store).replicas.keys().next_back().expect("some");
+    let (gone, by) = (ReplicaId(last.0 + 5), |reason: &str| {
+        Change::new("оператор", Timestamp(1_860_000_000_000), reason)
+    });
+    edit(&store, |world| {
+        let mut twin = world.replicas[&last].clone();
+        (twin.id, twin.name) = (gone, "Гость".to_owned());
+        world.replicas.insert(gone, twin);
+    });
+    edit(&store, |world| drop(world.replicas.remove(&gone)));
+    line.push(&store).expect("it is taken");
+    adopted(&mut client, 1, 1, &by("от робота")).await;
+    let mut corrected = world_of(&store);
+    let mut new = corrected.replicas[&last].clone();
+    (new.id, new.name) = (ReplicaId(last.0 + 1), "Новая".to_owned());
+    corrected.replicas.insert(new.id, new);
+    let revision = revised(&mut client, 1, &corrected, &by("новая вещь")).await;
+    let pulled = line.pull(&store).expect("the robot can take it");
+    assert!(matches!(pulled, Pulled::Taken { .. }), "{pulled:?}");
+    let here = world_of(&store);
+    let new = here.replicas.values().find(|r| r.name == "Новая").expect("it came");
+    assert!(new.id > gone, "{:?} was given by the robot", new.id);
+
+    // The program that a robot runs beside its own takes maps too, when the store is free.
+    let run = || {
+        let ran = std::process::Command::new(env!("CARGO_BIN_EXE_ortho-fleet"))
+            .args(["push", "--pull", "--to", &centre.url(), "--key", &keys[0], "--store"])
+            .arg(&store)
+            .output()
+            .expect("it runs");
+        assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+        String::from_utf8_lossy(&ran.stdout).into_owned()
+    };
+    corrected = world_of(&store);
+    move_thing(&mut corrected, "Новая", 2.0);
+    let revision = revision + 1;
+    assert_eq!(revised(&mut client, 1, &corrected, &by("сдвинута")).await, revision);
+    let held = Store::open(&store).expect("opens");
+    assert!(run().contains("подождёт"));
+    drop(held);
+    assert!(run().contains("Принята карта центра"));
+    assert_eq!(world_of(&store), corrected);
+
+    // An edit on the newest revision is worked in, one on an older is refused.
+    let edit = |on: i64, tries: bool| revise::Edit {
+        building: 1,
+        on,
+        text: "[[edit]]\nremove = \"Новая\"\n".to_owned(),
+        format: orthoframe_map::Format::Toml,
+        tries,
+    };
+    let transaction = client.transaction().await.expect("begins");
+    let late = revise::edit(&transaction, &edit(revision - 1, false), &by("")).await;
+    assert!(
+        matches!(late, Err(FleetError::Moved { revision: now }) if now == revision),
+        "{late:?}"
+    );
+    let tried = revise::edit(&transaction, &edit(revision, true), &by("")).await.expect("reads");
+    assert_eq!((tried.revision, tried.differences.len()), (revision, 1), "{tried:?}");
+    let done = revise::edit(&transaction, &edit(revision, false), &by("")).await.expect("reads");
+    assert_eq!(done.revision, revision + 1);
+    transaction.commit().await.expect("commits");
+    assert!(matches!(line.pull(&store), Ok(Pulled::Taken { .. })));
+    assert!(world_of(&store).replicas.values().all(|r| r.name != "Новая"));
 }

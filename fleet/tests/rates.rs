@@ -8,17 +8,13 @@ mod common;
 use std::time::{Duration, Instant};
 
 use common::robot::{home, live};
-use common::{Postgres, furnish};
+use common::{Postgres, furnish, number};
 use orthoframe_fleet::query::Question;
 use orthoframe_fleet::rows::place;
 use orthoframe_fleet::{db, derive, ingest, keys};
 use orthoframe_semantics::RelationRules;
 use orthoframe_store::Table;
 use orthoframe_store::shipping::{Following, frames_after};
-
-fn number(name: &str, usual: usize) -> usize {
-    std::env::var(name).ok().map_or(usual, |text| text.parse().expect("a number"))
-}
 
 fn median(mut times: Vec<Duration>) -> Duration {
     times.sort();
@@ -222,7 +218,7 @@ async fn questions_over_millions_of_facts() {
 #[ignore = "takes minutes"]
 async fn buildings_derived() {
     let Some(postgres) = Postgres::start("-c fsync=off") else { return };
-    let most = number("FLEET_BUILDINGS", 200);
+    let most = number("FLEET_BUILDINGS", 2000);
     let all: Vec<(i64, i64)> = (1..=most as i64).map(|n| (n, 1)).collect();
     let made = furnish(&postgres.address(), &all).await;
     let pool = db::pool(&postgres.address(), 4).expect("an address");
@@ -255,4 +251,103 @@ async fn buildings_derived() {
         }
         println!("{part} buildings derived anew by 2 workers: {:?}", begin.elapsed());
     }
+}
+
+/// What a robot's store takes for a transaction, alone and while all that it writes is sent at once.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "takes minutes"]
+async fn a_store_beside_its_line() {
+    let Some(postgres) = Postgres::start("") else { return };
+    let made = furnish(&postgres.address(), &[(1, 1)]).await;
+    let centre = common::Centre::start(&postgres.address());
+    let dir = tempfile::tempdir().expect("a folder");
+    let store = dir.path().join("store");
+    live(&store, 200, 1, &home(), false);
+    let mut each = [Vec::new(), Vec::new()];
+    for round in 0..10 {
+        for (is_pushed, times) in each.iter_mut().enumerate() {
+            let pushing = (is_pushed == 1).then(|| {
+                std::process::Command::new(env!("CARGO_BIN_EXE_ortho-fleet"))
+                    .args([
+                        "push",
+                        "--every",
+                        "1",
+                        "--to",
+                        &centre.url(),
+                        "--key",
+                        &made[0],
+                        "--store",
+                    ])
+                    .arg(&store)
+                    .stdout(std::process::Stdio::null())
+                    .spawn()
+                    .expect("it starts")
+            });
+            std::thread::sleep(Duration::from_millis(300));
+            let begin = Instant::now();
+            live(&store, 300, round * 2 + is_pushed as u64, &home(), false);
+            times.push(begin.elapsed() / 300);
+            if let Some(mut pushing) = pushing {
+                let _ = pushing.kill();
+                let _ = pushing.wait();
+            }
+        }
+    }
+    let [alone, pushed] = each.map(median);
+    println!("a transaction of a robot's store: {alone:?} alone, {pushed:?} while it is pushed");
+}
+
+/// What robots that are on line do all day: a few frames a request, of many robots at once.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "takes minutes"]
+async fn small_requests_of_many_robots() {
+    let Some(postgres) = Postgres::start("-c shared_buffers=512MB -c max_wal_size=8GB") else {
+        return;
+    };
+    let (robots, each, threads) = (number("FLEET_ROBOTS", 200), 3, 8);
+    let all: Vec<(i64, i64)> = (0..robots as i64).map(|n| (1 + n / 5, 1 + n)).collect();
+    let made = furnish(&postgres.address(), &all).await;
+    let centre = common::Centre::start(&postgres.address());
+    let dir = tempfile::tempdir_in("/dev/shm").expect("a folder");
+    let store = dir.path().join("store");
+    live(&store, 90, 1, &home(), false);
+    // All of them live the same life: to the centre they are many all the same.
+    let Following::Frames(frames) = frames_after(&store, 0, None, 1 << 30).expect("reads") else {
+        panic!("frames")
+    };
+    let (first, rest) = frames.split_at(1);
+    let url = centre.url();
+    let work = |n: usize, frames: &[orthoframe_store::shipping::Frame], size: usize| {
+        let mut times = Vec::new();
+        let mine: Vec<_> = made.iter().skip(n).step_by(threads).collect();
+        let lines: Vec<_> = mine
+            .iter()
+            .map(|key| orthoframe_fleet::push::Line::new(&url, key, None).expect("loopback"))
+            .collect();
+        for part in frames.chunks(size) {
+            for line in &lines {
+                let begin = Instant::now();
+                line.send(part).expect("taken");
+                times.push(begin.elapsed());
+            }
+        }
+        times
+    };
+    let all_work = |frames: &[orthoframe_store::shipping::Frame], size: usize| {
+        std::thread::scope(|scope| {
+            let running: Vec<_> =
+                (0..threads).map(|n| scope.spawn(move || work(n, frames, size))).collect();
+            running.into_iter().flat_map(|w| w.join().expect("no panic")).collect::<Vec<_>>()
+        })
+    };
+    all_work(first, 1);
+    let begin = Instant::now();
+    let times = all_work(rest, each);
+    let (took, requests) = (begin.elapsed().as_secs_f64(), times.len() as f64);
+    println!(
+        "{robots} robots, {requests} requests of {each} frames, {threads} at once: {:.0} requests/s, {:.0} frames/s, median {:?}",
+        requests / took,
+        requests * each as f64 / took,
+        median(times)
+    );
 }

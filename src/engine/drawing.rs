@@ -3,15 +3,13 @@
 use std::sync::Arc;
 
 use crate::draw::{
-    DoorGlyph, FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing,
-    ViewLayer, ZoneGlyph, object_svg,
+    FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing, ViewLayer,
+    object_svg, outer_doors,
 };
-use crate::geometry::{Bounds, FloorPlan, Opening, PlacedZone, Sight};
+use crate::geometry::{FloorPlan, Opening, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
-use crate::units::{
-    AreaId, Language, MapId, PlaceId, Point, Pose, Vector, bilingual, nearest_name,
-};
+use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, bilingual, nearest_name};
 
 use super::{Error, RequestError, State};
 
@@ -58,11 +56,8 @@ impl State {
         let world = self.world()?;
         let floor = self.floor(map)?;
         let only = drawing.only;
+        let rule = |zone| zone_in_words(world, zone, drawing.language);
         let drawing = PlanDrawing {
-            world,
-            scene: floor.scene(),
-            only,
-            doors: door_glyphs(world, floor, only),
             floor: if drawing.floor {
                 floor_layer(floor, only, drawing.language)
             } else {
@@ -80,9 +75,7 @@ impl State {
                 has_goal: drawing.has_goal,
             },
             view: drawing.view.map(|lens| view_layer(world, floor, lens)).unwrap_or_default(),
-            places: places(world, map, only, drawing.language),
-            zones: zone_glyphs(world, floor, only, drawing.language),
-            language: drawing.language,
+            ..PlanDrawing::of(world, floor, only, drawing.language, &rule)
         };
         Ok(drawing.to_svg())
     }
@@ -169,29 +162,6 @@ impl State {
     }
 }
 
-fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
-    let glyphs = |doorway: &Opening| {
-        let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
-            return Vec::new();
-        };
-        let leaves = doorway.leaves(door).at(door.state);
-        let mut arcs = doorway.leaves(door).arcs().into_iter();
-        let status = door.state.status;
-        leaves
-            .into_iter()
-            .map(|leaf| DoorGlyph {
-                leaf,
-                arc: arcs.next().unwrap_or_default(),
-                status,
-                door: door.id,
-            })
-            .collect()
-    };
-    let doorways = floor.doorways().iter().map(Arc::as_ref);
-    let between = doorways.filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
-    between.chain(outer_doors(floor, only)).flat_map(glyphs).collect()
-}
-
 /// Door leaves as they stand on the floor of the first Area.
 fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
     /// Of a door of which the map does not say how high it is, cm.
@@ -225,16 +195,6 @@ fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
     floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(|d| mouth(d)).collect()
 }
 
-/// The doors that join no two Areas: they lead out of the map.
-fn outer_doors(floor: &FloorPlan, only: Option<AreaId>) -> impl Iterator<Item = &Opening> {
-    let joined: std::collections::HashSet<_> =
-        floor.doorways().iter().filter_map(|d| d.door).collect();
-    let outer = floor.blind_openings().iter().map(Arc::as_ref);
-    outer.filter(move |o| {
-        o.door.is_some_and(|door| !joined.contains(&door)) && only.is_none_or(|only| o.is_of(only))
-    })
-}
-
 fn floor_layer(floor: &FloorPlan, only: Option<AreaId>, language: Language) -> FloorLayer {
     let mut layer = FloorLayer::default();
     for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
@@ -260,48 +220,4 @@ fn view_layer(world: &World, floor: &FloorPlan, lens: Lens) -> ViewLayer {
     let seen = sight.visible(lens.pose, lens.field, lens.range);
     let seen = seen.into_iter().map(|v| (v.right, v.left)).collect();
     ViewLayer { eye: Some(lens.pose), fan, seen }
-}
-
-/// The zones of a map, those for a time among them.
-fn zone_glyphs(
-    world: &World,
-    floor: &FloorPlan,
-    only: Option<AreaId>,
-    language: Language,
-) -> Vec<ZoneGlyph> {
-    let all = floor.with_zones(world, |_| true);
-    let room = only.and_then(|area| floor.scene().areas.get(&area));
-    let room =
-        room.map(|a| a.prisms.iter().map(|p| p.bounds).fold(Bounds::EMPTY, |a, b| a.union(&b)));
-    let is_shown =
-        |zone: &&PlacedZone| room.is_none_or(|room| room.grown(-1.0).meets(&zone.bounds()));
-    let glyph = |zone: &PlacedZone| ZoneGlyph {
-        kind: zone.kind,
-        name: match (language, &world.zones[&zone.id]) {
-            (Language::English, zone) if !zone.name_en.is_empty() => zone.name_en.clone(),
-            (_, zone) => zone.name.clone(),
-        },
-        rule: zone_in_words(world, zone.id, language),
-        polygons: zone.polygons.clone(),
-        is_timed: !world.zones[&zone.id].is_standing(),
-    };
-    all.zones().iter().filter(is_shown).map(glyph).collect()
-}
-
-fn places(
-    world: &World,
-    map: MapId,
-    only: Option<AreaId>,
-    language: Language,
-) -> Vec<(PlaceId, Point, String)> {
-    let placements = world.placements();
-    let shown = world.places.values().filter(|p| only.is_none_or(|a| a == p.area));
-    shown
-        .filter_map(|place| {
-            let &(on, frame) = placements.get(&place.area)?;
-            let english = language == Language::English && !place.name_en.is_empty();
-            let name = if english { &place.name_en } else { &place.name };
-            (on == map).then(|| (place.id, frame.apply(place.at), name.clone()))
-        })
-        .collect()
 }

@@ -4,6 +4,7 @@
 #![allow(unreachable_pub, reason = "shared by several tests")]
 #![allow(clippy::print_stderr, reason = "what a test tells")]
 
+pub mod badly;
 pub mod robot;
 
 use std::io::{Read, Write};
@@ -16,6 +17,17 @@ use std::time::{Duration, Instant};
 
 use orthoframe_fleet::{db, keys, migrate};
 use tempfile::TempDir;
+
+pub fn number(name: &str, usual: usize) -> usize {
+    std::env::var(name).ok().map_or(usual, |text| text.parse().expect("a number"))
+}
+
+/// Stores in memory where the system has such a folder: a store waits for the disk at each transaction.
+pub fn scratch() -> TempDir {
+    let shm = Path::new("/dev/shm");
+    let place = if shm.is_dir() { shm.to_owned() } else { std::env::temp_dir() };
+    tempfile::Builder::new().prefix("fleet").tempdir_in(place).expect("a folder")
+}
 
 /// A PostgreSQL in a folder of its own, listening to a socket there.
 pub struct Postgres {
@@ -43,6 +55,32 @@ fn is_root() -> bool {
 impl Postgres {
     /// None where there is no server to be had.
     pub fn start(options: &str) -> Option<Self> {
+        let server = Self::made(options)?;
+        server.up();
+        Some(server)
+    }
+
+    /// One that listens to a port of this machine too, and speaks TLS there with this certificate and key (PEM).
+    pub fn start_with_tls(certificate: &str, key: &str) -> Option<(Self, u16)> {
+        let port = TcpListener::bind("127.0.0.1:0").expect("a port").local_addr().expect("bound");
+        let mut server = Self::made("")?;
+        for (name, text) in [("server.crt", certificate), ("server.key", key)] {
+            let path = server.dir.path().join("data").join(name);
+            std::fs::write(&path, text).expect("writes");
+            if is_root() {
+                let owned = Command::new("chown").arg("postgres").arg(&path).status();
+                assert!(owned.expect("chown runs").success());
+            }
+            let secret = Command::new("chmod").arg("600").arg(&path).status();
+            assert!(secret.expect("chmod runs").success());
+        }
+        server.options =
+            format!("-c fsync=off -c ssl=on -c listen_addresses=127.0.0.1 -c port={}", port.port());
+        server.up();
+        Some((server, port.port()))
+    }
+
+    fn made(options: &str) -> Option<Self> {
         let Some(bin) = programs() else {
             eprintln!("PostgreSQL is not installed: nothing was tested");
             return None;
@@ -58,7 +96,6 @@ impl Postgres {
             "initdb",
             &["-A", "trust", "-U", "owner", "-E", "UTF8", "--locale=C", "-D", &data],
         );
-        server.up();
         Some(server)
     }
 
@@ -129,6 +166,13 @@ impl Postgres {
             .args(["-D", &self.data(), "-l", &log, "-o", &options, "-w", "-t", "120", "start"])
             .status();
         started.expect("it runs").success()
+    }
+
+    /// Starts without TLS from now on, at the same port.
+    pub fn restart_plain(&mut self) {
+        self.run("pg_ctl", &["-D", &self.data(), "-m", "fast", "-w", "stop"]);
+        self.options = self.options.replace("ssl=on", "ssl=off");
+        self.up();
     }
 
     pub fn address(&self) -> String {

@@ -5,112 +5,140 @@ use std::path::Path;
 
 use deadpool_postgres::Pool;
 use orthoframe_fleet::rows::{At, cell, place, quoted};
-use orthoframe_map::{DoorState, DoorStatus, World};
+use orthoframe_map::{DoorState, DoorStatus, Replica, World};
 use orthoframe_store::{
     Cell, Change, Key, Observation, Queue, QueuedTask, RevisionKind, RobotMemory, Row, Seen, Sheet,
     Store, Table,
 };
-use orthoframe_units::{AreaId, Deg, Frame, Point, Pose, ReplicaId, Timestamp};
+use orthoframe_units::{Deg, Frame, Point, Pose, ReplicaId, Timestamp};
 
 pub fn home() -> World {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../maps/rb2.toml");
     World::load(path).expect("a map of the project")
 }
 
+/// Lives on until the store has made so many transactions in all.
+pub fn live_until(dir: &Path, transactions: u64, seed: u64, home: &World) {
+    // What changes nothing is no transaction.
+    for more in 0.. {
+        let made = if dir.exists() { Store::open(dir).expect("opens").1.lsn } else { 0 };
+        if made >= transactions {
+            return;
+        }
+        live(dir, transactions - made, seed.wrapping_add(more), home, false);
+    }
+}
+
 /// Lives on until the store has made so many transactions more. With `forgets` it sometimes drops some of its past.
 pub fn live(dir: &Path, transactions: u64, seed: u64, home: &World, forgets: bool) {
-    let mut rng = fastrand::Rng::with_seed(seed);
     let (mut store, report) = Store::open(dir).expect("opens");
-    let mut clock = Timestamp(1_800_000_000_000 + (report.lsn as i64) * 60_000);
+    let clock = Timestamp(1_800_000_000_000 + (report.lsn as i64) * 60_000);
     if store.revision() == 0 {
         let change = Change::new("Мастер", clock, "съёмка");
         store.import(home, &change).expect("imports");
     }
-    for n in 0..transactions {
-        clock.0 += rng.i64(1..90_000);
-        step(&mut store, &mut rng, clock, n, forgets);
-    }
-}
-
-fn step(store: &mut Store, rng: &mut fastrand::Rng, now: Timestamp, n: u64, forgets: bool) {
-    let change = Change::new(["Мастер", "оператор", "op"][rng.usize(..3)], now, format!("шаг {n}"));
-    match rng.u32(..100) {
-        0..50 => observe(store, rng, now),
-        50..70 => remember(store, rng, now),
-        70..85 => {
-            let before = store.world().expect("reads").expect("a map");
-            let mut after = before.clone();
-            alter(&mut after, rng, n);
-            store.commit_change(&before, &after, &change).expect("commits");
-        }
-        // The first map is never taken back.
-        85..90 if last_is_edit(store) => drop(store.undo(&change).expect("undoes")),
-        90..97 => {
-            let count = rng.u32(..4);
-            let task = |id| QueuedTask {
-                id,
-                text: format!("Принеси чашку {id}"),
-                by: "op".to_owned(),
-                at: Timestamp(now.0 - i64::from(id)),
-                from: None,
-                is_begun: rng.bool(),
-            };
-            let tasks = (0..count).map(task).collect();
-            let paused = rng.bool().then_some(now);
-            store.put_queue(&Queue { tasks, paused }, "op", now).expect("writes");
-        }
-        97 if forgets && store.revision() > 5 => {
-            let revision = store.revision();
-            store.forget_before(revision - 2, &change).expect("forgets");
-        }
-        _ => observe(store, rng, now),
-    }
-}
-
-fn last_is_edit(store: &Store) -> bool {
-    let last = store.revisions().expect("reads").pop();
-    last.is_some_and(|revision| revision.kind == RevisionKind::Edit)
-}
-
-fn observe(store: &mut Store, rng: &mut fastrand::Rng, now: Timestamp) {
-    let world_replicas =
-        store.reader().records::<orthoframe_store::records::AreaObjects>(&Key::new());
-    let all = world_replicas.expect("reads");
-    let some: Vec<_> = (0..rng.usize(1..4)).map(|_| &all[rng.usize(..all.len())]).collect();
-    let look = |r: &&orthoframe_store::records::AreaObjects| Observation {
-        replica: ReplicaId(r.repl_id),
-        at: now,
-        seen: rng.u32(..5).gt(&0).then(|| {
-            let (x, y) = (r.x + rng.f64() * 80.0 - 40.0, r.y + rng.f64() * 80.0 - 40.0);
-            Seen {
-                area: AreaId(r.area_id),
-                frame: Frame::new(x, y, r.z, Deg::of(rng.f64() * 360.0)),
-            }
-        }),
-        sure: 0.3 + 0.6 * rng.f64(),
-        observer: "лидар".to_owned(),
-    };
-    let seen: Vec<_> = some.iter().map(look).collect();
-    store.observe(&seen).expect("writes");
-}
-
-fn remember(store: &mut Store, rng: &mut fastrand::Rng, now: Timestamp) {
     let world = store.world().expect("reads").expect("a map");
-    let map = *world.maps.keys().next().expect("some");
-    let mut memory = RobotMemory::default();
-    let at = Point::new(rng.f64() * 400.0, rng.f64() * 400.0);
-    memory.pose = Some((map, Pose { at, heading: Deg::of(rng.f64() * 360.0) }));
-    for door in world.doors.keys() {
-        let opening = f64::from(rng.u32(..300));
-        if opening > 100.0 {
-            continue;
+    let mut life = Life { store, world, rng: fastrand::Rng::with_seed(seed), clock, forgets };
+    for n in 0..transactions {
+        life.clock.0 += life.rng.i64(1..90_000);
+        life.step(n);
+    }
+}
+
+struct Life {
+    store: Store,
+    /// What the store holds.
+    world: World,
+    rng: fastrand::Rng,
+    clock: Timestamp,
+    forgets: bool,
+}
+
+impl Life {
+    fn step(&mut self, n: u64) {
+        let now = self.clock;
+        let who = ["Мастер", "оператор", "op"][self.rng.usize(..3)];
+        let change = Change::new(who, now, format!("шаг {n}"));
+        match self.rng.u32(..100) {
+            0..50 => self.observe(),
+            50..70 => self.remember(),
+            70..85 => {
+                let mut after = self.world.clone();
+                alter(&mut after, &mut self.rng, n);
+                self.store.commit_change(&self.world, &after, &change).expect("commits");
+                self.world = after;
+            }
+            // The first map is never taken back.
+            85..90 if self.last_is_edit() => {
+                self.store.undo(&change).expect("undoes");
+                self.world = self.store.world().expect("reads").expect("a map");
+            }
+            90..97 => {
+                let count = self.rng.u32(..4);
+                let rng = &mut self.rng;
+                let task = |id| QueuedTask {
+                    id,
+                    text: format!("Принеси чашку {id}"),
+                    by: "op".to_owned(),
+                    at: Timestamp(now.0 - i64::from(id)),
+                    from: None,
+                    is_begun: rng.bool(),
+                };
+                let tasks = (0..count).map(task).collect();
+                let paused = self.rng.bool().then_some(now);
+                self.store.put_queue(&Queue { tasks, paused }, "op", now).expect("writes");
+            }
+            97 if self.forgets && self.store.revision() > 5 => {
+                let revision = self.store.revision();
+                self.store.forget_before(revision - 2, &change).expect("forgets");
+            }
+            _ => self.observe(),
         }
-        memory.doors.insert(*door, DoorState { status: DoorStatus::Open, opening });
     }
-    for replica in world.replicas.keys().filter(|_| rng.u32(..20) == 0) {
-        memory.carried.insert(*replica, String::new());
+
+    fn last_is_edit(&self) -> bool {
+        let last = self.store.revisions().expect("reads").pop();
+        last.is_some_and(|revision| revision.kind == RevisionKind::Edit)
     }
-    store.remember(&memory, &[], "robot", now).expect("writes");
+
+    fn observe(&mut self) {
+        let rng = &mut self.rng;
+        let all: Vec<_> = self.world.replicas.values().collect();
+        let some: Vec<_> = (0..rng.usize(1..4)).map(|_| all[rng.usize(..all.len())]).collect();
+        let look = |thing: &&Replica| Observation {
+            replica: thing.id,
+            at: self.clock,
+            seen: rng.u32(..5).gt(&0).then(|| {
+                let (x, y) = (thing.frame.x.get(), thing.frame.y.get());
+                let (x, y) = (x + rng.f64() * 80.0 - 40.0, y + rng.f64() * 80.0 - 40.0);
+                let frame = Frame::new(x, y, thing.frame.z.get(), Deg::of(rng.f64() * 360.0));
+                Seen { area: thing.area, frame }
+            }),
+            sure: 0.3 + 0.6 * rng.f64(),
+            observer: "лидар".to_owned(),
+        };
+        let seen: Vec<_> = some.iter().map(look).collect();
+        self.store.observe(&seen).expect("writes");
+    }
+
+    fn remember(&mut self) {
+        let (world, rng) = (&self.world, &mut self.rng);
+        let map = *world.maps.keys().next().expect("some");
+        let mut memory = RobotMemory::default();
+        let at = Point::new(rng.f64() * 400.0, rng.f64() * 400.0);
+        memory.pose = Some((map, Pose { at, heading: Deg::of(rng.f64() * 360.0) }));
+        for door in world.doors.keys() {
+            let opening = f64::from(rng.u32(..300));
+            if opening > 100.0 {
+                continue;
+            }
+            memory.doors.insert(*door, DoorState { status: DoorStatus::Open, opening });
+        }
+        for replica in world.replicas.keys().filter(|_| rng.u32(..20) == 0) {
+            memory.carried.insert(*replica, String::new());
+        }
+        self.store.remember(&memory, &[], "robot", self.clock).expect("writes");
+    }
 }
 
 fn alter(world: &mut World, rng: &mut fastrand::Rng, n: u64) {
