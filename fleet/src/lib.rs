@@ -31,9 +31,6 @@ pub mod gate;
 pub mod handout;
 pub mod ingest;
 pub mod keys;
-/// The engine's own way with the load of what an edit moves.
-#[path = "../../src/engine/load.rs"]
-mod load;
 pub mod migrate;
 pub mod picture;
 pub mod pull;

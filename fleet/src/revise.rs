@@ -12,12 +12,11 @@ use tempfile::TempDir;
 
 use crate::error::{FleetError, Result};
 use crate::ingest::put_centre;
-use crate::load;
 use crate::map::{
     self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, TypeKind, World,
 };
 use crate::rows::{place, quoted};
-use crate::semantics::{RelationRules, derive};
+use crate::semantics::{RelationRules, derive, load};
 use crate::sheets::{revision, sheet};
 use crate::store::records::{LastIds, Revisions};
 use crate::store::shipping::Written;

@@ -9,11 +9,12 @@ use crate::geometry::Openings;
 use crate::map::{
     self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, TypeKind, World,
 };
+use crate::semantics::load;
 use crate::store::{self, Change, Difference, ImportReport, Store, Table};
 use crate::units::{DoorId, ReplicaId, Source, Timestamp};
 
 use super::known::{Floors, Known};
-use super::{Engine, Error, Relations, State, load};
+use super::{Engine, Error, Relations, State};
 
 /// Whether an edit is made or only tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -52,7 +52,6 @@ mod journey;
 pub mod json;
 mod known;
 mod lexicon;
-mod load;
 mod localisation;
 mod logged;
 mod measured;

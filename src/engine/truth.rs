@@ -7,11 +7,12 @@ use std::path::Path;
 
 use crate::map::{self, Entity, Format, MapError, MapErrors, World};
 use crate::robot::Simulator;
+use crate::semantics::load;
 use crate::units::{Bilingual, FileFault, ReplicaId, Source};
 
 use super::lexicon::form_index;
 use super::memory::Now;
-use super::{Error, RequestError, State, load};
+use super::{Error, RequestError, State};
 
 /// What is really so.
 #[derive(Debug, Clone)]

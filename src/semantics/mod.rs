@@ -65,6 +65,7 @@ mod english;
 mod feed;
 mod grid;
 mod lifts;
+pub mod load;
 mod measure;
 mod measured;
 mod names;

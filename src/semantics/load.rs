@@ -5,11 +5,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::{Replica, World};
-use crate::semantics::Relations;
+use crate::Relations;
 use crate::units::{Frame, ReplicaId};
 
 /// Moves the loads of `carriers` along, in `after`; returns those that stood on other moved things and stayed.
-pub(super) fn carry(
+#[must_use]
+pub fn carry(
     before: &World,
     relations: &Relations,
     carriers: &BTreeSet<ReplicaId>,
