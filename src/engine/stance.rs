@@ -150,8 +150,6 @@ impl State {
         anchor: Entity,
         relations: &Relations,
     ) -> Result<Stance, Error> {
-        /// From the thing's edge, cm.
-        const AWAY: f64 = 30.0;
         let Entity::Replica(id) = anchor else { return Err(self.not_a_place(anchor)) };
         let world = self.world()?;
         let name = world.name(anchor);
@@ -176,7 +174,8 @@ impl State {
         let placed = floor.scene().replicas.get(&id).ok_or_else(none_there)?;
         let bounds = placed.bounds;
         let half = (bounds.max - bounds.min) / 2.0;
-        let reach = half.x * toward.x.abs() + half.y * toward.y.abs() + AWAY;
+        let reach = half.x * toward.x.abs() + half.y * toward.y.abs();
+        let reach = reach + relations.thresholds().robot_aside;
         let area = world.replicas.get(&id).map(|replica| replica.area).ok_or_else(none_there)?;
         let at = floor.standing_in(area, middle + toward * reach).ok_or_else(none_there)?;
         // A wall may leave it only another side.

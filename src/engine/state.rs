@@ -175,8 +175,8 @@ impl State {
         let in_view = match robot {
             Some((map, pose)) if self.rules.relations.asks_for_view() => {
                 let floor = now.floor(map)?;
-                let eye = robot_eye(world, floor, pose, now.relations()?.thresholds());
-                things_in_view(world, floor, &eye)
+                let near = now.relations()?.thresholds();
+                things_in_view(world, floor, &robot_eye(world, floor, pose, near), near)
             }
             _ => Vec::new(),
         };

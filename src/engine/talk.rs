@@ -436,7 +436,7 @@ impl Senses for RobotSenses<'_> {
         let world = around.world();
         let Ok(floor) = around.floor(map) else { return Vec::new() };
         let Ok(near) = around.relations().map(Relations::thresholds) else { return Vec::new() };
-        things_in_view(world, floor, &robot_eye(world, floor, pose, near))
+        things_in_view(world, floor, &robot_eye(world, floor, pose, near), near)
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {
