@@ -201,7 +201,7 @@ fn what_lies_on_the_tray_goes_with_it() {
     assert!(told(&engine, "What is on Tray 1?").contains("Cup 2"));
     assert!(!told(&engine, "What is on the kitchen table?").contains("Cup"));
     done(&mut engine, "Put Tray 1 on the hall table");
-    let world = engine.now(now()).unwrap().world;
+    let world = engine.uncarried().unwrap().clone();
     let found = relations(&world);
     for (upper, lower) in [("Cup 1", "Tray 1"), ("Cup 2", "Tray 1"), ("Tray 1", "Hall table")] {
         assert!(found.holds("RESTS_ON", &[upper, lower]), "{upper} is not on {lower}");
@@ -210,7 +210,7 @@ fn what_lies_on_the_tray_goes_with_it() {
     done(&mut engine, "Take Cup 1");
     done(&mut engine, "Put Cup 1 on the kitchen table");
     done(&mut engine, "Put Box 1 on the hall table");
-    let world = engine.now(now()).unwrap().world;
+    let world = engine.uncarried().unwrap().clone();
     let found = relations(&world);
     assert!(
         found.holds("INSIDE", &["Ball 1", "Box 1"]) && found.holds("INSIDE", &["Ball 1", "Hall"])
@@ -219,7 +219,7 @@ fn what_lies_on_the_tray_goes_with_it() {
     done(&mut engine, "Bring Tray 1");
     assert!(told(&engine, "Where is Cup 2?").starts_with("Cup 2 is on Tray 1"));
     done(&mut engine, "Put Tray 1 on the kitchen table");
-    let found = relations(&engine.now(now()).unwrap().world);
+    let found = relations(engine.uncarried().unwrap());
     assert!(found.holds("RESTS_ON", &["Cup 2", "Tray 1"]));
 }
 
@@ -279,7 +279,7 @@ fn a_mat_takes_no_room() {
     let dir = tempfile::tempdir().unwrap();
     let mut engine = home(&dir, HOME);
     done(&mut engine, "Put Cup 1 on Stand 1");
-    let found = relations(&engine.now(now()).unwrap().world);
+    let found = relations(engine.uncarried().unwrap());
     assert!(found.holds("RESTS_ON", &["Cup 1", "Mat 1"]));
     assert!(found.holds("BORNE_BY", &["Cup 1", "Stand 1"]));
     // Where something else stands there is none.
@@ -427,18 +427,18 @@ fn check_orders(map: &Path, seed: u64, rounds: usize) {
             4 if !things.is_empty() => format!("Take {}", dice.one(&things)),
             _ => format!("Go to {}", dice.one(&rooms)),
         };
-        let before = engine.now(now()).unwrap().world;
+        let before = engine.uncarried().unwrap().clone();
         let known = relations(&before);
         let shut: BTreeSet<ReplicaId> = known.all_shut_in();
         // Refused, or not understood for a name that several things bear.
         let Ok(answer) = order(&mut engine, &text) else { continue };
-        let after = engine.now(now()).unwrap();
-        let gone = before.replicas.keys().filter(|id| !after.world.replicas.contains_key(id));
+        let after = engine.uncarried().unwrap();
+        let gone = before.replicas.keys().filter(|id| !after.replicas.contains_key(id));
         assert!(gone.into_iter().all(|id| !shut.contains(id)), "{text}: out of what is shut");
         for &carrier in before.replicas.keys() {
             for &content in &known.goes_with(carrier) {
                 let was = within(&before, content, carrier);
-                let is = within(&after.world, content, carrier);
+                let is = within(after, content, carrier);
                 let taken =
                     answer.goal.iter().any(|g| g.args.contains(&before.replicas[&content].name));
                 if let (Some(was), Some(is), false) = (was, is, taken) {
@@ -448,8 +448,8 @@ fn check_orders(map: &Path, seed: u64, rounds: usize) {
         }
         // Asked, measured and driven: the same.
         let room = dice.one(&rooms).to_owned();
-        let here = engine.now(now()).unwrap();
-        let from = format!("{},{}", here.pose.at.x, here.pose.at.y);
+        let (_, here) = engine.robot().unwrap();
+        let from = format!("{},{}", here.at.x, here.at.y);
         let question = format!("Can you get to {room}?");
         let asked = engine.ask(&question, &mut Memory::default()).unwrap();
         // A name that several rooms bear.

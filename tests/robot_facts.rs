@@ -53,8 +53,7 @@ fn check(engine: &Engine, dir: &std::path::Path, rules: &std::path::Path) {
     }
     // What stands elsewhere says the same.
     let world = engine.world_now().unwrap();
-    let now = engine.now(change_now("тест", "").at).unwrap();
-    let (map, pose) = (now.map, now.pose);
+    let (map, pose) = engine.robot().unwrap();
     let here = rows(engine, "?- HERE(M, R, X, Y, A)");
     let number = |cm: f64| Value::Number((cm * 100.0).round() as i64);
     assert_eq!(here.len(), 1);

@@ -71,8 +71,7 @@ links = [{ from = "a.C", to = "b.E" }]
 "#;
 
 fn home() -> World {
-    World::parse(&Source::new("дом.toml", HOME), Format::Toml)
-        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+    parsed(HOME)
 }
 
 /// The standard text with one piece replaced, which must stand in it once.
@@ -390,4 +389,40 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
     } else {
         assert_eq!(text, right, "UPDATE_EXPECT=1 writes the table anew");
     }
+}
+
+fn parsed(text: &str) -> World {
+    World::parse(&Source::new("дом.toml", text), Format::Toml)
+        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+}
+
+fn engine_of(world: &World, rules: &str) -> Engine {
+    let dir = rules_dir(rules, "");
+    Engine::in_memory(world.clone(), Some(dir.path()))
+        .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+}
+
+/// «Встань перед столом»: so far from it as the rules say.
+#[test]
+fn the_robot_stands_before_a_thing_as_the_rules_say() {
+    let home = HOME.replace(
+        "[area.a]\nname = \"Кухня\"\n",
+        "[robot]\nstart = \"Точка-1\"\n[area.a]\nname = \"Кухня\"\nplaces = [{ name = \"Точка-1\", at = [480, 330] }]\n",
+    );
+    let world = parsed(&home);
+    let [Entity::Replica(table)] = world.find("Стол-1")[..] else { panic!("it is on the map") };
+    let away = |rules: &str| {
+        let engine = engine_of(&world, rules);
+        let answer = engine.perform("Встань перед Столом-1", &mut |_| {}).unwrap();
+        assert!(answer.ending.is_done(), "{:?}", answer.ending);
+        let bounds = engine.floors().unwrap()[&answer.end_map].scene().replicas[&table].bounds;
+        let nearest = Point::new(
+            answer.end.at.x.clamp(bounds.min.x, bounds.max.x),
+            answer.end.at.y.clamp(bounds.min.y, bounds.max.y),
+        );
+        (answer.end.at - nearest).norm()
+    };
+    let other = changed("\"robot aside\",       3000", "\"robot aside\", 9000");
+    let (near, far) = (away(STANDARD), away(&other));
+    assert!(far > near + 30.0, "{near} {far}");
 }

@@ -231,10 +231,10 @@ fn another_building_is_no_truth_and_what_does_not_fit_is_told() {
 fn nothing_stands_where_the_robot_stands() {
     let world = rb2();
     let engine = engine(&world);
-    let now = engine.now(std::time::SystemTime::now().into()).unwrap();
-    let area = engine.floors().unwrap()[&now.map].locate(now.pose.at).unwrap().0;
+    let (map, pose) = engine.robot().unwrap();
+    let area = engine.floors().unwrap()[&map].locate(pose.at).unwrap().0;
     let (_, frame) = world.placement(area).unwrap();
-    let at = frame.invert(now.pose.at);
+    let at = frame.invert(pose.at);
     let key = &world.areas[&area].key;
     let text = format!(
         "[[edit]]\nplace = \"Новое\"\nobject = \"chair\"\narea = \"{key}\"\nat = [{}, {}]\n",
@@ -336,11 +336,11 @@ fn the_store_keeps_what_was_found_out_and_not_the_truth() {
     assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
     engine.remember(&answer, std::time::SystemTime::now().into()).unwrap();
     assert_eq!(engine.world().unwrap(), &world);
-    let now = engine.now(std::time::SystemTime::now().into()).unwrap();
+    let now = engine.uncarried().unwrap();
     let door = world.doors.values().find(|door| door.name == "Дверь-ZY").unwrap();
-    assert_eq!(now.world.doors[&door.id].state, DoorState::LOCKED, "it bumped into it");
+    assert_eq!(now.doors[&door.id].state, DoorState::LOCKED, "it bumped into it");
     // That the umbrella is gone it never saw.
-    assert!(now.world.replicas.contains_key(&thing(&world, "Зонт-1")));
+    assert!(now.replicas.contains_key(&thing(&world, "Зонт-1")));
     // What is in the hand stands nowhere: no truth moves it.
     let moved = faults(&engine, "t.toml", "[[edit]]\nmove = \"Лекарство\"\nby = [5, 0]\n");
     assert!(

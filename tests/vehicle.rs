@@ -56,16 +56,16 @@ fn remember(engine: &mut Engine, answer: &TaskAnswer) {
 
 /// What is believed is what is so.
 fn check_belief(how: &str, engine: &Engine, robot: &Simulator) {
-    let now = engine.now(std::time::SystemTime::now().into()).unwrap();
+    let now = engine.uncarried().unwrap();
     let truth = robot.truth();
-    assert_eq!((now.map, now.pose), robot.pose(), "{how}");
+    assert_eq!(engine.robot().unwrap(), robot.pose(), "{how}");
     for (id, door) in &truth.doors {
-        assert_eq!(now.world.doors[id].state, door.state, "{how}: {}", door.name);
+        assert_eq!(now.doors[id].state, door.state, "{how}: {}", door.name);
     }
     let things = |world: &World| -> Vec<_> {
         world.replicas.values().map(|r| (r.id, r.area, r.frame)).collect()
     };
-    assert_eq!(things(&now.world), things(truth), "{how}");
+    assert_eq!(things(now), things(truth), "{how}");
 }
 
 /// All that a task came to, but the clock of the machine.
@@ -213,8 +213,7 @@ fn a_task_stopped_at_any_event_leaves_what_the_next_begins_from() {
             stopped += usize::from(is_stopped);
             remember(&mut engine, &answer);
             check_belief(&how, &engine, &robot);
-            let now = engine.now(std::time::SystemTime::now().into()).unwrap();
-            laden += usize::from(now.held.is_some());
+            laden += usize::from(engine.held().unwrap().is_some());
             let after = drive(&engine, next, &mut robot, &Stop::new(), &mut |_| {});
             assert!(after.ending.is_done(), "{how}: then {:?}", after.ending);
             remember(&mut engine, &after);

@@ -443,8 +443,8 @@ pub(super) fn locate(
     let (map, pose, facing) = match at {
         Some(at) => (engine.map_named(map)?, parse_pose(at)?, at.split(',').count() == 3),
         None => {
-            let now = engine.now(std::time::SystemTime::now().into())?;
-            (now.map, now.pose, true)
+            let (map, pose) = engine.robot()?;
+            (map, pose, true)
         }
     };
     let level = detail.map(Detail::level);

@@ -30,8 +30,6 @@ pub(super) struct Plan {
     pub(super) entrances: Vec<Doorstep>,
 }
 
-/// Walls between Areas are at most this thick, in cm.
-const WALL: f64 = 60.0;
 /// Pieces of floor overlap by this much, so that rotated neighbours leave no slit.
 const OVERLAP: f64 = 0.5;
 
@@ -93,12 +91,13 @@ impl Plan {
             .flat_map(|opening| opening.sides.iter().map(move |side| Mouth { opening, side }))
             .collect();
         let corridor = |id: AreaId| corridors.contains(&id);
+        let thickest = openings.reach();
         let mut joined = Vec::new();
         let mut floor: Vec<Vec<[f64; 2]>> = Vec::new();
         for mouth in mouths.iter().filter(|m| corridor(m.side.area)) {
             let Some(behind) = mouth.behind().filter(|&b| corridor(b)) else { continue };
             joined.extend([(mouth.side.area, behind), (behind, mouth.side.area)]);
-            floor.extend(bridge(world, &scene, *mouth, behind));
+            floor.extend(bridge(world, &scene, *mouth, behind, thickest));
         }
         let mut walls = Vec::new();
         for (at, &a) in corridors.iter().enumerate() {
@@ -114,16 +113,18 @@ impl Plan {
         let contour = |c: Vec<[f64; 2]>| c.into_iter().map(point).collect();
         Self {
             shapes: shapes.into_iter().map(|s| s.into_iter().map(contour).collect()).collect(),
-            entrances: entrances(world, &mouths, corridor),
+            entrances: entrances(world, &mouths, corridor, thickest),
         }
     }
 }
 
-/// The entrances: openings of corridors to what is none, and openings of rooms to corridors that are blank there.
+/// The entrances: openings of corridors to what is none, and openings of rooms to corridors that are blank there. Two within
+/// the `thickest` wall and the depth of its frame are one.
 fn entrances(
     world: &World,
     mouths: &[Mouth<'_>],
     corridor: impl Fn(AreaId) -> bool,
+    thickest: f64,
 ) -> Vec<Doorstep> {
     let mut found: Vec<Doorstep> = Vec::new();
     for mouth in mouths.iter().filter(|m| corridor(m.side.area)) {
@@ -143,7 +144,7 @@ fn entrances(
         }
         let (room, room_en) = names_of(&world.areas[&mouth.side.area]);
         let at = mouth.middle();
-        let known = |e: &Doorstep| e.room == room && (e.at - at).norm() < WALL + 20.0;
+        let known = |e: &Doorstep| e.room == room && (e.at - at).norm() < thickest + 20.0;
         if !found.iter().any(known) {
             found.push(Doorstep { room, room_en, at, inward: -mouth.inward() });
         }
@@ -189,8 +190,14 @@ fn facing(scene: &Scene, area: AreaId, a: Point, b: Point, reach: f64) -> Vec<(f
     found
 }
 
-/// Floor through the wall between two joined corridors, as wide as both are there.
-fn bridge(world: &World, scene: &Scene, mouth: Mouth<'_>, behind: AreaId) -> Option<Vec<[f64; 2]>> {
+/// Floor through the wall between two joined corridors, no thicker than that, as wide as both are there.
+fn bridge(
+    world: &World,
+    scene: &Scene,
+    mouth: Mouth<'_>,
+    behind: AreaId,
+    thickest: f64,
+) -> Option<Vec<[f64; 2]>> {
     let (start, end) = mouth.side.ends;
     let dir = (end - start) / (end - start).norm().max(1e-9);
     let outward = -mouth.inward();
@@ -217,7 +224,7 @@ fn bridge(world: &World, scene: &Scene, mouth: Mouth<'_>, behind: AreaId) -> Opt
         }
         low = low.min(t(p));
     }
-    let edges = facing(scene, behind, start, end, WALL);
+    let edges = facing(scene, behind, start, end, thickest);
     let depth = edges
         .iter()
         .filter(|(from, to, _)| *from < t(end) && *to > 0.0)

@@ -6,7 +6,7 @@
 use crate::geometry::{FloorPlan, Remedy};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity, World};
-use crate::semantics::Relations;
+use crate::semantics::{Relations, Thresholds};
 use crate::units::{DoorId, Point, ReplicaId, Vector};
 
 use super::lexicon::named;
@@ -35,9 +35,6 @@ pub enum Landmark {
     Door(DoorId),
     Thing(ReplicaId),
 }
-
-/// A landmark lies in a direction that is off by so much at most, degrees.
-const OFF: f64 = 25.0;
 
 impl Advice {
     /// `relations` are asked for where something is to be pushed.
@@ -160,8 +157,9 @@ fn whither(
         way.perp(&to).atan2(way.dot(&to)).abs().to_degrees()
     };
     let landmarks = landmarks(world, floor, relations, replica);
+    let most = relations.map_or_else(Thresholds::default, |r| *r.thresholds()).push_toward;
     let nearest = |way: Vector| {
-        let that_way = landmarks.iter().filter(|(_, at)| off(way, *at) <= OFF);
+        let that_way = landmarks.iter().filter(|(_, at)| off(way, *at) <= most);
         that_way.min_by(|a, b| off(way, a.1).total_cmp(&off(way, b.1))).map(|(l, _)| *l)
     };
     nearest(by)

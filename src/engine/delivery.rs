@@ -7,7 +7,6 @@ use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, MapId, ReplicaId};
 
-use super::memory::Now;
 use super::{Error, Method, RequestError, State};
 
 impl State {
@@ -31,7 +30,6 @@ impl State {
         &self,
         thing: Entity,
         to: &Placement<Entity>,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
@@ -45,7 +43,7 @@ impl State {
         };
         match (to.relation, to.anchor) {
             (Relation::In, Entity::Replica(support)) => {
-                if !self.must_be_opened(support, now)? {
+                if !self.must_be_opened(support)? {
                     return Ok(fact(predicate::THING_ON, to.anchor));
                 }
                 let shut = GoalFact {
@@ -56,7 +54,7 @@ impl State {
             }
             // «поближе к телефону»: nothing is put onto what bears nothing.
             (Relation::At, Entity::Replica(anchor)) if !self.bears(anchor) => {
-                self.laid_beside(name(thing), anchor, now, relations)
+                self.laid_beside(name(thing), anchor, relations)
             }
             // "to the table": what is carried to a table is put onto it.
             (Relation::On | Relation::At | Relation::Middle, Entity::Replica(_)) => {
@@ -64,13 +62,13 @@ impl State {
             }
             (_, Entity::Place(_)) => Ok(fact(predicate::THING_AT_PLACE, to.anchor)),
             (Relation::NextTo, Entity::Replica(anchor)) => {
-                self.laid_beside(name(thing), anchor, now, relations)
+                self.laid_beside(name(thing), anchor, relations)
             }
             (Relation::On | Relation::In | Relation::At | Relation::Middle, Entity::Area(area)) => {
-                self.laid_in_area(id, area, now, relations)
+                self.laid_in_area(id, area, relations)
             }
             (Relation::On | Relation::In | Relation::At, Entity::Map(map)) => {
-                self.laid_on_storey(id, map, now, relations)
+                self.laid_on_storey(id, map, relations)
             }
             (_, anchor) => Err(RequestError::NotPutThere { name: name(anchor) }.into()),
         }
@@ -88,11 +86,10 @@ impl State {
         &self,
         thing: String,
         anchor: ReplicaId,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
         let name = self.world()?.name(Entity::Replica(anchor)).to_owned();
-        let facts = facts_of_map(&now.world, relations);
+        let facts = facts_of_map(self.uncarried()?, relations);
         let about = |predicate: &str, at: usize, give: usize| {
             let found =
                 facts.iter().find(|f| f.predicate == predicate && f.arguments[at].name == name);
@@ -128,18 +125,19 @@ impl State {
     ///
     /// # Errors
     /// It has no inside, or the robot does not get in.
-    pub(super) fn must_be_opened(&self, support: ReplicaId, now: &Now) -> Result<bool, Error> {
+    pub(super) fn must_be_opened(&self, support: ReplicaId) -> Result<bool, Error> {
         let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
         let around = self.around()?;
-        let area = now.world.replicas.get(&support).map(|r| r.area);
-        let map = area.and_then(|area| now.world.placement(area)).map(|(map, _)| map);
+        let now = around.uncarried();
+        let area = now.replicas.get(&support).map(|r| r.area);
+        let map = area.and_then(|area| now.placement(area)).map(|(map, _)| map);
         let hollow = match map {
-            Some(map) => hollow(&now.world, around.floor(map)?.scene(), support),
+            Some(map) => hollow(now, around.floor(map)?.scene(), support),
             None => Hollow::No,
         };
         match hollow {
             Hollow::Open => Ok(false),
-            Hollow::Shut if self.can_open(support, now) => Ok(true),
+            Hollow::Shut if self.can_open(support) => Ok(true),
             Hollow::Shut => Err(RequestError::Shut { name: name()? }.into()),
             Hollow::No => Err(RequestError::NotHollow { name: name()? }.into()),
         }
@@ -151,12 +149,11 @@ impl State {
         &self,
         thing: ReplicaId,
         area: AreaId,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
         let name = world.name(Entity::Replica(thing)).to_owned();
-        let facts = facts_of_map(&now.world, relations);
+        let facts = facts_of_map(self.uncarried()?, relations);
         if relations.area_of(thing) == Some(area) {
             let lies = |p: &str| p == predicate::THING_ON || p == predicate::THING_AT_PLACE;
             let here = facts.iter().find(|f| lies(f.predicate) && f.arguments[0].name == name);
@@ -169,12 +166,11 @@ impl State {
                 .collect());
         }
         // What stands on another thing, as a toaster does, bears things where it is made for that.
-        let serves = |id: ReplicaId| {
-            now.world.has_trait(id, "support") || relations.support_of(id).is_none()
-        };
-        let bears = |id: ReplicaId| {
-            !now.world.has_trait(id, "portable") && serves(id) && self.takes(id, thing, now)
-        };
+        let now = self.uncarried()?;
+        let serves =
+            |id: ReplicaId| now.has_trait(id, "support") || relations.support_of(id).is_none();
+        let bears =
+            |id: ReplicaId| !now.has_trait(id, "portable") && serves(id) && self.takes(id, thing);
         let reached = |id: ReplicaId| {
             let support = world.name(Entity::Replica(id));
             facts
@@ -182,16 +178,15 @@ impl State {
                 .any(|f| f.predicate == predicate::PLACE_BY && f.arguments[1].name == support)
         };
         let in_area = |id: &ReplicaId| relations.area_of(*id) == Some(area);
-        let supports = now.world.replicas.keys().copied().filter(in_area);
+        let supports = now.replicas.keys().copied().filter(in_area);
         let supports = supports.filter(|id| reached(*id) && bears(*id)).map(Entity::Replica);
-        let places = now.world.places.values().filter(|p| p.area == area);
+        let places = now.places.values().filter(|p| p.area == area);
         let places = places.map(|p| Entity::Place(p.id));
         for (predicate, anchors) in [
             (predicate::THING_ON, supports.collect::<Vec<_>>()),
             (predicate::THING_AT_PLACE, places.collect()),
         ] {
-            let ranked =
-                anchors.into_iter().map(|e| (unfit(&now.world, e), self.way_to(e, now), e));
+            let ranked = anchors.into_iter().map(|e| (unfit(now, e), self.way_to(e), e));
             let best = ranked.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
             if let Some((_, _, anchor)) = best {
                 let args = vec![name, world.name(anchor).to_owned()];
@@ -208,13 +203,12 @@ impl State {
         &self,
         thing: ReplicaId,
         map: MapId,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
         let on_storey = |area: &AreaId| world.placement(*area).is_some_and(|(on, _)| on == map);
         if let Some(area) = relations.area_of(thing).filter(on_storey) {
-            return self.laid_in_area(thing, area, now, relations);
+            return self.laid_in_area(thing, area, relations);
         }
         let stops: Vec<AreaId> =
             world.domain.lifts.iter().flat_map(|(_, stops)| stops).map(|s| s.area).collect();
@@ -231,7 +225,7 @@ impl State {
         rooms.retain(|area| !stops.contains(area));
         rooms.sort_by_key(|area| !beside_lift(*area));
         for area in rooms {
-            match self.laid_in_area(thing, area, now, relations) {
+            match self.laid_in_area(thing, area, relations) {
                 Err(Error::Request(RequestError::NoSpace { .. })) => {}
                 laid => return laid,
             }
@@ -242,24 +236,32 @@ impl State {
     }
 
     /// Whether a thing has space for another, where the robot can reach it.
-    fn takes(&self, support: ReplicaId, thing: ReplicaId, now: &Now) -> bool {
+    fn takes(&self, support: ReplicaId, thing: ReplicaId) -> bool {
         let space = || {
-            let (map, _) = now.world.placement(now.world.replicas.get(&support)?.area)?;
             let around = self.around().ok()?;
+            let now = around.uncarried();
+            let (map, _) = now.placement(now.replicas.get(&support)?.area)?;
+            let (_, pose) = self.robot().ok()?;
             // With what the robot carries, which stands nowhere now; its shape is the same.
             let world = around.world();
-            spot_on(world, around.floor(map).ok()?.scene(), thing, support, now.pose.at)
+            let frame = spot_on(world, around.floor(map).ok()?.scene(), thing, support, pose.at)?;
+            Some(frame.z <= now.robot.height)
         };
-        space().is_some_and(|frame| frame.z <= now.world.robot.height)
+        space().unwrap_or(false)
     }
 
     /// Length of the way from the robot, cm; infinite where there is none on this floor.
-    pub(super) fn way_to(&self, entity: Entity, now: &Now) -> f64 {
+    pub(super) fn way_to(&self, entity: Entity) -> f64 {
         let way = || {
-            let around = self.around().ok()?;
-            let goal = around.locate_entity(entity).ok().filter(|goal| goal.map == now.map)?;
-            let floor = around.floor(now.map).ok()?;
-            Some(floor.route(&now.world, now.pose.at, goal.target, Method::Shortest).ok()?.length)
+            let (around, (map, pose)) = (self.around().ok()?, self.robot().ok()?);
+            let goal = around.locate_entity(entity).ok().filter(|goal| goal.map == map)?;
+            let floor = around.floor(map).ok()?;
+            Some(
+                floor
+                    .route(around.uncarried(), pose.at, goal.target, Method::Shortest)
+                    .ok()?
+                    .length,
+            )
         };
         way().unwrap_or(f64::INFINITY)
     }

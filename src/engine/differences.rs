@@ -231,14 +231,16 @@ impl Engine {
             Some(Observation { replica, at, seen, sure, observer: ROBOT.to_owned() })
         });
         let observed: Vec<Observation> = observed.flatten().collect();
-        renew(&mut memory, seen, at);
+        let apart = self.relations()?.thresholds().robot_same;
+        renew(&mut memory, seen, apart, at);
         self.next().forget_present();
         Ok(self.writable()?.remember(&memory, &observed, ROBOT, at)?)
     }
 }
 
-/// What is remembered of doors, obstacles and the pose, after these scans.
-fn renew(memory: &mut RobotMemory, seen: &Differing, at: Timestamp) {
+/// What is remembered of doors, obstacles and the pose, after these scans; obstacles whose middles are no farther `apart`
+/// are one.
+fn renew(memory: &mut RobotMemory, seen: &Differing, apart: f64, at: Timestamp) {
     for (door, news) in &seen.doors {
         if news.is_as_mapped {
             memory.doors.remove(door);
@@ -252,7 +254,7 @@ fn renew(memory: &mut RobotMemory, seen: &Differing, at: Timestamp) {
         let known = memory
             .obstacles
             .iter_mut()
-            .find(|old| old.area == new.area && distance(old, new) <= SAME_OBSTACLE);
+            .find(|old| old.area == new.area && distance(old, new) <= apart);
         match known {
             Some(old) => *old = new.clone(),
             None => memory.obstacles.push(new.clone()),
@@ -265,9 +267,6 @@ fn renew(memory: &mut RobotMemory, seen: &Differing, at: Timestamp) {
         memory.found.clone_from(&seen.found);
     }
 }
-
-/// Obstacles whose middles are no farther apart are one, in cm.
-const SAME_OBSTACLE: f64 = 40.0;
 
 fn distance(one: &SeenObstacle, other: &SeenObstacle) -> f64 {
     let middle = |seen: &SeenObstacle| {

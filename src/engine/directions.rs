@@ -24,10 +24,6 @@ use super::known::Known;
 use super::route::{End, RouteAnswer};
 use super::{Error, State};
 
-/// So far before and behind an opening a way is looked at to see whether it turns there, cm.
-const THROUGH: f64 = 50.0;
-/// Shorter stretches pass nothing worth a word, cm.
-const WORTH_TELLING: f64 = 60.0;
 /// So many landmarks a stretch.
 const LANDMARKS: usize = 2;
 
@@ -164,8 +160,8 @@ fn last_direction(piece: &[Point], jog: f64) -> Option<Vector> {
 fn straight_through(before: &[Point], after: &[Point], near: &Thresholds) -> Option<Vector> {
     let into = last_direction(before, near.way_jog)?;
     let on = plain(after, near.way_jog).windows(2).find_map(|pair| direction(pair[0], pair[1]))?;
-    let from = along(before.iter().rev(), THROUGH)?;
-    let through = direction(from, along(after.iter(), THROUGH)?)?;
+    let from = along(before.iter().rev(), near.way_through)?;
+    let through = direction(from, along(after.iter(), near.way_through)?)?;
     let is_straight = |a: Vector, b: Vector| turn(a, b).abs() < near.turn_straight;
     (is_straight(into, through) && is_straight(through, on) && is_straight(into, on))
         .then_some(into)
@@ -207,7 +203,7 @@ impl Guide<'_> {
             let Some(way) = direction(pair[0], pair[1]) else { continue };
             let length = (pair[1] - pair[0]).norm();
             let angle = facing.map(|facing| turn(facing, way));
-            let passed = if length < WORTH_TELLING {
+            let passed = if length < near.way_told {
                 Vec::new()
             } else {
                 passed(&landmarks, (pair[0], pair[1]), way, near.way_beside)
@@ -257,11 +253,12 @@ impl Guide<'_> {
     fn landmarks(&self, area: AreaId) -> Vec<(&PlacedReplica, Named)> {
         let here: Vec<&PlacedReplica> = self.floor.scene().replicas_in(area).collect();
         let name = |thing: &PlacedReplica| self.world.name(Entity::Replica(thing.id));
-        let most_moved = self.relations.thresholds().way_landmark * 100.0;
+        let near = self.relations.thresholds();
+        let most_moved = near.way_landmark * 100.0;
         let stays = |thing: &&&PlacedReplica| {
             let replica = &self.world.replicas[&thing.id];
             *self.end != End::Entity(Entity::Replica(thing.id))
-                && self.start.is_none_or(|start| distance(thing, start, start) >= WORTH_TELLING)
+                && self.start.is_none_or(|start| distance(thing, start, start) >= near.way_told)
                 && f64::from(replica.move_prob) <= most_moved
                 && !self.world.has_trait(thing.id, "portable")
                 && self.relations.support_of(thing.id).is_none()

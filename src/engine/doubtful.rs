@@ -12,7 +12,6 @@ use crate::robot::GoalFact;
 use crate::semantics::{Relations, predicate};
 use crate::units::ReplicaId;
 
-use super::memory::Now;
 use super::task::thing_of;
 use super::{Error, RequestError, State};
 
@@ -31,7 +30,6 @@ impl State {
         &self,
         commands: &[Command<Entity>],
         goals: &[Vec<GoalFact>],
-        now: &Now,
     ) -> Result<Vec<(ReplicaId, f64)>, Error> {
         // A rule file that knows no searching cannot be asked to search.
         if self.rules.robot.predicate(predicate::FOUND).is_none() {
@@ -39,7 +37,7 @@ impl State {
         }
         let mut unsure: Vec<(ReplicaId, f64)> = Vec::new();
         for id in self.carried_by(commands, goals)? {
-            let lies_somewhere = now.world.replicas.contains_key(&id);
+            let lies_somewhere = self.uncarried()?.replicas.contains_key(&id);
             if let Some(sure) = self.doubted(id).filter(|_| lies_somewhere)
                 && unsure.iter().all(|(other, _)| *other != id)
             {
@@ -58,14 +56,13 @@ impl State {
         &self,
         commands: &[Command<Entity>],
         goals: &mut [Vec<GoalFact>],
-        now: &Now,
         relations: &Relations,
     ) -> Result<(), Error> {
         let world = self.world()?;
         let name = |id| world.name(Entity::Replica(id)).to_owned();
         for id in self.carried_by(commands, goals)? {
             let Some(around) = relations.shut_in(id) else { continue };
-            if !self.can_open(around, now) {
+            if !self.can_open(around) {
                 let (thing, container) = (name(id), name(around));
                 return Err(RequestError::ShutIn { thing, container }.into());
             }

@@ -297,7 +297,7 @@ impl Known {
         if let Some(names) = self.names.get_mut() {
             names.follow(before, after);
         }
-        self.world = Arc::clone(after);
+        (self.world, self.uncarried) = (Arc::clone(after), Arc::clone(after));
         let mut followed = before.count_changes(after) <= MOST_FOLLOWED;
         let mut led = None;
         if let Some(relations) = self.relations.get_mut().filter(|_| followed) {

@@ -8,13 +8,13 @@ use crate::robot::{Belief, GoalFact};
 use crate::semantics::predicate;
 use crate::units::ReplicaId;
 
-use super::memory::Now;
 use super::{Error, RequestError, State};
 
 impl State {
     /// Whether a thing stands shut and the robot opens it: its profile says so, its rules know how, and there is no lock.
-    pub(super) fn can_open(&self, thing: ReplicaId, now: &Now) -> bool {
-        let status = now.world.replicas.get(&thing).and_then(|it| stands(&now.world, it));
+    pub(super) fn can_open(&self, thing: ReplicaId) -> bool {
+        let Ok(now) = self.uncarried() else { return false };
+        let status = now.replicas.get(&thing).and_then(|it| stands(now, it));
         self.opens_furniture() && status == Some(DoorStatus::Closed)
     }
 
@@ -31,10 +31,10 @@ impl State {
         &self,
         thing: Entity,
         open: bool,
-        now: &Now,
     ) -> Result<Option<Vec<GoalFact>>, Error> {
         let Entity::Replica(id) = thing else { return Ok(None) };
-        let status = now.world.replicas.get(&id).and_then(|it| stands(&now.world, it));
+        let now = self.uncarried()?;
+        let status = now.replicas.get(&id).and_then(|it| stands(now, it));
         let Some(status) = status else { return Ok(None) };
         if (status == DoorStatus::Open) == open {
             return Ok(Some(Vec::new()));
@@ -57,7 +57,6 @@ impl State {
     pub(super) fn thrown_away(
         &self,
         thing: Entity,
-        now: &Now,
         belief: &mut Belief,
     ) -> Result<Vec<GoalFact>, Error> {
         let id = self.portable(thing)?;
@@ -68,9 +67,9 @@ impl State {
             args: vec![name.clone()],
         }];
         let mut locked = None;
-        for bin in self.bins(now)?.into_iter().filter(|bin| *bin != id) {
+        for bin in self.bins()?.into_iter().filter(|bin| *bin != id) {
             let called = world.name(Entity::Replica(bin)).to_owned();
-            match self.must_be_opened(bin, now) {
+            match self.must_be_opened(bin) {
                 Ok(is_shut) => {
                     let args = vec![called.clone()];
                     let predicate = predicate::STANDS_SHUT.to_owned();
@@ -97,16 +96,16 @@ impl State {
     ///
     /// # Errors
     /// There is no map.
-    pub(super) fn bins(&self, now: &Now) -> Result<Vec<ReplicaId>, Error> {
-        let kinds = self.mind()?.lexicon.bins();
+    pub(super) fn bins(&self) -> Result<Vec<ReplicaId>, Error> {
+        let (now, kinds) = (self.uncarried()?, self.mind()?.lexicon.bins());
         let of_kind = |one: &&Replica| {
-            let kind = now.world.objects.get(&one.object).and_then(|object| object.object_type);
+            let kind = now.objects.get(&one.object).and_then(|object| object.object_type);
             kinds.iter().any(|extension| match extension {
                 Extension::ObjectType(wanted) => Some(*wanted) == kind,
                 Extension::Object(wanted) => *wanted == one.object,
                 _ => false,
             })
         };
-        Ok(now.world.replicas.values().filter(of_kind).map(|one| one.id).collect())
+        Ok(now.replicas.values().filter(of_kind).map(|one| one.id).collect())
     }
 }

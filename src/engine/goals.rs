@@ -3,13 +3,12 @@
 use std::collections::BTreeSet;
 
 use crate::language::command::{Command, Relation};
-use crate::map::{DoorStatus, Entity, World};
+use crate::map::{DoorStatus, Entity};
 use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
 
 use super::directive_words::floor_place;
-use super::memory::Now;
 use super::task::{OPERATOR, thing_of};
 use super::{Error, RequestError, State};
 
@@ -23,7 +22,6 @@ impl State {
         &self,
         commands: &[Command<Entity>],
         here: &str,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
@@ -40,7 +38,7 @@ impl State {
             if is_only_gathered(commands, n) {
                 continue;
             }
-            let mut wanted = self.goals_of_one(command, here, now, relations, belief)?;
+            let mut wanted = self.goals_of_one(command, here, relations, belief)?;
             // «Возьми тарелку и верни на место»: it lies there now, and will not then.
             if let Command::PutBack(what) = command
                 && wanted.is_empty()
@@ -51,7 +49,7 @@ impl State {
             // What is not locked is unlocked already, and what is locked is closed: each order asks for its own part only.
             let locked = |what: Entity| match what {
                 Entity::Replica(_) => Ok(false),
-                door => self.is_locked_by(&commands[..n], door, now),
+                door => self.is_locked_by(&commands[..n], door),
             };
             match command {
                 Command::Unlock(what) if !locked(what.id)? => wanted.clear(),
@@ -84,7 +82,6 @@ impl State {
         &self,
         command: &Command<Entity>,
         here: &str,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
@@ -93,38 +90,37 @@ impl State {
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
             Command::GoTo { to, via, facing } => {
-                let goal = vec![self.standing(to, facing.as_ref(), now, relations, belief)?];
+                let goal = vec![self.standing(to, facing.as_ref(), relations, belief)?];
                 match via {
                     Some(Entity::Door(door)) => {
-                        let mut goals = self.through(*door, now, relations)?;
+                        let mut goals = self.through(*door, relations)?;
                         goals.push(goal);
                         goals
                     }
                     // «через кухню»
-                    Some(place) => vec![vec![self.being_at(*place, now, relations)?], goal],
+                    Some(place) => vec![vec![self.being_at(*place, relations)?], goal],
                     None => vec![goal],
                 }
             }
-            Command::Face(facing) => one(self.turned_here(facing, now, belief)?),
-            Command::GoThrough(Entity::Door(door)) => self.through(*door, now, relations)?,
-            Command::GoThrough(place) => one(self.being_at(*place, now, relations)?),
+            Command::Face(facing) => one(self.turned_here(facing, belief)?),
+            Command::GoThrough(Entity::Door(door)) => self.through(*door, relations)?,
+            Command::GoThrough(place) => one(self.being_at(*place, relations)?),
             Command::Leave(place) => {
-                let here = self.around()?.floor(now.map)?.locate(now.pose.at);
-                let here = here.map(|(area, ..)| Entity::Area(area));
+                let here = self.robot_area()?.map(Entity::Area);
                 match place {
                     Some(left) if matches!(left, Entity::Area(_)) && Some(*left) != here => {
                         Vec::new()
                     }
-                    _ => one(self.outside(now, relations)?),
+                    _ => one(self.outside(relations)?),
                 }
             }
             Command::Charge => {
-                let charger = self.charger(now)?;
-                one(self.being_at(charger, now, relations)?)
+                let charger = self.charger()?;
+                one(self.being_at(charger, relations)?)
             }
             Command::GoHome => {
                 let start = world.robot.start.ok_or(RequestError::NoStart)?;
-                one(self.being_at(Entity::Place(start), now, relations)?)
+                one(self.being_at(Entity::Place(start), relations)?)
             }
             Command::ComeHere | Command::ComeBack => {
                 one(fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()]))
@@ -142,10 +138,10 @@ impl State {
                 if near {
                     belief.beside.insert((name(what.id), name(to.anchor)));
                 }
-                vec![self.delivered(what.id, to, now, relations)?]
+                vec![self.delivered(what.id, to, relations)?]
             }
             Command::SetDown { what, within } => {
-                vec![self.set_down(what.id, *within, now, relations, belief)?]
+                vec![self.set_down(what.id, *within, relations, belief)?]
             }
             Command::Take { what } => {
                 self.portable(what.id)?;
@@ -153,39 +149,39 @@ impl State {
             }
             Command::PutBack(what) => match what.id {
                 Entity::Replica(id) if world.has_trait(id, "portable") => {
-                    let Some(home) = self.home_of(&name(what.id), now, relations)? else {
+                    let Some(home) = self.home_of(&name(what.id), relations)? else {
                         return Ok(Vec::new());
                     };
                     belief.homes.push((name(what.id), home));
                     one(fact(predicate::IN_ITS_PLACE, vec![name(what.id)]))
                 }
-                place => self.tidied(Some(place), now, relations, belief)?,
+                place => self.tidied(Some(place), relations, belief)?,
             },
             Command::Find(what) => match what.id {
                 Entity::Replica(_) => one(fact(predicate::FOUND, vec![name(what.id)])),
-                place => one(self.being_at(place, now, relations)?),
+                place => one(self.being_at(place, relations)?),
             },
             // What is no door is neither opened nor closed; if it is so already, nothing is to be done.
             Command::Open(thing) | Command::Close(thing) => {
                 let open = matches!(command, Command::Open(_));
                 let state = if open { predicate::DOOR_OPEN } else { predicate::DOOR_CLOSED };
-                match self.furniture_stands(thing.id, open, now)? {
+                match self.furniture_stands(thing.id, open)? {
                     Some(goal) => vec![goal],
                     None => vec![self.door_facts(state, thing.id)?],
                 }
             }
-            Command::ThrowAway(what) => vec![self.thrown_away(what.id, now, belief)?],
+            Command::ThrowAway(what) => vec![self.thrown_away(what.id, belief)?],
             Command::Lock(door) => vec![self.door_facts(predicate::DOOR_LOCKED, door.id)?],
             Command::Unlock(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
             Command::SwitchOn(device) => one(self.switched(predicate::DEVICE_ON, device.id)?),
             Command::SwitchOff(device) => one(self.switched(predicate::DEVICE_OFF, device.id)?),
-            Command::CallLift => one(self.cabin_here(now, relations)?),
+            Command::CallLift => one(self.cabin_here(relations)?),
             Command::CallOperator => one(fact(predicate::CALLED, vec![OPERATOR.to_owned()])),
             Command::Clean(Some(thing @ Entity::Replica(_))) => {
                 return Err(RequestError::NotCleaned { name: name(*thing) }.into());
             }
             Command::Tidy(within) | Command::Clean(within) => {
-                self.tidied(*within, now, relations, belief)?
+                self.tidied(*within, relations, belief)?
             }
             // Each action ends with a report as it is; nothing is under way that could be stopped.
             Command::Wait | Command::Report | Command::Stop => Vec::new(),
@@ -205,12 +201,11 @@ impl State {
     fn tidied(
         &self,
         within: Option<Entity>,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
         let mut goals = Vec::new();
-        for (thing, home) in self.misplaced(within, now, relations)? {
+        for (thing, home) in self.misplaced(within, relations)? {
             goals.push(vec![fact(predicate::IN_ITS_PLACE, vec![thing.clone()])]);
             belief.homes.push((thing, home));
         }
@@ -229,7 +224,6 @@ impl State {
     pub(super) fn being_at(
         &self,
         entity: Entity,
-        now: &Now,
         relations: &Relations,
     ) -> Result<GoalFact, Error> {
         let world = self.world()?;
@@ -245,7 +239,7 @@ impl State {
             }
             Entity::Place(_) => {
                 // A place where the robot does not fit, or in no room, is none to the planner.
-                let known = facts_of_map(&now.world, relations)
+                let known = facts_of_map(self.uncarried()?, relations)
                     .into_iter()
                     .any(|f| f.predicate == predicate::PLACE_IN && f.arguments[0].name == name);
                 if !known {
@@ -253,7 +247,7 @@ impl State {
                 }
                 predicate::ROBOT_AT_PLACE
             }
-            Entity::Replica(_) => return self.being_near(entity, &now.world, relations),
+            Entity::Replica(_) => return self.being_near(entity, relations),
             Entity::Zone(_) => return Err(RequestError::NotAPlace { name }.into()),
             // On a storey is in any room of it.
             Entity::Map(map) => {
@@ -264,7 +258,7 @@ impl State {
     }
 
     /// The nearest place or thing that is for charging, by its name or its type.
-    fn charger(&self, now: &Now) -> Result<Entity, Error> {
+    fn charger(&self) -> Result<Entity, Error> {
         const STEMS: [&str; 4] = ["заряд", "charg", "dock", "докстанц"];
         let world = self.world()?;
         let charges = |name: &str| {
@@ -281,7 +275,7 @@ impl State {
         };
         let things = world.replicas.values().filter(|r| of_kind(r.object) == Some(true));
         let all = places.map(|p| Entity::Place(p.id)).chain(things.map(|r| Entity::Replica(r.id)));
-        let far = |entity: Entity| (self.way_to(entity, now), entity);
+        let far = |entity: Entity| (self.way_to(entity), entity);
         let nearest = all.map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         Ok(nearest.ok_or(RequestError::NoCharger)?.1)
     }
@@ -291,14 +285,13 @@ impl State {
         &self,
         thing: Entity,
         within: Option<Entity>,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<Vec<GoalFact>, Error> {
         let id = self.portable(thing)?;
         let world = self.world()?;
         let name = world.name(thing).to_owned();
-        let facts = facts_of_map(&now.world, relations);
+        let facts = facts_of_map(self.uncarried()?, relations);
         let area = match within {
             Some(Entity::Area(area)) => Some(area),
             Some(Entity::Place(place)) => {
@@ -348,14 +341,9 @@ impl State {
     }
 
     /// At the place from which a thing is reached: the one that serves it or what it stands on.
-    fn being_near(
-        &self,
-        entity: Entity,
-        now: &World,
-        relations: &Relations,
-    ) -> Result<GoalFact, Error> {
+    fn being_near(&self, entity: Entity, relations: &Relations) -> Result<GoalFact, Error> {
         let name = self.world()?.name(entity);
-        let facts = facts_of_map(now, relations);
+        let facts = facts_of_map(self.uncarried()?, relations);
         let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
             facts
                 .iter()
@@ -370,15 +358,10 @@ impl State {
     }
 
     /// At a door, and then on its other side.
-    fn through(
-        &self,
-        door: DoorId,
-        now: &Now,
-        relations: &Relations,
-    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+    fn through(&self, door: DoorId, relations: &Relations) -> Result<Vec<Vec<GoalFact>>, Error> {
         let world = self.world()?;
         let name = world.name(Entity::Door(door)).to_owned();
-        let here = self.around()?.floor(now.map)?.locate(now.pose.at).map(|(area, ..)| area);
+        let here = self.robot_area()?;
         let joins = relations.joins();
         let mut sides: BTreeSet<AreaId> = BTreeSet::new();
         for join in joins.iter().filter(|j| j.door == Some(door)) {
@@ -399,13 +382,12 @@ impl State {
     }
 
     /// In the room next to this one to which the way is the shortest.
-    fn outside(&self, now: &Now, relations: &Relations) -> Result<GoalFact, Error> {
+    fn outside(&self, relations: &Relations) -> Result<GoalFact, Error> {
         let world = self.world()?;
-        let here = self.around()?.floor(now.map)?.locate(now.pose.at);
-        let (here, ..) = here.ok_or(RequestError::RobotNowhere)?;
+        let here = self.robot_area()?.ok_or(RequestError::RobotNowhere)?;
         let beside: BTreeSet<AreaId> =
             relations.joins().iter().filter(|j| j.from == here).map(|j| j.to).collect();
-        let far = |area: AreaId| (self.way_to(Entity::Area(area), now), area);
+        let far = |area: AreaId| (self.way_to(Entity::Area(area)), area);
         let next =
             beside.into_iter().map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let name = world.name(Entity::Area(here)).to_owned();
@@ -414,15 +396,16 @@ impl State {
     }
 
     /// The cabin of the lift to which the way is the shortest stands at this storey.
-    fn cabin_here(&self, now: &Now, relations: &Relations) -> Result<GoalFact, Error> {
+    fn cabin_here(&self, relations: &Relations) -> Result<GoalFact, Error> {
         let world = self.world()?;
         let lifts = lifts(world, relations);
         let here = lifts.iter().flat_map(|lift| lift.doors.iter().map(move |join| (lift, join)));
         let here = here.filter_map(|(lift, join)| Some((lift, join, join.door?)));
+        let (storey, _) = self.robot()?;
         let here = here.filter(|(_, join, _)| {
-            world.placement(join.from).is_some_and(|(map, _)| map == now.map)
+            world.placement(join.from).is_some_and(|(map, _)| map == storey)
         });
-        let far = |door: DoorId| self.way_to(Entity::Door(door), now);
+        let far = |door: DoorId| self.way_to(Entity::Door(door));
         let nearest = here.min_by(|a, b| far(a.2).total_cmp(&far(b.2)));
         let (lift, join, _) = nearest.ok_or(RequestError::NoLift)?;
         Ok(fact(predicate::CABIN_AT, vec![lift.name.clone(), join.opening.clone()]))
@@ -447,12 +430,7 @@ impl State {
     }
 
     /// Whether a door is locked once the commands before have been carried out.
-    fn is_locked_by(
-        &self,
-        before: &[Command<Entity>],
-        entity: Entity,
-        now: &Now,
-    ) -> Result<bool, Error> {
+    fn is_locked_by(&self, before: &[Command<Entity>], entity: Entity) -> Result<bool, Error> {
         let door = self.door_of(entity)?;
         for command in before.iter().rev() {
             let (what, locks) = match command {
@@ -464,7 +442,8 @@ impl State {
                 return Ok(locks);
             }
         }
-        Ok(now.world.doors.get(&door).is_some_and(|door| door.state.status == DoorStatus::Locked))
+        let door = self.world_now()?.doors.get(&door);
+        Ok(door.is_some_and(|door| door.state.status == DoorStatus::Locked))
     }
 
     /// A state of a door, said for every pair of Areas that it joins.

@@ -6,7 +6,6 @@ use crate::geometry::{FloorPlan, Leg, Method, Remedy, Ride, Target, across};
 use crate::language::Language;
 use crate::language::report::{Detail, Named};
 use crate::map::{Entity, World};
-use crate::store::Timestamp;
 use crate::units::{Deg, DoorId, MapId, Point};
 
 use super::advice::Advice;
@@ -44,9 +43,9 @@ impl State {
     ///
     /// # Errors
     /// As [`State::journey`]; or the map does not say where the robot is.
-    pub(crate) fn journey_of_robot(&self, to: &str, at: Timestamp) -> Result<Journey, Error> {
-        let now = self.now(at)?;
-        let (start, goal) = (self.locate_point(now.map, now.pose.at)?, self.locate_name(to)?);
+    pub(crate) fn journey_of_robot(&self, to: &str) -> Result<Journey, Error> {
+        let (map, pose) = self.robot()?;
+        let (start, goal) = (self.locate_point(map, pose.at)?, self.locate_name(to)?);
         let mut journey =
             self.around()?.journey_between(("", start), (to, goal), Method::Shortest)?;
         if let [only] = &mut journey.legs[..] {

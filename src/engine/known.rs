@@ -12,7 +12,7 @@ use std::time::Instant;
 use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
-use crate::map::{Entity, NameIndex, World, Zone};
+use crate::map::{Entity, NameIndex, Replica, World, Zone};
 use crate::meaning::MapWords;
 use crate::semantics::{Followed, Relations, Told, derive};
 use crate::store::Derived;
@@ -35,6 +35,8 @@ pub(super) struct Known {
     pub(super) rules: Arc<Rules>,
     /// With what is carried.
     pub(super) world: Arc<World>,
+    /// The same without.
+    pub(super) uncarried: Arc<World>,
     /// Who has what was taken off the map; an empty name for the robot itself.
     pub(super) holders: BTreeMap<ReplicaId, String>,
     /// Of what was taken off the map, what lies on or in another such thing, with that thing.
@@ -62,6 +64,7 @@ impl Known {
     pub(super) fn surveyed(rules: Arc<Rules>, world: Arc<World>, derived: Option<Derived>) -> Self {
         Self {
             rules,
+            uncarried: Arc::clone(&world),
             world,
             holders: BTreeMap::new(),
             carriers: BTreeMap::new(),
@@ -89,10 +92,12 @@ impl Known {
         moment: Timestamp,
     ) -> Result<Self, Error> {
         let gone: Vec<_> = holders.keys().filter_map(|id| world.replicas.remove(id)).collect();
-        let relations = basis.followed(&world)?.shared();
+        let uncarried = Arc::new(world.clone());
+        let relations = basis.followed(&uncarried)?.shared();
         world.replicas.extend(gone.into_iter().map(|replica| (replica.id, replica)));
         let known = Self::surveyed(Arc::clone(&basis.rules), Arc::new(world), None);
         Ok(Self {
+            uncarried,
             holders,
             carriers,
             basis: Some(Arc::clone(basis)),
@@ -121,12 +126,37 @@ impl Known {
     }
 
     /// The world without what is carried.
-    pub(super) fn empty_handed(&self) -> World {
-        let mut world = World::clone(&self.world);
-        for carried in self.holders.keys() {
-            world.replicas.remove(carried);
-        }
-        world
+    pub(super) fn uncarried(&self) -> &World {
+        &self.uncarried
+    }
+
+    /// What is carried by itself, with who has it; an empty name for the robot.
+    fn carried(&self) -> impl Iterator<Item = (&Replica, &String)> {
+        let alone = self.holders.iter().filter(|(thing, _)| !self.carriers.contains_key(thing));
+        alone.filter_map(|(thing, holder)| Some((self.world.replicas.get(thing)?, holder)))
+    }
+
+    /// What the robot holds.
+    pub(super) fn held(&self) -> Option<&Replica> {
+        self.carried().find(|(_, holder)| holder.is_empty()).map(|(thing, _)| thing)
+    }
+
+    /// What was handed over, with the people's names.
+    pub(super) fn handed_over(&self) -> Vec<(Replica, String)> {
+        let given = self.carried().filter(|(_, holder)| !holder.is_empty());
+        given.map(|(thing, holder)| (thing.clone(), holder.clone())).collect()
+    }
+
+    /// What lies on or in what is carried, each with the thing with which it goes.
+    pub(super) fn aboard(&self) -> Vec<(Replica, ReplicaId)> {
+        let laid = self.carriers.iter();
+        laid.filter_map(|(thing, on)| Some((self.world.replicas.get(thing)?.clone(), *on)))
+            .collect()
+    }
+
+    /// The moment of which it is known; this one where nothing depends on it.
+    pub(super) fn moment(&self) -> Timestamp {
+        self.moment.unwrap_or_else(|| std::time::SystemTime::now().into())
     }
 
     /// Whether a zone is in force: at its moment, or on the map as surveyed.
@@ -168,10 +198,28 @@ impl Known {
     /// # Errors
     /// As [`Self::relations`].
     pub(super) fn followed(&self, world: &World) -> Result<Followed, Error> {
-        let relations = Arc::clone(self.shared_relations()?);
-        let mut followed = Followed::new(Arc::clone(&self.world), relations);
+        let mut followed = self.to_follow()?;
         followed.of(world)?;
         Ok(followed)
+    }
+
+    /// The relations that hold, to be followed from here.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn to_follow(&self) -> Result<Followed, Error> {
+        let relations = Arc::clone(self.shared_relations()?);
+        Ok(Followed::new(Arc::clone(&self.uncarried), relations))
+    }
+
+    /// The free floor of a Map, and of those to which lifts lead.
+    ///
+    /// # Errors
+    /// As [`Self::relations`].
+    pub(super) fn floors_from(&self, map: MapId) -> Result<Floors, Error> {
+        let leads = |other: &MapId| *other == map || !self.world.domain.lifts.is_empty();
+        let floors = self.floors()?.iter().filter(|(other, _)| leads(other));
+        Ok(floors.map(|(map, floor)| (*map, floor.clone())).collect())
     }
 
     /// The relations that the store keeps for its map as it stands, under these rules.
@@ -215,9 +263,8 @@ impl Known {
             .filter(|basis| basis.openings().is_ok_and(|surveyed| surveyed == openings));
         let mut floors = match basis {
             Some(basis) => {
-                let empty_handed = self.empty_handed();
                 let mut floors = basis.floors()?.clone();
-                floors.values_mut().for_each(|floor| floor.follow(&basis.world, &empty_handed));
+                floors.values_mut().for_each(|floor| floor.follow(&basis.world, &self.uncarried));
                 floors
             }
             None => {

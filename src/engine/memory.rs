@@ -4,16 +4,13 @@
 //! world of a task is the map with that applied.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::OnceLock;
 
-use crate::geometry::FloorPlan;
 use crate::map::{DoorStatus, Entity, Replica, World, is_on, set_open, stands, switch};
 use crate::robot::{Belief, starting_pose};
-use crate::semantics::Followed;
-use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{Deg, MapId, Point, Pose, ReplicaId};
+use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
+use crate::units::{AreaId, Deg, MapId, Pose, ReplicaId};
 
-use super::known::Known;
 use super::obstacles::{is_obstacle, put_up};
 use super::route::{is_pair, parse_pose};
 use super::task::TaskAnswer;
@@ -24,86 +21,75 @@ pub const ROBOT: &str = "робот";
 /// How sure the robot is of what it did or touched.
 const SURE_OF_OWN_DEED: f64 = 0.95;
 
-/// The world as it is believed to be now, and the robot in it: what a task begins from.
-#[derive(Debug, Clone)]
-pub struct Now {
-    /// With the floors and relations of this world.
-    pub(super) known: Arc<Known>,
-    pub(super) at: Timestamp,
-    /// Without what is carried or was handed over.
-    pub world: World,
-    pub map: MapId,
-    pub pose: Pose,
-    pub held: Option<Replica>,
-    /// With the people's names.
-    pub handed_over: Vec<(Replica, String)>,
-    /// What lies on or in these, each with the thing with which it goes.
-    pub aboard: Vec<(Replica, ReplicaId)>,
-    /// What the robot saw where the map has nothing; what of it still counts stands in the world.
-    pub obstacles: Vec<SeenObstacle>,
-    /// Whether the robot stands where its last task left it; else it stands at the map's start.
-    pub goes_on: bool,
-    /// Where the person stands who gives the orders; none, where the robot does.
-    pub person: Option<(MapId, Point)>,
-}
-
-impl Now {
-    /// The floor that is free at this moment, of the robot's map and of those to which lifts lead.
-    pub(super) fn floors(&self) -> Result<BTreeMap<MapId, FloorPlan>, Error> {
-        let leads = |map: &MapId| *map == self.map || !self.world.domain.lifts.is_empty();
-        let floors = self.known.floors()?.iter().filter(|(map, _)| leads(map));
-        Ok(floors.map(|(map, floor)| (*map, floor.clone())).collect())
-    }
-
-    /// The relations that hold at this moment, to be followed from here.
-    pub(super) fn followed(&self) -> Result<Followed, Error> {
-        let relations = Arc::clone(self.known.shared_relations()?);
-        Ok(Followed::new(Arc::new(self.world.clone()), relations))
-    }
-}
-
 impl State {
-    /// The map with all that the robot remembers, at this moment.
+    /// The same at a moment: what was seen counts as it does then, and so do zones that begin and end.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub(super) fn at(&self, moment: Timestamp) -> Result<Self, Error> {
+        let mut state = self.clone();
+        state.now = OnceLock::from(Some(self.known_at(moment)?));
+        Ok(state)
+    }
+
+    /// Where the robot stands: where its last task left it, else where the map lets it begin.
     ///
     /// # Errors
     /// There is no map, or it does not say where the robot starts.
-    pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
-        let memory = self.memory()?;
-        let known = self.known_at(at)?;
-        let world = known.empty_handed();
-        let (mut held, mut handed_over, mut aboard) = (None, Vec::new(), Vec::new());
-        for (thing, holder) in &known.holders {
-            let replica = known.world().replicas[thing].clone();
-            match known.carriers.get(thing) {
-                Some(carrier) => aboard.push((replica, *carrier)),
-                None if holder.is_empty() => held = Some(replica),
-                None => handed_over.push((replica, holder.clone())),
-            }
+    pub fn robot(&self) -> Result<(MapId, Pose), Error> {
+        if let Some(robot) = self.robot.get() {
+            return Ok(*robot);
         }
+        let world = self.world()?;
         // A map that was replaced since may not have this place any more.
         let stands = |(map, pose): &(MapId, Pose)| {
             world.maps.contains_key(map)
                 && self.floor(*map).is_ok_and(|floor| floor.locate(pose.at).is_some())
         };
-        let last = memory.pose.filter(stands);
-        let goes_on = last.is_some();
-        let start = last.or_else(|| starting_pose(&world));
-        let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
-        let obstacles = memory.obstacles.clone();
-        let person = None;
-        Ok(Now {
-            known,
-            at,
-            world,
-            map,
-            pose,
-            held,
-            handed_over,
-            aboard,
-            obstacles,
-            goes_on,
-            person,
-        })
+        let last = self.memory()?.pose.filter(stands);
+        let robot = last.or_else(|| starting_pose(world)).ok_or(RequestError::RobotNowhere)?;
+        Ok(*self.robot.get_or_init(|| robot))
+    }
+
+    /// The Area in which the robot stands; none beside the floor.
+    ///
+    /// # Errors
+    /// As [`State::robot`].
+    pub(super) fn robot_area(&self) -> Result<Option<AreaId>, Error> {
+        let (map, pose) = self.robot()?;
+        Ok(self.around()?.floor(map)?.locate(pose.at).map(|(area, _)| area))
+    }
+
+    /// The world as it is believed to be now, without what is carried or was handed over.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn uncarried(&self) -> Result<&World, Error> {
+        Ok(self.around()?.uncarried())
+    }
+
+    /// What the robot holds.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn held(&self) -> Result<Option<&Replica>, Error> {
+        Ok(self.around()?.held())
+    }
+
+    /// What was handed over, with the names of those who have it.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn handed_over(&self) -> Result<Vec<(Replica, String)>, Error> {
+        Ok(self.around()?.handed_over())
+    }
+
+    /// What lies on or in what is held or was handed over, each with the thing with which it goes.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn aboard(&self) -> Result<Vec<(Replica, ReplicaId)>, Error> {
+        Ok(self.around()?.aboard())
     }
 
     /// Of things that are carried, those that lie on or in others of them, each with the one that carries it and is itself
@@ -302,8 +288,13 @@ pub struct After {
 }
 
 impl After {
-    /// What a robot holds to be so, against the map and against what was so when it began.
-    pub(super) fn of(surveyed: &World, before: &Now, belief: &Belief) -> Self {
+    /// What a robot holds to be so, against the map and against what was so, and remembered, when it began.
+    pub(super) fn of(
+        surveyed: &World,
+        before: &World,
+        remembered: &RobotMemory,
+        belief: &Belief,
+    ) -> Self {
         let doors = belief
             .world
             .doors
@@ -314,7 +305,7 @@ impl After {
         let carried = belief.carried();
         let mut moved = BTreeMap::new();
         for (id, is) in &belief.world.replicas {
-            let was = before.world.replicas.get(id);
+            let was = before.replicas.get(id);
             // What nobody knows is no thing of the map that was moved.
             if is_obstacle(*id) {
                 continue;
@@ -323,7 +314,7 @@ impl After {
                 moved.insert(*id, Some(Seen { area: is.area, frame: is.frame }));
             }
         }
-        for id in before.world.replicas.keys().filter(|id| carried.contains_key(id)) {
+        for id in before.replicas.keys().filter(|id| carried.contains_key(id)) {
             moved.insert(*id, None);
         }
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
@@ -347,7 +338,7 @@ impl After {
             })
             .collect();
         let pose = Some((belief.map, belief.pose));
-        let obstacles = before.obstacles.clone();
+        let obstacles = remembered.obstacles.clone();
         let memory = RobotMemory {
             pose,
             doors,

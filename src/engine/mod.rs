@@ -112,7 +112,7 @@ pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;
 pub use journey::{Journey, ride_in_words};
 pub use localisation::{FoundPose, FoundScan};
-pub use memory::{After, Now, ROBOT};
+pub use memory::{After, ROBOT};
 pub use narration::{
     counted_in_english, decimal, directive_told, plan_in_words, progress_in_words,
 };

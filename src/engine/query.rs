@@ -99,8 +99,9 @@ fn seen(asked: &Asked<'_>, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value
     let (world, located) = (asked.around.world(), asked.around.locate_entity(place).ok()?);
     let floor = asked.around.floor(located.map).ok()?;
     let pose = Pose { at: located.at, heading: Deg::ZERO };
-    let eye = Eye { field: 360.0, ..robot_eye(world, floor, pose, asked.relations.thresholds()) };
-    for thing in things_in_view(world, floor, &eye) {
+    let near = asked.relations.thresholds();
+    let eye = Eye { field: 360.0, ..robot_eye(world, floor, pose, near) };
+    for thing in things_in_view(world, floor, &eye, near) {
         if let Some(symbol) = asked.symbol(thing) {
             tell(&[known[0].clone()?, symbol]);
         }

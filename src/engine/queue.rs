@@ -75,10 +75,10 @@ impl Engine {
         queue: &Queue,
     ) -> Result<QueuedTask, Error> {
         let at = std::time::SystemTime::now().into();
-        let now = self.now(at)?;
         let id = queue.tasks.iter().map(|task| task.id).max().unwrap_or(0).saturating_add(1);
         let (text, by) = (text.to_owned(), user.to_owned());
-        let from = Some((now.map, now.pose.at));
+        let (map, pose) = self.robot()?;
+        let from = Some((map, pose.at));
         Ok(QueuedTask { id, text, by, at, from, is_begun: false })
     }
 
@@ -128,8 +128,8 @@ impl State {
     pub fn in_order(&self, tasks: &[QueuedTask]) -> Result<Vec<QueuedTask>, Error> {
         let (begun, waiting): (Vec<_>, Vec<_>) = tasks.iter().cloned().partition(|t| t.is_begun);
         let errands: Option<Vec<Errand>> = waiting.iter().map(|task| self.errand(task)).collect();
-        let now = self.now(std::time::SystemTime::now().into())?;
-        let start = self.locate_point(now.map, now.pose.at).ok();
+        let (map, pose) = self.robot()?;
+        let start = self.locate_point(map, pose.at).ok();
         let order = match (errands, start) {
             (Some(errands), Some(start)) if errands.len() > 1 => {
                 let after = begun.iter().filter_map(|task| self.errand(task)?.stops.pop()).last();

@@ -183,8 +183,8 @@ impl Recording {
         }
         self.revision = Some(state.revision());
         messages.extend(self.things(state));
-        if let Ok(now) = state.now(SystemTime::now().into()) {
-            messages.extend(self.scribe.pose(now.map, now.pose));
+        if let Ok((map, pose)) = state.robot() {
+            messages.extend(self.scribe.pose(map, pose));
         }
         messages
     }

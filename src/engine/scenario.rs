@@ -12,7 +12,6 @@ use crate::semantics::predicate;
 use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
 use crate::units::{Bilingual, ReplicaId, Stop, name_key};
 
-use super::memory::Now;
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
@@ -53,34 +52,32 @@ impl State {
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        self.piloted(&now, vehicle, |vehicle| match vehicle {
-            Ok(vehicle) => self.drive_scenario_placed(scenario, &now, vehicle, tell, stop),
-            Err(failure) => Ok(TaskAnswer::not_begun(&now, failure)),
+        let begun = self.at(std::time::SystemTime::now().into())?;
+        begun.piloted(vehicle, |vehicle| match vehicle {
+            Ok(vehicle) => match begun.stood_by(vehicle) {
+                Ok(begun) => begun.drive_scenario_placed(scenario, vehicle, tell, stop),
+                Err(failure) => begun.not_begun(failure),
+            },
+            Err(failure) => begun.not_begun(failure),
         })?
     }
 
     fn drive_scenario_placed(
         &self,
         scenario: &Scenario,
-        now: &Now,
         vehicle: &mut dyn Vehicle,
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        let now = match self.now_with(now, vehicle) {
-            Ok(now) => now,
-            Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
-        };
-        let (mut belief, _) = self.belief_of(&now)?;
-        let followed = self.followed_with(&now, &belief)?;
+        let (mut belief, _) = self.belief_of()?;
+        let followed = self.followed_with(&belief)?;
         let relations = followed.relations();
         let wanted = scenario.problem.stated_goals().filter_map(|wanted| {
             let is_search = name_key(wanted.predicate()) == name_key(predicate::FOUND);
             thing(self.world().ok()?, wanted.args().first().filter(|_| is_search)?)
         });
-        if let Err(failure) = self.seek(wanted, &now, relations, &mut belief, vehicle)? {
-            return Ok(TaskAnswer::not_begun(&now, failure));
+        if let Err(failure) = self.seek(wanted, relations, &mut belief, vehicle)? {
+            return self.not_begun(failure);
         }
         keep_homes(scenario, &mut belief);
         let known = Known::of(belief.facts(relations));
@@ -137,7 +134,7 @@ impl State {
         let goals = if goal.is_empty() { Vec::new() } else { vec![goal] };
         let domain = &scenario.domain;
         let errand = Errand { domain, belief, relations: followed, goals, tidies: false };
-        self.drive(errand, &now, vehicle, tell, stop)
+        self.drive(errand, vehicle, tell, stop)
     }
 }
 

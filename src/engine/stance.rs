@@ -12,7 +12,6 @@ use super::directive_words::{
     between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
     spot_place, window_place,
 };
-use super::memory::Now;
 use super::{Error, Method, RequestError, State};
 
 /// A point of the floor that has no name on the Map.
@@ -31,20 +30,19 @@ impl State {
         &self,
         to: &Placement<Entity>,
         facing: Option<&Facing<Entity>>,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<GoalFact, Error> {
         let stance = match (to.relation, to.and, facing) {
             (Relation::AtWindow(window), ..) => self.at_window(window)?,
-            (Relation::Spot(x, y), ..) => self.at_spot(to.anchor, x, y)?,
+            (Relation::Spot(x, y), ..) => self.at_spot(to.anchor, x, y, relations)?,
             (Relation::Between, Some(other), _) => self.between(to.anchor, other)?,
             (side, ..) if side_of(side).is_some() && matches!(to.anchor, Entity::Replica(_)) => {
-                self.on_side(side, to.anchor, now, relations)?
+                self.on_side(side, to.anchor, relations)?
             }
             (Relation::Middle, ..) => self.in_the_middle(to.anchor)?,
-            (.., None) => return self.being_at(to.anchor, now, relations),
-            (.., Some(_)) => self.at_named(to.anchor, now)?,
+            (.., None) => return self.being_at(to.anchor, relations),
+            (.., Some(_)) => self.at_named(to.anchor)?,
         };
         let place = match facing {
             None => belief.name_point(stance.name, stance.area, stance.at),
@@ -60,12 +58,10 @@ impl State {
     pub(super) fn turned_here(
         &self,
         facing: &Facing<Entity>,
-        now: &Now,
         belief: &mut Belief,
     ) -> Result<GoalFact, Error> {
-        let area = self.around()?.floor(now.map)?.locate(now.pose.at);
-        let (area, _) = area.ok_or(RequestError::RobotNowhere)?;
-        let stance = Stance { area, at: now.pose.at, name: String::new() };
+        let area = self.robot_area()?.ok_or(RequestError::RobotNowhere)?;
+        let stance = Stance { area, at: self.robot()?.1.at, name: String::new() };
         let place = self.turned(&stance, facing, belief)?;
         Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
     }
@@ -138,16 +134,20 @@ impl State {
     }
 
     /// As near to a point of a room as the robot can stand, if that is near.
-    fn at_spot(&self, room: Entity, x: i32, y: i32) -> Result<Stance, Error> {
-        /// What is farther from the point is another place, cm.
-        const NEAR: f64 = 60.0;
+    fn at_spot(
+        &self,
+        room: Entity,
+        x: i32,
+        y: i32,
+        relations: &Relations,
+    ) -> Result<Stance, Error> {
         let name = spot_place(x, y);
         let none_there = || Error::from(RequestError::NoFloorAt { x, y });
         let Entity::Area(area) = room else { return Err(self.not_a_place(room)) };
         let (map, _) = self.world()?.placement(area).ok_or_else(none_there)?;
         let wanted = Point::new(f64::from(x), f64::from(y));
         let at = self.around()?.floor(map)?.standing_in(area, wanted).ok_or_else(none_there)?;
-        if (at - wanted).norm() > NEAR {
+        if (at - wanted).norm() > relations.thresholds().robot_spot {
             return Err(none_there());
         }
         Ok(Stance { area, at, name })
@@ -169,18 +169,16 @@ impl State {
         &self,
         side: Relation,
         anchor: Entity,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Stance, Error> {
-        /// From the thing's edge, cm.
-        const AWAY: f64 = 30.0;
         let Entity::Replica(id) = anchor else { return Err(self.not_a_place(anchor)) };
         let world = self.world()?;
         let name = world.name(anchor);
         let none_there = || Error::from(RequestError::NoFloorThere { name: name.to_owned() });
         let (map, middle) = self.middle_of(anchor)?;
         let floor = self.around()?.floor(map)?;
-        let seen = (map == now.map).then(|| now.pose.at - middle);
+        let (storey, pose) = self.robot()?;
+        let seen = (map == storey).then(|| pose.at - middle);
         let front = relations.front(id).or(seen).and_then(|front| front.try_normalize(1e-6));
         let front = front.ok_or_else(none_there)?;
         // The left hand of who sits in it, or of who looks at it.
@@ -197,7 +195,8 @@ impl State {
         let placed = floor.scene().replicas.get(&id).ok_or_else(none_there)?;
         let bounds = placed.bounds;
         let half = (bounds.max - bounds.min) / 2.0;
-        let reach = half.x * toward.x.abs() + half.y * toward.y.abs() + AWAY;
+        let reach = half.x * toward.x.abs() + half.y * toward.y.abs();
+        let reach = reach + relations.thresholds().robot_aside;
         let area = world.replicas.get(&id).map(|replica| replica.area).ok_or_else(none_there)?;
         let at = floor.standing_in(area, middle + toward * reach).ok_or_else(none_there)?;
         // A wall may leave it only another side.
@@ -220,17 +219,18 @@ impl State {
     }
 
     /// Where the way to it ends, if it is on this storey.
-    fn at_named(&self, entity: Entity, now: &Now) -> Result<Stance, Error> {
+    fn at_named(&self, entity: Entity) -> Result<Stance, Error> {
         if let Entity::Area(_) = entity {
             return self.in_the_middle(entity);
         }
         let around = self.around()?;
         let located = around.locate_entity(entity)?;
         let floor = around.floor(located.map)?;
+        let (storey, pose) = self.robot()?;
         let way = || {
-            let on_storey = located.map == now.map;
+            let on_storey = located.map == storey;
             let target = Some(located.target).filter(|_| on_storey)?;
-            floor.route(&now.world, now.pose.at, target, Method::Shortest).ok()?.points.pop()
+            floor.route(around.uncarried(), pose.at, target, Method::Shortest).ok()?.points.pop()
         };
         let at = way().unwrap_or(located.at);
         let (area, _) = floor.locate(at).ok_or_else(|| self.not_a_place(entity))?;

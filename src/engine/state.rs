@@ -12,14 +12,16 @@ use crate::language::FormIndex;
 use crate::map::{Entity, World, Zone};
 use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
-use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId, Timestamp, bilingual, nearest_name};
+use crate::units::{
+    AreaId, Bilingual, MapId, Point, Pose, ReplicaId, Timestamp, bilingual, nearest_name,
+};
 
 use super::changes::Changes;
 use super::known::Known;
 use super::{Error, RequestError, Rules, Value};
 
 /// The knowledge of one building at a moment, and what follows from it: see the head of this file.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct State {
     pub(super) rules: Arc<Rules>,
     /// The map as surveyed.
@@ -32,7 +34,11 @@ pub struct State {
     /// What the robot did and where it stands.
     pub(super) memory: OnceLock<RobotMemory>,
     /// The world as it is believed to be now, where that differs from the map.
-    now: OnceLock<Option<Arc<Known>>>,
+    pub(super) now: OnceLock<Option<Arc<Known>>>,
+    /// Where the robot stands; by the word of the vehicle where that was asked.
+    pub(super) robot: OnceLock<(MapId, Pose)>,
+    /// Where the person stands who gives the orders; none, where the robot does.
+    pub(super) person: Option<(MapId, Point)>,
     /// The moment at which the next zone begins or ends after `now` was found; none where none will.
     stands_until: OnceLock<Option<Timestamp>>,
     /// What the map and the robot's knowledge went through, for dialogues that began before.
@@ -54,6 +60,8 @@ impl State {
             place: store.map(|s| s.dir().display().to_string()).unwrap_or_default(),
             memory: OnceLock::new(),
             now: OnceLock::new(),
+            robot: OnceLock::new(),
+            person: None,
             stands_until: OnceLock::new(),
             changes: Arc::default(),
         }
@@ -69,6 +77,8 @@ impl State {
             place: self.place.clone(),
             memory: OnceLock::new(),
             now: OnceLock::new(),
+            robot: OnceLock::new(),
+            person: None,
             stands_until: OnceLock::new(),
             changes: Arc::clone(&self.changes),
         }
@@ -165,8 +175,8 @@ impl State {
         let in_view = match robot {
             Some((map, pose)) if self.rules.relations.asks_for_view() => {
                 let floor = now.floor(map)?;
-                let eye = robot_eye(world, floor, pose, now.relations()?.thresholds());
-                things_in_view(world, floor, &eye)
+                let near = now.relations()?.thresholds();
+                things_in_view(world, floor, &robot_eye(world, floor, pose, near), near)
             }
             _ => Vec::new(),
         };
@@ -211,6 +221,7 @@ impl State {
     pub(super) fn forget_present(&mut self) {
         self.memory.take();
         self.now.take();
+        self.robot.take();
         self.stands_until.take();
         Arc::make_mut(&mut self.changes).note_deed();
     }

@@ -262,7 +262,8 @@ impl State {
 
     /// Where the robot is known to stand: as the store noted it last, else where the map lets it begin.
     pub(super) fn robot_pose(&self) -> Option<(MapId, Pose)> {
-        let stored = self.memory().ok().and_then(|memory| memory.pose);
+        let told = self.robot.get().copied();
+        let stored = told.or_else(|| self.memory().ok()?.pose);
         match stored {
             Some((map, pose)) => Some((map, pose)),
             None => starting_pose(self.world().ok()?),
@@ -435,7 +436,7 @@ impl Senses for RobotSenses<'_> {
         let world = around.world();
         let Ok(floor) = around.floor(map) else { return Vec::new() };
         let Ok(near) = around.relations().map(Relations::thresholds) else { return Vec::new() };
-        things_in_view(world, floor, &robot_eye(world, floor, pose, near))
+        things_in_view(world, floor, &robot_eye(world, floor, pose, near), near)
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {

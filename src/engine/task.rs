@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 use crate::graphplan::Limits;
 use crate::language::command::Command;
@@ -20,7 +21,7 @@ mod understanding;
 
 pub(super) use understanding::thing_of;
 
-use super::memory::{After, Now};
+use super::memory::After;
 use super::position::describe;
 use super::{Error, RequestError, State};
 
@@ -141,10 +142,11 @@ pub(super) struct Errand<'r> {
 
 impl State {
     /// The relations of the world in which a task begins, with what the robot knows beside it.
-    pub(super) fn followed_with(&self, now: &Now, belief: &Belief) -> Result<Followed, Error> {
-        let mut followed = now.followed()?;
+    pub(super) fn followed_with(&self, belief: &Belief) -> Result<Followed, Error> {
+        let around = self.around()?;
+        let mut followed = around.to_follow()?;
         if self.rules.relations.asks_the_robot() {
-            let believed = self.whereabouts_believed(now.at)?;
+            let believed = self.whereabouts_believed(around.moment())?;
             let told = belief.told(followed.relations(), believed);
             followed.tell(told)?;
         }
@@ -186,9 +188,9 @@ impl State {
         commands: &[Command<Entity>],
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        let mut robot = simulated(&now, now.world.clone());
-        self.carry_out_by(commands, &now, &mut robot, tell, &Stop::new())
+        let begun = self.at(std::time::SystemTime::now().into())?;
+        let mut robot = begun.simulated(None)?;
+        begun.carry_out_by(commands, &mut robot, tell, &Stop::new())
     }
 
     /// Carries out commands that were understood already, in a world that may differ from what is believed; it is left
@@ -235,8 +237,9 @@ impl State {
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        let now = Now { person, ..self.now(std::time::SystemTime::now().into())? };
-        self.carry_out_by(commands, &now, vehicle, tell, stop)
+        let mut begun = self.at(std::time::SystemTime::now().into())?;
+        begun.person = person;
+        begun.carry_out_by(commands, vehicle, tell, stop)
     }
 
     /// The simulated robot where it is believed to be, with what it carries, in a world that may differ from what is
@@ -245,8 +248,14 @@ impl State {
     /// # Errors
     /// There is no map.
     pub fn simulator(&self, truth: Option<World>) -> Result<Simulator, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        Ok(simulated(&now, truth.unwrap_or_else(|| now.world.clone())))
+        self.at(std::time::SystemTime::now().into())?.simulated(truth)
+    }
+
+    fn simulated(&self, truth: Option<World>) -> Result<Simulator, Error> {
+        let (around, (map, pose)) = (self.around()?, self.robot()?);
+        let truth = truth.unwrap_or_else(|| around.uncarried().clone());
+        let robot = Simulator::new(truth, map, pose);
+        Ok(robot.laden(around.held().cloned(), &around.handed_over(), &around.aboard()))
     }
 
     /// The same robot behind its senses, which alone it knows its world by.
@@ -261,8 +270,8 @@ impl State {
         Ok(SensingRobot::new(self.simulator(truth)?, senses))
     }
 
-    /// What is so now by the word of the vehicle, which knows where it stands; else why it cannot be used.
-    pub(super) fn now_with(&self, now: &Now, vehicle: &dyn Vehicle) -> Result<Now, Failure> {
+    /// The same by the word of the vehicle, which knows where it stands; else why it cannot be used.
+    pub(super) fn stood_by(&self, vehicle: &dyn Vehicle) -> Result<Self, Failure> {
         let (map, pose) = vehicle.pose();
         if ![pose.at.x, pose.at.y].iter().all(|number| number.is_finite()) {
             return Err(Failure::NoNumber);
@@ -271,22 +280,25 @@ impl State {
         if !is_on_map || !self.floor(map).is_ok_and(|floor| floor.locate(pose.at).is_some()) {
             return Err(Failure::OffTheMap { pose });
         }
-        Ok(Now { map, pose, ..now.clone() })
+        let mut state = self.clone();
+        state.robot = OnceLock::from((map, pose));
+        Ok(state)
     }
 
     /// What the robot believes when a task begins, and the place where the operator stands: where the robot does, unless
     /// it is told otherwise.
-    pub(super) fn belief_of(&self, now: &Now) -> Result<(Belief, String), Error> {
-        let (map, start) = (now.map, now.pose);
-        let mut belief = Belief::new(now.world.clone(), now.floors()?, map, start)
-            .ok_or(RequestError::RobotNowhere)?;
-        belief.held.clone_from(&now.held);
-        belief.handed_over.clone_from(&now.handed_over);
-        belief.aboard.clone_from(&now.aboard);
+    pub(super) fn belief_of(&self) -> Result<(Belief, String), Error> {
+        let (around, (map, start)) = (self.around()?, self.robot()?);
+        let mut belief =
+            Belief::new(around.uncarried().clone(), around.floors_from(map)?, map, start)
+                .ok_or(RequestError::RobotNowhere)?;
+        belief.held = around.held().cloned();
+        belief.handed_over = around.handed_over();
+        belief.aboard = around.aboard();
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
-        let elsewhere = now.person.and_then(|(map, at)| {
+        let elsewhere = self.person.and_then(|(map, at)| {
             let floor = self.around().ok()?.floor(map).ok()?;
             Some((floor.locate(at)?.0, at))
         });
@@ -305,7 +317,6 @@ impl State {
     /// Has a vehicle do something that knows where it stands: one that does not is given a pilot who finds it.
     pub(super) fn piloted<T>(
         &self,
-        now: &Now,
         vehicle: &mut dyn Vehicle,
         begin: impl FnOnce(Result<&mut dyn Vehicle, Failure>) -> T,
     ) -> Result<T, Error> {
@@ -316,10 +327,11 @@ impl State {
             Ok(height) => height,
             Err(failure) => return Ok(begin(Err(failure))),
         };
-        let floors = now.floors()?;
-        let ground = Ground::of(&now.world, &floors, height);
+        let (around, robot) = (self.around()?, self.robot()?);
+        let floors = around.floors_from(robot.0)?;
+        let ground = Ground::of(around.uncarried(), &floors, height);
         let finders = ground.finders();
-        Ok(match Pilot::new(&ground, &finders, vehicle, (now.map, now.pose)) {
+        Ok(match Pilot::new(&ground, &finders, vehicle, robot) {
             Ok(mut pilot) => begin(Ok(&mut pilot)),
             Err(failure) => begin(Err(failure)),
         })
@@ -328,35 +340,32 @@ impl State {
     fn carry_out_by(
         &self,
         commands: &[Command<Entity>],
-        now: &Now,
         vehicle: &mut dyn Vehicle,
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        self.piloted(now, vehicle, |vehicle| match vehicle {
-            Ok(vehicle) => self.carry_out_placed(commands, now, vehicle, tell, stop),
-            Err(failure) => Ok(TaskAnswer::not_begun(now, failure)),
+        self.piloted(vehicle, |vehicle| match vehicle {
+            Ok(vehicle) => match self.stood_by(vehicle) {
+                Ok(begun) => begun.carry_out_placed(commands, vehicle, tell, stop),
+                Err(failure) => self.not_begun(failure),
+            },
+            Err(failure) => self.not_begun(failure),
         })?
     }
 
     fn carry_out_placed(
         &self,
         commands: &[Command<Entity>],
-        now: &Now,
         vehicle: &mut dyn Vehicle,
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
-        let now = &match self.now_with(now, vehicle) {
-            Ok(now) => now,
-            Err(failure) => return Ok(TaskAnswer::not_begun(now, failure)),
-        };
-        let (mut belief, here) = self.belief_of(now)?;
-        let followed = self.followed_with(now, &belief)?;
+        let (mut belief, here) = self.belief_of()?;
+        let followed = self.followed_with(&belief)?;
         let relations = followed.relations();
-        let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
-        self.shut_again(commands, &mut goals, now, relations)?;
-        let unsure = self.unsure_of(commands, &goals, now)?;
+        let mut goals = self.goals_of(commands, &here, relations, &mut belief)?;
+        self.shut_again(commands, &mut goals, relations)?;
+        let unsure = self.unsure_of(commands, &goals)?;
         // Of what it is not sure where it is, it looks first.
         for (thing, _) in unsure.iter().rev() {
             let name = self.world()?.name(Entity::Replica(*thing)).to_owned();
@@ -377,15 +386,15 @@ impl State {
             Entity::Replica(id) => Some(id),
             _ => None,
         });
-        if let Err(failure) = self.seek(sought, now, relations, &mut belief, vehicle)? {
-            return Ok(TaskAnswer::not_begun(now, failure));
+        if let Err(failure) = self.seek(sought, relations, &mut belief, vehicle)? {
+            return self.not_begun(failure);
         }
         let tidies = commands
             .iter()
             .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
         let domain = &self.rules.robot;
         let errand = Errand { domain, belief, relations: followed, goals, tidies };
-        let mut answer = self.drive(errand, now, vehicle, tell, stop)?;
+        let mut answer = self.drive(errand, vehicle, tell, stop)?;
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
         let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
@@ -400,18 +409,17 @@ impl State {
     pub(super) fn seek(
         &self,
         things: impl Iterator<Item = ReplicaId>,
-        now: &Now,
         relations: &Relations,
         belief: &mut Belief,
         vehicle: &mut dyn Vehicle,
     ) -> Result<Result<(), Failure>, Error> {
         let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
-        let is_lit = facts_of_map(&now.world, relations)
+        let is_lit = facts_of_map(self.uncarried()?, relations)
             .iter()
             .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
         for id in things {
             let name = self.world()?.name(Entity::Replica(id)).to_owned();
-            let in_hand = !now.world.replicas.contains_key(&id);
+            let in_hand = !self.uncarried()?.replicas.contains_key(&id);
             let seen = if is_lit && !in_hand { vehicle.sees(id) } else { Ok(None) };
             let in_view = match seen {
                 Ok(seen) => seen.is_some(),
@@ -433,19 +441,21 @@ impl State {
     pub(super) fn drive(
         &self,
         errand: Errand<'_>,
-        now: &Now,
         vehicle: &mut dyn Vehicle,
         tell: &mut dyn FnMut(&Progress<'_>),
         stop: &Stop,
     ) -> Result<TaskAnswer, Error> {
         let begun_at = vehicle.time();
+        let (surveyed, before) = (self.world()?, self.uncarried()?);
+        let (map, start) = self.robot()?;
+        let memory = self.memory()?;
+        let after = |belief: &Belief| After::of(surveyed, before, memory, belief);
         let Errand { domain, belief, relations, goals, tidies } = errand;
         // Reports are of moments between plans; each follows by itself.
         let mut reported = relations.clone();
         let effort = Some(Limits::TO_START);
         let (rules, limits) = (&self.rules.relations, Limits { effort, ..Limits::default() });
         let mut mission = Mission::new(belief, domain, relations, rules, limits);
-        let surveyed = self.world()?;
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
@@ -461,8 +471,8 @@ impl State {
             Event::Moved(moment) => tell(&Progress::Moved(moment)),
             Event::Scanned(scan) => tell(&Progress::Scanned(scan)),
             Event::Finished { number, directive, belief, leg } => {
-                let after = After::of(surveyed, now, belief);
-                let report = report_of((*number, directive), belief, leg, after, &mut reported);
+                let report =
+                    report_of((*number, directive), belief, leg, after(belief), &mut reported);
                 tell(&Progress::Finished(&report));
                 reports.push(report);
             }
@@ -515,8 +525,8 @@ impl State {
         }
         Ok(TaskAnswer {
             goal: goals.concat(),
-            map: now.map,
-            start: now.pose,
+            map,
+            start,
             end: mission.belief.pose,
             end_map: mission.belief.map,
             reports,
@@ -528,7 +538,7 @@ impl State {
             tidies: false,
             stops: false,
             reported: None,
-            after: Some(After::of(surveyed, now, &mission.belief)),
+            after: Some(after(&mission.belief)),
             unsure: Vec::new(),
         })
     }
@@ -558,21 +568,16 @@ fn report_of(
     }
 }
 
-/// The simulated robot as a task finds it, in a world of its own.
-fn simulated(now: &Now, truth: World) -> Simulator {
-    let robot = Simulator::new(truth, now.map, now.pose);
-    robot.laden(now.held.clone(), &now.handed_over, &now.aboard)
-}
-
-impl TaskAnswer {
+impl State {
     /// Nothing was begun, since the vehicle cannot be used; the robot is held to be where it was.
-    pub(super) fn not_begun(now: &Now, failure: Failure) -> Self {
-        Self {
+    pub(super) fn not_begun(&self, failure: Failure) -> Result<TaskAnswer, Error> {
+        let (map, pose) = self.robot()?;
+        Ok(TaskAnswer {
             goal: Vec::new(),
-            map: now.map,
-            start: now.pose,
-            end: now.pose,
-            end_map: now.map,
+            map,
+            start: pose,
+            end: pose,
+            end_map: map,
             reports: Vec::new(),
             replans: 0,
             seconds: 0.0,
@@ -584,6 +589,6 @@ impl TaskAnswer {
             reported: None,
             unsure: Vec::new(),
             after: None,
-        }
+        })
     }
 }

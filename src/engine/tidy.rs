@@ -6,7 +6,6 @@ use crate::map::{Entity, Mark, World};
 use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
-use super::memory::Now;
 use super::{Error, RequestError, State};
 
 impl State {
@@ -17,29 +16,29 @@ impl State {
     pub(super) fn misplaced(
         &self,
         within: Option<Entity>,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<(String, String)>, Error> {
         let world = self.world()?;
         let homes = self.homes()?;
-        let lie_on = supports(&now.world, relations);
+        let (now, held) = (self.uncarried()?, self.held()?);
+        let lie_on = supports(now, relations);
         let is_asked = |thing: &str| match within {
             None => true,
             Some(Entity::Area(area)) => {
-                now.world.replicas.values().any(|r| r.name == thing && r.area == area)
+                now.replicas.values().any(|r| r.name == thing && r.area == area)
             }
-            Some(Entity::Map(map)) => now.world.replicas.values().any(|r| {
+            Some(Entity::Map(map)) => now.replicas.values().any(|r| {
                 r.name == thing && world.placement(r.area).is_some_and(|(on, _)| on == map)
             }),
             Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
         };
-        let bins = self.bins(now)?;
+        let bins = self.bins()?;
         let is_waste = |thing: &str| {
-            let called = now.world.replicas.values().filter(|one| one.name == thing);
+            let called = now.replicas.values().filter(|one| one.name == thing);
             called.map(|one| one.id).any(|id| bins.iter().any(|bin| relations.is_inside(id, *bin)))
         };
-        let is_held = |thing: &str| now.held.as_ref().is_some_and(|held| held.name == thing);
-        let lies = |thing: &str| now.world.replicas.values().any(|r| r.name == thing);
+        let is_held = |thing: &str| held.is_some_and(|held| held.name == thing);
+        let lies = |thing: &str| now.replicas.values().any(|r| r.name == thing);
         Ok(homes
             .into_iter()
             .filter(|(thing, home)| {
@@ -59,12 +58,11 @@ impl State {
     pub(super) fn home_of(
         &self,
         thing: &str,
-        now: &Now,
         relations: &Relations,
     ) -> Result<Option<String>, Error> {
         let home = self.homes()?.remove(thing);
         let home = home.ok_or_else(|| RequestError::Homeless { thing: thing.to_owned() })?;
-        Ok((supports(&now.world, relations).get(thing) != Some(&home)).then_some(home))
+        Ok((supports(self.uncarried()?, relations).get(thing) != Some(&home)).then_some(home))
     }
 
     /// The names of all things that have a home, with its name.

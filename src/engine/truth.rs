@@ -11,7 +11,6 @@ use crate::semantics::load;
 use crate::units::{Bilingual, FileFault, ReplicaId, Source};
 
 use super::lexicon::form_index;
-use super::memory::Now;
 use super::{Error, RequestError, State};
 
 /// What is really so.
@@ -41,27 +40,30 @@ impl State {
     /// # Errors
     /// As [`State::read_truth`].
     pub fn truth(&self, source: &Source, format: Format) -> Result<Truth, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        let (believed, away) = with_carried(&now);
+        let now = self.at(std::time::SystemTime::now().into())?;
+        let (known, (map, pose)) = (now.around()?, now.robot()?);
+        // What is carried or was handed over is where it was last.
+        let believed = known.world();
+        let away: BTreeSet<ReplicaId> = known.holders.keys().copied().collect();
         let index = std::cell::OnceCell::new();
         let names = |name: &str| -> Vec<Entity> {
-            let index = index.get_or_init(|| form_index(&believed));
+            let index = index.get_or_init(|| form_index(believed));
             index.find(name).into_iter().map(|hit| *hit.id).collect()
         };
-        let read = map::read_truth(&believed, &away, source, format, &names);
+        let read = map::read_truth(believed, &away, source, format, &names);
         let Some(mut world) = read.world else { return Err(read.faults.into()) };
         for carried in &away {
             world.replicas.remove(carried);
         }
-        let left_behind = if world.replicas == now.world.replicas {
+        let left_behind = if world.replicas == known.uncarried().replicas {
             Vec::new()
         } else {
-            let relations = now.followed()?;
-            load::carry(&now.world, relations.relations(), &read.carriers, &mut world)
+            let relations = known.to_follow()?;
+            load::carry(known.uncarried(), relations.relations(), &read.carriers, &mut world)
         };
         let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
         let left_behind = left_behind.iter().filter_map(name).collect();
-        let standing = Simulator::new(world, now.map, now.pose);
+        let standing = Simulator::new(world, map, pose);
         let inside = standing.stands_in();
         let world = standing.into_truth();
         if let Some(what) = inside {
@@ -70,17 +72,6 @@ impl State {
         }
         Ok(Truth { world, left_behind })
     }
-}
-
-/// The world of now with what is carried or was handed over, where it was last, and which that is.
-fn with_carried(now: &Now) -> (World, BTreeSet<ReplicaId>) {
-    let mut world = now.world.clone();
-    let given = now.handed_over.iter().map(|(thing, _)| thing);
-    let aboard = now.aboard.iter().map(|(thing, _)| thing);
-    let carried: Vec<_> = now.held.iter().chain(given).chain(aboard).cloned().collect();
-    let away = carried.iter().map(|thing| thing.id).collect();
-    world.replicas.extend(carried.into_iter().map(|thing| (thing.id, thing)));
-    (world, away)
 }
 
 fn unreadable(file: &Path, fault: &FileFault) -> MapErrors {

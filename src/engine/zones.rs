@@ -195,13 +195,11 @@ impl Known {
             pairs.map(common).sum()
         };
         let all = floor.zones().iter().map(|zone| (zone.id, taken(zone)));
-        let lying = all.filter(|(_, taken)| *taken > LEAST);
-        Ok(lying.map(|(id, taken)| (id, taken >= whole - LEAST)).collect())
+        let least = self.relations()?.thresholds().zone_patch.powi(2);
+        let lying = all.filter(|(_, taken)| *taken > least);
+        Ok(lying.map(|(id, taken)| (id, taken >= whole - least)).collect())
     }
 }
-
-/// Of what lies on an Area with less, in cm², nobody speaks.
-const LEAST: f64 = 100.0;
 
 impl State {
     /// What each zone of the map says, in words.

@@ -1,8 +1,8 @@
 //! What an evaluation may take, and the watch that looks at it in the course of its loops.
 
 use std::cell::Cell;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -66,6 +66,10 @@ impl Limits {
     }
 }
 
+/// How many there are is read from files, which takes longer than a small change of the facts.
+static CORES: LazyLock<usize> =
+    LazyLock::new(|| thread::available_parallelism().map_or(1, usize::from));
+
 impl Default for Limits {
     /// Ten minutes and two gigabytes: more than the rules of a large hospital need, less than a machine has. All cores.
     fn default() -> Self {
@@ -73,7 +77,7 @@ impl Default for Limits {
             time: Duration::from_secs(600),
             memory_bytes: 1 << 31,
             rows: MAX_ROWS,
-            threads: thread::available_parallelism().map_or(1, usize::from),
+            threads: *CORES,
             spread_from: Duration::from_millis(1),
         }
     }

@@ -167,13 +167,11 @@ impl FloorPlan {
         let changes = before.replicas.changes(&after.replicas).into_iter();
         touched.replicas.extend(changes.map(|(id, ..)| id));
         if !objects.is_empty() || !moved.is_empty() || !touched.gone.is_empty() {
-            let is_other = |r: &&crate::map::Replica| {
-                objects.contains(&r.object)
-                    || moved.contains(&r.area)
-                    || touched.gone.contains(&r.area)
-            };
-            let others = after.replicas.values().filter(is_other).map(|r| r.id);
-            touched.replicas.extend(others.collect::<Vec<_>>());
+            let made = after.replicas_of(|kind| objects.contains(&kind));
+            let gone = &touched.gone;
+            let standing = after.replicas_within(|at| moved.contains(&at) || gone.contains(&at));
+            let others: Vec<ReplicaId> = made.chain(standing).map(|r| r.id).collect();
+            touched.replicas.extend(others);
         }
         touched
     }

@@ -44,6 +44,8 @@ pub struct Openings {
     by_area: Vec<(AreaId, OpeningId)>,
     /// Where the Areas stand, in the order of these.
     pub(super) stands: Vec<Stand>,
+    /// The thickest wall through which sides were looked for, in cm.
+    reach: f64,
 }
 
 /// An Area as it stands in its Map.
@@ -92,13 +94,15 @@ impl Openings {
             found.extend(paired(world, map, sides, &areas, reach));
         }
         stands.sort_by_key(|stand| (stand.area, stand.map));
-        Self::numbered(found.into_iter().map(|(first, opening)| (first, Arc::new(opening))), stands)
+        let found = found.into_iter().map(|(first, opening)| (first, Arc::new(opening)));
+        Self::numbered(found, stands, reach)
     }
 
     /// These openings, in the order of their first sides, under their numbers.
     pub(super) fn numbered(
         found: impl Iterator<Item = (Place, Arc<Opening>)>,
         stands: Vec<Stand>,
+        reach: f64,
     ) -> Self {
         let (mut firsts, mut all, mut by_area) = (Vec::new(), Vec::new(), Vec::new());
         for (first, mut opening) in found {
@@ -111,7 +115,13 @@ impl Openings {
             all.push(opening);
         }
         by_area.sort_unstable();
-        Self { all, firsts, by_area, stands }
+        Self { all, firsts, by_area, stands, reach }
+    }
+
+    /// The thickest wall through which sides were looked for, in cm.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// In the order of their ids.

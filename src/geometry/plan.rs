@@ -547,8 +547,10 @@ impl FloorPlan {
 pub(super) fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFloor>> {
     let build = |area: &AreaId| Arc::new(FragmentFloor::build(site, *area));
     const WORTH_A_THREAD: usize = 8;
-    let most = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = most.min(areas.len() / WORTH_A_THREAD);
+    let worth = areas.len() / WORTH_A_THREAD;
+    // How many cores there are is read from files.
+    let most = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if worth < 2 { 1 } else { worth.min(most()) };
     if threads < 2 {
         return areas.iter().map(build).collect();
     }

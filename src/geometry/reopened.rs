@@ -116,7 +116,7 @@ impl Openings {
             all.extend(found.map(|(first, opening)| (first, Arc::new(opening))));
         }
         all.sort_by_key(|(first, _)| *first);
-        Some(Self::numbered(all.into_iter(), stands))
+        Some(Self::numbered(all.into_iter(), stands, reach))
     }
 }
 

@@ -38,7 +38,8 @@ pub enum Turn {
     Round,
 }
 
-/// From which angles on people speak of a turn, degrees; the rule text says it («turn straight» and its kind).
+/// From which angles on people speak of a turn, degrees, and from which lengths of a way; the rule text says it («turn
+/// straight», «way told» and their kind).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turns {
     /// Up to here one goes straight on.
@@ -47,6 +48,10 @@ pub struct Turns {
     pub slight: f64,
     /// From here on one turns round.
     pub round: f64,
+    /// A shorter stretch is not worth a word, cm,
+    pub told: f64,
+    /// and a shorter way is none.
+    pub none: f64,
 }
 
 impl Default for Turns {
@@ -58,7 +63,13 @@ impl Default for Turns {
 
 impl From<&Thresholds> for Turns {
     fn from(said: &Thresholds) -> Self {
-        Self { straight: said.turn_straight, slight: said.turn_slight, round: said.turn_round }
+        Self {
+            straight: said.turn_straight,
+            slight: said.turn_slight,
+            round: said.turn_round,
+            told: said.way_told,
+            none: said.way_none,
+        }
     }
 }
 
@@ -169,10 +180,8 @@ impl Directions {
     /// Whether no step is left to the goal.
     #[must_use]
     pub fn is_there(&self) -> bool {
-        /// cm
-        const NO_WAY: f64 = 10.0;
         let length = |passage: &RoomPart| passage.stretches.iter().map(|s| s.length).sum::<f64>();
-        matches!(&self.passages[..], [only] if length(only) < NO_WAY)
+        matches!(&self.passages[..], [only] if length(only) < self.turns.none)
     }
 
     /// One room's part of the way as a sentence; none where nothing is left to do.
@@ -353,12 +362,10 @@ impl Told<'_> {
 
     /// Every stretch: «В Комнате-Z поверните налево, пройдите 2 м мимо Стола (он слева) и выйдите через …».
     fn stretches(&self) -> Option<String> {
-        /// So short a stretch into the room that was the goal is not told, cm.
-        const STEP: f64 = 60.0;
         // The room stands at the beginning of the sentence already.
         let end = Told { first: false, ..*self }.end();
         let length: f64 = self.passage.stretches.iter().map(|stretch| stretch.length).sum();
-        if end.is_none() && !self.first && length < STEP {
+        if end.is_none() && !self.first && length < self.turns.told {
             return None;
         }
         let mut clauses: Vec<String> = Vec::new();

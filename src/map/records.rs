@@ -6,16 +6,45 @@
 //!
 //! **Invariant**: chunks are in the order of their keys, none is empty, and each bears its first key.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use std::sync::Arc;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
 /// A chunk that grows beyond this is halved.
 const MOST: usize = 64;
 /// Chunks of what is made at once: some records can be added before any is halved.
 const MADE: usize = 48;
 
-type Chunk<K, V> = Vec<(K, V)>;
+/// Records that stand together.
+#[derive(Clone)]
+struct Chunk<K, V> {
+    records: Vec<(K, V)>,
+    /// For each [`Records::of_groups`] the groups of its records, sorted; found when first asked for, and shared with the chunk.
+    groups: [OnceLock<Box<[u32]>>; 2],
+}
+
+impl<K, V> Chunk<K, V> {
+    fn of(records: Vec<(K, V)>) -> Arc<Self> {
+        Arc::new(Self { records, groups: [const { OnceLock::new() }; 2] })
+    }
+}
+
+impl<K, V> Deref for Chunk<K, V> {
+    type Target = Vec<(K, V)>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.records
+    }
+}
+
+/// The records of a chunk, to be changed: others that share it keep theirs.
+fn change<K: Clone, V: Clone>(chunk: &mut Arc<Chunk<K, V>>) -> &mut Vec<(K, V)> {
+    let chunk = Arc::make_mut(chunk);
+    chunk.groups = Default::default();
+    &mut chunk.records
+}
+
 /// Chunks, each with its first key.
 type Chunks<K, V> = Vec<(K, Arc<Chunk<K, V>>)>;
 
@@ -81,6 +110,26 @@ impl<K: Copy + Ord, V> Records<K, V> {
         self.iter().map(|(_, v)| v)
     }
 
+    /// The records that are of a group that is wanted, in the order of the keys. `number` tells the way of grouping, which is
+    /// always the same for it: of chunks that did not change it is known of which groups their records are.
+    pub(super) fn of_groups<'a>(
+        &'a self,
+        number: usize,
+        group: fn(&V) -> u32,
+        is_wanted: impl Fn(u32) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a V> + 'a {
+        let may_have = move |chunk: &&Chunk<K, V>| {
+            let groups = chunk.groups[number].get_or_init(|| {
+                let all: BTreeSet<u32> = chunk.iter().map(|(_, v)| group(v)).collect();
+                all.into_iter().collect()
+            });
+            groups.iter().any(|of| is_wanted(*of))
+        };
+        let chunks = self.chunks.iter().map(|(_, chunk)| &**chunk).filter(may_have);
+        let all = chunks.flat_map(|chunk| chunk.iter().map(|(_, v)| v));
+        all.filter(move |v| is_wanted(group(v)))
+    }
+
     /// What differs from this map to another, in the order of the keys; looked for only where they share nothing.
     #[must_use]
     pub fn changes<'a>(&'a self, after: &'a Self) -> Vec<Change<'a, K, V>>
@@ -135,7 +184,7 @@ impl<K: Copy + Ord, V: Clone> Records<K, V> {
     pub fn get_mut(&mut self, key: &K) -> Option<&mut V> {
         let number = self.chunk_of(key);
         let at = self.chunks.get(number)?.1.binary_search_by(|(k, _)| k.cmp(key)).ok()?;
-        let chunk = Arc::make_mut(&mut Arc::make_mut(&mut self.chunks)[number].1);
+        let chunk = change(&mut Arc::make_mut(&mut self.chunks)[number].1);
         Some(&mut chunk[at].1)
     }
 
@@ -144,11 +193,11 @@ impl<K: Copy + Ord, V: Clone> Records<K, V> {
         let number = self.chunk_of(&key);
         let chunks = Arc::make_mut(&mut self.chunks);
         let Some((first, chunk)) = chunks.get_mut(number) else {
-            chunks.push((key, Arc::new(vec![(key, value)])));
+            chunks.push((key, Chunk::of(vec![(key, value)])));
             self.len = 1;
             return None;
         };
-        let chunk = Arc::make_mut(chunk);
+        let chunk = change(chunk);
         match chunk.binary_search_by(|(k, _)| k.cmp(&key)) {
             Ok(at) => return Some(std::mem::replace(&mut chunk[at].1, value)),
             Err(at) => chunk.insert(at, (key, value)),
@@ -158,9 +207,8 @@ impl<K: Copy + Ord, V: Clone> Records<K, V> {
         if chunk.len() > MOST {
             // What is added in order fills its chunks.
             let at = if number + 1 == chunks.len() { MADE } else { MOST / 2 };
-            let chunk = Arc::make_mut(&mut chunks[number].1);
-            let rest = chunk.split_off(at);
-            chunks.insert(number + 1, (rest[0].0, Arc::new(rest)));
+            let rest = change(&mut chunks[number].1).split_off(at);
+            chunks.insert(number + 1, (rest[0].0, Chunk::of(rest)));
         }
         None
     }
@@ -170,7 +218,7 @@ impl<K: Copy + Ord, V: Clone> Records<K, V> {
         let at = self.chunks.get(number)?.1.binary_search_by(|(k, _)| k.cmp(key)).ok()?;
         let chunks = Arc::make_mut(&mut self.chunks);
         let (first, chunk) = &mut chunks[number];
-        let chunk = Arc::make_mut(chunk);
+        let chunk = change(chunk);
         let (_, gone) = chunk.remove(at);
         self.len -= 1;
         match chunk.first() {
@@ -188,7 +236,7 @@ impl<K: Copy + Ord, V: Clone> Records<K, V> {
     /// All records, to be changed: nothing of this map is shared afterwards.
     pub fn values_mut(&mut self) -> impl DoubleEndedIterator<Item = &mut V> {
         let chunks = Arc::make_mut(&mut self.chunks);
-        chunks.iter_mut().flat_map(|(_, chunk)| Arc::make_mut(chunk).iter_mut().map(|(_, v)| v))
+        chunks.iter_mut().flat_map(|(_, chunk)| change(chunk).iter_mut().map(|(_, v)| v))
     }
 
     /// Keeps the records for which this holds.
@@ -212,7 +260,8 @@ impl<K: Copy + Ord, V: Clone> IntoIterator for Records<K, V> {
 
     fn into_iter(self) -> Self::IntoIter {
         let chunks = Arc::unwrap_or_clone(self.chunks).into_iter();
-        let all: Vec<_> = chunks.flat_map(|(_, chunk)| Arc::unwrap_or_clone(chunk)).collect();
+        let all: Vec<_> =
+            chunks.flat_map(|(_, chunk)| Arc::unwrap_or_clone(chunk).records).collect();
         all.into_iter()
     }
 }
@@ -232,8 +281,7 @@ impl<K: Copy + Ord, V: Clone> From<BTreeMap<K, V>> for Records<K, V> {
         let mut chunks = Vec::with_capacity(len.div_ceil(MADE));
         let mut sorted = sorted.into_iter().peekable();
         while let Some(&(first, _)) = sorted.peek() {
-            let chunk: Chunk<K, V> = sorted.by_ref().take(MADE).collect();
-            chunks.push((first, Arc::new(chunk)));
+            chunks.push((first, Chunk::of(sorted.by_ref().take(MADE).collect())));
         }
         Self { chunks: Arc::new(chunks), len }
     }
@@ -293,6 +341,12 @@ mod tests {
         for (first, chunk) in records.chunks.iter() {
             assert!(!chunk.is_empty() && chunk.len() <= MOST && chunk[0].0 == *first);
         }
+        // Whatever was asked of copies and before changes.
+        for wanted in [0, 3] {
+            let of = |v: &u64| (*v % 50) as u32;
+            let found = records.of_groups(0, of, |group| group == wanted);
+            assert!(found.eq(plain.values().filter(|v| of(v) == wanted)));
+        }
     }
 
     /// Every way to change it leaves what a plain map holds, copies made before stay as they were, and what differs is
@@ -323,6 +377,7 @@ mod tests {
             }
             assert_eq!(records.get(&key), plain.get(&key));
             if step % 50 == 0 {
+                check(&records, &plain);
                 kept.push((records.clone(), plain.clone()));
             }
         }

@@ -310,7 +310,23 @@ impl World {
 
     /// The replicas of a Fragment, in the order of their ids.
     pub fn replicas_in(&self, area: AreaId) -> impl Iterator<Item = &Replica> + '_ {
-        self.replicas.values().filter(move |r| r.area == area)
+        self.replicas_within(move |own| own == area)
+    }
+
+    /// The replicas of the Fragments that are wanted, in the order of their ids.
+    pub fn replicas_within<'a>(
+        &'a self,
+        is_wanted: impl Fn(AreaId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Replica> + 'a {
+        self.replicas.of_groups(0, |r| r.area.0, move |area| is_wanted(AreaId(area)))
+    }
+
+    /// The replicas of the Objects that are wanted, in the order of their ids.
+    pub fn replicas_of<'a>(
+        &'a self,
+        is_wanted: impl Fn(ObjectId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Replica> + 'a {
+        self.replicas.of_groups(1, |r| r.object.0, move |object| is_wanted(ObjectId(object)))
     }
 
     /// The Orthoframe of an item.

@@ -210,8 +210,9 @@ impl Belief {
     pub fn told(&self, relations: &Relations, believed: Vec<(ReplicaId, AreaId, f64)>) -> Told {
         let in_view = match self.floors.get(&self.map) {
             Some(floor) if relations.rules().asks_for_view() => {
-                let eye = robot_eye(&self.world, floor, self.pose, relations.thresholds());
-                things_in_view(&self.world, floor, &eye)
+                let near = relations.thresholds();
+                let eye = robot_eye(&self.world, floor, self.pose, near);
+                things_in_view(&self.world, floor, &eye, near)
             }
             _ => Vec::new(),
         };

@@ -13,9 +13,6 @@ use crate::units::{Frame, ReplicaId};
 
 use super::relations::{RelationError, RelationRules, derive};
 
-/// Rounding of heights and outlines, cm: what nearly touches is asked about.
-const NEAR: f64 = 10.0;
-
 /// What is carried along with a thing of a scene.
 ///
 /// # Errors
@@ -27,11 +24,12 @@ pub fn cargo(
     carrier: ReplicaId,
 ) -> Result<BTreeSet<ReplicaId>, RelationError> {
     let Some(placed) = scene.replicas.get(&carrier) else { return Ok(BTreeSet::new()) };
+    let near = rules.hold_cm();
     // Whatever it may bear begins no lower than it does.
     let (mut column, mut open) = (BTreeSet::from([carrier]), vec![placed]);
     while let Some(lower) = open.pop() {
-        let over = beside(scene, lower).filter(|upper| {
-            let touches = upper.bottom <= lower.top + NEAR && upper.bottom >= placed.bottom - NEAR;
+        let over = beside(scene, lower, near).filter(|upper| {
+            let touches = upper.bottom <= lower.top + near && upper.bottom >= placed.bottom - near;
             touches && column.insert(upper.id)
         });
         open.extend(over.collect::<Vec<_>>());
@@ -39,7 +37,8 @@ pub fn cargo(
     if column.len() == 1 {
         return Ok(BTreeSet::new());
     }
-    Ok(derive(&only_about(world, scene, &column), rules, world.domain.profile)?.goes_with(carrier))
+    Ok(derive(&only_about(world, scene, &column, near), rules, world.domain.profile)?
+        .goes_with(carrier))
 }
 
 /// The shut thing in which a thing of a scene is; none where a hand gets at it.
@@ -53,28 +52,30 @@ pub fn shut_around(
     thing: ReplicaId,
 ) -> Result<Option<ReplicaId>, RelationError> {
     let Some(placed) = scene.replicas.get(&thing) else { return Ok(None) };
+    let near = rules.hold_cm();
     let around = |r: &PlacedReplica| {
-        r.bottom <= placed.bottom + NEAR && r.top >= placed.bottom && r.top + NEAR >= placed.top
+        r.bottom <= placed.bottom + near && r.top >= placed.bottom && r.top + near >= placed.top
     };
-    if !beside(scene, placed).any(around) {
+    if !beside(scene, placed, near).any(around) {
         return Ok(None);
     }
-    let few = only_about(world, scene, &BTreeSet::from([thing]));
+    let few = only_about(world, scene, &BTreeSet::from([thing]), near);
     Ok(derive(&few, rules, world.domain.profile)?.shut_in(thing))
 }
 
-/// What a thing may touch, seen from above.
+/// What is so near to a thing, in cm, seen from above.
 fn beside<'s>(
     scene: &'s Scene,
     placed: &'s PlacedReplica,
+    near: f64,
 ) -> impl Iterator<Item = &'s PlacedReplica> {
-    let near = placed.bounds.grown(NEAR);
+    let near = placed.bounds.grown(near);
     scene.replicas.values().filter(move |r| r.id != placed.id && r.bounds.meets(&near))
 }
 
 /// The world with some things and what stands over, under and about them.
-fn only_about(world: &World, scene: &Scene, things: &BTreeSet<ReplicaId>) -> World {
-    let about = things.iter().flat_map(|id| beside(scene, &scene.replicas[id]));
+fn only_about(world: &World, scene: &Scene, things: &BTreeSet<ReplicaId>, near: f64) -> World {
+    let about = things.iter().flat_map(|id| beside(scene, &scene.replicas[id], near));
     let asked: BTreeSet<ReplicaId> = about.map(|r| r.id).chain(things.iter().copied()).collect();
     let mut few = world.clone();
     few.replicas.retain(|id, _| asked.contains(id));

@@ -24,6 +24,8 @@ pub enum Unit {
     Share,
     /// A number of times.
     Times,
+    /// Millionths of a steradian there, steradians here: how large something looks.
+    Solid,
 }
 
 impl Unit {
@@ -33,6 +35,7 @@ impl Unit {
             Self::Length | Self::Angle => 100.0,
             Self::Share => 1000.0,
             Self::Times => 1.0,
+            Self::Solid => 1_000_000.0,
         }
     }
 
@@ -42,6 +45,7 @@ impl Unit {
             Self::Angle => (0, 18_000),
             Self::Share => (0, 1_000),
             Self::Times => (1, 1_000),
+            Self::Solid => (0, 12_566_370),
         }
     }
 
@@ -59,6 +63,10 @@ impl Unit {
                 ("доля в тысячных, от 0 до 1000", "a share in thousandths, from 0 to 1000")
             }
             Self::Times => ("число раз, от 1 до 1000", "a number of times, from 1 to 1000"),
+            Self::Solid => (
+                "телесный угол в миллионных долях стерадиана, от 0 до 12566370",
+                "a solid angle in millionths of a steradian, from 0 to 12566370",
+            ),
         }
     }
 
@@ -204,6 +212,14 @@ thresholds! {
     robot_sight = "robot sight", Length, 40000;
     /// and so wide: as a wide camera does.
     robot_field = "robot field", Angle, 12000;
+    /// What looks smaller it does not make out: a matchbox at six metres.
+    robot_speck = "robot speck", Solid, 20;
+    /// Sent to one side of a thing, it stands so far from the thing's edge.
+    robot_aside = "robot aside", Length, 3000;
+    /// Sent to a point of the floor, it stands no farther from it than this, or is not sent.
+    robot_spot = "robot spot", Length, 6000;
+    /// Unknown things that it saw with their middles so near to one another are one.
+    robot_same = "robot same", Length, 4000;
     /// A way passes what stands this near to it,
     way_beside = "way beside", Length, 13000;
     /// and turns at what stands this near to its bend.
@@ -212,6 +228,16 @@ thresholds! {
     way_jog = "way jog", Length, 3500;
     /// What is moved oftener than this is no landmark.
     way_landmark = "way landmark", Share, 500;
+    /// So far before and behind an opening a way is looked at to see whether it turns there.
+    way_through = "way through", Length, 5000;
+    /// A shorter stretch passes nothing worth a word.
+    way_told = "way told", Length, 6000;
+    /// A way shorter than this is none: one is there.
+    way_none = "way none", Length, 1000;
+    /// What is so near to the direction of a push names it: «towards the window».
+    push_toward = "push toward", Angle, 2500;
+    /// Of what lies on a room with no more than a square of this side nobody speaks.
+    zone_patch = "zone patch", Length, 1000;
 
     /// Up to here one goes straight on,
     turn_straight = "turn straight", Angle, 2500;
@@ -336,6 +362,14 @@ pub(super) fn farthest(program: &Program, reach: &str) -> i64 {
     let of_reach = |name: &str| KNOWN.iter().any(|k| k.name == name && k.reach == Some(reach));
     let own = limits.iter().filter(|limit| of_reach(&limit.name)).map(|limit| limit.value);
     own.max().unwrap_or(0)
+}
+
+/// The greatest that any profile has of a threshold, in the rule text's unit; as the table has it where none names it.
+pub(super) fn greatest(program: &Program, name: &str) -> i64 {
+    let limits = limits(program);
+    let own = limits.iter().filter(|limit| limit.name == name).map(|limit| limit.value);
+    let standard = || KNOWN.iter().find(|known| known.name == name).map(|known| known.standard);
+    own.max().or_else(standard).unwrap_or(0)
 }
 
 impl Thresholds {

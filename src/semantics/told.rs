@@ -7,9 +7,6 @@ use crate::units::{AreaId, MapId, Pose, ReplicaId};
 
 use super::thresholds::Thresholds;
 
-/// What looks smaller is not made out, steradians: a matchbox at six metres.
-const SPECK: f64 = 2e-5;
-
 /// What a robot knows beside its map.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Told {
@@ -25,7 +22,12 @@ pub struct Told {
 
 /// The things that one makes out, the nearest first.
 #[must_use]
-pub fn things_in_view(world: &World, floor: &FloorPlan, eye: &Eye) -> Vec<ReplicaId> {
+pub fn things_in_view(
+    world: &World,
+    floor: &FloorPlan,
+    eye: &Eye,
+    near: &Thresholds,
+) -> Vec<ReplicaId> {
     let mut seen: Vec<(ReplicaId, f64, f64)> = Vec::new();
     for view in floor.faces(world, eye).in_view(eye) {
         let Blocker::Replica { replica, .. } = view.face.blocker else { continue };
@@ -38,7 +40,7 @@ pub fn things_in_view(world: &World, floor: &FloorPlan, eye: &Eye) -> Vec<Replic
             None => seen.push((replica, view.distance, size)),
         }
     }
-    seen.retain(|(_, _, size)| *size >= SPECK);
+    seen.retain(|(_, _, size)| *size >= near.robot_speck);
     seen.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     seen.into_iter().map(|(id, ..)| id).collect()
 }

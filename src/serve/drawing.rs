@@ -184,11 +184,12 @@ fn zones(state: &State, world: &World, floor: &FloorPlan) -> Result<Vec<Value>, 
 
 /// What is in the robot's hand, lies on what is, or was handed over: with who has it.
 fn carried(state: &State) -> Vec<Value> {
-    let Ok(now) = state.now(std::time::SystemTime::now().into()) else { return Vec::new() };
+    let carried = (state.held(), state.aboard(), state.handed_over());
+    let (Ok(held), Ok(aboard), Ok(handed_over)) = carried else { return Vec::new() };
     let one = |thing: &Replica, by: &str| json!({ "id": thing.id.0, "name": thing.name, "name_en": thing.name_en, "by": by });
-    let held = now.held.iter().map(|thing| one(thing, ""));
-    let aboard = now.aboard.iter().map(|(thing, _)| one(thing, ""));
-    let handed_over = now.handed_over.iter().map(|(thing, by)| one(thing, by));
+    let held = held.into_iter().map(|thing| one(thing, ""));
+    let aboard = aboard.iter().map(|(thing, _)| one(thing, ""));
+    let handed_over = handed_over.iter().map(|(thing, by)| one(thing, by));
     held.chain(aboard).chain(handed_over).collect()
 }
 

@@ -121,17 +121,17 @@ fn resting(state: &State) -> Value {
         },
         "missing": [],
     });
-    match state.now(std::time::SystemTime::now().into()) {
-        Ok(now) => {
-            let moment = crate::robot::Moment { time: 0.0, map: now.map, pose: now.pose };
+    match (state.robot(), state.held(), state.handed_over()) {
+        (Ok((map, pose)), Ok(held), Ok(handed_over)) => {
+            let moment = crate::robot::Moment { time: 0.0, map, pose };
             let thing = |replica: &Replica| json!([replica.name, replica.name_en]);
             view["robot"] = json!({
                 "place": super::drive::pose_view(state, &moment),
-                "carries": now.held.as_ref().map(thing),
-                "handed_over": now.handed_over.iter().map(|(r, to)| json!([r.name, to])).collect::<Vec<_>>(),
+                "carries": held.map(thing),
+                "handed_over": handed_over.iter().map(|(r, to)| json!([r.name, to])).collect::<Vec<_>>(),
             });
         }
-        Err(_) => view["missing"] = json!(["robot"]),
+        _ => view["missing"] = json!(["robot"]),
     }
     view
 }
@@ -435,7 +435,7 @@ pub(super) async fn route(Of(house): Of<Arc<House>>, Query(way): Query<Way>) -> 
     apart(move || {
         let journey = match &way.from {
             Some(from) => state.journey(from, &way.to, crate::engine::Method::Shortest)?,
-            None => state.journey_of_robot(&way.to, std::time::SystemTime::now().into())?,
+            None => state.journey_of_robot(&way.to)?,
         };
         Ok(views::journey(state.world()?, &journey, language(way.lang.as_deref())))
     })

@@ -169,8 +169,11 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
         put_users!(objects, put_object);
         put_users!(areas, put_area);
     }
-    let others: BTreeSet<AreaId> =
-        before.areas.changes(&after.areas).into_iter().map(|(id, ..)| id).collect();
+    // A Map tells of an Area's items alone.
+    let areas = before.areas.changes(&after.areas).into_iter();
+    let made = |was: &Area, is: &Area| was.items == is.items;
+    let areas = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(was, is)| made(was, is)));
+    let others: BTreeSet<AreaId> = areas.map(|(id, ..)| id).collect();
     let ids: BTreeSet<MapId> = before.maps.keys().chain(after.maps.keys()).copied().collect();
     for id in ids {
         let [was, is] = [before.maps.get(&id), after.maps.get(&id)];

@@ -317,8 +317,8 @@ impl Engine {
                     (state.map_named(map)?, pose, heading.is_some())
                 }
                 (None, None) => {
-                    let now = state.now(SystemTime::now().into())?;
-                    (now.map, now.pose, true)
+                    let (map, pose) = state.robot()?;
+                    (map, pose, true)
                 }
                 _ => return Err(Failure::Value("both x and y are wanted, or neither".into())),
             };

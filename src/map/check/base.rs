@@ -18,7 +18,11 @@ const MOST_CROSSINGS: usize = 5;
 impl Checker<'_> {
     pub(super) fn bases(&mut self) {
         let mut keys = BTreeSet::new();
-        for frame in self.world.orthoframes.values() {
+        let id = |record: &Record| match record {
+            Record::Orthoframe(id) => Some(*id),
+            _ => None,
+        };
+        for frame in self.asked(("orthoframes", &self.world.orthoframes), id, |o| &o.key) {
             let spot = Spot::of(Record::Orthoframe(frame.id));
             if !keys.insert(&frame.key) || frame.key.is_empty() {
                 let error = MapError::BadId {

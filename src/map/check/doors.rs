@@ -17,12 +17,20 @@ const SHARE_TOLERANCE: f64 = 0.005;
 impl<'w> Checker<'w> {
     pub(super) fn doors(&mut self) {
         let mut keys = BTreeSet::new();
+        let id = |record: &Record| match record {
+            Record::Door(id) => Some(*id),
+            _ => None,
+        };
+        let asked = self.asked(("doors", &self.world.doors), id, |d| &d.key);
+        if asked.is_empty() {
+            return;
+        }
         let mounts = self.area_mounts();
         let of_objects: BTreeSet<_> =
             self.world.objects.values().flat_map(|o| o.doors.iter().map(|m| m.door)).collect();
         let all_groups_read =
             !self.broken.iter().any(|r| matches!(r, Record::Area(_) | Record::Object(_)));
-        for door in self.world.doors.values() {
+        for door in asked {
             let spot = Spot::of(Record::Door(door.id));
             self.key(&mut keys, &door.key, ("Дверь", "Door"), &spot);
             if !self.asks_for(Record::Door(door.id)) {
@@ -53,11 +61,14 @@ impl<'w> Checker<'w> {
         }
     }
 
-    /// Every mount of every door on an Area, in the order of the Areas.
+    /// Every mount of every door that is looked at on an Area, in the order of the Areas.
     fn area_mounts(&self) -> BTreeMap<crate::units::DoorId, Vec<Mounted<'w>>> {
         let mut mounts: BTreeMap<_, Vec<_>> = BTreeMap::new();
         for area in self.world.areas.values() {
             for (index, mount) in area.doors.iter().enumerate() {
+                if !self.asks_for(Record::Door(mount.door)) {
+                    continue;
+                }
                 let mounted = Mounted { area: area.id, index, mount };
                 mounts.entry(mount.door).or_default().push(mounted);
             }
@@ -263,7 +274,7 @@ impl<'w> Checker<'w> {
     /// The side of a mount where it stands on its Map.
     fn placed_mount(&self, mounted: Mounted<'_>) -> Option<(crate::units::MapId, PlacedSide)> {
         let area = &self.world.areas[&mounted.area];
-        let &(map, item) = self.placed.get(&mounted.area)?;
+        let (map, item) = self.placed(mounted.area)?;
         let frame = self.world.maps[&map].items[item].frame;
         let item = area.item(&mounted.mount.item)?;
         if !self.can_be_measured(item.orthoframe) {

@@ -127,7 +127,11 @@ impl PlacedSide {
 impl<'w> Checker<'w> {
     pub(super) fn groups(&mut self) {
         let mut keys = BTreeSet::new();
-        for object in self.world.objects.values() {
+        let id = |record: &Record| match record {
+            Record::Object(id) => Some(*id),
+            _ => None,
+        };
+        for object in self.asked(("objects", &self.world.objects), id, |o| &o.key) {
             let record = Record::Object(object.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &object.key, ("Объект", "Object"), &spot);
@@ -151,7 +155,11 @@ impl<'w> Checker<'w> {
             }
         }
         keys.clear();
-        for area in self.world.areas.values() {
+        let id = |record: &Record| match record {
+            Record::Area(id) => Some(*id),
+            _ => None,
+        };
+        for area in self.asked(("areas", &self.world.areas), id, |a| &a.key) {
             let record = Record::Area(area.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &area.key, ("Помещение", "Area"), &spot);

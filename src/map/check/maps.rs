@@ -1,10 +1,11 @@
 //! Maps and their Domain (M5, M6): each Area once, linked sides that coincide, no two Areas in one place.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, OrFrId, Vector};
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
 use super::group::{
@@ -18,10 +19,19 @@ fn meet((low, high): &Bounds, (least, most): &Bounds) -> bool {
     low.x <= most.x && least.x <= high.x && low.y <= most.y && least.y <= high.y
 }
 
+/// Whether a frame has numbers that can be computed with.
+fn is_finite(frame: &Frame) -> bool {
+    [frame.x, frame.y, frame.z].iter().all(|n| Cm::new(n.get()).is_ok())
+        && Cm::new(frame.angle.get()).is_ok()
+}
+
 impl<'w> Checker<'w> {
     pub(super) fn maps(&mut self) {
         let mut keys = BTreeSet::new();
-        let mut placed: BTreeMap<AreaId, usize> = BTreeMap::new();
+        let mut placed: HashMap<AreaId, usize> = HashMap::new();
+        if self.scope.is_some_and(|scope| !scope.has_standing()) {
+            return;
+        }
         for map in self.world.maps.values() {
             let record = Record::Map(map.id);
             let spot = Spot::of(record);
@@ -56,8 +66,11 @@ impl<'w> Checker<'w> {
         }
         let mut all_there = true;
         for (i, item) in map.items.iter().enumerate() {
-            let at = spot.clone().field("items").index(i);
             let exists = self.world.areas.contains_key(&item.area);
+            if exists && is_finite(&item.frame) {
+                continue;
+            }
+            let at = spot.clone().field("items").index(i);
             all_there &=
                 self.exists(exists, &title, ("помещение", "area"), item.area.0, at.clone());
             all_there &= self.frame_is_finite(&item.frame, &at);
@@ -127,9 +140,9 @@ impl<'w> Checker<'w> {
         side: &SideRef,
         spot: &Spot,
     ) -> Option<(&'w BaseVector, Frame, usize)> {
-        let known = self.placed.get(&area).filter(|(on, _)| *on == map.id);
+        let known = self.placed(area).filter(|(on, _)| *on == map.id);
         let found = match known {
-            Some(&(_, index)) => Some((index, &map.items[index])),
+            Some((_, index)) => Some((index, &map.items[index])),
             None => map.items.iter().enumerate().find(|(_, i)| i.area == area),
         };
         let Some((index, item)) = found else {
@@ -222,6 +235,22 @@ impl<'w> Checker<'w> {
         Some(bounds(corners))
     }
 
+    /// A box in which an Area lies where it stands on the Map, whichever way it is turned; `reaches` keeps how far from their
+    /// origins Orthoframes reach.
+    fn roughly(&self, item: &MapItem, reaches: &RefCell<HashMap<OrFrId, f64>>) -> Option<Bounds> {
+        let items = &self.world.areas.get(&item.area)?.items;
+        let mut reaches = reaches.borrow_mut();
+        let reach = items.iter().filter_map(|own| {
+            let part = self.world.orthoframes.get(&own.orthoframe)?;
+            let farthest = || part.corners().map(|p| p.coords.norm()).fold(0.0, f64::max);
+            let reach = reaches.entry(own.orthoframe).or_insert_with(farthest);
+            Some(own.frame.origin().coords.norm() + *reach)
+        });
+        let reach = reach.reduce(f64::max)?;
+        let (at, way) = (item.frame.origin(), Vector::new(reach, reach));
+        Some((at - way, at + way))
+    }
+
     fn area_overlaps(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         let mut owners = Vec::new();
         let mut bodies = Vec::new();
@@ -230,9 +259,12 @@ impl<'w> Checker<'w> {
             |item: &MapItem| self.scope.is_none_or(|scope| scope.moved.contains(&item.area));
         let changed: Vec<_> = map.items.iter().filter(|item| is_changed(item)).collect();
         let boxes: Vec<Bounds> = changed.iter().filter_map(|item| self.bounds_of(item)).collect();
+        let reaches = RefCell::default();
         let is_near = |item: &MapItem| {
             let meets = |own: Bounds| boxes.iter().any(|b| meet(&own, b));
-            self.scope.is_none() || self.bounds_of(item).is_some_and(meets)
+            self.scope.is_none()
+                || self.roughly(item, &reaches).is_some_and(meets)
+                    && self.bounds_of(item).is_some_and(meets)
         };
         for (i, item) in map.items.iter().enumerate().filter(|(_, item)| is_near(item)) {
             let placed = self.placed_bodies(item);
@@ -271,22 +303,29 @@ impl<'w> Checker<'w> {
 
     fn connected_areas(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         let mut parts = Parts::new(map.items.len());
-        let indices: BTreeMap<AreaId, usize> =
+        // Of one that stands twice the last place counts.
+        let mut indices: Vec<(AreaId, usize)> =
             map.items.iter().enumerate().map(|(i, item)| (item.area, i)).collect();
+        indices.sort_unstable();
+        let index = |area: AreaId| {
+            let (own, i) = indices[..indices.partition_point(|(own, _)| *own <= area)].last()?;
+            (*own == area).then_some(*i)
+        };
         for link in &map.links {
-            if let (Some(&i), Some(&j)) = (indices.get(&link.area), indices.get(&link.to_area)) {
+            if let (Some(i), Some(j)) = (index(link.area), index(link.to_area)) {
                 parts.join(i, j);
             }
         }
-        let mut mounts: BTreeMap<DoorId, Vec<usize>> = BTreeMap::new();
+        let mut mounts: Vec<(DoorId, usize)> = Vec::new();
         for item in &map.items {
             for mount in self.world.areas.get(&item.area).map_or(&[][..], |a| &a.doors) {
-                mounts.entry(mount.door).or_default().push(indices[&item.area]);
+                mounts.extend(index(item.area).map(|i| (mount.door, i)));
             }
         }
-        for mounted in mounts.values() {
-            if let [one, other] = mounted[..] {
-                parts.join(one, other);
+        mounts.sort_by_key(|(door, _)| *door);
+        for mounted in mounts.chunk_by(|a, b| a.0 == b.0) {
+            if let [(_, one), (_, other)] = mounted {
+                parts.join(*one, *other);
             }
         }
         let base = map.items.iter().position(|item| item.is_base).unwrap_or(0);

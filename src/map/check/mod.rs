@@ -14,7 +14,7 @@ pub mod plane;
 mod scope;
 mod zones;
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
@@ -24,7 +24,7 @@ pub use news::news;
 use scope::Scope;
 
 use super::fault::{COORDINATE, Fault, MapError, Record, Spot, WITHIN};
-use super::{Item, TypeKind, World};
+use super::{Item, Map, TypeKind, World};
 
 /// Lengths and places that differ less are the same: half a millimetre, since people write round numbers.
 const TOLERANCE: f64 = 0.05;
@@ -63,8 +63,8 @@ struct Checker<'w> {
     broken: &'w BTreeSet<Record>,
     /// What alone is looked at; all where there is none.
     scope: Option<&'w Scope<'w>>,
-    /// Where each Area stands: its Map, and which of the Map's items it is.
-    placed: BTreeMap<AreaId, (MapId, usize)>,
+    /// Where each Area stands: its Map, and which of the Map's items it is. Sorted, made when it is first asked for.
+    placed: OnceCell<Vec<(AreaId, (MapId, usize))>>,
     /// Of Orthoframes whether their bases can be measured, as far as it is known.
     sound: RefCell<BTreeMap<OrFrId, bool>>,
     faults: Vec<Fault>,
@@ -72,17 +72,12 @@ struct Checker<'w> {
 
 impl<'w> Checker<'w> {
     fn new(world: &'w World, broken: &'w BTreeSet<Record>) -> Self {
-        let (placed, sound) = (BTreeMap::new(), RefCell::default());
+        let (placed, sound) = (OnceCell::new(), RefCell::default());
         Self { world, broken, scope: None, placed, sound, faults: Vec::new() }
     }
 
     /// All faults, or those within the scope.
     fn all(mut self) -> Vec<Fault> {
-        for map in self.world.maps.values() {
-            for (index, item) in map.items.iter().enumerate() {
-                self.placed.entry(item.area).or_insert((map.id, index));
-            }
-        }
         self.bases();
         self.groups();
         self.doors();
@@ -94,6 +89,19 @@ impl<'w> Checker<'w> {
         self.robot();
         self.names();
         self.faults
+    }
+
+    /// Where an Area stands: its Map, and which of the Map's items it is; where it stands twice, the first time.
+    fn placed(&self, area: AreaId) -> Option<(MapId, usize)> {
+        let placed = self.placed.get_or_init(|| {
+            let items =
+                |map: &'w Map| map.items.iter().enumerate().map(|(n, i)| (i.area, (map.id, n)));
+            let mut all: Vec<_> = self.world.maps.values().flat_map(items).collect();
+            all.sort_by_key(|(area, _)| *area);
+            all
+        });
+        let at = placed.partition_point(|(other, _)| *other < area);
+        placed.get(at).filter(|(other, _)| *other == area).map(|(_, place)| *place)
     }
 
     /// Whether a record is to be looked at.

@@ -1,15 +1,16 @@
 //! What an edit may have made faulty: the records that differ, and those whose faults tell of them.
 //!
-//! Handles, the robot's numbers, the names of types and how the Maps make a Domain are looked at in any case: that costs less
-//! than to find out.
+//! The robot's numbers, the names of types and how the Maps make a Domain are looked at in any case: that costs less than to
+//! find out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Checker;
 use crate::fault::Record;
 use crate::units::{AreaId, MapId, OrFrId, ReplicaId};
 use crate::{
-    Area, Door, DoorMount, Entity, Extent, Item, Map, MapLink, NameIndex, Object, Place, TypeKind,
-    World,
+    Area, Door, DoorMount, Entity, Extent, Item, Map, MapItem, MapLink, NameIndex, Object, Place,
+    Records, TypeKind, World,
 };
 
 /// The part of a map that is to be checked, in the map before an edit and in that after it.
@@ -23,6 +24,8 @@ pub(super) struct Scope<'w> {
     pub(super) moved: BTreeSet<AreaId>,
     /// Areas that differ in whatever they do.
     areas: BTreeSet<AreaId>,
+    /// Handles that a record got or lost, by the kind of records.
+    keys: BTreeMap<&'static str, BTreeSet<&'w str>>,
     /// Of Maps how many links at the beginning and at the end are as they were.
     links: BTreeMap<MapId, (usize, usize)>,
     /// Names that something bore or bears now, and who bears them; none where no name changed.
@@ -39,6 +42,7 @@ impl<'w> Scope<'w> {
             }
         }
         let mut scope = Self::default();
+        scope.add_keys(before, after);
         let parts: BTreeSet<OrFrId> =
             before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).collect();
         scope.records.extend(parts.iter().map(|id| Record::Orthoframe(*id)));
@@ -58,7 +62,7 @@ impl<'w> Scope<'w> {
                 || mounts.iter().any(|mount| hung.contains(&mount.door))
         };
         scope.add_objects(before, after, &tells);
-        scope.add_areas(before, after, &tells);
+        scope.add_areas(before, after, !parts.is_empty() || !hung.is_empty(), &tells);
         scope.add_maps(before, after);
         for (id, was, is) in before.zones.changes(&after.zones) {
             let _ = (was, is);
@@ -86,6 +90,20 @@ impl<'w> Scope<'w> {
         Some(scope)
     }
 
+    fn add_keys(&mut self, before: &'w World, after: &'w World) {
+        macro_rules! note {
+            ($($records:ident)*) => {$(
+                for (_, was, is) in before.$records.changes(&after.$records) {
+                    let [was, is] = [was, is].map(|record| record.map(|r| r.key.as_str()));
+                    if was != is {
+                        self.keys.entry(stringify!($records)).or_default().extend(was.into_iter().chain(is));
+                    }
+                }
+            )*};
+        }
+        note!(orthoframes doors objects areas zones);
+    }
+
     fn add_objects(
         &mut self,
         before: &World,
@@ -109,26 +127,31 @@ impl<'w> Scope<'w> {
         &mut self,
         before: &World,
         after: &World,
+        tells_of_any: bool,
         tells: &impl Fn(&[Item], &[DoorMount]) -> bool,
     ) {
         for (id, ..) in before.areas.changes(&after.areas) {
             self.areas.insert(id);
             self.entities.insert(Entity::Area(id));
         }
-        let telling = |a: &&Area| tells(&a.items, &a.doors);
-        let all = before.areas.values().chain(after.areas.values()).filter(telling);
-        self.areas.extend(all.map(|area| area.id));
-        self.moved.extend(&self.areas);
-        if before.maps != after.maps {
-            let [was, is] = [before, after].map(World::placements);
-            let all = was.keys().chain(is.keys()).filter(|id| was.get(id) != is.get(id));
-            self.moved.extend(all);
+        if tells_of_any {
+            let telling = |a: &&Area| tells(&a.items, &a.doors);
+            let all = before.areas.values().chain(after.areas.values()).filter(telling);
+            self.areas.extend(all.map(|area| area.id));
         }
-        for area in before.areas.values().chain(after.areas.values()) {
-            if self.areas.contains(&area.id) {
-                self.records.insert(Record::Area(area.id));
-            }
-            if self.moved.contains(&area.id) {
+        self.moved.extend(&self.areas);
+        for (_, was, is) in before.maps.changes(&after.maps) {
+            let [was, is] = [was, is].map(|map| map.map_or(&[][..], |map| &map.items));
+            let same = |(a, b): &(&MapItem, &MapItem)| a == b;
+            let first = was.iter().zip(is).take_while(same).count();
+            let (was, is) = (&was[first..], &is[first..]);
+            let last = was.iter().rev().zip(is.iter().rev()).take_while(same).count();
+            let others = was[..was.len() - last].iter().chain(&is[..is.len() - last]);
+            self.moved.extend(others.map(|item| item.area));
+        }
+        self.records.extend(self.areas.iter().map(|id| Record::Area(*id)));
+        for id in &self.moved {
+            for area in [before, after].into_iter().filter_map(|world| world.areas.get(id)) {
                 self.records.extend(area.doors.iter().map(|mount| Record::Door(mount.door)));
             }
         }
@@ -146,6 +169,9 @@ impl<'w> Scope<'w> {
                 self.links.insert(id, (first, last));
             }
         }
+        if self.moved.is_empty() {
+            return;
+        }
         for map in before.maps.values().chain(after.maps.values()) {
             if map.items.iter().any(|item| self.moved.contains(&item.area)) {
                 self.records.insert(Record::Map(map.id));
@@ -160,10 +186,12 @@ impl<'w> Scope<'w> {
         if !has_kind && self.areas.is_empty() {
             return;
         }
-        for replica in before.replicas.values().chain(after.replicas.values()) {
-            let is_of_kind = has_kind && self.records.contains(&Record::Object(replica.object));
-            if is_of_kind || self.areas.contains(&replica.area) {
-                self.replicas.insert(replica.id);
+        for world in [before, after] {
+            let standing = world.replicas_within(|area| self.areas.contains(&area));
+            self.replicas.extend(standing.map(|replica| replica.id));
+            if has_kind {
+                let made = world.replicas_of(|kind| self.records.contains(&Record::Object(kind)));
+                self.replicas.extend(made.map(|replica| replica.id));
             }
         }
     }
@@ -204,6 +232,11 @@ impl<'w> Scope<'w> {
         }
     }
 
+    /// Whether any Area may stand elsewhere, or on no Map, or on several.
+    pub(super) fn has_standing(&self) -> bool {
+        !self.moved.is_empty() || self.records.iter().any(|r| matches!(r, Record::Map(_)))
+    }
+
     pub(super) fn has_place(&self, place: &Place) -> bool {
         self.records.contains(&Record::Place(place.id))
             || self.areas.contains(&place.area)
@@ -214,5 +247,26 @@ impl<'w> Scope<'w> {
         let (first, last) = self.links.get(&map.id).copied().unwrap_or_default();
         let is_new = at >= first && at + last < map.links.len();
         is_new || self.moved.contains(&link.area) || self.moved.contains(&link.to_area)
+    }
+}
+
+impl<'w> Checker<'w> {
+    /// The records of a kind that are to be looked at, in their order: all; or those of the scope, with all that bear a handle
+    /// which one of them got or lost.
+    pub(super) fn asked<K: Copy + Ord, V>(
+        &self,
+        (kind, records): (&'static str, &'w Records<K, V>),
+        id: impl Fn(&Record) -> Option<K>,
+        key: impl Fn(&V) -> &str,
+    ) -> Vec<&'w V> {
+        let Some(scope) = self.scope else { return records.values().collect() };
+        let ids = scope.records.iter().filter_map(id);
+        let mut found: BTreeMap<K, &V> =
+            ids.filter_map(|id| Some((id, records.get(&id)?))).collect();
+        if let Some(keys) = scope.keys.get(kind) {
+            let bearing = records.iter().filter(|(_, record)| keys.contains(key(record)));
+            found.extend(bearing.map(|(id, record)| (*id, record)));
+        }
+        found.into_values().collect()
     }
 }

@@ -17,7 +17,11 @@ const LEAST_AREA: f64 = 1.0;
 impl Checker<'_> {
     pub(super) fn zones(&mut self) {
         let mut keys = BTreeSet::new();
-        for zone in self.world.zones.values() {
+        let id = |record: &Record| match record {
+            Record::Zone(id) => Some(*id),
+            _ => None,
+        };
+        for zone in self.asked(("zones", &self.world.zones), id, |z| &z.key) {
             let record = Record::Zone(zone.id);
             let spot = Spot::of(record);
             self.key(&mut keys, &zone.key, ("Зона", "Zone"), &spot);

@@ -305,10 +305,9 @@ impl Relations {
         let mut replicas: BTreeSet<ReplicaId> = changed.into_iter().collect();
         if !touched.remade.is_empty() || !touched.rebuilt.is_empty() {
             for world in [before, after] {
-                let is_of = |r: &&crate::map::Replica| {
-                    touched.remade.contains(&r.object) || touched.rebuilt.contains(&r.area)
-                };
-                replicas.extend(world.replicas.values().filter(is_of).map(|r| r.id));
+                let made = world.replicas_of(|kind| touched.remade.contains(&kind));
+                let standing = world.replicas_within(|area| touched.rebuilt.contains(&area));
+                replicas.extend(made.chain(standing).map(|r| r.id));
             }
         }
         for area in touched.rebuilt.union(mouths) {
