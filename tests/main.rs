@@ -3,6 +3,7 @@
 mod architecture;
 mod assembly;
 mod broken_scenarios;
+mod chatter;
 mod cli;
 mod commands;
 mod corridor;

@@ -224,7 +224,9 @@ fn without_relatives(text: &str) -> Cow<'_, str> {
             let nearest = keys.get(at + length).is_some_and(|key| {
                 matches!(key.as_str(), "nearest" | "closest" | "farthest" | "furthest")
             });
-            let before_place = before_place || pointing && nearest;
+            // "Bring the one from the dresser" has no other object.
+            let parted = text[words[at - 1].end..words[at].start].contains(',');
+            let before_place = before_place && (!pointing || parted) || pointing && nearest;
             before_place && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
         });
         if let Some(length) = relative {

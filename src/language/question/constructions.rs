@@ -4,8 +4,9 @@
 use super::rephrase::{Rule, Words};
 use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
-pub(super) const RULES: [Rule; 12] = [
+pub(super) const RULES: [Rule; 13] = [
     framed,
+    done_to_it,
     connects_with,
     nearer_from,
     but_no,
@@ -18,6 +19,11 @@ pub(super) const RULES: [Rule; 12] = [
     made_bed,
     is_free,
 ];
+
+/// «Я дверь закрыл?»: whether it is closed.
+fn done_to_it(words: &Words<'_>) -> Option<String> {
+    super::done::as_it_is(words.text)
+}
 
 /// Sentences with one gap, by what stands before and behind it, and the same of the sentence that is meant: what stands
 /// in the one goes into the other.

@@ -102,7 +102,7 @@ impl Memory {
 
     /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
-        (self.facts, self.said) = (Vec::new(), None);
+        (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
         if matches!(doubt, Doubt::Ambiguous { .. }) {
             return;
         }
@@ -131,7 +131,69 @@ impl Knowledge<'_> {
                 (Some(_), Some(_)) => return None,
             }
         }
+        self.bearing_in_focus(found)
+    }
+
+    /// "Which pencils are on the table?" after pencils that lie on one of two: the one that bears or holds what was just
+    /// spoken of.
+    fn bearing_in_focus(&self, found: &[Thing]) -> Option<Thing> {
+        /// What was spoken of before is not thought of by where it lies.
+        const NEAR: usize = 2;
+        for exchange in self.memory.exchanges.iter().take(NEAR) {
+            let spoken = exchange.things().filter_map(|thing| thing.replica());
+            let supports = spoken.filter_map(|id| self.relations.support_of(id));
+            let supports: HashSet<Thing> =
+                supports.map(|id| Thing::Entity(Entity::Replica(id))).collect();
+            let mut borne = found.iter().filter(|t| supports.contains(t));
+            match (borne.next(), borne.next()) {
+                (Some(only), None) => return Some(*only),
+                (None, _) => {}
+                (Some(_), Some(_)) => return None,
+            }
+        }
         None
+    }
+
+    /// What "that shelf" may mean where the map has no shelf of that name: of what was spoken of or bears it, the one
+    /// whose kind is called by the word, as a bookshelf is.
+    fn called_so(&self, noun: &Noun) -> Option<Thing> {
+        let last = word_keys(&noun.text).pop()?;
+        let called = |thing: &Thing| {
+            let name = self.kind_name(*thing).unwrap_or_default();
+            let keys = word_keys(&name);
+            keys.last().is_some_and(|key| key.ends_with(&last))
+        };
+        self.memory.exchanges.iter().find_map(|exchange| {
+            let spoken = exchange.things().copied();
+            let bearing = exchange.things().filter_map(|thing| thing.replica());
+            let bearing = bearing.filter_map(|id| self.relations.support_of(id));
+            let bearing = bearing.map(|id| Thing::Entity(Entity::Replica(id)));
+            let all: HashSet<Thing> = spoken.chain(bearing).filter(called).collect();
+            let mut all = all.into_iter();
+            all.next().filter(|_| all.next().is_none())
+        })
+    }
+
+    /// What points in a query at a thing of a sort that the map lacks: "that shelf".
+    pub(super) fn points_at_nothing(&self, query: &Query) -> Option<String> {
+        let mut word = None;
+        query.clone().each_noun(&mut |noun| {
+            let lacks = noun.head.things.is_none()
+                && self.base(&noun.head).is_empty()
+                && !noun.head.kinds.is_empty();
+            // "In this room" after what is in another one than the robot.
+            let own = self.area_of(Thing::Robot).map(|id| Thing::Entity(Entity::Area(id)));
+            let elsewhere = || {
+                let topic = self.memory.exchanges.first().and_then(|e| e.things().next().copied());
+                let room = topic.and_then(|topic| self.area_of(topic));
+                room.is_some_and(|room| Some(Thing::Entity(Entity::Area(room))) != own)
+            };
+            let robots = own.is_some_and(|own| noun.head.things.as_deref() == Some(&[own]));
+            if is_shown(noun) && (lacks || robots && elsewhere()) {
+                word.get_or_insert_with(|| noun.text.clone());
+            }
+        });
+        word
     }
 
     /// Those of some things that an answer has told one after the other, in its order.
@@ -168,7 +230,7 @@ impl Knowledge<'_> {
 
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.
     pub(super) fn focus(&self, query: &mut Query) {
-        if self.memory.exchanges.is_empty() {
+        if self.memory.exchanges.is_empty() && self.memory.listed.is_empty() {
             query.each_noun(&mut |noun| self.this_room(&mut noun.restrictions));
             self.put_together(query);
             return;
@@ -180,6 +242,15 @@ impl Knowledge<'_> {
                 }
             }
         }
+        query.each_noun(&mut |noun| {
+            if is_shown(noun)
+                && is_one(noun)
+                && self.base(&noun.head).is_empty()
+                && let Some(meant) = self.called_so(noun)
+            {
+                noun.head = Head { things: Some(vec![meant]), ..Head::default() };
+            }
+        });
         query.each_noun(&mut |noun| self.of_those_told(noun));
         query.each_noun(&mut |noun| {
             self.focus_places(&mut noun.restrictions);
@@ -196,12 +267,19 @@ impl Knowledge<'_> {
                 let sought = self.memory.query.as_ref().and_then(Query::sought);
                 if let Some(sought) = sought.filter(|sought| !sought.head.anything) {
                     noun.head = Head { things: None, ..sought.head.clone() };
+                } else if is_shown(noun) && noun.restrictions.is_empty() {
+                    // "What is the front door made of? Is that one locked?"
+                    let shown = self.memory.exchanges.first().and_then(Exchange::topic);
+                    noun.head.things = shown.map(|shown| vec![shown]);
+                    noun.head.anything = noun.head.things.is_none();
                 }
             } else if one && noun.head.anything && self.memory.listed.len() > 1 {
                 // "Which rooms have a TV? What does the one in the bedroom stand on?"
                 let rooms = self.memory.listed.iter().all(|t| t.area().is_some());
                 let had = self.had_by_rooms().filter(|_| rooms && !noun.restrictions.is_empty());
-                let things = had.unwrap_or_else(|| self.memory.listed.clone());
+                // "Which are on the table? And the one on the dresser?": of those that were told before.
+                let listed = || self.list_fitting(noun).filter(|_| !noun.restrictions.is_empty());
+                let things = had.or_else(listed).unwrap_or_else(|| self.memory.listed.clone());
                 // "Is there one in the kitchen?": any of the kind.
                 noun.head = match self.alike(&things).filter(|_| word_keys(&noun.text).len() == 1) {
                     Some(kind) => Head { kinds: vec![kind], ..Head::default() },
@@ -295,7 +373,8 @@ impl Knowledge<'_> {
         let wider = |exchange: &Exchange| {
             let all = &exchange.listed;
             let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
-            (holds && all.len() > told.len())
+            // "The second one" of a laptop and a book is none of what lay with it.
+            (holds && all.len() > told.len() && self.alike(all).is_some())
                 .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
         };
         if let Some(rest) = self.memory.exchanges.iter().skip(1).find_map(wider) {
@@ -404,6 +483,13 @@ impl Knowledge<'_> {
             _ if self.memory.is_lost => Vec::new(),
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),
+            // "How many of them are on the table? Which of them is bigger?": of one thing there are no others.
+            Pronoun::They
+                if matches!(rel, Some(Rel::From | Rel::Of))
+                    && let Some(list) = self.list_with(last) =>
+            {
+                list
+            }
             Pronoun::They if let Some(pair) = self.last_pair() => pair,
             _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
             // "What can I write with and where is it?": each of them.
@@ -439,12 +525,34 @@ impl Knowledge<'_> {
     }
 
     /// «Где бита? А ракетка? Они на одной кровати?»: the things of the last two exchanges, one each.
-    fn last_pair(&self) -> Option<Vec<Thing>> {
+    pub(super) fn last_pair(&self) -> Option<Vec<Thing>> {
         let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
         let one = |e: &Exchange| e.topic().filter(|_| e.listed.is_empty());
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
         (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
+    }
+
+    /// The latest list of things of which some are.
+    fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
+        let has = |e: &&Exchange| {
+            e.listed.len() > 1 && !some.is_empty() && some.iter().all(|t| e.listed.contains(t))
+        };
+        self.memory.exchanges.iter().find(has).map(|e| e.listed.clone())
+    }
+
+    /// Of the lists that were told, the latest of which a description fits any.
+    fn list_fitting(&self, noun: &Noun) -> Option<Vec<Thing>> {
+        self.memory
+            .exchanges
+            .iter()
+            .map(|e| &e.listed)
+            .find(|listed| {
+                let head = Head { things: Some((*listed).clone()), ..Head::default() };
+                let told = Noun { head, ..noun.clone() };
+                listed.len() > 1 && self.find(&told, true).is_ok_and(|found| !found.is_empty())
+            })
+            .cloned()
     }
 
     /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.
@@ -478,6 +586,30 @@ impl Knowledge<'_> {
         let may = |t: &&Thing| rel.is_none_or(|rel| self.may_be_anchor(rel, **t));
         let spoken = || self.memory.spoken.iter().copied().find(|t| self.agrees(pronoun, *t));
         near.iter().find(may).or(near.first()).copied().or_else(spoken)
+    }
+
+    /// From what something is taken that lies on "it" or in it: what was last spoken of that agrees and may bear things.
+    pub(super) fn borne_by_pronoun(&self, pronoun: Pronoun) -> Option<Thing> {
+        if self.memory.is_lost || matches!(pronoun, Pronoun::They | Pronoun::There) {
+            return None;
+        }
+        let exchanges = self.memory.exchanges.iter();
+        let mut ranked = exchanges.flat_map(|e| [&e.topics, &e.listed]).flatten();
+        let bears = |t: &Thing| self.may_be_anchor(Rel::On, *t) || self.may_be_anchor(Rel::In, *t);
+        ranked.find(|t| self.agrees(pronoun, **t) && bears(t)).copied()
+    }
+
+    /// "Is it there?", where "it" and the place are one thing: what was meant by one of the two is not known.
+    pub(super) fn is_at_itself(&self, query: &Query) -> Option<String> {
+        let Query::Holds { subject, claims, .. } = query else { return None };
+        let own = |anchor: &&Noun| {
+            let things = subject.head.things.as_deref().unwrap_or_default();
+            !things.is_empty() && anchor.head.things.as_deref() == Some(things)
+        };
+        claims.iter().find_map(|claim| match claim {
+            Claim::Related(place) => place.anchors.iter().find(own).map(|a| a.text.clone()),
+            _ => None,
+        })
     }
 
     pub(super) fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
@@ -532,6 +664,10 @@ impl Knowledge<'_> {
 
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
     fn place_spoken_of(&self) -> Option<Thing> {
+        // "I put the bottle in the bathroom, is it there?"
+        if self.memory.told_place.is_some() {
+            return self.memory.told_place;
+        }
         let bears = |thing: Thing| {
             thing.replica().is_none_or(|id| {
                 ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
@@ -557,6 +693,26 @@ impl Knowledge<'_> {
         let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
         support.or_else(area).or(Some(latest))
     }
+}
+
+/// Whether a description shows one thing: "that shelf", «эта лампа».
+pub(super) fn is_shown(noun: &Noun) -> bool {
+    const SHOWING: [&str; 12] = [
+        "this",
+        "that",
+        "эта",
+        "этот",
+        "это",
+        "эту",
+        "этой",
+        "этом",
+        "этого",
+        "этому",
+        "этим",
+        "этою",
+    ];
+    let keys = word_keys(&noun.text);
+    keys.len() > 1 && SHOWING.contains(&keys[0].as_str())
 }
 
 /// Whether a description means one thing and does not tell by itself which.

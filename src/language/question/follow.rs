@@ -2,7 +2,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::{Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several};
+use super::{
+    Asker, Claim, Filter, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several,
+};
 use crate::map::Entity;
 use crate::words::{Language, word_keys, word_ranges};
 
@@ -16,10 +18,16 @@ impl Asker<'_> {
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        if let Some(query) = self.another_pointed(&sentence, last, memory) {
+            return Some(query);
+        }
         if sentence.language == Language::Russian
             && (0..sentence.keys.len()).any(|at| sentence.points_ahead(at))
         {
             return None;
+        }
+        if let Some(query) = where_such(&sentence, last) {
+            return Some(query);
         }
         if let Some(query) = self.of_the_way(text, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
@@ -153,18 +161,48 @@ impl Asker<'_> {
         query.each_noun(&mut |old| {
             let fits = match &replaced {
                 Some(first) => is_room && rooms && old == first,
+                None if old.head.anything && !old.restrictions.is_empty() => false,
                 None => !(is_room && rooms) || self.is_room(old),
             };
             if fits {
                 replaced.get_or_insert_with(|| old.clone());
-                // «Сколько на кухне лопаток? А вилок?» stays in the kitchen.
-                let place = old.restrictions.iter().filter(|r| stays && self.is_of_rooms(r));
+                // «Сколько на кухне лопаток? А вилок?» stays in the kitchen, «Сколько в ней окон? А картин?» in it.
+                let place = old.restrictions.iter().filter(|r| stays && is_place(r));
                 let place: Vec<Restriction> = place.cloned().collect();
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
                 old.restrictions.extend(place);
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// «На чём он стоит? А тот, что в гостиной?»: the same of another of its kind.
+    fn another_pointed(
+        &self,
+        sentence: &Sentence<'_>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
+        let items = sentence.items();
+        let [Item::Mark(Mark::And), Item::Noun(phrase), rest @ ..] = &items[..] else {
+            return None;
+        };
+        let places = rest.iter().all(|item| matches!(item, Item::Place { .. }));
+        if !places || !sentence.points_ahead(phrase.words.start) {
+            return None;
+        }
+        let noun = self.fragment(sentence, memory)?;
+        let mut query = last.clone();
+        let mut first = true;
+        let mut placed = false;
+        query.each_noun(&mut |old| {
+            if std::mem::take(&mut first) && !old.head.anything && self.has_kind(old) {
+                old.restrictions.clone_from(&noun.restrictions);
+                old.filters.clone_from(&noun.filters);
+                placed = !noun.restrictions.is_empty();
+            }
+        });
+        placed.then_some(query)
     }
 
     /// "Is there a sink in the bathroom? One in the kitchen too?": whether there is another of the kind.
@@ -248,10 +286,6 @@ impl Asker<'_> {
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
         assemble::fragment(sentence, &self.mind.lexicon, &referent)
-    }
-
-    fn is_of_rooms(&self, place: &Restriction) -> bool {
-        matches!(place.rel, Rel::In | Rel::On) && place.anchors.iter().all(|a| self.is_room(a))
     }
 
     /// «А всего?», "And in the whole flat?": the last question without its place.
@@ -399,6 +433,16 @@ impl Asker<'_> {
 
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
     fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
+        // «Горит ли лампа в спальне? А на столе?»: the lamp there.
+        if let Query::Holds { subject, claims, .. } = &mut query
+            && !noun.restrictions.is_empty()
+            && noun.filters.is_empty()
+            && claims.iter().all(|claim| matches!(claim, Claim::Value(_)))
+            && self.has_kind(subject)
+        {
+            subject.restrictions = noun.restrictions;
+            return Some(query);
+        }
         let asked = match &mut query {
             Query::Find(asked)
             | Query::Count(asked)
@@ -478,6 +522,21 @@ impl Asker<'_> {
         Some(query)
     }
 
+    /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.
+    fn has_kind(&self, noun: &mut Noun) -> bool {
+        if noun.head.kinds.is_empty()
+            && let Some(things) = noun.head.things.as_deref()
+            && let Some(kind) = self.knowledge(Language::English, &Memory::default()).alike(things)
+        {
+            noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+        let has = !noun.head.kinds.is_empty();
+        if has {
+            noun.head.named.clear();
+        }
+        has
+    }
+
     pub(super) fn is_room(&self, noun: &Noun) -> bool {
         let named = |e: &Entity| matches!(e, Entity::Area(_));
         (!noun.head.named.is_empty() && noun.head.named.iter().all(named))
@@ -518,6 +577,28 @@ impl Asker<'_> {
         });
         Some(query)
     }
+}
+
+/// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
+fn where_such(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+    let (mut filters, mut asks) = (Vec::new(), false);
+    for item in sentence.items() {
+        match item {
+            Item::Mark(Mark::Where) => asks = true,
+            Item::Mark(Mark::And | Mark::Be | Mark::The) => {}
+            Item::Value(value) => filters.push(Filter::new(value, false)),
+            _ => return None,
+        }
+    }
+    let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
+    let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
+    (!filters.is_empty()).then(|| Query::Where(Noun { head, filters, ..Noun::default() }))
+}
+
+/// Whether a relation says where things are, and not what they have or whose they are.
+fn is_place(place: &Restriction) -> bool {
+    let other = [Rel::Has, Rel::Bears, Rel::Of, Rel::From, Rel::Opens, Rel::Through, Rel::To];
+    !other.contains(&place.rel)
 }
 
 /// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.

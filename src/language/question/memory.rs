@@ -19,6 +19,8 @@ pub struct Memory {
     pub(super) exchanges: Vec<focus::Exchange>,
     /// Whether what was spoken of last was called by a plural: «таблетки» may be one thing.
     pub(super) is_plural: bool,
+    /// The place that a person has told before asking of "there".
+    pub(super) told_place: Option<Thing>,
     /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
     pub(super) is_lost: bool,
     /// The things of the last answer.
@@ -94,6 +96,7 @@ impl Memory {
     /// Remembers what an answer was about.
     pub fn learn(&mut self, answer: &Answer) {
         self.pending = None;
+        self.told_place = None;
         self.is_outdated = false;
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.facts.clone_from(&answer.facts);

@@ -15,6 +15,7 @@ mod constructions;
 mod courtesy;
 mod datalog;
 mod discourse;
+mod done;
 mod doubts;
 mod everyday;
 mod focus;
@@ -49,6 +50,7 @@ mod storeys;
 mod uses;
 mod values;
 mod vocabulary;
+mod whole;
 mod why;
 
 pub use asides::{Aside, aside, asks_whether, begs};
@@ -367,10 +369,20 @@ impl Asker<'_> {
                 unanswered.0,
                 Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
             );
-            let salvaged = || self.salvaged(text, language, memory).filter(|_| is_unheard);
             let known = self.without_unknown(text, language, memory, &unanswered.0);
-            let respelt = || self.answer_respelt(text, language, memory).filter(|_| is_unheard);
-            known.or_else(salvaged).or_else(respelt).ok_or(unanswered)
+            if let Some(answer) = known {
+                return Ok(answer);
+            }
+            if !is_unheard {
+                return Err(unanswered);
+            }
+            match self.salvaged(text, language, memory) {
+                Some(Ok(answer)) => Ok(answer),
+                salvaged => match self.answer_respelt(text, language, memory) {
+                    Some(answer) => Ok(answer),
+                    None => Err(salvaged.and_then(Result::err).unwrap_or(unanswered)),
+                },
+            }
         });
         match outcome {
             Ok(answer) => {
@@ -638,8 +650,15 @@ impl Asker<'_> {
                 return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
             }
         }
+        if let Err(doubt) = self.widen(&mut query, text, memory) {
+            return Err(Box::new((doubt, Some(query))));
+        }
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);
+        let none = knowledge.points_at_nothing(&query).or_else(|| knowledge.is_at_itself(&query));
+        if let Some(word) = none {
+            return Err(Box::new((Doubt::NoReferent { word }, None)));
+        }
         let answer = knowledge.answer(&query);
         let answer = answer.map(|answer| Answer { words: text.to_owned(), ..answer });
         answer.map_err(|doubt| Box::new((doubt, Some(query))))

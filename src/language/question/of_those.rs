@@ -15,14 +15,17 @@ impl Asker<'_> {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let items = sentence.items();
-        let (mut extreme, mut which) = (None, false);
+        let (mut extreme, mut which, mut of_two) = (None, false, false);
         for item in &items {
             match item {
+                // "Which of the two is taller?"
+                Item::Number(2) => of_two = true,
                 Item::Mark(Mark::More(by) | Mark::Best(by)) if extreme.is_none() => {
                     extreme = Some(*by);
                 }
                 Item::Mark(Mark::Which) => which = true,
                 Item::Mark(Mark::What | Mark::Be | Mark::The | Mark::One | Mark::And) => {}
+                Item::Link(Rel::From | Rel::Of) => {}
                 Item::Noun(phrase) if phrase.noun.head.anything => {
                     extreme = extreme.or(phrase.noun.best.as_ref().map(|best| best.extreme));
                 }
@@ -49,6 +52,10 @@ impl Asker<'_> {
             named.extend(knowledge.find(noun, true).ok());
         });
         named.extend(self.alike_spoken_of(memory));
+        if of_two {
+            named.extend(knowledge.last_pair());
+            named.retain(|things| things.len() == 2);
+        }
         let things = named.into_iter().find(|things| agree(things))?;
         let best = Some(Best { extreme, anchor: None });
         Some(Query::Find(Noun { best, indefinite: true, ..Noun::of(things) }))

@@ -23,7 +23,7 @@ impl Asker<'_> {
         match self.answer(&mended, language, memory) {
             Ok(answer) => Some(answer.understood_as(&mended, language)),
             // What asks of a longer line is told by that.
-            Err(_) => self.salvaged(&mended, language, memory),
+            Err(_) => self.salvaged(&mended, language, memory).and_then(Result::ok),
         }
     }
 
@@ -44,6 +44,8 @@ impl Asker<'_> {
                 // No dictionary of English is at hand: only where a noun must stand.
                 Language::English => at > 0 && precedes_noun(&keys[at - 1]),
             };
+            // "Are there any left?" has no lift in it.
+            let mistyped = mistyped && !vocabulary::is_in_a_phrase(key);
             if let Some(word) = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped) {
                 mended.replace_range(words[at].clone(), &word);
                 any = true;

@@ -5,7 +5,8 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::{Answer, Asker, Memory, Noun, Said, Thing, opening, several, vocabulary};
+use super::{Asker, Doubt, Memory, Noun, Outcome, Said, Thing, opening, several, vocabulary};
+use crate::command::is_order;
 use crate::words::{Language, word_keys, word_ranges};
 
 /// What the parts of a line tell that do not ask.
@@ -14,7 +15,19 @@ struct Told {
     /// Where the person says to be.
     place: Option<Noun>,
     /// What they name.
-    things: Vec<Thing>,
+    named: Named,
+}
+
+/// What a part of a line names that asks nothing.
+#[derive(Default)]
+pub(super) struct Named {
+    pub(super) things: Vec<Thing>,
+    /// What is named as a place.
+    places: Vec<Thing>,
+    /// Whether a thing was called by a plural: «таблетки» may be one.
+    plural: bool,
+    /// The words that named all the things.
+    reference: Option<String>,
 }
 
 /// A line of more parts than this is not chatter.
@@ -23,13 +36,16 @@ const MOST_PARTS: usize = 8;
 const MOST_WORDS: usize = 12;
 
 impl Asker<'_> {
-    /// The answer to the one part of a line that asks, with what was understood before it.
+    /// The answer to the one part of a line that asks, with what was understood before it; else the doubt of a part that
+    /// was understood but for which of several is meant, or for a thing that the map lacks.
     pub(super) fn salvaged(
         &self,
         text: &str,
         language: Language,
         memory: &Memory,
-    ) -> Option<Answer> {
+    ) -> Option<Outcome> {
+        let shortened = self.without_idle_tail(text);
+        let (text, whole) = (shortened.as_deref().unwrap_or(text), shortened.is_some());
         let parts = parts(text);
         if parts.len() > MOST_PARTS {
             return None;
@@ -37,12 +53,14 @@ impl Asker<'_> {
         let spans = (0..parts.len()).flat_map(|from| (from..parts.len()).map(move |to| (from, to)));
         let mut spans: Vec<(usize, usize)> = spans.collect();
         spans.sort_by_key(|(from, to)| (parts.len() - (to - from), *from));
-        // Where a part ends as questions do, that is what asks.
+        // Where a part ends as questions do, that is what asks; but for one by which a person is polite or begs.
         let marked = |n: usize| {
             let part = &text[parts[n].0..parts[n].1];
-            part.ends_with('?') && !only_begs(&word_keys(part))
+            let keys = word_keys(part);
+            part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys)
         };
         let any_marked = (0..parts.len()).any(marked);
+        let mut doubted = None;
         for (from, to) in spans {
             if any_marked && !(from..=to).any(marked) {
                 continue;
@@ -55,12 +73,28 @@ impl Asker<'_> {
             }
             // What asks begins with the span, or at a word of it that asks.
             let (words, keys) = (word_ranges(span), word_keys(span));
-            let at_once = |n: usize| n == 0 || keys[n] != "ли" && opening::asks_at_once(&keys[n..]);
+            let at_once = |n: usize| {
+                let reported = is_reported(&keys[..n]);
+                let joint = reported && JOINTS.contains(&keys[n].as_str());
+                n == 0
+                    || !joint && (reported || keys[n] != "ли" && opening::asks_at_once(&keys[n..]))
+            };
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));
             for begin in begins.map(|n| words[n].start) {
                 let asked = &span[begin..];
-                let aside = [&text[..start + begin], &text[end..]];
-                if asked.len() == text.trim().len() || !self.asks(asked) {
+                if begin > 0 && goes_on(&text[..start + begin], asked) {
+                    continue;
+                }
+                let before = word_keys(&span[..begin]);
+                let reported = is_reported(&before);
+                let lead = &text[..start + begin];
+                let lead = if reported { without_joint(lead) } else { lead };
+                let aside = [lead, &text[end..]];
+                // Whether a claim is true is asked where somebody makes it, or where it is begged to be told.
+                let begs = |text: &&str| parts_of(text).any(|part| only_begs(&word_keys(part)));
+                let whether = matches!(before.last().map(String::as_str), Some("if" | "whether"));
+                let claimed = reported && (whether || self.asks(text)) || aside.iter().any(begs);
+                if asked.len() == text.trim().len() && !whole || !(self.asks(asked) || claimed) {
                     continue;
                 }
                 let Some(told) = self.told_aside(&aside, memory) else { break };
@@ -68,29 +102,46 @@ impl Asker<'_> {
                 if self.says_something(&span[..begin]) || !self.asks_of_something(asked) {
                     continue;
                 }
-                // A pronoun may mean what was not understood; "it" is none of several.
-                let means = |pronouns: &[Pronoun]| match told.things.len() {
-                    0 => pronouns.is_empty(),
-                    1 => true,
-                    _ => pronouns.iter().all(|p| matches!(p, Pronoun::They | Pronoun::There)),
-                };
-                if !means(&self.pronouns(asked)) {
+                let pronouns = self.pronouns(asked);
+                if !told.named.may_be_meant(&pronouns) {
+                    // «Телефон потерялся, где он?» of two: which one is asked back.
+                    if doubted.is_none()
+                        && let Some(doubt) = told.named.several_of_one()
+                    {
+                        doubted = Some(Box::new((doubt, None)));
+                    }
                     continue;
                 }
                 let mut heard = memory.clone();
-                heard.list(&told.things);
+                told.named.heard(&mut heard);
                 if let Some(place) = &told.place {
                     self.hear_of_place(place, &mut heard);
                 }
-                let answer = self.answer_at(told.place.as_ref(), asked, language, &heard);
-                let Ok(answer) = answer else { continue };
-                if answer.said == Said::Unknown {
-                    continue;
+                match self.answer_at(told.place.as_ref(), asked, language, &heard) {
+                    Ok(answer) if answer.said == Said::Unknown => {}
+                    // A claim that somebody makes is true or not.
+                    Ok(answer)
+                        if claimed
+                            && !self.asks(asked)
+                            && !matches!(answer.said, Said::Yes | Said::No) => {}
+                    Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
+                    Err(unanswered) if self.is_understood(&unanswered.0) => {
+                        doubted.get_or_insert(unanswered);
+                    }
+                    Err(_) => {}
                 }
-                return Some(answer.understood_as(asked, language));
             }
         }
-        None
+        doubted.map(Err)
+    }
+
+    /// Whether a doubt is none of the words: they are understood, and the map has several such things, or none.
+    fn is_understood(&self, doubt: &Doubt) -> bool {
+        match doubt {
+            Doubt::Ambiguous { .. } => true,
+            Doubt::Unknown { reference, .. } => self.is_word(reference),
+            _ => false,
+        }
     }
 
     /// What is told in what is left aside; none where it does more than tell.
@@ -102,11 +153,53 @@ impl Asker<'_> {
                 match self.premise(part) {
                     Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
-                    None => told.things.extend(self.names_only(part, memory)?),
+                    None => told.named.add(self.names_only(part, memory)?),
                 }
             }
         }
         Some(told)
+    }
+
+    /// A line without an "or" at its end that puts nothing of the map for choice: "…, or shall I get up?", «… или всё
+    /// съели?»
+    fn without_idle_tail(&self, text: &str) -> Option<String> {
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let or = keys.iter().rposition(|key| matches!(key.as_str(), "или" | "or" | "либо"))?;
+        let tail = text.get(words.get(or + 1)?.start..)?;
+        // «или нет» belongs to what is asked.
+        if or < 2 || word_keys(tail).len() < 2 {
+            return None;
+        }
+        let plain = self.plain(tail);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let idle = |item: &Item| match item {
+            Item::Unknown(_) => true,
+            Item::Noun(phrase) => phrase.person.is_some() && phrase.person != Some(Mark::There),
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Filler
+                    | Mark::The
+                    | Mark::And
+                    | Mark::Me
+                    | Mark::You
+                    | Mark::Be
+                    | Mark::Can
+                    | Mark::Cannot
+                    | Mark::Must
+                    | Mark::All
+                    | Mark::Move
+                    | Mark::What
+                    | Mark::Who
+                    | Mark::Have
+            ),
+            _ => false,
+        };
+        let items = sentence.items();
+        let says = items.iter().any(|item| !matches!(item, Item::Mark(Mark::Filler | Mark::The)));
+        (says && items.iter().all(idle)).then(|| {
+            let kept = text[..words[or].start].trim_end_matches([' ', ',', '–', '—', '.', '…']);
+            format!("{kept}?")
+        })
     }
 
     fn asks(&self, text: &str) -> bool {
@@ -114,6 +207,7 @@ impl Asker<'_> {
         let whether =
             |last: &[String]| ["или нет", "или не", "or not"].contains(&last.join(" ").as_str());
         opening::begins_question(&words)
+            || tells_me(&words)
             || several::asks_in(text)
             || text.trim().ends_with('?')
             || words.last_chunk::<2>().is_some_and(|last| whether(last))
@@ -122,12 +216,14 @@ impl Asker<'_> {
     /// Whether a question names what it is about beside the noun of its question word, or what is done.
     fn asks_of_something(&self, text: &str) -> bool {
         let plain = self.plain(text);
-        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
         (0..items.len()).any(|n| match &items[n] {
             Item::Noun(phrase) if phrase.person.is_none() => {
                 !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
             }
             Item::Place { .. } => n > 0,
+            Item::Unknown(words) => self.is_word(sentence.said(words)),
             Item::Mark(mark) => {
                 matches!(mark, Mark::Deed(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
             }
@@ -151,13 +247,21 @@ impl Asker<'_> {
         };
         let items = Sentence::new(&plain, &self.mind.lexicon).items();
         // "Sorry to bother you, …", but «С чем граничит …?»
+        // "Somebody told me …"
+        let nobody = !several::asks_outright(text);
+        // "They claim that …" means nobody who was spoken of.
+        let says = is_reported(&word_keys(text));
+        let small = |item: &Item| {
+            small(item)
+                || nobody && *item == Item::Mark(Mark::Who)
+                || says && matches!(item, Item::Noun(phrase) if phrase.pronoun.is_some())
+        };
         let governs = matches!(items.last(), Some(Item::Link(_)));
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))
     }
 
-    /// The things that a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that
-    /// does.
-    pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Vec<Thing>> {
+    /// What a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that does.
+    pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Named> {
         const LIMITS: [&str; 18] = [
             "если",
             "когда",
@@ -180,65 +284,207 @@ impl Asker<'_> {
         ];
         let keys = word_keys(text);
         let (last, before) = match keys.split_last() {
-            None => return Some(Vec::new()),
+            None => return Some(Named::default()),
             Some((last, before)) => (last, before),
         };
         // "Sorry to bother you, but …" limits nothing; "all but …" does.
         let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
-        // "If you don't mind" supposes nothing.
-        const POLITE: [&str; 13] = [
-            "mind",
-            "please",
-            "possible",
-            "ok",
-            "okay",
-            "alright",
-            "может",
-            "можете",
-            "секрет",
-            "можно",
-            "трудно",
-            "сложно",
-            "против",
-        ];
-        let polite = matches!(keys[0].as_str(), "if" | "если")
-            && keys.iter().any(|key| POLITE.contains(&key.as_str()));
         let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
-        if !polite && before.iter().chain([last]).any(limits) {
+        if !is_polite(&keys) && before.iter().chain([last]).any(limits) {
             return None;
         }
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
         let wishes = keys.iter().any(|key| key == "бы" || key == "б");
         let begs = only_begs(&keys);
-        if several::asks_in(text) && !wishes && !begs {
+        if several::asks_outright(text) && !wishes && !begs {
+            return None;
+        }
+        // «Ту, что в комоде, достань» orders.
+        if is_order(text) && !begs {
             return None;
         }
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let mut things = Vec::new();
+        let mut named = Named::default();
         for item in sentence.items() {
-            let named = match item {
-                Item::Mark(Mark::Other | Mark::All) => return None,
-                Item::Noun(phrase) => vec![phrase],
-                Item::Place { nouns, .. } => nouns,
-                _ => Vec::new(),
+            let (phrases, is_place) = match item {
+                Item::Mark(Mark::Other | Mark::All | Mark::Detail(_)) => return None,
+                Item::Noun(phrase) => (vec![phrase], false),
+                Item::Place { nouns, .. } => (nouns, true),
+                _ => (Vec::new(), false),
             };
-            for phrase in named.iter().filter(|p| p.person.is_none() && p.pronoun.is_none()) {
+            for phrase in phrases.iter().filter(|p| p.person.is_none() && p.pronoun.is_none()) {
                 // "The one in the hall" is among what was spoken of.
                 if phrase.noun.head.anything {
                     return None;
                 }
                 let noun = Noun { plural: true, ..phrase.noun.clone() };
-                things.extend(knowledge.find(&noun, true).unwrap_or_default());
+                let found = knowledge.find(&noun, true).unwrap_or_default();
+                if is_place {
+                    named.places.extend(found);
+                } else {
+                    let first = named.things.is_empty() && found.len() > 1;
+                    named.reference = first.then(|| phrase.noun.text.clone());
+                    named.things.extend(found);
+                    named.plural |= phrase.noun.plural;
+                }
             }
         }
-        Some(things)
+        Some(named)
+    }
+}
+
+impl Named {
+    fn add(&mut self, other: Self) {
+        self.reference = match (self.things.is_empty(), other.things.is_empty()) {
+            (true, _) => other.reference,
+            (_, true) => self.reference.take(),
+            _ => None,
+        };
+        self.things.extend(other.things);
+        self.places.extend(other.places);
+        self.plural |= other.plural;
+    }
+
+    /// What a pronoun but "there" may mean.
+    fn spoken(&self) -> &[Thing] {
+        if self.things.is_empty() { &self.places } else { &self.things }
+    }
+
+    /// Whether pronouns may mean what was named and not understood: "it" is none of several, "there" is one place.
+    fn may_be_meant(&self, pronouns: &[Pronoun]) -> bool {
+        match self.spoken().len() {
+            0 => pronouns.is_empty(),
+            1 => true,
+            _ => pronouns.iter().all(|p| matches!(p, Pronoun::They | Pronoun::There)),
+        }
+    }
+
+    /// The doubt which of several is meant that one word in the singular named.
+    fn several_of_one(&self) -> Option<Doubt> {
+        let reference = self.reference.clone().filter(|_| !self.plural)?;
+        Some(Doubt::Ambiguous { reference, candidates: self.things.clone() })
+    }
+
+    /// Notes what was named.
+    fn heard(&self, memory: &mut Memory) {
+        memory.list(self.spoken());
+        memory.is_plural |= self.plural;
+        if let [place] = self.places[..] {
+            memory.told_place = Some(place);
+        }
+    }
+}
+
+/// "If you don't mind", «если не секрет», "while you're at it": who says so is polite, and supposes nothing.
+fn is_polite(keys: &[String]) -> bool {
+    const POLITE: [&str; 17] = [
+        "mind",
+        "please",
+        "possible",
+        "ok",
+        "okay",
+        "alright",
+        "trouble",
+        "bother",
+        "может",
+        "можете",
+        "секрет",
+        "можно",
+        "трудно",
+        "сложно",
+        "против",
+        "затруднит",
+        "сложности",
+    ];
+    let said = keys.join(" ");
+    match keys.first().map(String::as_str) {
+        Some("if" | "если") => keys.iter().any(|key| POLITE.contains(&key.as_str())),
+        Some("while" | "since") => {
+            said.contains(" you re at it") || said.contains(" you are at it")
+        }
+        _ => false,
+    }
+}
+
+/// Words between who says something and what is said.
+const JOINTS: [&str; 9] = ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
+
+/// A text without the words at its end that only join what is said: «Жена говорит, что».
+fn without_joint(text: &str) -> &str {
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
+    let kept = words.len().checked_sub(joints + 1).and_then(|last| words.get(last));
+    kept.map_or("", |last| &text[..last.end])
+}
+
+/// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".
+pub(super) fn is_reported(keys: &[String]) -> bool {
+    const SAYING: [&str; 33] = [
+        "says",
+        "said",
+        "say",
+        "thinks",
+        "think",
+        "thought",
+        "reckons",
+        "reckon",
+        "claim",
+        "claims",
+        "claimed",
+        "insists",
+        "insisted",
+        "swears",
+        "swear",
+        "sworn",
+        "told",
+        "heard",
+        "believes",
+        "believe",
+        "guess",
+        "bet",
+        "мол",
+        "кажется",
+        "похоже",
+        "слышал",
+        "слышала",
+        "говорят",
+        "утверждают",
+        "уверяют",
+        "клянется",
+        "божится",
+        "якобы",
+    ];
+    const STEMS: [&str; 8] =
+        ["говор", "сказал", "утвержда", "уверя", "считае", "думае", "твердит", "спорит"];
+    const KNOWING: [&str; 6] = ["know", "ask", "asks", "wonders", "wondering", "check"];
+    let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
+    let (before, joined) = keys.split_at(keys.len() - joints);
+    let Some(last) = before.last() else { return false };
+    let whether = joined.iter().any(|key| key == "if" || key == "whether");
+    let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
+    match whether {
+        true => says || KNOWING.contains(&last.as_str()),
+        false => says,
+    }
+}
+
+/// "Tell me the door is locked", «скажи, дверь заперта»: who begs so asks whether.
+fn tells_me(keys: &[String]) -> bool {
+    match keys {
+        [first, second, _, _, ..] => {
+            first == "tell" && (second == "me" || second == "us")
+                || ["скажи", "подскажи", "глянь", "посмотри", "проверь"]
+                    .iter()
+                    .any(|verb| first.starts_with(verb))
+        }
+        _ => false,
     }
 }
 
 /// Whether a part of a line is a clause of what stands before it: «ту, что на кухне», "bigger, than …".
-fn goes_on(before: &str, part: &str) -> bool {
+pub(super) fn goes_on(before: &str, part: &str) -> bool {
     const POINTING: [&str; 15] = [
         "то",
         "тот",
@@ -313,6 +559,11 @@ fn tells(key: &str) -> bool {
         "помн",
     ];
     VERBS.contains(&key) || STEMS.iter().any(|stem| key.starts_with(stem))
+}
+
+/// The same by their text.
+fn parts_of(text: &str) -> impl Iterator<Item = &str> {
+    parts(text).into_iter().map(move |(from, to)| &text[from..to])
 }
 
 /// The parts of a line between its marks, by their bytes.

@@ -2,6 +2,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
+use super::salvage::{goes_on, is_reported};
 use super::{
     Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
     several,
@@ -258,6 +259,10 @@ impl Asker<'_> {
             || compares
             || !opening::begins_question(&words)
             || several::asks_in(told)
+            || is_reported(&word_keys(told))
+            || self.tells_how_much(told)
+            // «А в той, что меньше?»
+            || goes_on(told, asked)
             || (premise::says_here(asked) && self.premise(told).is_some())
         {
             return None;
@@ -269,23 +274,41 @@ impl Asker<'_> {
         Some(answer)
     }
 
+    /// «Расскажи кратко, …»: how much is asked for.
+    fn tells_how_much(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        items.iter().any(|item| matches!(item, Item::Mark(Mark::Detail(_))))
+    }
+
     /// Notes what a sentence names that asks nothing.
     pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let nouns = sentence.items().into_iter().filter_map(|item| match item {
-            Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
-            _ => None,
-        });
-        let nouns: Vec<Noun> = nouns.collect();
-        let named: Vec<Thing> = {
+        let (mut nouns, mut places) = (Vec::new(), Vec::new());
+        for item in sentence.items() {
+            match item {
+                Item::Noun(phrase) if phrase.person.is_none() => nouns.push(phrase.noun),
+                Item::Place { rel: Rel::In | Rel::On | Rel::At | Rel::To, nouns, .. } => {
+                    places.extend(nouns.into_iter().filter(|p| p.person.is_none()).map(|p| p.noun));
+                }
+                _ => {}
+            }
+        }
+        let (named, placed) = {
             let knowledge = self.knowledge(sentence.language, memory);
-            let found = nouns.iter().filter_map(|noun| knowledge.find(noun, true).ok());
-            found.filter(|found| found.len() == 1).flatten().collect()
+            let one =
+                |noun: &Noun| knowledge.find(noun, true).ok().filter(|found| found.len() == 1);
+            let named: Vec<Thing> = nouns.iter().filter_map(one).flatten().collect();
+            let placed: Vec<Thing> = places.iter().filter_map(one).flatten().collect();
+            (named, placed)
         };
         if !named.is_empty() {
             memory.mention(&named);
             memory.is_plural = nouns.iter().any(|noun| noun.plural);
+        }
+        if let [place] = placed[..] {
+            memory.told_place = Some(place);
         }
     }
 }

@@ -69,6 +69,19 @@ pub(super) fn asks_in(text: &str) -> bool {
     asks(&keys)
 }
 
+/// The same, where "somebody" asks for nobody.
+pub(super) fn asks_outright(text: &str) -> bool {
+    let keys = word_keys(text);
+    (0..keys.len()).any(|n| match vocabulary::longest(&keys[n..]) {
+        Some((taken, Mark::Who)) => {
+            let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
+            taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
+        }
+        Some((_, mark)) => is_asking(mark),
+        None => false,
+    })
+}
+
 /// The sentences of a line: a mark that ends one, a blank, and a capital.
 #[must_use]
 pub fn sentences(line: &str) -> Vec<&str> {

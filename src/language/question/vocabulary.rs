@@ -229,6 +229,11 @@ pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
     }
 }
 
+/// Whether a word is in any phrase of the vocabulary: it is a word, whatever it does there.
+pub(super) fn is_in_a_phrase(key: &str) -> bool {
+    table().values().flatten().any(|(phrase, _)| phrase.iter().any(|word| word == key))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

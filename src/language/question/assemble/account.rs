@@ -141,6 +141,51 @@ impl Frame<'_, '_> {
             || self.marks.iter().any(asks)
             || self.points(&told, query)
             || self.is_piece(query)
+            || self.loses_there(query)
+            || self.loses_a_side(query)
+    }
+
+    /// «Туда дверь открыта?»: of the door there, and not of any.
+    fn loses_there(&self, query: &Query) -> bool {
+        let (Some(there), Query::Holds { .. }) = (&self.there, query) else { return false };
+        let mut taken = false;
+        if let Query::Holds { claims, .. } = query {
+            taken |= claims
+                .iter()
+                .any(|claim| matches!(claim, Claim::Related(place) if place.rel == Rel::There));
+        }
+        query.clone().each_noun(&mut |noun| {
+            taken |= noun.head.things == there.head.things
+                || noun.restrictions.iter().any(|place| place.rel == Rel::There);
+        });
+        !taken
+    }
+
+    /// «А пластиковые возле чего лежат?»: a preposition of a side that governs nothing asks for what lies there.
+    fn loses_a_side(&self, query: &Query) -> bool {
+        if !matches!(query, Query::Find(_) | Query::Count(_) | Query::Exists { .. }) {
+            return false;
+        }
+        let side = |rel: Rel| {
+            matches!(
+                rel,
+                Rel::NextTo
+                    | Rel::Near
+                    | Rel::LeftOf
+                    | Rel::RightOf
+                    | Rel::Behind
+                    | Rel::InFrontOf
+                    | Rel::Under
+                    | Rel::Above
+                    | Rel::Between
+            )
+        };
+        let mut asked: Vec<Rel> =
+            self.links.iter().map(|(rel, _)| *rel).filter(|r| side(*r)).collect();
+        query.clone().each_noun(&mut |noun| {
+            asked.retain(|rel| noun.restrictions.iter().all(|place| place.rel != *rel));
+        });
+        !asked.is_empty()
     }
 
     /// «Хватит ли шести стульев?», "Are there enough chairs for six?": so many or more.
@@ -198,8 +243,12 @@ impl Frame<'_, '_> {
                 || about && matches!(mark, Mark::What | Mark::How)
         };
         let asks = |(mark, _): &(Mark, usize)| !small(mark);
+        let placed = |query: &Query| match query {
+            Query::Holds { claims, .. } => claims.iter().all(|c| matches!(c, Claim::Related(_))),
+            _ => false,
+        };
         goes_on
-            && matches!(query, Query::Find(_) | Query::Exists { .. })
+            && (matches!(query, Query::Find(_) | Query::Exists { .. }) || about && placed(query))
             && !self.marks.iter().any(asks)
     }
 }
@@ -326,6 +375,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             told.beyond
                 || told.best_of_some
                 || told.counted
+                || (told.other && matches!(query, Q::Exists { .. }))
                 || matches!(
                     query,
                     Q::WhichMore { .. }

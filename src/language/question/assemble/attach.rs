@@ -62,6 +62,16 @@ impl Frame<'_, '_> {
             noun.restrictions.extend(opens.restrictions());
             return;
         }
+        // «бутылки с вином», where wine is a word for such a bottle.
+        let same_sort = |with: &Noun| {
+            !with.head.kinds.is_empty()
+                && with.head.kinds.iter().all(|kind| noun.head.kinds.contains(kind))
+                && with.filters.is_empty()
+                && with.count.is_none()
+        };
+        if spot.rel == Rel::Has && !spot.negated && spot.nouns.iter().all(same_sort) {
+            return;
+        }
         // «в комнате с диваном», «стол с лампой»
         if spot.rel == Rel::Has {
             let area = self.is_area(noun);

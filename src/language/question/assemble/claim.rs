@@ -6,7 +6,7 @@ use super::Frame;
 use super::Spot;
 use super::Subject;
 use crate::question::mark::Mark;
-use crate::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
+use crate::question::query::{Claim, Extreme, Filter, Noun, Query, Rel, Restriction};
 use crate::question::values::ValueId;
 
 impl Frame<'_, '_> {
@@ -49,7 +49,14 @@ impl Frame<'_, '_> {
             return Some(Query::Sees(only.noun.clone()));
         }
         let seen = self.has(Mark::See) && !self.nouns.is_empty();
-        let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none;
+        // «Бананы остались?», of which nothing else is asked.
+        let left = |key: &String| key.starts_with("остал") || key.starts_with("остаё");
+        let remains = !self.nouns.is_empty()
+            && self.values.is_empty()
+            && !self.asks()
+            && !self.has(Mark::Where)
+            && self.sentence.keys.iter().any(left);
+        let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none || remains;
         if !exists {
             return None;
         }
@@ -87,6 +94,11 @@ impl Frame<'_, '_> {
             noun.restrictions.extend(within.iter().cloned());
             if !noun.head.kinds.is_empty() {
                 noun.head.named.retain(|_| noun.head.kinds.is_empty());
+                // «Вино ещё есть?», "Are there more potatoes?": besides what was spoken of.
+                let more = |(mark, _): &(Mark, usize)| {
+                    matches!(mark, Mark::Other | Mark::More(Extreme::Most))
+                };
+                noun.other |= self.marks.iter().any(more) && !self.has(Mark::Than);
             }
             what.push(self.with_rest(noun, &[]));
         }

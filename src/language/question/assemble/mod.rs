@@ -155,6 +155,9 @@ pub(super) fn fragment(
             Item::Noun(phrase) => phrase.noun.head.anything,
             _ => false,
         });
+    // «А не белых?»
+    let denials = frame.marks.iter().filter(|(mark, _)| *mark == Mark::Not).count();
+    let denies_values = denials == frame.values.iter().filter(|(_, _, negated)| *negated).count();
     let small = |mark: &Mark| {
         matches!(
             mark,
@@ -166,7 +169,8 @@ pub(super) fn fragment(
                 | Mark::Best(_)
                 | Mark::Rank(_)
                 | Mark::And
-        ) || (*mark == Mark::HowMany && frame.nouns.is_empty())
+        ) || (*mark == Mark::Not && denies_values)
+            || (*mark == Mark::HowMany && frame.nouns.is_empty())
             || (*mark == Mark::Exists && of_those)
             || (*mark == Mark::Which && of_those)
     };

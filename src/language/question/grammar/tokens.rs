@@ -8,7 +8,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{Extreme, Quantity, Rel};
 use crate::question::small_words;
 use crate::question::uses;
-use crate::question::values::ValueId;
+use crate::question::values::{Property, ValueId};
 use crate::question::vocabulary;
 use crate::units::name_key;
 use crate::words::{Language, word_ranges};
@@ -345,7 +345,10 @@ impl<'t> Sentence<'t> {
             if let Meaning::Kind(kind) = hit.id {
                 // "on the floor" is not "on the second floor".
                 let skipped = match lexicon.kind(*kind).extension {
-                    Extension::Storeys => !numbered && self.keys[at] == "floor",
+                    Extension::Storeys => {
+                        let trodden = || self.keys[at] == "floors" && self.tells_finish(lexicon);
+                        !numbered && (self.keys[at] == "floor" || trodden())
+                    }
                     Extension::Floor => numbered && self.keys[at].starts_with("floor"),
                     _ => false,
                 };
@@ -385,6 +388,22 @@ impl<'t> Sentence<'t> {
             found.named.clear();
         }
         found
+    }
+
+    /// Whether a sentence tells or asks what something is like to look at: "Are the floors of both rooms wooden?"
+    fn tells_finish(&self, lexicon: &Lexicon) -> bool {
+        let looks = |property: &Property| {
+            matches!(property, Property::Colour | Property::Material | Property::Surface)
+        };
+        let value = |words: &[String]| {
+            let value = lexicon.values.longest(words);
+            value.is_some_and(|(_, value)| looks(&lexicon.values.entry(value).property))
+        };
+        let property = |words: &[String]| {
+            lexicon.values.property(words).is_some_and(|(_, property)| looks(property))
+        };
+        (0..self.keys.len()).any(|n| value(&self.keys[n..]) || property(&self.keys[n..]))
+            || self.keys.windows(2).any(|two| two == ["made", "of"])
     }
 
     /// Whether a sentence asks for rooms: «в какой комнате».

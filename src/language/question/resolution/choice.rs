@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Settler;
 use crate::question::Doubt;
+use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
@@ -163,6 +164,12 @@ impl Settler<'_, '_> {
                 Err((self.knowledge.none_such(&with(noun, &self.resting(within))), at))
             }
             [] => Ok(None),
+            // "Put it on that table"
+            _ if is_shown(noun)
+                && let Some(shown) = self.knowledge.in_focus(found) =>
+            {
+                Ok(Some(shown))
+            }
             _ => match (self.strict)(&noun.text).map(Thing::Entity) {
                 Some(thing) if found.contains(&thing) && !is_described(noun, within) => {
                     Ok(Some(thing))

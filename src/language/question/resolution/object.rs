@@ -94,8 +94,13 @@ impl Settler<'_, '_> {
                 return Err((Doubt::not_understood(&second.noun.text), self.bytes(&second.words)));
             }
             let mut anchor = with(&spot.phrase.noun, &spot.within);
-            if let (Some(place), true) = (more.place, spot.phrase.pronoun.is_some()) {
-                anchor.head = Head { things: Some(vec![place]), ..Head::default() };
+            // What the sentence has named, else what was spoken of that may be so related: "the banana from it".
+            if let Some(pronoun) = spot.phrase.pronoun {
+                let spoken = more.place == self.knowledge.memory.last_thing();
+                let meant = || self.knowledge.borne_by_pronoun(pronoun).filter(|_| spoken);
+                if let Some(place) = meant().or(more.place) {
+                    anchor.head = Head { things: Some(vec![place]), ..Head::default() };
+                }
             }
             // «дверь на улицу»: the way out is the door itself.
             if doors && self.are_doors(&anchor) {
@@ -128,6 +133,17 @@ impl Settler<'_, '_> {
             return Err((Doubt::Windows, at));
         }
         let mut found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
+        // "The one from the dresser", where a list was told before the last one: of that.
+        if found.is_empty() && phrase.noun.head.anything && noun.head.things.is_some() {
+            for exchange in &self.knowledge.memory.exchanges {
+                let things = exchange.members().to_vec();
+                if things.len() > 1 && found.is_empty() {
+                    let head = Head { things: Some(things), ..Head::default() };
+                    let told = Noun { head, ..noun.clone() };
+                    found = self.candidates(&told, &within).map_err(|d| (d, at.clone()))?;
+                }
+            }
+        }
         if let Some(there) = more.there {
             found.retain(|t| self.knowledge.area_of(*t) == Some(there));
         }

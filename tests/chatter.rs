@@ -1,0 +1,210 @@
+//! Families of chatter and of dialogue: what is hung on a question changes no answer, and a line that goes on is answered
+//! as the whole question is, or not at all.
+
+use std::collections::BTreeSet;
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_map::Entity;
+
+use crate::files::project;
+use crate::talk::engine;
+
+/// What is answered, without what was understood before it; none where it is not.
+fn answered(engine: &Engine, question: &str, memory: &mut Memory) -> Option<String> {
+    let text = engine.ask(question, memory).expect("there is a map").ok()?.text;
+    let understood = ["Understood as “", "Понял так: «"].iter().any(|lead| text.starts_with(lead));
+    let rest = text.split_once(['”', '»']).map(|(_, rest)| rest.trim().to_owned());
+    Some(rest.filter(|_| understood).unwrap_or(text))
+}
+
+/// The questions of a golden case that begin a dialogue.
+fn golden(case: &str) -> Vec<String> {
+    let questions = project("tests/golden/talk").join(case).join("questions.txt");
+    let lines = std::fs::read_to_string(questions).unwrap();
+    let lines =
+        lines.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with(['+', '#']));
+    lines.map(str::to_owned).collect()
+}
+
+/// What people say around a question: before it, and behind it.
+const RUSSIAN: [(&str, &str); 12] = [
+    ("слушай, ", ""),
+    ("Муж опять ворчит, ", ""),
+    ("скажи честно, ", ""),
+    ("Не пойму что-то, ", ""),
+    ("слышь, ", ""),
+    ("Ой, я совсем запутался... ", ""),
+    ("Гости скоро придут. ", ""),
+    ("", ", если не секрет?"),
+    ("", ", не подскажешь?"),
+    ("", " А то я забыл."),
+    ("доброе утро, ", ", а?"),
+    ("Дай-ка подумать... ", ""),
+];
+
+const ENGLISH: [(&str, &str); 10] = [
+    ("listen, ", ""),
+    ("My wife keeps nagging me, ", ""),
+    ("ok weird question: ", ""),
+    ("Sorry to bother you, but ", ""),
+    ("I just woke up, ", ""),
+    ("while you're at it, ", ""),
+    ("Honestly, I forgot. ", ""),
+    ("", ", if you don't mind me asking?"),
+    ("", ", do you know?"),
+    ("um, ", ", please?"),
+];
+
+/// Asides told around every fifth golden question: the answer is the same, or there is none; and mostly there is one.
+#[test]
+#[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
+fn what_is_said_around_a_question_changes_no_answer() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    for (case, asides) in [("rb2-ru", &RUSSIAN[..]), ("rb2-en", &ENGLISH[..])] {
+        let (mut asked, mut same, mut changed) = (0, 0, Vec::new());
+        for question in golden(case).iter().step_by(5) {
+            let Some(plain) = answered(&rb2, question, &mut Memory::default()) else { continue };
+            for (before, behind) in asides {
+                let bare = question.trim_end_matches(['?', '.', '!']);
+                let line = match behind.ends_with(['?', '.']) && !behind.starts_with(' ') {
+                    true => format!("{before}{bare}{behind}"),
+                    false => format!("{before}{question}{behind}"),
+                };
+                asked += 1;
+                match answered(&rb2, &line, &mut Memory::default()) {
+                    None => {}
+                    Some(told) if told == plain => same += 1,
+                    Some(told) => changed.push(format!("{line}\n  {told}\n  {plain}")),
+                }
+            }
+        }
+        println!("{case}: {same} of {asked} as without the aside, {} otherwise", changed.len());
+        assert!(changed.is_empty(), "{case}:\n{}", changed.join("\n"));
+        assert!(same * 100 >= asked * 75, "{case}: {same} of {asked}");
+    }
+}
+
+/// A claim that somebody makes is answered as the question is whether it is so.
+#[test]
+fn a_claim_of_others_is_asked_after() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let claims = [
+        ("there are six chairs", "Are there six chairs?"),
+        ("the entrance door is open", "Is the entrance door open?"),
+        ("Lamp 1 is on", "Is Lamp 1 on?"),
+        ("the medicine is in Room Y", "Is the medicine in Room Y?"),
+    ];
+    let frames = [
+        "My wife says {}, is that true?",
+        "somebody told me {}, can you check?",
+        "the boss wants to know if {}",
+        "They claim that {}. Is that right?",
+    ];
+    for (claim, question) in claims {
+        let plain = answered(&rb2, question, &mut Memory::default()).expect("a plain question");
+        for frame in frames {
+            let line = frame.replace("{}", claim);
+            let told = answered(&rb2, &line, &mut Memory::default());
+            assert_eq!(told.as_deref(), Some(&*plain), "{line}");
+        }
+    }
+}
+
+/// Dialogues of which the last line goes on from those before it, and the whole question that it stands for.
+fn gone_on(engine: &Engine, lines: &[&str], whole: &str) {
+    let mut memory = Memory::default();
+    let (last, before) = lines.split_last().expect("a dialogue");
+    for line in before {
+        answered(engine, line, &mut memory);
+    }
+    let told = answered(engine, last, &mut memory);
+    let plain = answered(engine, whole, &mut Memory::default());
+    assert!(told.is_none() || told == plain, "{lines:?}\n  {told:?}\n{whole}\n  {plain:?}");
+}
+
+/// Of every two kinds of things and every room: what goes on keeps the place of the question before it, by whichever
+/// words that was told.
+#[test]
+fn what_goes_on_keeps_the_place() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let kinds = ["chairs", "books", "lamps", "wardrobes", "windows"];
+    let rooms = ["Room V", "Room Z", "Room Y", "the corridor"];
+    for room in rooms {
+        for (first, second) in kinds.iter().zip(kinds.iter().cycle().skip(1)) {
+            let counted = format!("How many {first} are in {room}?");
+            let whole = format!("How many {second} are in {room}?");
+            gone_on(&rb2, &[&counted, &format!("And {second}?")], &whole);
+            let bigger = format!("Is {room} bigger than Room V?");
+            let it = format!("How many {first} are in it?");
+            gone_on(&rb2, &[&bigger, &it, &format!("And {second}?")], &whole);
+            let house = format!("How many {first} are there in the whole house?");
+            gone_on(&rb2, &[&counted, "How many of them are there in the whole house?"], &house);
+        }
+    }
+    let lamp = |place: &str| format!("Is the lamp {place} on?");
+    let (desk, bedside) = ("on the desk", "on Bedside table 1");
+    for (first, second) in [(desk, bedside), (bedside, desk), ("in Room V", "in Room Y")] {
+        gone_on(&rb2, &[&lamp(first), &format!("And {second}?")], &lamp(second));
+    }
+    let on = |support: &str| format!("What is on {support}?");
+    for (first, second) in [("Table 1", "the dresser"), ("Shelf 1", "the dining table")] {
+        gone_on(&rb2, &[&on(first), &format!("And {second}?")], &on(second));
+    }
+}
+
+/// A "that" with a noun means what bears the things that were told, whatever was told of them; and never anything else.
+#[test]
+fn that_table_is_the_one_that_was_spoken_of() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let world = rb2.world().unwrap();
+    let mut shown = 0;
+    for replica in world.replicas.values() {
+        let english = &replica.name_en;
+        let symbol = rb2.relations().unwrap().support_of(replica.id);
+        let Some(support) = symbol.and_then(|id| world.replicas.get(&id)) else { continue };
+        let kind = world.types.object.get(world.objects[&support.object].object_type);
+        let kind = kind.expect("everything on this map has a type");
+        let asked = format!("What else is on that {}?", kind.name_en);
+        for opening in [format!("Where is {english}?"), format!("Which room is {english} in?")] {
+            let mut memory = Memory::default();
+            answered(&rb2, &opening, &mut memory);
+            let Ok(answer) = rb2.ask(&asked, &mut memory).unwrap() else { continue };
+            let others: BTreeSet<_> = world
+                .replicas
+                .values()
+                .filter(|r| rb2.relations().unwrap().support_of(r.id) == Some(support.id))
+                .filter(|r| r.id != replica.id)
+                .map(|r| Entity::Replica(r.id))
+                .collect();
+            let told = answer.things.iter().filter_map(|thing| match thing {
+                orthoframe_language::question::Thing::Entity(entity) => Some(*entity),
+                _ => None,
+            });
+            assert_eq!(told.collect::<BTreeSet<_>>(), others, "{opening} {asked}: {}", answer.text);
+            shown += 1;
+        }
+    }
+    assert!(shown > 10, "{shown}");
+    for line in ["What else is on that piano?", "Что ещё на этой скамье?"] {
+        let told = answered(&rb2, line, &mut Memory::default());
+        assert_eq!(told, None, "{line}");
+    }
+}
+
+/// What a line tells before it asks of "there": the place, and not the thing.
+#[test]
+fn there_is_the_place_that_was_told() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    for (thing, room) in [("umbrella", "Room Z"), ("kettle", "Room Z"), ("vase", "the corridor")] {
+        let whole = format!("Is the {thing} in {room}?");
+        for line in [
+            format!("I swear I put the {thing} in {room}, is it there?"),
+            format!("I left the {thing} in {room} yesterday. Is it there?"),
+        ] {
+            let ask = |text: &str| rb2.ask(text, &mut Memory::default()).unwrap().ok();
+            let (told, plain) = (ask(&line), ask(&whole).expect("a plain question"));
+            assert!(told.is_none_or(|told| told.said == plain.said), "{line}: {}", plain.text);
+        }
+    }
+}
