@@ -208,3 +208,30 @@ fn there_is_the_place_that_was_told() {
         }
     }
 }
+
+/// «Сколько из них на столе?» – "One." – «Какая из них ближе?»: of one thing there are no others, so all are meant.
+#[test]
+fn of_one_thing_there_are_no_others() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let mut shown = 0;
+    for (several, one) in [("chairs", "chair"), ("books", "book"), ("lamps", "lamp")] {
+        for room in ["Room V", "Room Z", "Room Y", "the corridor"] {
+            let mut memory = Memory::default();
+            let all = rb2.ask(&format!("How many {several} are there?"), &mut memory).unwrap();
+            if all.is_ok_and(|all| all.things.len() < 2) {
+                continue;
+            }
+            let there = rb2.ask(&format!("How many of them are in {room}?"), &mut memory).unwrap();
+            if there.is_ok_and(|there| there.things.len() != 1) {
+                continue;
+            }
+            let whole = format!("Which {one} is the nearest to Table 1?");
+            let plain = answered(&rb2, &whole, &mut Memory::default()).expect("a plain question");
+            let asked = "Which of them is the nearest to Table 1?";
+            let told = answered(&rb2, asked, &mut memory);
+            assert!(told.as_ref().is_none_or(|told| *told == plain), "{room}: {told:?}, {plain}");
+            shown += usize::from(told.is_some());
+        }
+    }
+    assert!(shown > 0, "none of them was understood");
+}

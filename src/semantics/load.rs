@@ -4,8 +4,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{Replica, World};
 use crate::Relations;
+use crate::map::{Replica, World};
 use crate::units::{Frame, ReplicaId};
 
 /// Moves the loads of `carriers` along, in `after`; returns those that stood on other moved things and stayed.

@@ -534,7 +534,7 @@ impl Knowledge<'_> {
     }
 
     /// The latest list of things of which some are.
-    fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
+    pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
         let has = |e: &&Exchange| {
             e.listed.len() > 1 && !some.is_empty() && some.iter().all(|t| e.listed.contains(t))
         };

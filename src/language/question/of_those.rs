@@ -221,3 +221,14 @@ impl Asker<'_> {
         (asks || which) && items.len() >= least && items.iter().all(small)
     }
 }
+
+/// Whether one of several is asked for by what it is most: "which of them is the nearest", «какая из них ближе».
+pub(super) fn chooses(items: &[Item]) -> bool {
+    let which = items.contains(&Item::Mark(Mark::Which));
+    which
+        && items.iter().any(|item| match item {
+            Item::Mark(Mark::More(_) | Mark::Best(_) | Mark::BestTo(_) | Mark::Nearer(_)) => true,
+            Item::Noun(phrase) => phrase.noun.best.is_some(),
+            _ => false,
+        })
+}
