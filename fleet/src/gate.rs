@@ -132,18 +132,18 @@ pub(crate) async fn guard(State(gate): State<Arc<Gate>>, request: Request, next:
 mod tests {
     use super::*;
 
-    fn check(gate: &Gate, method: Method, uri: &str, of: &[(&'static str, &str)]) -> bool {
+    fn check(gate: &Gate, method: &Method, uri: &str, of: &[(&'static str, &str)]) -> bool {
         let mut headers = HeaderMap::new();
         for (name, value) in of {
             headers.append(*name, value.parse().expect("a header value"));
         }
-        gate.check(&method, &uri.parse().expect("a URI"), &headers).is_ok()
+        gate.check(method, &uri.parse().expect("a URI"), &headers).is_ok()
     }
 
     #[test]
     fn only_hosts_of_ours_are_known() {
         let gate = Gate::new(([127, 0, 0, 1], 81).into(), false, &["fleet.example:80".into()]);
-        let get = |uri: &str, of: &[(&'static str, &str)]| check(&gate, Method::GET, uri, of);
+        let get = |uri: &str, of: &[(&'static str, &str)]| check(&gate, &Method::GET, uri, of);
         assert!(get("/", &[("host", "127.0.0.1:81")]));
         assert!(get("/", &[("host", "LOCALHOST:81")]));
         assert!(get("/", &[("host", "fleet.example")]));
@@ -162,8 +162,8 @@ mod tests {
         let host = ("host", "fleet.example:7433");
         let origin = ("origin", "https://fleet.example:7433");
         let site = ("sec-fetch-site", "same-origin");
-        assert!(check(&gate, Method::POST, "/v1/ask", &[host, origin, site]));
-        assert!(check(&gate, Method::GET, "/v1/fleet", &[host, site]));
+        assert!(check(&gate, &Method::POST, "/v1/ask", &[host, origin, site]));
+        assert!(check(&gate, &Method::GET, "/v1/fleet", &[host, site]));
         for wrong in [
             &[host, origin][..],
             &[host, site],
@@ -174,17 +174,17 @@ mod tests {
             &[host, origin, ("sec-fetch-site", "same-site")],
             &[host, origin, ("sec-fetch-site", "none")],
         ] {
-            assert!(!check(&gate, Method::POST, "/v1/ask", wrong), "{wrong:?}");
+            assert!(!check(&gate, &Method::POST, "/v1/ask", wrong), "{wrong:?}");
         }
         let cross = [host, ("sec-fetch-site", "cross-site")];
-        assert!(!check(&gate, Method::GET, "/v1/fleet", &cross));
-        assert!(check(&gate, Method::GET, "/", &cross), "the page itself is opened from anywhere");
+        assert!(!check(&gate, &Method::GET, "/v1/fleet", &cross));
+        assert!(check(&gate, &Method::GET, "/", &cross), "the page itself is opened from anywhere");
         // A key needs no host, and no origin but ours.
         let key = ("authorization", "Bearer x");
-        assert!(check(&gate, Method::POST, "/v1/frames", &[("host", "10.0.0.9:1"), key]));
+        assert!(check(&gate, &Method::POST, "/v1/frames", &[("host", "10.0.0.9:1"), key]));
         assert!(!check(
             &gate,
-            Method::POST,
+            &Method::POST,
             "/v1/ask",
             &[host, key, ("origin", "https://evil.example")]
         ));

@@ -20,9 +20,7 @@ use crate::semantics::{RelationRules, derive, load};
 use crate::sheets::{revision, sheet};
 use crate::store::records::{LastIds, Revisions};
 use crate::store::shipping::Written;
-use crate::store::{
-    Change, Edits, Record, Row, Sheet, Stamp, Store, StoreError, Table, Version, compare,
-};
+use crate::store::{Change, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, compare};
 use crate::units::{Language, Source};
 
 /// Steps and sections as in a map file, to be worked into the centre's map.
@@ -69,7 +67,7 @@ pub async fn revise(
     let new = tokio::task::block_in_place(|| {
         let (mut store, _) = Store::open(&desk.dir)?;
         store.import(world, change)?;
-        Ok::<_, StoreError>(store.reader().sheet()?)
+        store.reader().sheet()
     })?;
     put(transaction, building, before, &desk.old, &new, change).await
 }

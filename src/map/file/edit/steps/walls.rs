@@ -365,8 +365,9 @@ impl Steps<'_> {
                 let told = |axis: usize| rel.get(axis).copied().unwrap_or(0.0);
                 let (by, degrees) = offset(&one, &other);
                 let is_as_told = |is: f64, told: f64| (is - told).abs() < EXACT;
-                if !(is_as_told(by[0], told(0)) && is_as_told(by[1], told(1)))
-                    || !is_as_told(degrees, angle)
+                if !(is_as_told(by[0], told(0))
+                    && is_as_told(by[1], told(1))
+                    && is_as_told(degrees, angle))
                 {
                     found.push((at, (by, degrees), told(2)));
                 }
