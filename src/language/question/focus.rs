@@ -9,9 +9,9 @@ use std::collections::HashSet;
 use super::everyday;
 use super::grammar::points;
 use super::knowledge::Knowledge;
-use super::lexicon::{Extension, KindId, Meaning};
+use super::lexicon::{Extension, Meaning};
 use super::mark::{Mark, Pronoun};
-use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Answer, Doubt, Memory, vocabulary};
 use crate::map::Entity;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
@@ -52,6 +52,11 @@ impl Exchange {
     /// What it was most about.
     pub(super) fn topic(&self) -> Option<Thing> {
         self.topics.first().copied()
+    }
+
+    /// What a singular pronoun takes up, in this order.
+    pub(super) fn topics(&self) -> &[Thing] {
+        &self.topics
     }
 
     /// The members of a list that was told.
@@ -196,12 +201,6 @@ impl Knowledge<'_> {
         word
     }
 
-    /// Those of some things that an answer has told one after the other, in its order.
-    pub(super) fn of_listed(&self, things: &[Thing]) -> Vec<Thing> {
-        let told = self.memory.listed.iter().copied();
-        told.filter(|t| things.contains(t)).collect()
-    }
-
     /// Of several things that a description in the singular fits: the one that was just spoken of, else the one that is
     /// exactly of the kind.
     ///
@@ -300,28 +299,6 @@ impl Knowledge<'_> {
         }
     }
 
-    /// "How many of them are eggs?": of several that were told, those of a kind.
-    fn of_those_told(&self, noun: &mut Noun) {
-        let told = |r: &Restriction| match &r.anchors[..] {
-            [anchor] if matches!(r.rel, Rel::Of | Rel::From) && !r.negated => {
-                anchor.head.things.clone().filter(|things| things.len() > 1)
-            }
-            _ => None,
-        };
-        if noun.head.kinds.is_empty() {
-            return;
-        }
-        let Some((at, things)) =
-            noun.restrictions.iter().enumerate().find_map(|(n, r)| Some((n, told(r)?)))
-        else {
-            return;
-        };
-        let all: HashSet<Thing> = self.base(&noun.head).into_iter().collect();
-        let those = things.into_iter().filter(|t| all.contains(t)).collect();
-        noun.restrictions.remove(at);
-        noun.head = Head { things: Some(those), ..Head::default() };
-    }
-
     /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state.
     fn by_state(&self, query: &mut Query) {
         let Query::Holds { subject, claims, .. } = query else { return };
@@ -364,77 +341,6 @@ impl Knowledge<'_> {
                 *noun = Noun { text, ..Noun::of(vec![only]) };
             }
         }
-    }
-
-    /// "The other one", «остальные»: what was told together with those that were told last, else the others of the
-    /// kind of what was spoken of.
-    pub(super) fn complement(&self) -> Option<Vec<Thing>> {
-        let told = &self.memory.last;
-        let wider = |exchange: &Exchange| {
-            let all = &exchange.listed;
-            let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
-            // "The second one" of a laptop and a book is none of what lay with it.
-            (holds && all.len() > told.len() && self.alike(all).is_some())
-                .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
-        };
-        if let Some(rest) = self.memory.exchanges.iter().skip(1).find_map(wider) {
-            return Some(rest);
-        }
-        let others = |thing: &Thing| {
-            let kind = self.kind_of(*thing)?;
-            let all = self.members(&self.lexicon().kind(kind).extension);
-            let rest: Vec<Thing> = all.into_iter().filter(|t| t != thing).collect();
-            (!rest.is_empty()).then_some(rest)
-        };
-        let topics = &self.memory.exchanges.first()?.topics;
-        if let Some(rest) = topics.iter().find_map(others) {
-            return Some(rest);
-        }
-        // Of several that were told at once none is "the other".
-        match told.len() {
-            0 | 1 => self.memory.spoken.iter().find_map(others),
-            _ => self.alike(told).map(|_| told.clone()),
-        }
-    }
-
-    /// What a question word without a noun asks among: those that were told, else what was asked for.
-    pub(super) fn elided(&self) -> Option<Head> {
-        let last = &self.memory.last;
-        let query = self.memory.query.as_ref()?;
-        let counted = |noun: &Noun| match &noun.best {
-            Some(best) if matches!(best.extreme, Extreme::Most | Extreme::Fewest) => {
-                best.anchor.as_deref().cloned()
-            }
-            _ => Some(noun.clone()),
-        };
-        let sought = query.sought().and_then(counted).map(|noun| noun.head);
-        let sought = sought.filter(|head| !head.kinds.is_empty());
-        let things = last.iter().all(|t| t.replica().is_some());
-        let told = (last.len() > 1 && things && self.alike(last).is_some())
-            .then(|| Head { things: Some(last.clone()), ..Head::default() });
-        // "Is the kitchen bigger than the hall? Which is the smallest of all?"
-        let rooms = || {
-            let (mut all, mut any) = (true, false);
-            query.clone().each_noun(&mut |noun| {
-                any = true;
-                all &= self.base(&noun.head).iter().all(|t| t.area().is_some());
-            });
-            let kind = self.lexicon().kind_of(&Extension::Rooms).filter(|_| all && any)?;
-            Some(Head { kinds: vec![kind], ..Head::default() })
-        };
-        sought.or(told).or_else(rooms)
-    }
-
-    /// The one kind of some things.
-    pub(super) fn alike(&self, things: &[Thing]) -> Option<KindId> {
-        let kind = self.kind_of(*things.first()?)?;
-        things.iter().all(|t| self.kind_of(*t) == Some(kind)).then_some(kind)
-    }
-
-    pub(super) fn kind_of(&self, thing: Thing) -> Option<KindId> {
-        let replica = self.world.replicas.get(&thing.replica()?)?;
-        let object = self.world.objects.get(&replica.object)?;
-        self.lexicon().kind_of(&Extension::ObjectType(object.object_type?))
     }
 
     /// "In this room", where no room was spoken of: the robot's.
@@ -510,70 +416,6 @@ impl Knowledge<'_> {
         }
     }
 
-    /// "Are there phones in the bedroom?" – "No." – "Where are they?": what was looked for in vain, wherever it is; none of
-    /// several is "it".
-    fn sought_in_vain(&self, pronoun: Pronoun) -> Option<Vec<Thing>> {
-        let sought =
-            self.memory.query.as_ref()?.sought().filter(|_| self.memory.last.is_empty())?;
-        let named = !sought.head.anything && !sought.restrictions.is_empty();
-        let anywhere = Noun { restrictions: Vec::new(), ..sought.clone() };
-        let found = self.find(&anywhere, true).ok().filter(|_| named)?;
-        if pronoun != Pronoun::They && found.len() > 1 {
-            return None;
-        }
-        found.iter().all(|t| self.agrees(pronoun, *t)).then_some(found).filter(|f| !f.is_empty())
-    }
-
-    /// «Где бита? А ракетка? Они на одной кровати?»: the things of the last two exchanges, one each.
-    pub(super) fn last_pair(&self) -> Option<Vec<Thing>> {
-        let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
-        let one = |e: &Exchange| e.topic().filter(|_| e.listed.is_empty());
-        let pair = [one(earlier)?, one(later)?];
-        let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
-        (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
-    }
-
-    /// The latest list of things of which some are.
-    pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
-        let has = |e: &&Exchange| {
-            e.listed.len() > 1 && !some.is_empty() && some.iter().all(|t| e.listed.contains(t))
-        };
-        self.memory.exchanges.iter().find(has).map(|e| e.listed.clone())
-    }
-
-    /// Of the lists that were told, the latest of which a description fits any.
-    fn list_fitting(&self, noun: &Noun) -> Option<Vec<Thing>> {
-        self.memory
-            .exchanges
-            .iter()
-            .map(|e| &e.listed)
-            .find(|listed| {
-                let head = Head { things: Some((*listed).clone()), ..Head::default() };
-                let told = Noun { head, ..noun.clone() };
-                listed.len() > 1 && self.find(&told, true).is_ok_and(|found| !found.is_empty())
-            })
-            .cloned()
-    }
-
-    /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.
-    fn several_meant(&self, rel: Option<Rel>) -> Vec<Thing> {
-        let last = &self.memory.last;
-        let fit = |things: &[Thing]| {
-            things.len() > 1
-                && rel.is_none_or(|rel| things.iter().all(|t| self.may_be_anchor(rel, *t)))
-        };
-        let topics = self.memory.exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
-        let mut told = std::iter::once(last).chain(topics);
-        told.find(|things| fit(things)).unwrap_or(last).clone()
-    }
-
-    /// What the rooms have that were told last.
-    pub(super) fn had_by_rooms(&self) -> Option<Vec<Thing>> {
-        let Some(Query::Find(noun)) = &self.memory.query else { return None };
-        let has = noun.restrictions.iter().find(|r| r.rel == Rel::Has)?;
-        self.find(has.anchors.first()?, true).ok().filter(|found| !found.is_empty())
-    }
-
     fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Option<Thing> {
         /// A pronoun passes over no more exchanges for something that may stand in its relation.
         const NEAR: usize = 2;
@@ -627,7 +469,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether something may be on or in a thing.
-    fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
+    pub(super) fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
         let wanted: &[&str] = match rel {
             Rel::On => &["support", "seat", "bed"],
             Rel::In => &["container"],

@@ -47,6 +47,7 @@ mod several;
 mod small_words;
 mod speech;
 mod storeys;
+mod told_together;
 mod uses;
 mod values;
 mod vocabulary;

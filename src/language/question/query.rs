@@ -53,6 +53,22 @@ pub enum Rel {
     Within(u32),
 }
 
+impl Rel {
+    /// Whether it is beside its anchor, and not in it or on it.
+    pub(super) fn is_side(self) -> bool {
+        matches!(
+            self,
+            Self::NextTo
+                | Self::Near
+                | Self::LeftOf
+                | Self::RightOf
+                | Self::InFrontOf
+                | Self::Behind
+                | Self::Between
+        )
+    }
+}
+
 /// A side of one who faces a thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {

@@ -166,20 +166,7 @@ impl Frame<'_, '_> {
         if !matches!(query, Query::Find(_) | Query::Count(_) | Query::Exists { .. }) {
             return false;
         }
-        let side = |rel: Rel| {
-            matches!(
-                rel,
-                Rel::NextTo
-                    | Rel::Near
-                    | Rel::LeftOf
-                    | Rel::RightOf
-                    | Rel::Behind
-                    | Rel::InFrontOf
-                    | Rel::Under
-                    | Rel::Above
-                    | Rel::Between
-            )
-        };
+        let side = |rel: Rel| rel.is_side() || matches!(rel, Rel::Under | Rel::Above);
         let mut asked: Vec<Rel> =
             self.links.iter().map(|(rel, _)| *rel).filter(|r| side(*r)).collect();
         query.clone().each_noun(&mut |noun| {

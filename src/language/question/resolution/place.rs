@@ -148,13 +148,13 @@ impl Settler<'_, '_> {
             base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
         };
         let ends = !after.iter().any(|item| matches!(item, Item::Place { .. }));
-        last.rel == Rel::From && is_side(rel) && (ends || can_be_carried(phrase))
+        last.rel == Rel::From && rel.is_side() && (ends || can_be_carried(phrase))
     }
 
     /// Whether a place is beside what can be carried.
     fn is_beside(&self, spot: &Spot<'_>) -> bool {
         let base = self.knowledge.base(&spot.phrase.noun.head);
-        is_side(spot.rel) && base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
+        spot.rel.is_side() && base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
     }
 
     /// Whether what is named is a storey, whichever.
@@ -326,20 +326,6 @@ impl Settler<'_, '_> {
             None => Ok(()),
         }
     }
-}
-
-/// Whether a place is beside its anchor, and not in it or on it.
-fn is_side(rel: Rel) -> bool {
-    matches!(
-        rel,
-        Rel::NextTo
-            | Rel::Near
-            | Rel::LeftOf
-            | Rel::RightOf
-            | Rel::InFrontOf
-            | Rel::Behind
-            | Rel::Between
-    )
 }
 
 fn is_storey(thing: &Thing) -> bool {
