@@ -404,6 +404,18 @@ async fn put_versions(
     let revision_to: Vec<Option<i64>> =
         ends.iter().map(|e| e.map(|at| stamps.revision[at])).collect();
     let valid_to: Vec<Option<At>> = ends.iter().map(|e| e.map(|at| stamps.at[at])).collect();
+    let mut parameters = inserted(robot, &cells, &stamps);
+    parameters.extend([&revision_to as &(dyn ToSql + Sync), &valid_to]);
+    transaction.execute(&statement, &parameters).await?;
+    Ok(())
+}
+
+/// The parameters of [`insert`], in its order.
+fn inserted<'a>(
+    robot: &'a Robot,
+    cells: &'a [Values],
+    stamps: &'a Stamps,
+) -> Vec<&'a (dyn ToSql + Sync)> {
     let mut parameters: Vec<&(dyn ToSql + Sync)> = vec![&robot.building, &robot.robot];
     parameters.extend(cells.iter().map(Values::as_parameter));
     parameters.extend([
@@ -411,11 +423,8 @@ async fn put_versions(
         &stamps.user,
         &stamps.deleted,
         &stamps.revision,
-        &revision_to,
-        &valid_to,
     ]);
-    transaction.execute(&statement, &parameters).await?;
-    Ok(())
+    parameters
 }
 
 async fn end_versions(
@@ -482,15 +491,7 @@ async fn insert_notes(
 ) -> Result<(), tokio_postgres::Error> {
     let statement = transaction.prepare_cached(sql).await?;
     let (cells, stamps) = (values(table, last), Stamps::of(last));
-    let mut parameters: Vec<&(dyn ToSql + Sync)> = vec![&robot.building, &robot.robot];
-    parameters.extend(cells.iter().map(Values::as_parameter));
-    parameters.extend([
-        &stamps.at as &(dyn ToSql + Sync),
-        &stamps.user,
-        &stamps.deleted,
-        &stamps.revision,
-    ]);
-    transaction.execute(&statement, &parameters).await?;
+    transaction.execute(&statement, &inserted(robot, &cells, &stamps)).await?;
     Ok(())
 }
 

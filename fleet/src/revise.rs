@@ -5,6 +5,7 @@
 //!
 //! **Invariant**: a revision is checked as a whole, as a robot checks its own, or it is not made.
 
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 use deadpool_postgres::Transaction;
@@ -12,15 +13,15 @@ use tempfile::TempDir;
 
 use crate::error::{FleetError, Result};
 use crate::ingest::put_centre;
-use crate::map::{
-    self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, TypeKind, World,
-};
+use crate::map::{self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, World};
 use crate::rows::{place, quoted};
 use crate::semantics::{RelationRules, derive, load};
 use crate::sheets::{revision, sheet};
 use crate::store::records::{LastIds, Revisions};
 use crate::store::shipping::Written;
-use crate::store::{Change, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, compare};
+use crate::store::{
+    Change, Edits, Record, Row, Sheet, Stamp, Store, Version, compare, next_ids, numbered,
+};
 use crate::units::{Language, Source};
 
 /// Steps and sections as in a map file, to be worked into the centre's map.
@@ -98,7 +99,7 @@ fn work_in(old: &Sheet, ids: &[LastIds], edit: &Edit) -> Result<(Revised, Sheet)
     let naming = Naming { exact: &exact, in_other_words: &|_| Vec::new() };
     let source = Source::new("правка", edit.text.clone());
     let EditReading { world, faults: mut found, carriers, .. } =
-        map::edit(&before, &source, edit.format, &next_ids(&before, ids), naming);
+        map::edit(&before, &source, edit.format, &free_ids(&before, ids), naming);
     let wrong = |found: &MapErrors| FleetError::content(faults(found).join("\n"));
     let mut after = world.ok_or_else(|| wrong(&found))?;
     let mut left_behind = Vec::new();
@@ -126,35 +127,11 @@ fn work_in(old: &Sheet, ids: &[LastIds], edit: &Edit) -> Result<(Revised, Sheet)
 }
 
 /// The ids for new records: none is ever given twice in a building.
-fn next_ids(world: &World, given: &[LastIds]) -> NextIds {
-    let mut ids = NextIds::after(world);
-    let after = |table: Table| {
+fn free_ids(world: &World, given: &[LastIds]) -> NextIds {
+    let Ok(ids) = next_ids(world, |table| {
         let last = given.iter().find(|last| last.kind == table.name()).map(|last| last.last_id);
-        last.unwrap_or(0).saturating_add(1)
-    };
-    for (id, table) in [
-        (&mut ids.orthoframe, Table::OrFr),
-        (&mut ids.object, Table::Object),
-        (&mut ids.area, Table::Area),
-        (&mut ids.map, Table::Map),
-        (&mut ids.door, Table::Door),
-        (&mut ids.replica, Table::AreaObjects),
-        (&mut ids.place, Table::Places),
-        (&mut ids.zone, Table::Zones),
-    ] {
-        *id = (*id).max(after(table));
-    }
-    for (kind, id) in &mut ids.types {
-        *id = (*id).max(after(match kind {
-            TypeKind::Orthoframe => Table::OrtFrmTypeList,
-            TypeKind::Shape => Table::OrtFrmShapeList,
-            TypeKind::Side => Table::OrtFrmSideTypeList,
-            TypeKind::Object => Table::ObjectTypeList,
-            TypeKind::Area => Table::AreaTypeList,
-            TypeKind::Map => Table::MapTypeList,
-            TypeKind::Door => Table::DoorTypeList,
-        }));
-    }
+        Ok::<_, Infallible>(last.unwrap_or(0).saturating_add(1))
+    });
     ids
 }
 
@@ -233,30 +210,10 @@ fn fill(dir: &Path, old: &Sheet, ids: &[LastIds]) -> Result<()> {
     Ok(())
 }
 
-/// The tables whose records bear an id of their own, and its column.
-const NUMBERED: &[(Table, &str)] = &[
-    (Table::OrFr, "ID"),
-    (Table::Object, "ID"),
-    (Table::Area, "ID"),
-    (Table::Map, "ID"),
-    (Table::Domain, "ID"),
-    (Table::Door, "ID"),
-    (Table::AreaObjects, "ReplID"),
-    (Table::Places, "PlaceID"),
-    (Table::Zones, "ZoneID"),
-    (Table::OrtFrmTypeList, "ID"),
-    (Table::OrtFrmShapeList, "ID"),
-    (Table::OrtFrmSideTypeList, "ID"),
-    (Table::ObjectTypeList, "ID"),
-    (Table::AreaTypeList, "ID"),
-    (Table::MapTypeList, "ID"),
-    (Table::DoorTypeList, "ID"),
-];
-
 /// The highest id of each table that the centre or a robot of the building has ever given.
 async fn given_ids(transaction: &Transaction<'_>, building: i64) -> Result<Vec<LastIds>> {
-    let highest = NUMBERED.iter().map(|(table, id)| {
-        let (name, from, id) = (table.name(), place(*table), quoted(id));
+    let highest = numbered().map(|(table, id)| {
+        let (name, from, id) = (table.name(), place(table), quoted(id));
         format!("SELECT '{name}', max({id}) FROM {from} WHERE building = $1")
     });
     let sql = highest.collect::<Vec<_>>().join(" UNION ALL ");

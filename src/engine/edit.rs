@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use crate::geometry::Openings;
 use crate::map::{
-    self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, TypeKind, World,
+    self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, World,
 };
 use crate::semantics::load;
-use crate::store::{self, Change, Difference, ImportReport, Store, Table};
+use crate::store::{self, Change, Difference, ImportReport, Store};
 use crate::units::{DoorId, ReplicaId, Source, Timestamp};
 
 use super::known::{Floors, Known};
@@ -139,24 +139,8 @@ impl Engine {
     /// # Errors
     /// The store cannot be read.
     pub fn next_ids(&self, world: &World) -> Result<NextIds, Error> {
-        let mut ids = NextIds::after(world);
-        let Some(store) = &self.store else { return Ok(ids) };
-        for (id, table) in [
-            (&mut ids.orthoframe, Table::OrFr),
-            (&mut ids.object, Table::Object),
-            (&mut ids.area, Table::Area),
-            (&mut ids.map, Table::Map),
-            (&mut ids.door, Table::Door),
-            (&mut ids.replica, Table::AreaObjects),
-            (&mut ids.place, Table::Places),
-            (&mut ids.zone, Table::Zones),
-        ] {
-            *id = (*id).max(store.next_id(table)?);
-        }
-        for (kind, id) in &mut ids.types {
-            *id = (*id).max(store.next_id(type_table(*kind))?);
-        }
-        Ok(ids)
+        let Some(store) = &self.store else { return Ok(NextIds::after(world)) };
+        Ok(store::next_ids(world, |table| store.next_id(table))?)
     }
 
     fn become_world(
@@ -360,16 +344,4 @@ fn is_told_alike(was: Option<&Replica>, is: Option<&Replica>) -> bool {
     let (Some(was), Some(is)) = (was, is) else { return false };
     let (area, frame, move_prob) = (is.area, is.frame, is.move_prob);
     *is == Replica { area, frame, move_prob, ..was.clone() }
-}
-
-fn type_table(kind: TypeKind) -> Table {
-    match kind {
-        TypeKind::Orthoframe => Table::OrtFrmTypeList,
-        TypeKind::Shape => Table::OrtFrmShapeList,
-        TypeKind::Side => Table::OrtFrmSideTypeList,
-        TypeKind::Object => Table::ObjectTypeList,
-        TypeKind::Area => Table::AreaTypeList,
-        TypeKind::Map => Table::MapTypeList,
-        TypeKind::Door => Table::DoorTypeList,
-    }
 }

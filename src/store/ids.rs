@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{Area, DoorMount, Extent, Item, Object, World};
+use crate::map::{Area, DoorMount, Extent, Item, NextIds, Object, TypeKind, World};
 use crate::units::{
     AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId, name_key,
 };
@@ -13,6 +13,48 @@ use crate::units::{
 use super::cell::{Cell, Row};
 use super::error::{Result, StoreError};
 use super::tables::Table;
+
+/// The tables whose records bear an id of their own, and its column.
+pub fn numbered() -> impl Iterator<Item = (Table, &'static str)> {
+    NAMED.iter().map(|(table, id, _)| (*table, *id))
+}
+
+/// The ids for new records of a world: none is ever given twice, not even that of something gone. Of a table it is asked
+/// which id was never given.
+///
+/// # Errors
+/// What is said of a table.
+pub fn next_ids<E>(
+    world: &World,
+    free: impl Fn(Table) -> std::result::Result<u32, E>,
+) -> std::result::Result<NextIds, E> {
+    let mut ids = NextIds::after(world);
+    for (id, table) in [
+        (&mut ids.orthoframe, Table::OrFr),
+        (&mut ids.object, Table::Object),
+        (&mut ids.area, Table::Area),
+        (&mut ids.map, Table::Map),
+        (&mut ids.door, Table::Door),
+        (&mut ids.replica, Table::AreaObjects),
+        (&mut ids.place, Table::Places),
+        (&mut ids.zone, Table::Zones),
+    ] {
+        *id = (*id).max(free(table)?);
+    }
+    for (kind, id) in &mut ids.types {
+        let table = match kind {
+            TypeKind::Orthoframe => Table::OrtFrmTypeList,
+            TypeKind::Shape => Table::OrtFrmShapeList,
+            TypeKind::Side => Table::OrtFrmSideTypeList,
+            TypeKind::Object => Table::ObjectTypeList,
+            TypeKind::Area => Table::AreaTypeList,
+            TypeKind::Map => Table::MapTypeList,
+            TypeKind::Door => Table::DoorTypeList,
+        };
+        *id = (*id).max(free(table)?);
+    }
+    Ok(ids)
+}
 
 /// The tables whose records bear an id of their own, with the columns of id and name: the first name that is
 /// not empty counts.

@@ -81,6 +81,7 @@ pub use diff::{Difference, Fate, FieldChange, compare};
 pub use edits::{Change, Counts, Edits, ImportReport, Revision, RevisionKind};
 pub use error::StoreError;
 pub use gc::Forgotten;
+pub use ids::{next_ids, numbered};
 pub use keep::Store;
 pub use observe::{Belief, Observation, Proposal, Seen};
 pub use queue::{Queue, QueuedTask};
