@@ -38,7 +38,8 @@ pub(crate) struct Measurement {
 /// Why a relation holds, or does not.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reason {
-    pub holds: bool,
+    /// Its proof, or what is lacking of one.
+    pub because: Result<Proof, WhyNot>,
     /// «Чашка-1 не находится на Столе-2, потому что …»
     pub text: String,
     /// What of the map the reason speaks of.
@@ -59,22 +60,21 @@ impl State {
     ) -> Result<Reason, Error> {
         let relations = self.relations()?;
         let mut found = Found { state: self, about: Vec::new(), facts: Vec::new() };
-        let proof = relations.why(relation, of)?;
-        let holds = proof.is_some();
-        match proof {
-            Some(proof) => found.of_proof(&proof),
-            None => {
-                if let WhyNot::Nearest(rule) = relations.why_not(relation, of)? {
-                    found.of_failed(&rule);
-                }
-            }
+        let because = match relations.why(relation, of)? {
+            Some(proof) => Ok(proof),
+            None => Err(relations.why_not(relation, of)?),
+        };
+        match &because {
+            Ok(proof) => found.of_proof(proof),
+            Err(WhyNot::Nearest(rule)) => found.of_failed(rule),
+            Err(WhyNot::NotTold | WhyNot::Holds) => {}
         }
         let senses = RobotSenses { engine: self };
         let asker = Asker { world: self.world()?, relations, mind: self.mind()?, senses: &senses };
         let fact = Fact {
             relation: relations.display_name(relation, Language::English),
             args: of.iter().map(|name| (*name).to_owned()).collect(),
-            holds,
+            holds: because.is_ok(),
         };
         let measurements = found.facts.iter().filter_map(|(name, values, fails)| {
             let measured = self.measurement(name, values)?;
@@ -86,7 +86,8 @@ impl State {
         found.about.extend(of.iter().map(|name| (*name).to_owned()));
         found.about.sort();
         found.about.dedup();
-        Ok(Reason { holds, text: asker.because(&fact, language), about: found.about, measurements })
+        let text = asker.because(&fact, language);
+        Ok(Reason { because, text, about: found.about, measurements })
     }
 
     /// A measured fact about two things that stand on one Map.

@@ -377,28 +377,28 @@ pub(super) fn reasons(
         };
         premises.iter().filter_map(measure).collect()
     };
-    if let Some(proof) = relations.why(relation, of)? {
-        let step = |step: &crate::facts::ProofStep| {
-            let mut view = json!({
-                "relation": relations.display_name(&step.fact.name, language),
-                "args": views::tuple(&step.fact.values),
-                "height": step.height,
-            });
-            match &step.because {
-                Because::Told => view["measured"] = json!(true),
-                Because::Written { .. } => view["written"] = json!(true),
-                Because::Rule { rule, premises } => {
-                    view["rule"] = json!(rule.text);
-                    view["compared"] = json!(compared(premises));
+    Ok(with_reason(match &reason.because {
+        Ok(proof) => {
+            let step = |step: &crate::facts::ProofStep| {
+                let mut view = json!({
+                    "relation": relations.display_name(&step.fact.name, language),
+                    "args": views::tuple(&step.fact.values),
+                    "height": step.height,
+                });
+                match &step.because {
+                    Because::Told => view["measured"] = json!(true),
+                    Because::Written { .. } => view["written"] = json!(true),
+                    Because::Rule { rule, premises } => {
+                        view["rule"] = json!(rule.text);
+                        view["compared"] = json!(compared(premises));
+                    }
                 }
-            }
-            view
-        };
-        let steps: Vec<Value> = proof.steps.iter().map(step).collect();
-        return Ok(with_reason(json!({ "holds": true, "steps": steps })));
-    }
-    Ok(with_reason(match relations.why_not(relation, of)? {
-        WhyNot::Nearest(rule) => {
+                view
+            };
+            let steps: Vec<Value> = proof.steps.iter().map(step).collect();
+            json!({ "holds": true, "steps": steps })
+        }
+        Err(WhyNot::Nearest(rule)) => {
             let failed = rule.premises.iter().filter(|(_, holds)| *holds == Some(false));
             let failed: Vec<Premise> = failed.map(|(premise, _)| premise.clone()).collect();
             json!({
@@ -406,7 +406,7 @@ pub(super) fn reasons(
                 "text": rule.to_string(),
             })
         }
-        WhyNot::NotTold | WhyNot::Holds => json!({ "holds": false }),
+        Err(WhyNot::NotTold | WhyNot::Holds) => json!({ "holds": false }),
     }))
 }
 
