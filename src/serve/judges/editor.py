@@ -184,18 +184,29 @@ def run(browser, server, faults):
     assert not zones[0]["in_force"], zones
     print("draws a zone with its end in time, and ends it")
 
-    # The shape is locked until somebody unlocks it.
-    press(page, '#map [data-name="Кладовая"]')
-    assert page.locator("#map rect.m-handle").count() == 0, "no handle while the shape is locked"
-    tool(page, "Форма заперта")
-    page.wait_for_selector("#map rect.m-handle", state="attached")
-    corner = next(p for p in rooms["Кладовая"]["polygons"][0] if p[0] == max(q[0] for q in rooms["Кладовая"]["polygons"][0]) and p[1] == max(q[1] for q in rooms["Кладовая"]["polygons"][0]))
-    outline(page, tuple(corner), (corner[0] + 60, corner[1] + 40))
-    picture(page, "shape")
-    write(page)
-    now = next(room for room in get(page, "/api/drawing")["rooms"] if room["name"] == "Кладовая")
-    assert now["m2"] > rooms["Кладовая"]["m2"] + 0.5, now["m2"]
-    print("reshapes a room, unlocked")
+    def of_room(field):
+        return next(room for room in get(page, "/api/drawing")["rooms"] if room["name"] == "Кладовая")[field]
+
+    # The shape is locked until somebody unlocks it, for each edit anew. Each corner is dragged outward, that at the origin of
+    # the room's coordinates too: all others stay.
+    page.locator("#map").focus()
+    page.keyboard.press("-")
+    for number in range(4):
+        press(page, '#map [data-name="Кладовая"]')
+        assert page.locator("#map rect.m-handle").count() == 0, "no handle while the shape is locked"
+        tool(page, "Форма заперта")
+        page.wait_for_selector("#map rect.m-handle", state="attached")
+        corners, area = of_room("polygons")[0], of_room("m2")
+        x, y = corners[number]
+        away = [60 if at > sum(axis) / 4 else -15 for at, axis in zip((x, y), zip(*corners))]
+        outline(page, (x, y), (x + away[0], y + away[1]))
+        picture(page, f"shape-{number}")
+        write(page)
+        assert of_room("m2") > area, (number, of_room("m2"), area)
+        for other, (was, now) in enumerate(zip(corners, of_room("polygons")[0])):
+            moved = max(abs(a - b) for a, b in zip(was, now))
+            assert moved > 10 if other == number else moved < 0.2, (number, other, was, now)
+    print("puts each corner of a room elsewhere, unlocked")
 
     # A picture of a plan beneath, dragged, and scaled by two points of it.
     before = revision(page)
