@@ -14,8 +14,9 @@ use futures_util::stream;
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
-/// So many events are kept for those who were cut off.
+/// So many events are kept for those who were cut off, and so many bytes of what they tell; the newest always.
 const KEPT: usize = 4096;
+const KEPT_BYTES: usize = 2 << 20;
 /// Of silence, until a word is said that the line stands.
 const HELLO: Duration = Duration::from_secs(5);
 
@@ -26,12 +27,29 @@ struct Happened {
     data: String,
 }
 
+/// The newest events, as many as there is room for.
+#[derive(Debug, Default)]
+struct Kept {
+    events: VecDeque<Happened>,
+    bytes: usize,
+}
+
+impl Kept {
+    fn push(&mut self, happened: Happened) {
+        self.bytes += happened.data.len();
+        self.events.push_back(happened);
+        while self.events.len() > 1 && (self.events.len() > KEPT || self.bytes > KEPT_BYTES) {
+            self.bytes -= self.events.pop_front().map_or(0, |first| first.data.len());
+        }
+    }
+}
+
 /// All that happened, and who is told of it.
 #[derive(Debug)]
 pub(super) struct Events {
     /// Of this run of the program.
     run: String,
-    kept: Mutex<VecDeque<Happened>>,
+    kept: Mutex<Kept>,
     last: watch::Sender<u64>,
     robot: watch::Sender<Value>,
 }
@@ -47,7 +65,7 @@ impl Events {
         }
     }
 
-    fn kept(&self) -> MutexGuard<'_, VecDeque<Happened>> {
+    fn kept(&self) -> MutexGuard<'_, Kept> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -56,10 +74,7 @@ impl Events {
         let number = {
             let mut kept = self.kept();
             let number = *self.last.borrow() + 1;
-            kept.push_back(Happened { number, kind, data: data.to_string() });
-            if kept.len() > KEPT {
-                kept.pop_front();
-            }
+            kept.push(Happened { number, kind, data: data.to_string() });
             self.last.send_replace(number);
             number
         };
@@ -103,8 +118,8 @@ impl Events {
     /// What has happened since, and whether all of it is still known.
     fn since(&self, number: u64) -> Option<Vec<Happened>> {
         let kept = self.kept();
-        let first = kept.front().map_or(number + 1, |first| first.number);
-        (first <= number + 1).then(|| kept.iter().filter(|h| h.number > number).cloned().collect())
+        let first = kept.events.front().map_or(number + 1, |first| first.number);
+        (first <= number + 1).then(|| kept.events.iter().filter(|h| h.number > number).cloned().collect())
     }
 }
 
@@ -130,7 +145,7 @@ impl Events {
         let _ = hearing.last.changed().await;
         let now = *hearing.last.borrow_and_update();
         let happened =
-            self.since(hearing.number).unwrap_or_else(|| self.kept().iter().cloned().collect());
+            self.since(hearing.number).unwrap_or_else(|| self.kept().events.iter().cloned().collect());
         hearing.number = now;
         let until_now = happened.into_iter().filter(|h| h.number <= now);
         until_now.map(|h| (h.kind, h.data)).collect()
@@ -249,5 +264,20 @@ mod tests {
         }
         assert_eq!(events.since(2).map(|all| all.len()), None);
         assert_eq!(events.since(3).map(|all| all.len()), Some(KEPT));
+    }
+
+    /// An event of any size is told; what is kept of earlier ones has its bound.
+    #[test]
+    fn what_is_kept_has_a_bound_in_bytes() {
+        let events = Events::new("a");
+        for length in [KEPT_BYTES / 2, KEPT_BYTES / 3, KEPT_BYTES / 3, 2 * KEPT_BYTES, 3, 5] {
+            let newest = *events.last.borrow();
+            events.tell("task", &json!("x".repeat(length)));
+            assert_eq!(events.since(newest).map(|all| all.len()), Some(1), "{length}");
+            let kept = events.kept();
+            assert_eq!(kept.bytes, kept.events.iter().map(|h| h.data.len()).sum::<usize>());
+            assert!(kept.bytes <= KEPT_BYTES || kept.events.len() == 1, "{length}");
+        }
+        assert_eq!(events.kept().events.len(), 2);
     }
 }
