@@ -119,7 +119,8 @@ impl Events {
     fn since(&self, number: u64) -> Option<Vec<Happened>> {
         let kept = self.kept();
         let first = kept.events.front().map_or(number + 1, |first| first.number);
-        (first <= number + 1).then(|| kept.events.iter().filter(|h| h.number > number).cloned().collect())
+        (first <= number + 1)
+            .then(|| kept.events.iter().filter(|h| h.number > number).cloned().collect())
     }
 }
 
@@ -144,8 +145,9 @@ impl Events {
         // The sender lives as long as the events.
         let _ = hearing.last.changed().await;
         let now = *hearing.last.borrow_and_update();
-        let happened =
-            self.since(hearing.number).unwrap_or_else(|| self.kept().events.iter().cloned().collect());
+        let happened = self
+            .since(hearing.number)
+            .unwrap_or_else(|| self.kept().events.iter().cloned().collect());
         hearing.number = now;
         let until_now = happened.into_iter().filter(|h| h.number <= now);
         until_now.map(|h| (h.kind, h.data)).collect()

@@ -114,19 +114,7 @@ mod source {
 
     #[cfg(feature = "packed")]
     fn open() -> Result<Dictionary, rumorph::Error> {
-        Dictionary::from_bytes(&unpacked()?)
-    }
-
-    /// The dictionary as its crate publishes it.
-    #[cfg(feature = "packed")]
-    fn unpacked() -> std::io::Result<Vec<u8>> {
-        use std::io::Read as _;
-
-        const PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ru.dict.zst"));
-        let mut bytes = Vec::new();
-        let frame = ruzstd::decoding::StreamingDecoder::new(PACKED);
-        frame.map_err(std::io::Error::other)?.read_to_end(&mut bytes)?;
-        Ok(bytes)
+        Dictionary::from_bytes(&orthoframe_dictionary::unpacked()?)
     }
 
     pub(super) fn readings(word: &str) -> Readings {
@@ -356,14 +344,6 @@ mod source {
             "Fem" => Some(Gender::Feminine),
             "Neut" => Some(Gender::Neuter),
             _ => None,
-        }
-    }
-
-    #[cfg(all(test, feature = "packed"))]
-    mod tests {
-        #[test]
-        fn a_packed_dictionary_is_the_whole_one() {
-            assert!(super::unpacked().unwrap() == rumorph_dict_ru::DICTIONARY);
         }
     }
 }

@@ -1,13 +1,7 @@
-//! With the feature `packed`, compresses the dictionary of word forms for the program to carry.
+//! Compresses the dictionary of word forms for the program to carry.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    #[cfg(feature = "packed")]
-    pack();
-}
-
-#[cfg(feature = "packed")]
-fn pack() {
     // What it saves is paid once a build: the level that packs best for a window that any decoder takes.
     const LEVEL: i32 = 19;
     let packed =
