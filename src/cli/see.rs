@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use crate::Segment;
 use crate::engine::{Changes, Sighted, Things, View, decimal, json};
+use crate::language::words::english;
 
 use super::args::{Common, Lang};
 use super::commands::warn_of_lines;
@@ -89,13 +90,17 @@ fn shown(common: &Common, args: &SeeArgs, sighted: &Sighted) -> Result<Shown, Fa
     Ok(Shown { value: json::view(&view), words, drawing })
 }
 
+fn count(number: usize, noun: &str) -> String {
+    english::count(number as u64, noun)
+}
+
 fn tell_view(common: &Common, view: &View, scans: usize) -> String {
     let lang = common.lang;
     // The points of a picture are its own.
     let lengths = if view.is_picture { Lengths::Cm } else { common.units };
     let head = match (lang, view.is_picture) {
         (Lang::Ru, true) => format!("Картинка: отрезков {}", view.segments.len()),
-        (Lang::En, true) => format!("Picture: {} segments", view.segments.len()),
+        (Lang::En, true) => format!("Picture: {}", count(view.segments.len(), "segment")),
         (Lang::Ru, false) => format!(
             "Скан {} из {scans}, строка {}: лучей {}, вернулось {}, отрезков {}",
             view.scan,
@@ -105,12 +110,12 @@ fn tell_view(common: &Common, view: &View, scans: usize) -> String {
             view.segments.len()
         ),
         (Lang::En, false) => format!(
-            "Scan {} of {scans}, line {}: {} beams, {} returned, {} segments",
+            "Scan {} of {scans}, line {}: {}, {} returned, {}",
             view.scan,
             view.line,
-            view.beams,
+            count(view.beams, "beam"),
             view.returns.len(),
-            view.segments.len()
+            count(view.segments.len(), "segment")
         ),
     };
     let lines =
@@ -152,10 +157,10 @@ fn word(lang: Lang, end: &str) -> &str {
 fn tell_things(common: &Common, things: &Things) -> String {
     let lang = common.lang;
     let lengths = if things.is_picture { Lengths::Cm } else { common.units };
-    let count = things.scene.things().len();
+    let all = things.scene.things().len();
     let mut lines = vec![match lang {
-        Lang::Ru => format!("Вещей {count}, сканов соединено {}", things.views),
-        Lang::En => format!("{count} things, {} scans joined", things.views),
+        Lang::Ru => format!("Вещей {all}, сканов соединено {}", things.views),
+        Lang::En => format!("{}, {} joined", count(all, "thing"), count(things.views, "scan")),
     }];
     if things.without_pose > 0 {
         lines.push(match lang {
@@ -170,7 +175,7 @@ fn tell_things(common: &Common, things: &Things) -> String {
         let (id, all, at) = (thing.id.0, model.len(), lengths.point(at.x, at.y, 0));
         lines.push(match lang {
             Lang::Ru => format!("{id:>4}. у {at}: отрезков {all}, целых {whole}"),
-            Lang::En => format!("{id:>4}. at {at}: {all} segments, {whole} whole"),
+            Lang::En => format!("{id:>4}. at {at}: {}, {whole} whole", count(all, "segment")),
         });
     }
     lines.join("\n")
@@ -182,16 +187,21 @@ fn tell_changes(common: &Common, changes: &Changes) -> String {
     let (pairs, gone, new) = (found.pairs.len(), found.vanished.len(), found.appeared.len());
     let mut lines = vec![match lang {
         Lang::Ru => format!("Узнано отрезков {pairs}, не найдено {gone}, новых {new}"),
-        Lang::En => format!("{pairs} segments known again, {gone} not found, {new} new"),
+        Lang::En => format!("{} known again, {gone} not found, {new} new", count(pairs, "segment")),
     }];
     for part in &found.parts {
         let motion = part.motion.isometry;
         let (shift, turn) = (motion.translation.vector, motion.rotation.angle().to_degrees());
-        let (count, unit) = (part.members.len(), lengths.word(lang.language()));
+        let (members, unit) = (part.members.len(), lengths.word(lang.language()));
         let shift = lengths.point(shift.x, shift.y, 1);
+        // No turn has no direction.
+        let turn = decimal((turn * 10.0).round() / 10.0 + 0.0, "", lang.language());
+        let turn = turn.trim_end();
         lines.push(match lang {
-            Lang::Ru => format!("  отрезков {count}: сдвиг {shift} {unit}, поворот {turn:.1}°"),
-            Lang::En => format!("  {count} segments: shift {shift} {unit}, turn {turn:.1}°"),
+            Lang::Ru => format!("  отрезков {members}: сдвиг {shift} {unit}, поворот {turn}°"),
+            Lang::En => {
+                format!("  {}: shift {shift} {unit}, turn {turn}°", count(members, "segment"))
+            }
         });
     }
     lines.join("\n")
