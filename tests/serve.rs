@@ -831,6 +831,79 @@ fn an_assistant_without_the_token_is_kept_out() {
     assert!(![401, 403, 421].contains(&post(&console.at, &bearer)));
 }
 
+/// The centre's map of docs/fleet.md: let in by the token that lies beside the store, on the revision that it was compared with,
+/// and not from under a robot that drives.
+#[test]
+fn a_map_of_a_centre_is_taken_and_by_nobody_else() {
+    use orthoframe_store::shipping::pack_rows;
+    let dir = tempfile::tempdir().expect("a directory");
+    let store = dir.path().join("store");
+    let started = ["--demo", "--pace", "1", "--store", store.to_str().expect("a path in UTF-8")];
+    let mut console = Console::start(&started);
+    let note = dir.path().join("store.held");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        let mode = std::fs::metadata(&note).expect("it is there").permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+    }
+    let held: Value =
+        serde_json::from_slice(&std::fs::read(&note).expect("reads")).expect("it is JSON");
+    assert_eq!(held["address"], json!(format!("http://{}", console.at)));
+    let bearer = format!("Authorization: Bearer {}\r\n", held["token"].as_str().expect("a token"));
+    let mut world = orthoframe_store::Store::open_read_only(&store)
+        .expect("opens")
+        .0
+        .world()
+        .expect("reads")
+        .expect("a map");
+    let thing = world.replicas.values_mut().find(|r| r.name == "Кресло-1").expect("it is there");
+    thing.frame.x = orthoframe_units::Cm::of(thing.frame.x.get() + 1.0);
+    let sheet = orthoframe_store::Sheet::of(&world).expect("records");
+    let rows = pack_rows(sheet.iter().map(|(table, _, row)| (table, row)));
+    let post = |more: &str, on: u64, rows: &[u8]| {
+        let told = json!({ "on": on, "author": "Диспетчер", "reason": "центр" }).to_string();
+        let body = [told.as_bytes(), b"\n", rows].concat();
+        let head = format!(
+            "POST /centre/map HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: {}\r\n{more}\r\n",
+            console.at,
+            body.len()
+        );
+        console.raw(&[head.as_bytes(), &body].concat())
+    };
+    let operator = console.operator();
+    for stranger in ["", "Authorization: Bearer 0123456789abcdef\r\n", &operator.cookie] {
+        assert_eq!(post(stranger, 1, &rows).status, 401, "{stranger}");
+    }
+    assert_eq!(post(&format!("{bearer}Origin: http://evil.example\r\n"), 1, &rows).status, 403);
+    // Bytes that are no map change nothing, and neither does a map that was compared with another.
+    for (rows, on, status) in [(&rows[..7], 1, 422), (&[255][..], 1, 422), (&rows, 7, 409)] {
+        let answer = post(&bearer, on, rows);
+        assert_eq!(answer.status, status, "{answer:?}");
+    }
+    let said = operator.done("/api/say", &json!({ "text": "Поезжай к Точке-К" }));
+    operator.done(&format!("/api/tasks/{}/confirm", said["task"]["task"]), &json!({}));
+    let driving = post(&bearer, 1, &rows);
+    assert_eq!((driving.status, &driving.json()["code"]), (409, &json!("serve::driving")));
+    operator.done("/api/stop", &json!({}));
+    let begin = Instant::now();
+    let taken = loop {
+        let answer = post(&bearer, 1, &rows);
+        if answer.status == 200 || begin.elapsed() > Duration::from_secs(20) {
+            break answer;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    assert_eq!((taken.status, &taken.json()["revision"]), (200, &json!(2)), "{taken:?}");
+    assert_eq!(operator.get("/api/state")["revision"], 2);
+    // Asked to end, it takes its note away.
+    let id = console.child.id().to_string();
+    drop(operator);
+    Command::new("kill").args(["-TERM", &id]).status().expect("it is told");
+    console.child.wait().expect("it ended");
+    assert!(!note.exists());
+}
+
 /// Programs of another make that speak to assistants' tools; `.ci/run` says how they are installed.
 #[test]
 fn an_assistant_works() {

@@ -12,6 +12,7 @@ use crate::db::{Who, enter};
 use crate::error::{FleetError, Result};
 use crate::handout::now;
 use crate::keys;
+use crate::lists::{Counted, MOST, Scope, moment};
 use crate::map::{Format, World};
 use crate::picture::{Wanted, plan, world};
 use crate::query::{Question, Table};
@@ -20,9 +21,6 @@ use crate::serve::{Centre, Key};
 use crate::sheets::revision;
 use crate::store::Change;
 use crate::units::{Language, Source};
-
-/// Of each list so many rows at most; a page of more is read by nobody.
-const MOST: usize = 300;
 
 /// The paths of operators.
 pub(crate) fn router() -> Router<Centre> {
@@ -83,24 +81,13 @@ async fn editor(transaction: &Transaction<'_>, key: &Key, reason: String) -> Res
     Ok(Change::new(name, now(), reason))
 }
 
-fn moment(column: &str) -> String {
-    format!("to_char({column} AT TIME ZONE 'UTC', 'YYYY-MM-DD\"T\"HH24:MI:SS\"Z\"')")
-}
-
 /// What the page shows.
 #[derive(Debug, Serialize)]
 struct Fleet {
     name: String,
     edits: bool,
-    /// How many there are of each, whatever is shown.
-    totals: Table,
-    buildings: Table,
-    robots: Table,
-    missions: Table,
-    proposals: Table,
-    conflicts: Table,
-    /// What could not be derived, and why.
-    stuck: Table,
+    #[serde(flatten)]
+    lists: Counted,
 }
 
 #[derive(Deserialize)]
@@ -108,116 +95,24 @@ struct Found {
     /// Part of the name of a building or robot.
     #[serde(default)]
     find: String,
+    /// A page that is open asks again by itself: what was counted a moment ago will do.
+    #[serde(default)]
+    again: bool,
 }
-
-const TOTALS: &str = "SELECT (SELECT count(*) FROM fleet.building)::text, (SELECT count(*) FROM fleet.robot WHERE robot > 0)::text, \
-    (SELECT count(*) FROM fleet.mission WHERE ended IS NULL)::text, (SELECT count(*) FROM fleet.proposal)::text, \
-    (SELECT count(*) FROM (SELECT DISTINCT building, robot FROM fleet.conflict WHERE settled IS NULL) c)::text";
 
 async fn fleet(
     State(centre): State<Centre>,
     key: Key,
-    Query(Found { find }): Query<Found>,
+    Query(Found { find, again }): Query<Found>,
 ) -> Result<Json<Fleet>> {
     let mut client = centre.client().await?;
     let transaction = client.build_transaction().read_only(true).start().await?;
-    let edits = operator(&transaction, &key).await?;
+    let Who::Operator { building, edits } = enter(&transaction, &key.0).await? else {
+        return Err(FleetError::Forbidden);
+    };
     let name = transaction.query_one("SELECT fleet.my_name()", &[]).await?.get(0);
-    let columns = ["buildings", "robots", "missions", "proposals", "apart"];
-    let totals = rows(&transaction, &columns, TOTALS, &[]).await?;
-    let like = format!("%{}%", find.replace(['%', '_', '\\', '\0'], ""));
-    let sql = format!(
-        "SELECT b.building::text, b.name, count(r.robot) FILTER (WHERE r.robot > 0)::text, \
-                max(r.revision) FILTER (WHERE r.robot = 0)::text, {} \
-         FROM fleet.building b LEFT JOIN fleet.robot r USING (building) WHERE b.name ILIKE $1 \
-         GROUP BY b.building, b.name ORDER BY b.building LIMIT {MOST}",
-        moment("max(r.reported) FILTER (WHERE r.robot > 0)")
-    );
-    let columns = ["building", "name", "robots", "centre", "reported"];
-    let buildings = rows(&transaction, &columns, &sql, &[&like]).await?;
-    // Those that want somebody come first.
-    let sql = format!(
-        "SELECT building::text, building_name, robot::text, name, state, {}, revision::text, sequence::text FROM ( \
-           SELECT r.*, b.name AS building_name, \
-                CASE WHEN r.reported IS NULL THEN 'silent' WHEN EXISTS (SELECT FROM fleet.conflict c \
-                  WHERE c.building = r.building AND c.robot = r.robot AND c.settled IS NULL) THEN 'apart' \
-                WHEN r.reported < now() - interval '1 hour' THEN 'away' \
-                WHEN EXISTS (SELECT FROM fleet.mission m WHERE m.building = r.building AND m.robot = r.robot \
-                  AND m.ended IS NULL AND m.state = 'begun') THEN 'works' ELSE 'here' END AS state \
-           FROM fleet.robot r JOIN fleet.building b USING (building) \
-           WHERE r.robot > 0 AND (r.name ILIKE $1 OR b.name ILIKE $1)) r \
-         ORDER BY array_position(ARRAY['apart', 'away', 'works', 'here', 'silent'], state), building, robot LIMIT {MOST}",
-        moment("reported")
-    );
-    let columns =
-        ["building", "building_name", "robot", "name", "state", "reported", "revision", "sequence"];
-    let robots = rows(&transaction, &columns, &sql, &[&like]).await?;
-    let of = "JOIN fleet.building b USING (building) \
-              JOIN fleet.robot r ON r.building = x.building AND r.robot = x.robot \
-              WHERE (r.name ILIKE $1 OR b.name ILIKE $1)";
-    let sql = format!(
-        "SELECT b.name, r.name, x.text, CASE WHEN x.ended IS NOT NULL THEN 'ended' ELSE x.state END, x.given_by, {}, {} \
-         FROM fleet.mission x {of} ORDER BY x.ended IS NOT NULL, x.given DESC LIMIT {MOST}",
-        moment("x.given"),
-        moment("x.ended")
-    );
-    let columns = ["building_name", "robot_name", "text", "state", "given_by", "given", "ended"];
-    let missions = rows(&transaction, &columns, &sql, &[&like]).await?;
-    let sql = format!(
-        "SELECT x.building::text, x.robot::text, b.name, r.name, x.thing, x.mapped_area, x.area, round(x.apart)::text, \
-                round((x.sure * 100)::numeric)::text, {} \
-         FROM fleet.proposal x {of} ORDER BY x.sure DESC, b.name, x.thing LIMIT {MOST}",
-        moment("x.seen")
-    );
-    let columns = [
-        "building",
-        "robot",
-        "building_name",
-        "robot_name",
-        "thing",
-        "map_area",
-        "seen_area",
-        "apart_cm",
-        "sure_percent",
-        "seen",
-    ];
-    let proposals = rows(&transaction, &columns, &sql, &[&like]).await?;
-    let sql = format!(
-        "SELECT x.building::text, x.robot::text, b.name, r.name, x.centre_revision::text, x.robot_revision::text, \
-                x.thing, x.centre, x.robots, {} \
-         FROM fleet.conflict x {of} AND x.settled IS NULL ORDER BY 1, 2, 7 LIMIT {MOST}",
-        moment("x.noted")
-    );
-    let columns = [
-        "building",
-        "robot",
-        "building_name",
-        "robot_name",
-        "centre_revision",
-        "robot_revision",
-        "thing",
-        "centre",
-        "robots",
-        "noted",
-    ];
-    let conflicts = rows(&transaction, &columns, &sql, &[&like]).await?;
-    let sql = format!(
-        "SELECT b.name, x.robot::text, x.revision::text, x.fault FROM fleet.work x JOIN fleet.building b USING (building) \
-         WHERE x.fault <> '' ORDER BY x.asked LIMIT {MOST}"
-    );
-    let stuck =
-        rows(&transaction, &["building_name", "robot", "revision", "fault"], &sql, &[]).await?;
-    Ok(Json(Fleet {
-        name,
-        edits,
-        totals,
-        buildings,
-        robots,
-        missions,
-        proposals,
-        conflicts,
-        stuck,
-    }))
+    let lists = centre.kept.lists(&transaction, Scope { building, find }, again).await?;
+    Ok(Json(Fleet { name, edits, lists }))
 }
 
 #[derive(Deserialize)]

@@ -25,6 +25,7 @@ impl InEnglish for FleetError {
                 format!("the centre's map has changed meanwhile: it is at revision {revision}")
             }
             Self::Unknown { what } => format!("the centre does not have: {what}"),
+            Self::Held { why } => format!("the centre's map will wait: {why}"),
             Self::Io { path, source } => format!("{path}: {source}"),
             Self::Store(error) => error.english(),
         }
@@ -43,6 +44,9 @@ impl InEnglish for FleetError {
                 "take sslmode=disable out of the address; a certificate of one's own: --db-authority"
             }
             Self::Moved { .. } => "look at the new revision and try again",
+            Self::Held { .. } => {
+                "try again later (push --pull does by itself), or close the program that holds the store"
+            }
             Self::Store(error) => return error.english_help(),
             Self::Content { .. } | Self::Unknown { .. } | Self::Io { .. } => return None,
         };

@@ -70,6 +70,16 @@ pub enum FleetError {
     #[diagnostic(code(fleet::unknown))]
     Unknown { what: String },
 
+    /// Another program has the store open and does not take a map just now.
+    #[error("карта центра подождёт: {why}")]
+    #[diagnostic(
+        code(fleet::held),
+        help(
+            "повторите позже (push --pull повторяет сам) или закройте программу, которая держит хранилище"
+        )
+    )]
+    Held { why: String },
+
     /// A file or a socket.
     #[error("{path}: {source}")]
     #[diagnostic(code(fleet::io))]

@@ -9,7 +9,7 @@
 //!
 //! **Invariant**: after each transaction the tables hold what the robot's store held after the frame `fleet.robot.sequence`.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use deadpool_postgres::{Object, Transaction};
 use futures_util::future::try_join_all;
@@ -115,17 +115,19 @@ pub async fn take_frames(
         return Ok(robot.at);
     };
     robot.at = Position { sequence: number(last.sequence)?, checksum: Some(last.checksum) };
-    // What they hold is read while the server keeps them.
+    // What they hold is read, and sent after them, while the server keeps them.
     let new = std::sync::Arc::new(new);
     let reading = tokio::task::spawn_blocking({
         let new = std::sync::Arc::clone(&new);
         move || records_of(&new)
     });
-    let (kept, read) = tokio::join!(keep_frames(&transaction, &robot, &new), reading);
-    kept?;
-    let written = read.map_err(|error| FleetError::content(error.to_string()))??;
-    drop(new);
-    put_records(&transaction, &mut robot, written).await?;
+    let before = robot;
+    let putting = async {
+        let read = reading.await;
+        let written = read.map_err(|error| FleetError::content(error.to_string()))??;
+        put_records(&transaction, &mut robot, written).await
+    };
+    tokio::try_join!(keep_frames(&transaction, &before, &new), putting)?;
     note_robot(&transaction, &robot).await?;
     transaction.commit().await?;
     Ok(robot.at)
@@ -145,6 +147,8 @@ pub async fn take_whole(client: &mut Object, key: &str, whole: Whole) -> Result<
         let sql = format!("DELETE FROM {} WHERE building = $1 AND robot = $2", place(table));
         transaction.execute(&sql, &[&robot.building, &robot.robot]).await?;
     }
+    let sql = "DELETE FROM fleet.proposed WHERE building = $1 AND robot = $2";
+    transaction.execute(sql, &[&robot.building, &robot.robot]).await?;
     robot.epoch += 1;
     robot.is_whole = true;
     robot.revision = 0;
@@ -258,6 +262,15 @@ async fn put_records(
         }
     });
     try_join_all(tables_put).await?;
+    let touched: BTreeSet<i64> = [Table::Beliefs, Table::AreaObjects]
+        .into_iter()
+        .filter_map(|table| tables.get(&table).map(|records| (table, records)))
+        .flat_map(|(table, records)| replicas(table, records))
+        .collect();
+    // The centre believes nothing of its own.
+    if !touched.is_empty() && robot.robot > 0 {
+        note_proposals(transaction, robot, touched).await?;
+    }
     if let Some(tasks) = tables.get(&Table::Tasks) {
         note_missions(transaction, robot, tasks).await?;
     }
@@ -541,6 +554,36 @@ async fn put_notes(
     Ok(insert_notes(transaction, robot, &sql, table, &last_words(table, records)).await?)
 }
 
+/// The things that records are about.
+fn replicas(table: Table, records: &[Written]) -> impl Iterator<Item = i64> {
+    let column = table.columns().iter().position(|c| c.name == "ReplID").expect("a column of both");
+    let id = move |w: &Written| match w.version.row.get(column) {
+        Some(Cell::Int(id)) => Some(*id),
+        _ => None,
+    };
+    records.iter().filter_map(id)
+}
+
+/// Which of these things the robot now proposes to put elsewhere on the map.
+async fn note_proposals(
+    transaction: &Transaction<'_>,
+    robot: &Robot,
+    touched: BTreeSet<i64>,
+) -> Result<()> {
+    let sql = "WITH now AS MATERIALIZED ( \
+                 SELECT replica, sure FROM fleet.disagreement \
+                 WHERE building = $1 AND robot = $2 AND replica = ANY ($3)), \
+               gone AS ( \
+                 DELETE FROM fleet.proposed p WHERE building = $1 AND robot = $2 AND replica = ANY ($3) \
+                 AND NOT EXISTS (SELECT FROM now n WHERE n.replica = p.replica)) \
+               INSERT INTO fleet.proposed (building, robot, replica, sure) SELECT $1, $2, replica, sure FROM now \
+               ON CONFLICT (building, robot, replica) DO UPDATE SET sure = excluded.sure";
+    let statement = transaction.prepare_cached(sql).await?;
+    let touched = Vec::from_iter(touched);
+    transaction.execute(&statement, &[&robot.building, &robot.robot, &touched]).await?;
+    Ok(())
+}
+
 /// Tasks that came, went on, or left the queue.
 async fn note_missions(
     transaction: &Transaction<'_>,
@@ -556,24 +599,28 @@ async fn note_missions(
         Table::Tasks.columns().iter().position(|c| c.name == name).expect("a column of Tasks")
     };
     let [task, words, by, at, state] = ["TaskID", "Text", "By", "At", "State"].map(column);
+    let mut known = BTreeMap::new();
+    for version in tasks.iter().map(|w| &w.version).filter(|v| !v.stamp.deleted) {
+        // Moments beyond the server's calendar are one there.
+        let given = At(int(&version.row, at)).micros();
+        known.insert((int(&version.row, task), given), version);
+    }
+    let all = || known.values();
+    let ids: Vec<i64> = known.keys().map(|(task, _)| *task).collect();
+    let column = |at| all().map(|v| text(&v.row, at)).collect::<Vec<_>>();
+    let (words, by, states) = (column(words), column(by), column(state));
+    let given: Vec<At> = all().map(|v| At(int(&v.row, at))).collect();
+    let noted: Vec<At> = all().map(|v| At(v.stamp.at.0)).collect();
     let sql = "INSERT INTO fleet.mission (building, robot, task, text, given_by, given, state, noted) \
-               VALUES ($1, $2, $3, $4, $5, $6, $7, $8) \
+               SELECT $1, $2, unnest($3::bigint[]), unnest($4::text[]), unnest($5::text[]), \
+                      unnest($6::timestamptz[]), unnest($7::text[]), unnest($8::timestamptz[]) \
                ON CONFLICT (building, robot, task, given) DO UPDATE SET \
                text = excluded.text, state = excluded.state, noted = excluded.noted, ended = NULL";
     let statement = transaction.prepare_cached(sql).await?;
-    let mut known = BTreeMap::new();
-    for version in tasks.iter().map(|w| &w.version).filter(|v| !v.stamp.deleted) {
-        known.insert((int(&version.row, task), int(&version.row, at)), version);
-    }
     let Robot { building, robot: no, .. } = robot;
-    for ((task, given), version) in known {
-        let row = &version.row;
-        let (words, by, state) = (text(row, words), text(row, by), text(row, state));
-        let (given, noted) = (At(given), At(version.stamp.at.0));
-        transaction
-            .execute(&statement, &[building, no, &task, &words, &by, &given, &state, &noted])
-            .await?;
-    }
+    transaction
+        .execute(&statement, &[building, no, &ids, &words, &by, &given, &states, &noted])
+        .await?;
     let sql = "UPDATE fleet.mission m SET ended = $3 WHERE building = $1 AND robot = $2 AND ended IS NULL \
                AND NOT EXISTS (SELECT FROM log.\"Tasks\" t WHERE t.building = $1 AND t.robot = $2 \
                AND t.\"TaskID\" = m.task AND NOT t.\"Deleted\" \

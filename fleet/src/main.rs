@@ -14,7 +14,7 @@ use orthoframe_fleet::serve::{Tls, serve};
 use orthoframe_fleet::{FleetError, Result, db, derive, handout, keys, migrate, revise};
 use orthoframe_map::World;
 use orthoframe_semantics::RelationRules;
-use orthoframe_store::{Change, StoreError};
+use orthoframe_store::Change;
 
 /// Many robots, many buildings: one centre on PostgreSQL.
 #[derive(Parser)]
@@ -80,7 +80,7 @@ enum Command {
         /// Goes on, with so many seconds between; a line that is cut is waited for.
         #[arg(long)]
         every: Option<u64>,
-        /// Takes the centre's map each time, too, where the robot's own program does not hold the store just then.
+        /// Takes the centre's map each time, too; where `ortho serve` holds the store, through it, when the robot stands.
         #[arg(long)]
         pull: bool,
     },
@@ -352,9 +352,9 @@ fn push(line: &Line, store: &Path, every: Option<u64>, pulls: bool) -> Result<Ca
                 return Ok((pushed, Came::Through));
             }
             match pull(line, store) {
-                // The robot works; between two runs, or when it has ended, there will be room.
-                Err(FleetError::Store(StoreError::Locked { .. })) => {
-                    println!("Хранилище держит программа робота: карта центра подождёт.");
+                // The robot works; when it has ended what it does, there will be room.
+                Err(held @ FleetError::Held { .. }) => {
+                    eprintln!("{}", told(&held));
                     Ok((pushed, Came::Through))
                 }
                 pulled => Ok((pushed, pulled?)),

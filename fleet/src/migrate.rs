@@ -33,6 +33,8 @@ const MIGRATIONS: &[Migration] = &[
     migration!("0007_fact_building", false),
     migration!("0008_editors", false),
     migration!("0009_work_asked", false),
+    migration!("0010_proposed", false),
+    migration!("0011_functions", false),
 ];
 
 /// What a distributed server takes away from the files; see `docs/fleet.md`.

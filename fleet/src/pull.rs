@@ -1,9 +1,13 @@
 //! The robot takes the centre's map, if it has not changed its own meanwhile.
+//!
+//! Where another program holds the store, the map is compared as the store can be read beside it, and brought to that
+//! program (see `holder`), which takes it only on the revision that it was compared with.
 
 use std::path::Path;
 
 use crate::error::{FleetError, Result};
 use crate::handout::{Conflict, Handout, apart};
+use crate::holder::Holder;
 use crate::push::Line;
 use crate::sheets::same;
 use crate::store::shipping::unpack_rows;
@@ -26,7 +30,7 @@ impl Line {
     /// Takes the centre's newest map into a store, in one transaction, or tells what went apart.
     ///
     /// # Errors
-    /// [`FleetError::Line`]; [`FleetError::Store`], where another program has the store open for one.
+    /// [`FleetError::Line`]; [`FleetError::Held`], where another program has the store open and does not take the map now.
     pub fn pull(&self, store: &Path) -> Result<Pulled> {
         let (told, rows) = self.handout()?;
         let Some(rows) = rows else { return Ok(Pulled::Nothing) };
@@ -36,26 +40,20 @@ impl Line {
         for (table, row) in unpack_rows(&rows).ok_or_else(unread)? {
             new.add(table, row)?;
         }
-        let (mut store, _) = Store::open(store)?;
+        let (mut store, holder) = opened(store)?;
         let mine = store.reader().sheet()?;
         if same(&new, &mine) {
             self.agree(centre, store.revision())?;
             return Ok(Pulled::Same { centre });
         }
-        let base = match u64::try_from(agreed_robot) {
-            Ok(revision) if revision > 0 || mine.is_empty() => match store.reader_at(revision) {
-                Ok(reader) => Some(reader.sheet()?),
-                Err(StoreError::ForgottenRevision { .. } | StoreError::UnknownRevision { .. }) => {
-                    None
-                }
-                Err(error) => return Err(error.into()),
-            },
-            _ => None,
-        };
+        let base = base(&store, agreed_robot, mine.is_empty())?;
         if base.as_ref() == Some(&mine) {
             let reason = format!("центр, ревизия {centre}: {}", told.reason);
             let change = Change::new(told.author, crate::handout::now(), reason);
-            let revision = store.import_sheet(&new, &change)?.revision;
+            let revision = match holder {
+                Some(holder) => holder.take(store.revision(), &rows, &change)?,
+                None => store.import_sheet(&new, &change)?.revision,
+            };
             self.agree(centre, revision)?;
             return Ok(Pulled::Taken { centre, revision });
         }
@@ -64,5 +62,31 @@ impl Line {
         let conflict = Conflict { centre, robot, things };
         self.note_conflict(&conflict)?;
         Ok(Pulled::Apart(conflict))
+    }
+}
+
+/// The store, and who is to write it where that is not this program.
+fn opened(dir: &Path) -> Result<(Store, Option<Holder>)> {
+    match Store::open(dir) {
+        Ok((store, _)) => Ok((store, None)),
+        Err(locked @ StoreError::Locked { .. }) => {
+            let holder =
+                Holder::of(dir).ok_or_else(|| FleetError::Held { why: locked.to_string() })?;
+            Ok((Store::open_read_only(dir)?.0, Some(holder)))
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// The map as it was when both sides last agreed; none where that is not known any more.
+fn base(store: &Store, agreed: i64, is_empty: bool) -> Result<Option<Sheet>> {
+    let revision = match u64::try_from(agreed) {
+        Ok(revision) if revision > 0 || is_empty => revision,
+        _ => return Ok(None),
+    };
+    match store.reader_at(revision) {
+        Ok(reader) => Ok(Some(reader.sheet()?)),
+        Err(StoreError::ForgottenRevision { .. } | StoreError::UnknownRevision { .. }) => Ok(None),
+        Err(error) => Err(error.into()),
     }
 }

@@ -20,7 +20,7 @@ use crate::sheets::{revision, sheet};
 use crate::store::records::{LastIds, Revisions};
 use crate::store::shipping::Written;
 use crate::store::{
-    Change, Edits, Record, Row, Sheet, Stamp, Store, Version, compare, next_ids, numbered,
+    Change, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, compare, next_ids, numbered,
 };
 use crate::units::{Language, Source};
 

@@ -103,13 +103,21 @@ const EPOCH_MS: i64 = 946_684_800_000;
 const FIRST_US: i64 = -210_866_803_200_000_000;
 const LAST_US: i64 = 9_223_371_331_199_999_999;
 
+impl At {
+    /// As the server counts it.
+    #[must_use]
+    pub fn micros(self) -> i64 {
+        self.0.saturating_sub(EPOCH_MS).saturating_mul(1000).clamp(FIRST_US, LAST_US)
+    }
+}
+
 impl ToSql for At {
     fn to_sql(
         &self,
         kind: &Type,
         out: &mut BytesMut,
     ) -> Result<IsNull, Box<dyn Error + Sync + Send>> {
-        let us = self.0.saturating_sub(EPOCH_MS).saturating_mul(1000).clamp(FIRST_US, LAST_US);
+        let us = self.micros();
         us.to_sql(&Type::INT8, out).inspect(|_| debug_assert!(<Self as ToSql>::accepts(kind)))
     }
 

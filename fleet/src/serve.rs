@@ -35,6 +35,7 @@ use crate::error::{FleetError, Result};
 use crate::gate::{Gate, guard};
 use crate::handout::{Conflict, agree, handout, note_conflict};
 use crate::ingest::{Position, position, take_frames, take_whole};
+use crate::lists::Kept;
 use crate::push::gzip;
 use crate::store::shipping::{Frame, Whole, split_frames};
 
@@ -67,6 +68,7 @@ impl IntoResponse for FleetError {
             | Self::Line { .. }
             | Self::Plain { .. }
             | Self::PlainDatabase { .. }
+            | Self::Held { .. }
             | Self::Io { .. } => {
                 tracing::error!(error = %self, "a request failed");
                 (StatusCode::SERVICE_UNAVAILABLE, "database")
@@ -104,6 +106,7 @@ impl FromRequestParts<Centre> for Key {
 pub struct Centre {
     pool: Pool,
     pub(crate) gate: Arc<Gate>,
+    pub(crate) kept: Arc<Kept>,
 }
 
 impl Centre {
@@ -125,7 +128,7 @@ pub fn router(pool: Pool, gate: Gate) -> Router {
         .merge(crate::console::router())
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .layer(axum::middleware::from_fn_with_state(Arc::clone(&gate), guard))
-        .with_state(Centre { pool, gate })
+        .with_state(Centre { pool, gate, kept: Arc::default() })
 }
 
 /// Unpacks a body and cuts it into frames, on a thread where that harms nobody.

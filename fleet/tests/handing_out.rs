@@ -3,7 +3,9 @@
 
 mod common;
 
-use std::path::Path;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
 
 use common::robot::{home, live, must_be_same};
 use common::{Centre, Postgres, furnish};
@@ -151,6 +153,19 @@ async fn a_revision_of_the_centre_goes_to_the_robots_and_nothing_is_merged() {
     assert_ne!(first_map.expect("a map"), both);
 }
 
+/// `ortho-fleet push --pull`: what it says, and what it complains of.
+fn pushed(centre: &Centre, key: &str, store: &Path) -> (String, String) {
+    let ran = Command::new(env!("CARGO_BIN_EXE_ortho-fleet"))
+        .args(["push", "--pull", "--to", &centre.url(), "--key", key, "--store"])
+        .arg(store)
+        .output()
+        .expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, err) = (text(&ran.stdout), text(&ran.stderr));
+    assert!(ran.status.success(), "{out}{err}");
+    (out, err)
+}
+
 /// An id that the centre or a robot of the building has ever given is not given again: a robot would refuse the map.
 #[tokio::test(flavor = "multi_thread")]
 async fn what_is_new_at_the_centre_has_an_id_that_no_robot_of_the_building_knows() {
@@ -188,23 +203,16 @@ async fn what_is_new_at_the_centre_has_an_id_that_no_robot_of_the_building_knows
     assert!(new.id > gone, "{:?} was given by the robot", new.id);
 
     // The program that a robot runs beside its own takes maps too, when the store is free.
-    let run = || {
-        let ran = std::process::Command::new(env!("CARGO_BIN_EXE_ortho-fleet"))
-            .args(["push", "--pull", "--to", &centre.url(), "--key", &keys[0], "--store"])
-            .arg(&store)
-            .output()
-            .expect("it runs");
-        assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-        String::from_utf8_lossy(&ran.stdout).into_owned()
-    };
+    let run = || pushed(&centre, &keys[0], &store);
     corrected = world_of(&store);
     move_thing(&mut corrected, "Новая", 2.0);
     let revision = revision + 1;
     assert_eq!(revised(&mut client, 1, &corrected, &by("сдвинута")).await, revision);
     let held = Store::open(&store).expect("opens");
-    assert!(run().contains("подождёт"));
+    let (_, told) = run();
+    assert!(told.contains("подождёт"), "{told}");
     drop(held);
-    assert!(run().contains("Принята карта центра"));
+    assert!(run().0.contains("Принята карта центра"));
     assert_eq!(world_of(&store), corrected);
 
     // An edit on the newest revision is worked in, one on an older is refused.
@@ -228,4 +236,92 @@ async fn what_is_new_at_the_centre_has_an_id_that_no_robot_of_the_building_knows
     transaction.commit().await.expect("commits");
     assert!(matches!(line.pull(&store), Ok(Pulled::Taken { .. })));
     assert!(world_of(&store).replicas.values().all(|r| r.name != "Новая"));
+}
+
+/// The robots' own program, where the main crate was built before this one.
+fn ortho() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_BIN_EXE_ortho-fleet")).parent().expect("it is in a folder");
+    let program = folder.join("ortho");
+    let is_there = program.exists();
+    assert!(is_there || std::env::var_os("CI").is_none(), "build ortho first: cargo build");
+    is_there.then_some(program)
+}
+
+/// `ortho serve` on a store.
+struct Console(Child);
+
+impl Console {
+    fn start(program: &Path, store: &Path) -> Self {
+        let mut child = Command::new(program)
+            .args(["serve", "--port", "0", "--store"])
+            .arg(store)
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let mut line = String::new();
+        let out = child.stdout.take().expect("piped");
+        BufReader::new(out).read_line(&mut line).expect("it tells its address");
+        assert!(line.contains("http://"), "{line}");
+        Self(child)
+    }
+}
+
+impl Drop for Console {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A robot whose own program never lets go of its store takes a new map through that program; what it changed itself is kept.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_running_console_takes_the_map_of_the_centre() {
+    let (Some(postgres), Some(program)) = (Postgres::start("-c fsync=off"), ortho()) else {
+        return;
+    };
+    let keys = furnish(&postgres.address(), &[(1, 1)]).await;
+    let centre = Centre::start(&postgres.address());
+    let pool = db::pool(&postgres.address(), 2).expect("an address");
+    let mut client = pool.get().await.expect("connects");
+    let dir = tempfile::tempdir().expect("a folder");
+    let store = dir.path().join("store");
+    let by = |reason: &str| Change::new("Диспетчер", Timestamp(1_860_000_000_000), reason);
+    live(&store, 0, 1, &home(), false);
+    let run = || pushed(&centre, &keys[0], &store);
+    run();
+    adopted(&mut client, 1, 1, &by("от робота")).await;
+    let mut corrected = world_of(&store);
+    let names: Vec<String> = corrected.replicas.values().map(|r| r.name.clone()).collect();
+    move_thing(&mut corrected, &names[0], 3.0);
+    assert_eq!(revised(&mut client, 1, &corrected, &by("поправка")).await, 2);
+
+    let console = Console::start(&program, &store);
+    let (told, _) = run();
+    assert!(told.contains("Принята карта центра, ревизия 2"), "{told}");
+    assert_eq!(world_of(&store), corrected);
+    let last = |store: &Path| {
+        let (store, _) = Store::open_read_only(store).expect("opens");
+        store.revisions().expect("reads").pop().expect("some")
+    };
+    assert_eq!(last(&store).user, "Диспетчер");
+    assert!(run().0.contains("Нового в центре нет"));
+    let line = Line::new(&centre.url(), &keys[0], None).expect("loopback");
+    line.push(&store).expect("it is taken");
+    must_be_same(&pool, 1, 1, &store, false).await;
+    // A note of who held it, left by a program that was killed, is no holder.
+    drop(console);
+    assert!(dir.path().join("store.held").exists(), "it was killed");
+    move_thing(&mut corrected, &names[0], 3.0);
+    assert_eq!(revised(&mut client, 1, &corrected, &by("ещё")).await, 3);
+    let held = Store::open(&store).expect("opens");
+    let (_, told) = run();
+    assert!(told.contains("подождёт"), "{told}");
+    drop(held);
+    // What the robot changed itself while it is held is not merged.
+    edit(&store, |world| drop(move_thing(world, &names[1], -5.0)));
+    let mine = world_of(&store);
+    let _console = Console::start(&program, &store);
+    let pulled = line.pull(&store).expect("answers");
+    assert!(matches!(pulled, Pulled::Apart(_)), "{pulled:?}");
+    assert_eq!(world_of(&store), mine);
 }

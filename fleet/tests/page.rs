@@ -110,6 +110,30 @@ async fn an_operator_sees_the_fleet_and_makes_a_revision_in_a_browser() {
     assert_eq!(client.query_one(sql, &[]).await.expect("reads").get::<_, i64>(0), 0);
 }
 
+/// What was counted a moment ago is given to a page that asks by itself, to nobody else, and to no key that sees other buildings.
+#[tokio::test(flavor = "multi_thread")]
+async fn an_open_page_is_told_what_was_counted_for_those_who_see_the_same() {
+    let Some(postgres) = Postgres::start("-c fsync=off") else { return };
+    furnish(&postgres.address(), &[(1, 1), (2, 1)]).await;
+    let centre = Centre::start(&postgres.address());
+    let client = db::connect(&postgres.address()).await.expect("connects");
+    let of_all = keys::add_operator(&client, None, "Диспетчер").await.expect("new");
+    let of_one = keys::add_operator(&client, Some(2), "Сторож").await.expect("new");
+    let robots = |key: &str, again: bool| {
+        let line = Line::new(&centre.url(), key, None).expect("loopback");
+        let told = line.get(&format!("/v1/fleet?find=&again={again}")).expect("answers");
+        let told: serde_json::Value = serde_json::from_slice(&told).expect("JSON");
+        (told["name"].clone(), told["robots"]["rows"].as_array().expect("rows").len())
+    };
+    let name = |text: &str| serde_json::Value::from(text);
+    assert_eq!(robots(&of_all, true), (name("Диспетчер"), 2));
+    keys::add_robot(&client, 2, 2, "новый").await.expect("new");
+    assert_eq!(robots(&of_all, true).1, 2, "as it was a moment ago");
+    assert_eq!(robots(&of_one, true), (name("Сторож"), 2), "its own building, counted for itself");
+    assert_eq!(robots(&of_all, false).1, 3, "who opens the page sees what is");
+    assert_eq!(robots(&of_all, true).1, 3);
+}
+
 /// The status of an answer to some lines of a request.
 fn status(centre: &Centre, lines: &[&str], body: &str) -> (u16, String) {
     let mut stream = TcpStream::connect(centre.address).expect("connects");

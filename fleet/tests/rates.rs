@@ -53,7 +53,7 @@ async fn frames_beside_copy() {
         .iter()
         .filter(|t| t.is_stored())
         .map(|t| place(*t))
-        .chain(["fleet.frame".to_owned()])
+        .chain(["frame", "mission", "work", "proposed"].map(|name| format!("fleet.{name}")))
         .collect();
     let (mut applied, mut copied, mut plain) = (Vec::new(), Vec::new(), Vec::new());
     for (n, key) in made.iter().enumerate() {

@@ -47,6 +47,7 @@ mod forms;
 mod furniture;
 mod given;
 mod goals;
+mod handed;
 mod history;
 mod journey;
 pub mod json;

@@ -17,7 +17,7 @@ use super::gate::{Role, Session};
 use super::read::language;
 use super::{House, apart};
 
-type Answer = Result<Json<Value>, Fault>;
+pub(super) type Answer = Result<Json<Value>, Fault>;
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Said {
@@ -259,7 +259,7 @@ enum Written {
 }
 
 /// Does what changes the map, where it still is what the change was made on.
-async fn write(
+pub(super) async fn write(
     house: &House,
     on: u64,
     work: impl FnOnce(&mut Engine) -> Result<Value, Error> + Send + 'static,

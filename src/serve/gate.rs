@@ -98,9 +98,9 @@ impl Gate {
     pub(super) fn new(listens: SocketAddr, names: &[String], file: Option<PathBuf>) -> Self {
         let port = listens.port();
         let mut called: Vec<String> = names.to_vec();
-        if listens.ip().is_loopback() {
+        if listens.ip().is_loopback() || listens.ip().is_unspecified() {
             called.extend(["127.0.0.1", "localhost", "[::1]"].map(str::to_owned));
-        } else if !listens.ip().is_unspecified() {
+        } else {
             let ip = listens.ip();
             called.push(if ip.is_ipv6() { format!("[{ip}]") } else { ip.to_string() });
         }

@@ -13,6 +13,7 @@
 mod act;
 mod assist;
 mod book;
+mod centre;
 mod desk;
 mod drawing;
 mod drive;
@@ -168,6 +169,8 @@ pub fn run(
         if let Some(token) = lasting {
             house.gate.trust(token, Role::Edit, &settings.user);
         }
+        let store = settings.store.as_deref();
+        let _note = store.and_then(|s| centre::Note::leave(s, at, &house.gate, &settings.user));
         let token = house.gate.invite(Role::Edit, &settings.user).map_err(failed)?;
         tell(&format!("http://{at}/?token={token}"));
         let assistant =

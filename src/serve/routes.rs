@@ -21,7 +21,7 @@ use rmcp::transport::{StreamableHttpServerConfig, StreamableHttpService};
 use super::assist::Assistant;
 use super::fault::Fault;
 use super::gate::{Refused, Role, Session};
-use super::{House, act, events, read};
+use super::{House, act, centre, events, read};
 
 /// Bytes of a request's body.
 const BODY: usize = 1 << 20;
@@ -118,7 +118,7 @@ pub(super) fn router(house: &Arc<House>, assistant: &Assistant) -> Router {
         api = api.route(path, answer().route_layer(check));
     }
     let api = api.route_layer(from_fn_with_state(Arc::clone(house), known));
-    let mut all = api.merge(assistants(house, assistant));
+    let mut all = api.merge(assistants(house, assistant)).merge(of_centre(house));
     for (path, kind, bytes) in PAGE {
         all = all.route(path, get(move || async move { ([(CONTENT_TYPE, *kind)], *bytes) }));
     }
@@ -138,6 +138,18 @@ fn assistants(house: &Arc<House>, assistant: &Assistant) -> Router<Arc<House>> {
     let service = StreamableHttpService::new(move || Ok(assistant.clone()), sessions, config);
     let bears = from_fn_with_state(Arc::clone(house), bears);
     Router::new().route_service(ASSISTANTS, service).route_layer(bears)
+}
+
+/// Where the centre's map is brought, by who bears the token that lies beside the store.
+fn of_centre(house: &Arc<House>) -> Router<Arc<House>> {
+    let taking = post(centre::take).layer(DefaultBodyLimit::max(centre::MAP));
+    let bears = from_fn_with_state(Arc::clone(house), bears);
+    Router::new().route(centre::CENTRE, taking).route_layer(bears)
+}
+
+/// Programs come here, which have no page and bear a token that lasts.
+fn is_of_programs(path: &str) -> bool {
+    [ASSISTANTS, centre::CENTRE].contains(&path)
 }
 
 /// Lets pass who bears a token.
@@ -186,7 +198,9 @@ async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Respo
     let mut response = match checked {
         Err(refused) => refused.into_response(),
         // What says that it is too large is not waited for.
-        Ok(()) if says_too_much(request.headers()) => StatusCode::PAYLOAD_TOO_LARGE.into_response(),
+        Ok(()) if says_too_much(request.uri().path(), request.headers()) => {
+            StatusCode::PAYLOAD_TOO_LARGE.into_response()
+        }
         // A drive may take longer than any other answer, and tells of itself meanwhile.
         Ok(()) if request.uri().path() == ASSISTANTS => next.run(request).await,
         Ok(()) => match token(request.uri()) {
@@ -213,16 +227,17 @@ async fn guard(Of(house): Of<Arc<House>>, request: Request, next: Next) -> Respo
     response
 }
 
-fn says_too_much(headers: &HeaderMap) -> bool {
+fn says_too_much(path: &str, headers: &HeaderMap) -> bool {
+    let most = if path == centre::CENTRE { centre::MAP } else { BODY };
     let length = headers.get(CONTENT_LENGTH).and_then(|length| length.to_str().ok());
-    length.is_some_and(|length| length.parse().map_or(true, |bytes: usize| bytes > BODY))
+    length.is_some_and(|length| length.parse().map_or(true, |bytes: usize| bytes > most))
 }
 
 /// The page itself may be opened from anywhere: it shows nothing without a cookie that other sites do not send.
 fn came_from(house: &House, request: &Request) -> Result<(), Refused> {
     let opens_page = request.method() == axum::http::Method::GET && request.uri().path() == "/";
-    // Assistants bear a token, which `bears` looks at.
-    if opens_page || request.uri().path() == ASSISTANTS {
+    // They bear a token, which `bears` looks at.
+    if opens_page || is_of_programs(request.uri().path()) {
         return Ok(());
     }
     house.gate.check_origin(request.method(), request.headers())

@@ -145,9 +145,10 @@ function shown(name, edits) {
   $("when").textContent = new Date().toLocaleTimeString("ru");
 }
 
-async function showFleet() {
-  const told = await call(`/v1/fleet?find=${encodeURIComponent($("find").value)}`);
+async function showFleet(isTimer) {
+  const told = await call(`/v1/fleet?find=${encodeURIComponent($("find").value)}&again=${isTimer === true}`);
   shown(told.name, told.edits);
+  $("when").textContent = new Date(Date.now() - told.age * 1000).toLocaleTimeString("ru");
   $("fleet").hidden = false;
   $("building").hidden = true;
   $("building").replaceChildren();
@@ -297,7 +298,7 @@ async function route(isTimer) {
     const found = location.hash.match(/^#\/building\/(\d+)\/robot\/(-?\d+)$/);
     // What somebody is typing into is not drawn anew under their hands.
     if (found && isTimer) return;
-    await (found ? showBuilding(Number(found[1]), Number(found[2])) : showFleet());
+    await (found ? showBuilding(Number(found[1]), Number(found[2])) : showFleet(isTimer));
   });
   busy = false;
   document.body.dataset.ready = "yes";

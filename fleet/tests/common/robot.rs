@@ -263,6 +263,13 @@ pub async fn must_be_same(pool: &Pool, building: i64, robot: i64, dir: &Path, fo
             }
         }
     }
+    // What it proposes is kept beside, and is what beliefs and map say.
+    let sql = "SELECT (SELECT count(*) FROM fleet.proposed WHERE building = $1 AND robot = $2), count(p.replica), count(*) \
+               FROM fleet.disagreement d LEFT JOIN fleet.proposed p USING (building, robot, replica, sure) \
+               WHERE building = $1 AND robot = $2";
+    let row = client.query_one(sql, &[&building, &robot]).await.expect("reads");
+    let [kept, same, all] = [0, 1, 2].map(|at| row.get::<_, i64>(at));
+    assert_eq!([kept, same], [all; 2], "what {building}.{robot} proposes");
     for table in Table::ALL.iter().copied().filter(|t| !t.is_stored()) {
         let names: Vec<_> = table.columns().iter().map(|c| quoted(c.name)).collect();
         let sql = format!(
