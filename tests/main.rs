@@ -48,6 +48,7 @@ mod planning_front;
 mod planning_interference;
 mod planning_mutants;
 mod planning_properties;
+mod planning_time;
 mod position_reports;
 mod queue;
 mod relation_truth;

@@ -565,6 +565,9 @@ pub(super) struct PlanArgs {
     /// Tell why no plan has fewer steps: what every plan goes through, and what each goal takes alone
     #[arg(long, conflicts_with_all = ["check", "facts"])]
     pub why: bool,
+    /// What the plan has least of: steps, or, on the map's floor, the time to drive it
+    #[arg(long, value_enum, value_name = "METRIC", conflicts_with_all = ["any", "anytime", "plain", "why", "check", "facts", "without", "domain"])]
+    pub metric: Option<Metric>,
     /// With --anytime: end after so much effort, in millions of variables set by the solver and what takes as long
     #[arg(long, value_name = "MILLIONS", requires = "anytime")]
     pub effort: Option<u64>,
@@ -577,6 +580,15 @@ pub(super) struct PlanArgs {
     /// Give up when planning takes more memory than this, MiB; 1024 when left out
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<usize>,
+}
+
+/// What a plan has least of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Metric {
+    /// Parallel steps
+    Steps,
+    /// Seconds, by the map's floor: ways and turns, doors, lifts and their waits, what the hand does
+    Time,
 }
 
 fn parse_seconds(text: &str) -> Result<Duration, String> {

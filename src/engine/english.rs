@@ -63,6 +63,9 @@ impl RequestError {
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}",
                 called(name)
             ),
+            Self::Untimed { names } => format!(
+                "the map does not tell where this is: {names}; how long the way takes is unknown"
+            ),
             Self::NoCharger => "the map has no place to charge".to_owned(),
             Self::NoStart => "the map does not tell where the robot belongs".to_owned(),
             Self::NoLift => "there is no lift on this floor".to_owned(),
@@ -189,6 +192,9 @@ impl InEnglish for RequestError {
                 "to put something there, name a thing, a room or a place of the map"
             }
             Self::NotPutThere { .. } => "say onto or into what to put it, or in which room",
+            Self::Untimed { .. } => {
+                "name places and doors as the map knows them (ortho plan --facts), or leave out --metric time"
+            }
             Self::NoCharger => {
                 "a place to charge is a place or thing with “charger” in its name or type"
             }

@@ -280,6 +280,16 @@ pub enum RequestError {
     )]
     NotPutThere { name: String },
 
+    /// The time of a way is asked for, and the map does not tell where it leads.
+    #[error("карта не говорит, где это: {names}; сколько времени займёт путь, неизвестно")]
+    #[diagnostic(
+        code(plan::untimed),
+        help(
+            "назовите места и двери, как их знает карта (ortho plan --facts), или уберите --metric time"
+        )
+    )]
+    Untimed { names: String },
+
     /// A map that tells of no place where the robot charges.
     #[error("на карте нет места для зарядки")]
     #[diagnostic(

@@ -55,6 +55,11 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
     let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
+    let shown = |hundredths: u64| {
+        let seconds = hundredths as f64 / 100.0;
+        decimal(seconds, pick("с", "s"), wording.language)
+    };
+    let driven = solved.time.map(|time| (shown(time.takes), shown(time.at_least), time.is_least()));
     let proof = match is_proven {
         true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
         false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
@@ -67,10 +72,22 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
         ),
         _ => String::new(),
     };
-    let mut text = wording.language.pick(
-        format!("План: шагов {}, действий {actions}; {proof}{at_least}.", steps.len()),
-        format!("Plan: {}; {proof}{at_least}.", counted_in_english(steps.len(), actions)),
-    );
+    let russian = format!("План: шагов {}, действий {actions}", steps.len());
+    let english = format!("Plan: {}", counted_in_english(steps.len(), actions));
+    let mut text = match &driven {
+        None => wording.language.pick(
+            format!("{russian}; {proof}{at_least}."),
+            format!("{english}; {proof}{at_least}."),
+        ),
+        Some((takes, _, true)) => wording.language.pick(
+            format!("{russian}, {takes} в пути; быстрее нельзя, это доказано."),
+            format!("{english}, {takes} to drive; a quicker one is proven impossible."),
+        ),
+        Some((takes, least, false)) => wording.language.pick(
+            format!("{russian}, {takes} в пути; доказано, что быстрее {least} нельзя."),
+            format!("{english}, {takes} to drive; proven: none takes less than {least}."),
+        ),
+    };
     if let Some(wishes) = wishes {
         text = format!("{text}\n{wishes}");
     }
@@ -80,8 +97,8 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
             text.push_str(&format!("\n{label:>4} {action}"));
         }
     }
-    if let (Outcome::LimitReached(_), Some(known)) =
-        (&solved.outcome, solved.explanation_with(wording))
+    if let (Outcome::LimitReached(_), None, Some(known)) =
+        (&solved.outcome, &driven, solved.explanation_with(wording))
     {
         let head = pick("Это не ответ до конца: ", "This is no full answer: ");
         text.push_str(&format!("\n{head}{known}"));

@@ -1,10 +1,12 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
 use crate::graphplan::Limits;
-use crate::robot::{Replanned, Solved, Wanted, facts_of_map, solve, solve_without, state};
+use crate::robot::{
+    Clock, Replanned, Solved, Wanted, facts_of_map, solve, solve_quickest, solve_without, state,
+};
 use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
 
-use super::{Error, State};
+use super::{Error, RequestError, State};
 
 /// The types of things that the Map alone makes known.
 const OF_MAP: [&str; 2] = ["помещение", "дверь"];
@@ -58,6 +60,21 @@ impl State {
         wanted: Wanted,
     ) -> Result<PlanAnswer, Error> {
         plan_alone(self.supplemented(scenario)?, limits, wanted)
+    }
+
+    /// The plan for a scenario, supplemented with the map, that is driven in the least time on the map's floor.
+    ///
+    /// # Errors
+    /// There is no map, or it does not tell where something is that the scenario has the robot go to; all faults of the
+    /// scenario.
+    pub fn plan_quickest(&self, scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
+        let mut clock = Clock::new(self.world()?, self.relations()?, self.floors()?);
+        let Scenario { domain, problem, warnings, .. } = scenario;
+        let solved = solve_quickest(&domain, &problem, &mut clock, limits)?.map_err(|names| {
+            let names: Vec<String> = names.into_iter().collect();
+            RequestError::Untimed { names: names.join(", ") }
+        })?;
+        Ok(PlanAnswer { solved, warnings })
     }
 
     /// A scenario with the facts of the map that the engine holds, if it holds one.

@@ -51,6 +51,7 @@
 //! - *Fewest actions.* After the fewest steps are proven, a bound on the number (or cost) of actions sinks
 //!   until the solver refutes it or the given effort is used up; a plan found soon is made of fewer actions and then
 //!   of fewer steps piece by piece to a given effort, stays a plan throughout, and never gets more actions or dearer.
+//! - *Least cost*, whatever the steps: [`solve_cheapest`] (`graphplan/cheapest`), where what operators cost is time.
 //! - *Why a goal is out of reach* is found apart from planning, from the rules (`strips/lack`): what is told to
 //!   be missing holds in no relaxed future, and what is told to help was neither stated nor can be brought
 //!   about; what was withdrawn comes first. What is told is data (`Said`) until it is worded, by the phrases of
@@ -60,6 +61,7 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 
 mod bits;
+mod cheapest;
 mod extract;
 mod graph;
 mod mutex;
@@ -69,6 +71,7 @@ mod proof;
 
 use std::time::Instant;
 
+pub use cheapest::solve_cheapest;
 pub use extract::solve_plainly;
 pub use plan::{Flaw, Plan, validate};
 pub use portfolio::{bounded, milestones, solve_any, solve_anytime, solve_soon};

@@ -17,6 +17,8 @@ mod acts;
 mod aside;
 mod names;
 
+pub(super) use names::before_passage;
+
 use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::idle::without_idle;

@@ -38,6 +38,7 @@ mod seek;
 mod shortness;
 mod simulator;
 mod solve;
+mod timing;
 mod vehicle;
 mod wishes;
 
@@ -52,7 +53,10 @@ pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use shortness::Shortness;
 pub use simulator::Simulator;
 pub use simulator::senses::{Senses, SensingRobot};
-pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
+pub use solve::{
+    DrivenTime, Reason, Replanned, Solved, Wanted, solve, solve_quickest, solve_without,
+};
+pub use timing::Clock;
 pub use vehicle::{
     Address, Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
     RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,

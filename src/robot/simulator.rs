@@ -27,6 +27,7 @@ use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 use super::belief::frame_aboard;
 use super::eye::View;
 use super::placing::{rests, slides};
+use super::timing::{CALL_TIME, DOOR_TIME, GRASP_TIME, PUSH_TIME, SWITCH_TIME};
 use super::vehicle::{
     Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
 };
@@ -597,18 +598,8 @@ impl Vehicle for Simulator {
     }
 }
 
-/// Seconds to press a button.
-const SWITCH_TIME: f64 = 3.0;
-/// Seconds to call a person.
-const CALL_TIME: f64 = 2.0;
 /// How far a thing is told from others, cm.
 const SIGHT_RANGE: f64 = 1_000.0;
-/// Seconds to swing or lock a door.
-const DOOR_TIME: f64 = 4.0;
-/// Seconds that a push takes.
-const PUSH_TIME: f64 = 6.0;
-/// Seconds to take a thing or to let it go.
-const GRASP_TIME: f64 = 5.0;
 
 fn edges_of(polygon: &Polygon, of: Obstruction) -> impl Iterator<Item = Edge> + '_ {
     polygon.edges().map(move |(a, b)| Edge { a, b, of })

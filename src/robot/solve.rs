@@ -1,8 +1,11 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::directive::Directive;
+use super::timing::{Clock, Takes};
 use super::wishes::{self, Wishes};
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{
@@ -28,6 +31,23 @@ pub struct Solved {
     pub phrases: Arc<Phrases>,
     /// Which preferences the plan meets, where the problem has any.
     pub wishes: Option<Wishes>,
+    /// How long the plan takes, where it was planned for that.
+    pub time: Option<DrivenTime>,
+}
+
+/// How long a plan takes to be driven, in hundredths of a second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DrivenTime {
+    pub takes: u64,
+    /// Proven: no plan takes less.
+    pub at_least: u64,
+}
+
+impl DrivenTime {
+    #[must_use]
+    pub fn is_least(&self) -> bool {
+        self.takes <= self.at_least
+    }
 }
 
 /// Why there is no plan, or none was found.
@@ -38,6 +58,8 @@ pub enum Reason {
     Exclusive(Vec<(Said, Said)>),
     /// Goals that cannot all hold at once.
     Together(Vec<Said>),
+    /// By the rules there is a plan; for these of its actions the floor has no way, and without them there is none.
+    NoWay(Vec<Said>),
     /// The search was given up.
     Limit {
         limit: Limit,
@@ -80,6 +102,14 @@ impl Reason {
                 );
                 let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
                 head.to_owned() + &facts.join(language.pick(", ", ", that "))
+            }
+            Self::NoWay(actions) => {
+                let head = language.pick(
+                    "по правилам план есть, но на полу нет пути для действий: ",
+                    "by the rules there is a plan, but the floor has no way for the actions: ",
+                );
+                let actions: Vec<String> = actions.iter().map(|one| wording.action(one)).collect();
+                head.to_owned() + &actions.join(language.pick(", ", "; "))
             }
             Self::Limit { limit, at_least, at_most: None } => {
                 let ended = match limit {
@@ -219,6 +249,82 @@ pub(super) fn solve_goal(
         Err(limit) => (Task::default(), Outcome::LimitReached(limit.into())),
     };
     told(domain, problem, task, outcome, wanted, limits)
+}
+
+/// The plan that is driven in the least time, as the clock tells what each action takes, however many steps it has; of
+/// preferences those are met that can be in the shortest plan. What the floor has no way for is left out.
+///
+/// # Errors
+/// As [`solve`]; and, within, the names of which the map does not tell where they are.
+pub fn solve_quickest(
+    domain: &Domain,
+    problem: &Problem,
+    clock: &mut Clock<'_>,
+    limits: &Limits,
+) -> Result<Result<Solved, BTreeSet<String>>, RuleFaults> {
+    if problem.preferences().next().is_some() {
+        let chosen = wishes::solve(domain, problem, limits, Wanted::Shortest)?;
+        let Some(wishes) = &chosen.wishes else { return Ok(Ok(chosen)) };
+        let all: Vec<_> = problem.preferences().cloned().collect();
+        let kept = problem.with_preferences(|number| wishes.met.contains(&all[number]));
+        let quickest = solve_quickest(domain, &kept, clock, limits)?;
+        return Ok(quickest.map(|solved| Solved { wishes: chosen.wishes, ..solved }));
+    }
+    let mut task = match grounded(domain, problem, limits)? {
+        Ok(task) => task,
+        Err(limit) => {
+            let outcome = Outcome::LimitReached(limit.into());
+            return told(domain, problem, Task::default(), outcome, Wanted::Any, limits).map(Ok);
+        }
+    };
+    let (mut unknown, mut barred) = (BTreeSet::new(), vec![false; task.operators.len()]);
+    for id in task.operator_ids() {
+        let cost = match task.is_goal_step(id) {
+            true => 0,
+            false => match clock.takes(&Directive::of(domain, &task, task.operator(id))) {
+                Takes::Seconds(seconds) => (seconds * 100.0).round() as u32,
+                Takes::NoWay => {
+                    barred[id.index()] = true;
+                    0
+                }
+                Takes::Unknown(name) => {
+                    unknown.insert(name);
+                    0
+                }
+            },
+        };
+        task.operators[id.index()].cost = cost;
+    }
+    if !unknown.is_empty() {
+        return Ok(Err(unknown));
+    }
+    let by_rules = barred.contains(&true).then(|| task.clone());
+    let mut is_barred = barred.iter();
+    task.operators.retain(|_| !is_barred.next().is_some_and(|barred| *barred));
+    let (outcome, at_least) = graphplan::solve_cheapest(&task, limits);
+    if let (Outcome::NoPlan { .. }, Some(whole)) = (&outcome, by_rules)
+        && let Outcome::Plan(plan) = graphplan::solve_any(&whole, limits)
+    {
+        let barred = plan.operators().filter(|id| barred[id.index()]);
+        let actions = barred.map(|id| Said::from(whole.operator(id))).collect();
+        return Ok(Ok(Solved {
+            task,
+            outcome,
+            is_shortest: false,
+            at_least: 0,
+            assumptions: Vec::new(),
+            reason: Some(Reason::NoWay(actions)),
+            phrases: Arc::clone(domain.phrases()),
+            wishes: None,
+            time: None,
+        }));
+    }
+    let takes = outcome.plan().map(|plan| plan.cost(&task));
+    let mut solved = told(domain, problem, task, outcome, Wanted::Shortest, limits)?;
+    // Of its steps nothing is proven.
+    (solved.is_shortest, solved.at_least) = (false, 0);
+    solved.time = takes.map(|takes| DrivenTime { takes, at_least: at_least.min(takes) });
+    Ok(Ok(solved))
 }
 
 /// The shortest plan, or the best that the effort allows, with what was learned by planning before where that is sound, and what is learned now.
@@ -370,7 +476,17 @@ fn told(
     });
     let reason = explain(domain, problem, &task, &outcome, limits)?;
     let phrases = Arc::clone(domain.phrases());
-    Ok(Solved { task, outcome, is_shortest, at_least, assumptions, reason, phrases, wishes: None })
+    Ok(Solved {
+        task,
+        outcome,
+        is_shortest,
+        at_least,
+        assumptions,
+        reason,
+        phrases,
+        wishes: None,
+        time: None,
+    })
 }
 
 fn explain(

@@ -290,7 +290,7 @@ impl Symbols {
         }
     }
 
-    pub(super) fn area(&self, id: AreaId) -> &Arc<str> {
+    pub fn area(&self, id: AreaId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Area(id)))
     }
 

@@ -40,6 +40,8 @@ struct Rule<'a> {
     number: usize,
     schema: &'a Schema,
     kinds: Vec<KindSet>,
+    /// The fact that it is to give.
+    gives: usize,
 }
 
 /// An action that would give `gives`, were it not for what it misses.
@@ -169,7 +171,7 @@ impl<'a> Lacks<'a> {
                     continue;
                 };
                 let Some(kinds) = self.narrowed(schema, effect, &wanted) else { continue };
-                let rule = Rule { number, schema, kinds };
+                let rule = Rule { number, schema, kinds, gives: fact };
                 let open: Vec<usize> = (0..schema.preconditions.len()).collect();
                 let mut found = Vec::new();
                 self.complete(&rule, &binding, &open, Vec::new(), &mut found);
@@ -363,6 +365,9 @@ impl<'a> Lacks<'a> {
                 self.moving[atom.predicate.index()]
                     && atom.args.iter().any(|term| places.contains(&term))
             });
+            // A thing put back frees the hand that was to be free to take it.
+            let round = open.iter().map(|&at| self.wanted(of, &rule.preconditions[at], binding));
+            missing.extend(round.filter(|wanted| self.comes_round(wanted, of.gives)));
         } else {
             for &at in open {
                 let wanted = self.wanted(of, &rule.preconditions[at], binding);
@@ -378,6 +383,26 @@ impl<'a> Lacks<'a> {
             }
         }
         (!missing.is_empty()).then_some((missing, is_far_fetched))
+    }
+
+    /// Whether no object is known of which something holds, and every action that would bring it about for one needs `fact`
+    /// first.
+    fn comes_round(&self, wanted: &Wanted, fact: usize) -> bool {
+        let needed = &self.facts[fact];
+        if closed(needed).is_none() || needed.negated || self.holding(wanted).next().is_some() {
+            return false;
+        }
+        let schemas = self.domain.schemas.iter().enumerate();
+        let givers = schemas.flat_map(|(number, schema)| {
+            let adds = schema.add_effects.iter().filter(|add| add.predicate == wanted.predicate);
+            let bindings = adds.filter_map(move |add| self.bound(number, &add.args, &wanted.args));
+            bindings.map(move |binding| (schema, binding))
+        });
+        let mut needs_it = givers.map(|(schema, binding)| {
+            let mut needs = schema.preconditions.iter().map(|atom| self.under(atom, &binding));
+            needs.any(|need| need.predicate == needed.predicate && need.args == needed.args)
+        });
+        needs_it.next().is_some_and(|first| first && needs_it.all(|needs| needs))
     }
 
     fn under(&self, atom: &SchemaAtom, binding: &Binding) -> Wanted {

@@ -35,6 +35,25 @@ fn plans_and_explanations_are_english_where_english_is_asked_for() {
     assert!(json["explanation"].as_str().unwrap().contains("РОБОТ-ДЕРЖИТ_("), "{json}");
 }
 
+/// The time that a plan is told to take is that of the drive, but for where the robot turns to at first.
+#[test]
+fn the_quickest_plan_takes_as_long_as_its_drive() {
+    let place = Place::empty();
+    let walk = scenario("medicine-walk");
+    let json = place.json(&["plan", "--metric", "time", &walk], 0);
+    assert_eq!((&json["quickest"], &json["outcome"]), (&json!(true), &json!("plan")), "{json}");
+    let told = json["seconds"].as_f64().unwrap();
+    assert_eq!(json["at_least_seconds"].as_f64(), Some(told), "{json}");
+    let driven = place.run(&["do", "--json", "--scenario", &walk]).is(0).out;
+    let end: Value = serde_json::from_str(driven.lines().last().unwrap()).unwrap();
+    let driven = end["seconds"].as_f64().unwrap();
+    assert!((told - driven).abs() < 0.15 * driven, "{told} told, {driven} driven");
+    let words = place.run(&["--lang", "en", "plan", "--metric", "time", &walk]).is(0).out;
+    assert!(words.contains("a quicker one is proven impossible"), "{words}");
+    // Without a map there is no time.
+    place.run(&["plan", "--metric", "time", &scenario("another-floor")]).is(2);
+}
+
 /// What a task assumes is told in the map's English names, and why it cannot be done as well.
 #[test]
 fn a_task_tells_its_assumptions_in_english() {

@@ -56,6 +56,12 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
         "explanation": solved.explanation(Language::Russian),
         "explanation_en": solved.explanation_with(&english),
     });
+    if let Some(time) = solved.time {
+        let seconds = |hundredths: u64| hundredths as f64 / 100.0;
+        view["seconds"] = json!(seconds(time.takes));
+        view["at_least_seconds"] = json!(seconds(time.at_least));
+        view["quickest"] = json!(time.is_least());
+    }
     if let Some(wishes) = &solved.wishes {
         let told = |all: &[Preference]| -> Vec<Value> {
             let weight = |thousandths: u64| thousandths as f64 / 1000.0;
@@ -94,7 +100,7 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
             view["at_least_steps"] = json!(known.at_least);
             view["at_most_steps"] = json!(known.plan.as_ref().map(|plan| plan.steps.len()));
         }
-        Outcome::Plan(_) if !solved.is_shortest => {
+        Outcome::Plan(_) if !solved.is_shortest && solved.time.is_none() => {
             view["at_least_steps"] = json!(solved.at_least);
         }
         Outcome::Plan(_) => {}

@@ -8,7 +8,7 @@ mod landmarks;
 mod novelty;
 pub(crate) mod parallel;
 mod piece;
-mod relaxed;
+pub(crate) mod relaxed;
 mod shorten;
 
 pub use anytime::{solve_anytime, solve_soon};

@@ -5,7 +5,7 @@
 //! answers the same question, and its tests hold it against that and against breadth-first search.
 
 mod counting;
-mod cuts;
+pub(crate) mod cuts;
 mod detours;
 pub(crate) mod errands;
 mod extract;

@@ -1,12 +1,27 @@
 //! What the names in directives mean to a mission: where to go, which door, what thing.
 
 use crate::belief::{Spot, Station};
-use crate::geometry::Target;
-use crate::map::Entity;
+use crate::geometry::{FloorPlan, Target};
+use crate::map::{Entity, World};
+use crate::semantics::Join;
 use crate::semantics::planning::PlaceSource;
 use crate::units::{AreaId, DoorId, ReplicaId};
 
 use super::{Mission, Surprise};
+
+/// Where the robot stands at a passage that has no leaf, on the side of an Area.
+pub(crate) fn before_passage(
+    world: &World,
+    floor: &FloorPlan,
+    join: &Join,
+    side: AreaId,
+) -> Option<Target> {
+    /// How far before it, in radii of the robot.
+    const BEFORE: f64 = 1.2;
+    let doorway = floor.doorways().iter().find(|doorway| Some(doorway.id) == join.id)?;
+    let before = world.robot.radius.get() * BEFORE;
+    Some(Target::Point(doorway.before(doorway.index_of(side)?, before)))
+}
 
 impl Mission<'_> {
     pub(crate) fn name_this_point(&mut self) {
@@ -41,19 +56,14 @@ impl Mission<'_> {
         from: AreaId,
         side: AreaId,
     ) -> Result<Target, Surprise> {
-        /// How far before a passage one stands that has no leaf, in radii of the robot.
-        const BEFORE: f64 = 1.2;
         if let Some(door) = self.opening(name)? {
             return Ok(Target::Door { door, area: side });
         }
         let unknown = || Surprise::Unknown { name: name.to_owned() };
         let join = self.joins.iter().find(|j| j.opening == name && j.from == from);
-        let passage = join.and_then(|join| join.id);
-        let mut doorways = self.belief.floor().doorways().iter();
-        let doorway = doorways.find(|d| Some(d.id) == passage).ok_or_else(unknown)?;
-        let before = self.belief.world.robot.radius.get() * BEFORE;
-        let side = doorway.index_of(side).ok_or_else(unknown)?;
-        Ok(Target::Point(doorway.before(side, before)))
+        let before = join
+            .and_then(|join| before_passage(&self.belief.world, self.belief.floor(), join, side));
+        before.ok_or_else(unknown)
     }
 
     /// The door of this name; none where it is a passage that has no name of its own on the Map.
