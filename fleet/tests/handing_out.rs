@@ -318,7 +318,9 @@ async fn a_running_console_takes_the_map_of_the_centre() {
     assert!(told.contains("подождёт"), "{told}");
     drop(held);
     // What the robot changed itself while it is held is not merged.
-    edit(&store, |world| drop(move_thing(world, &names[1], -5.0)));
+    edit(&store, |world| {
+        move_thing(world, &names[1], -5.0);
+    });
     let mine = world_of(&store);
     let _console = Console::start(&program, &store);
     let pulled = line.pull(&store).expect("answers");

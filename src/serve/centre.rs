@@ -19,6 +19,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::engine::{change_now, json as views};
+use crate::store::Sheet;
+use crate::store::shipping::unpack_rows;
 
 use super::act::{self, Answer};
 use super::fault::Fault;
@@ -93,6 +95,17 @@ struct Handed {
     reason: String,
 }
 
+/// The records of a map; none when the bytes are anything else.
+fn sheet_of(rows: &[u8]) -> Option<Sheet> {
+    let mut sheet = Sheet::default();
+    for (table, row) in unpack_rows(rows)? {
+        sheet.add(table, row).ok()?;
+    }
+    // What refers to nothing is no map.
+    let is_map = sheet.world().ok()?.is_some();
+    is_map.then_some(sheet)
+}
+
 /// Takes the map.
 pub(super) async fn take(
     Of(house): Of<Arc<House>>,
@@ -113,7 +126,7 @@ pub(super) async fn take(
     let end = body.iter().position(|byte| *byte == b'\n').ok_or_else(unread)?;
     let Handed { on, author, reason } =
         serde_json::from_slice(&body[..end]).map_err(|_not_told| unread())?;
-    if house.tasks.book().running.is_some() {
+    if house.tasks.book().is_busy() {
         return Err(Fault::new(
             StatusCode::CONFLICT,
             "serve::driving",
@@ -121,9 +134,9 @@ pub(super) async fn take(
             "The robot drives; it takes the centre's map when it is done.",
         ));
     }
-    let rows = body.slice(end + 1..);
+    let sheet = sheet_of(&body[end + 1..]).ok_or_else(unread)?;
     let taken = act::write(&house, on, move |engine| {
-        let report = engine.take_rows(&rows, &change_now(&author, &reason))?;
+        let report = engine.take_sheet(&sheet, &change_now(&author, &reason))?;
         Ok(views::changed("taken", &report))
     });
     let taken = taken.await?;
