@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use orthoframe_corridor::{CorridorError, CorridorSystem, Variant, directions};
+use orthoframe_corridor::{CorridorError, CorridorSystem, Shape, Variant, directions};
 use orthoframe_geometry::{Openings, STEP_REACH};
 use orthoframe_map::{
     Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, Profile,
@@ -206,6 +206,7 @@ fn outline(corners: &[(i32, i32)], doors: &[usize], turned: f64) -> String {
         &builder.world,
         &Openings::of(&builder.world, STEP_REACH),
         MapId(1),
+        &Shape::default(),
     )
     .unwrap();
     system.check_invariants();
@@ -270,7 +271,9 @@ fn corridors_that_touch_without_a_door_stay_apart_and_floors_too() {
     builder.room("Б", (300, 400), 1, 10);
     let mut world = builder.world;
     let route = |world: &World| {
-        let system = CorridorSystem::from_world(world, &Openings::of(world, STEP_REACH)).unwrap();
+        let system =
+            CorridorSystem::from_world(world, &Openings::of(world, STEP_REACH), &Shape::default())
+                .unwrap();
         directions(&system, "А", None, "Б", Variant::Single)
     };
     assert!(matches!(route(&world), Err(CorridorError::Unreachable { .. })));
@@ -287,7 +290,12 @@ fn corridors_that_touch_without_a_door_stay_apart_and_floors_too() {
     let help = miette::Diagnostic::help(&error).unwrap().to_string();
     assert_eq!(help, "«А» – на «Этаж 1», «Б» – на «Этаж 2»: нужен лифт");
     assert!(matches!(
-        CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), MapId(7)),
+        CorridorSystem::from_map(
+            &world,
+            &Openings::of(&world, STEP_REACH),
+            MapId(7),
+            &Shape::default()
+        ),
         Err(CorridorError::UnknownMap { map: 7 })
     ));
 }

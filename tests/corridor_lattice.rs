@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
 use orthoframe_corridor::{
-    Command, CorridorSystem, DoubleGraph, JunctionKind, Position, Side, SingleGraph, Turn, VertexIx,
+    Command, CorridorSystem, DoubleGraph, JunctionKind, Position, Shape, Side, SingleGraph, Turn,
+    VertexIx,
 };
 use orthoframe_geometry::{Openings, STEP_REACH};
 use orthoframe_map::{Permeability, World};
@@ -412,7 +413,8 @@ proptest! {
         apart in any::<bool>(),
     ) {
         let world = as_world(&lattice, turned, wall, apart);
-        let Ok(system) = CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), MapId(1)) else {
+        let openings = Openings::of(&world, STEP_REACH);
+        let Ok(system) = CorridorSystem::from_map(&world, &openings, MapId(1), &Shape::default()) else {
             prop_assert!(lattice.edges.is_empty());
             return Ok(());
         };

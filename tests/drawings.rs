@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
 use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
-use orthoframe_corridor::{CorridorSystem, Variant, figure};
+use orthoframe_corridor::{CorridorSystem, Shape, Variant, figure};
 use orthoframe_draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
     text_width,
@@ -510,9 +510,12 @@ fn road_graphs_can_be_read() {
     let mut count = 0;
     for (name, world) in worlds {
         for &map in world.maps.keys() {
-            let Ok(system) =
-                CorridorSystem::from_map(&world, &Openings::of(&world, STEP_REACH), map)
-            else {
+            let Ok(system) = CorridorSystem::from_map(
+                &world,
+                &Openings::of(&world, STEP_REACH),
+                map,
+                &Shape::default(),
+            ) else {
                 continue;
             };
             for variant in [Variant::Single, Variant::Double] {

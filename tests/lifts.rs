@@ -245,3 +245,21 @@ fn what_would_open_a_way_is_said() {
     let text = advice.in_words(engine.world().unwrap(), Language::English);
     assert!(text.contains(" cm away from "), "{text}");
 }
+
+/// What the robot does not climb on is in its way by its underside, however low that and the robot are.
+#[test]
+fn what_hangs_is_told_to_hang_to_a_low_robot_too() {
+    for (height, low) in [(120.0, 70.0), (120.0, 15.0), (9.0, 5.0)] {
+        let mut b = Builder::new();
+        let hall = b.area("Зал", &rectangle(400.0, 300.0), Frame::IDENTITY, &[]);
+        let object = b.object(&[(&rectangle(40.0, 300.0), 0.0, 100.0)]);
+        b.place_object(hall, object, Frame::new(180.0, 0.0, low, Deg::ZERO));
+        b.world.robot.height = Cm::of(height);
+        let engine = Engine::in_memory(b.world, None).expect("built-in rules");
+        let journey =
+            engine.journey("50,150", "350,150", Method::Shortest).expect("points of the hall");
+        let why = journey.legs[0].route.as_ref().expect_err("it is shut off");
+        let told = no_way_in_words(engine.world().unwrap(), why, Language::English);
+        assert!(told.contains(&format!("its underside at {low} cm")), "{told}");
+    }
+}

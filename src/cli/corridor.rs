@@ -123,19 +123,12 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
         (None, Some(map)) if Path::new(map).is_file() => {
             let (world, _) = check_map(Path::new(map))?;
             let engine = Engine::in_memory(world, commands::rules_dir(common).as_deref())?;
-            let openings = engine.relations()?.openings();
-            CorridorSystem::from_world(engine.world()?, openings).map_err(Error::from)?
+            engine.corridors(None)?
         }
         (None, map) => {
             let engine = commands::open(common)?;
-            let (world, openings) = (engine.world()?, engine.relations()?.openings());
-            let system = match map {
-                Some(map) => {
-                    CorridorSystem::from_map(world, openings, engine.map_named(Some(map))?)
-                }
-                None => CorridorSystem::from_world(world, openings),
-            };
-            system.map_err(Error::from)?
+            let map = map.as_ref().map(|map| engine.map_named(Some(map))).transpose()?;
+            engine.corridors(map)?
         }
     };
     if args.metres {

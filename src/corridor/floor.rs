@@ -7,16 +7,11 @@ use crate::map::World;
 use crate::units::{Cm, Deg, MapId, Point};
 
 use super::CorridorError;
-use super::lanes::{Lanes, find, unite};
+use super::lanes::{Lanes, Shape, find, unite};
 use super::plan::{Doorstep, Plan};
 use super::system::{
     CorridorSystem, Entrance, Junction, Port, Side, Stretch, Vertex, VertexIx, VertexKind,
 };
-
-/// Two lanes that meet at no more than this angle are one corridor with a bend.
-const BEND: f64 = 30.0;
-/// An arm goes on between walls for at least this long beyond its junction, in cm.
-const ARM: f64 = 80.0;
 
 impl CorridorSystem {
     /// The corridors of one Map.
@@ -25,9 +20,14 @@ impl CorridorSystem {
     ///
     /// # Errors
     /// [`CorridorError::UnknownMap`], [`CorridorError::NoCorridors`].
-    pub fn from_map(world: &World, openings: &Openings, map: MapId) -> Result<Self, CorridorError> {
+    pub fn from_map(
+        world: &World,
+        openings: &Openings,
+        map: MapId,
+        shape: &Shape,
+    ) -> Result<Self, CorridorError> {
         let found = world.maps.get(&map).ok_or(CorridorError::UnknownMap { map: map.0 })?;
-        let mut system = Self::from_maps(world, openings, &[map], &found.name)?;
+        let mut system = Self::from_maps(world, openings, &[map], shape, &found.name)?;
         system.name_en.clone_from(&found.name_en);
         Ok(system)
     }
@@ -36,9 +36,13 @@ impl CorridorSystem {
     ///
     /// # Errors
     /// [`CorridorError::NoCorridors`].
-    pub fn from_world(world: &World, openings: &Openings) -> Result<Self, CorridorError> {
+    pub fn from_world(
+        world: &World,
+        openings: &Openings,
+        shape: &Shape,
+    ) -> Result<Self, CorridorError> {
         let maps: Vec<MapId> = world.maps.keys().copied().collect();
-        let mut system = Self::from_maps(world, openings, &maps, &world.domain.name)?;
+        let mut system = Self::from_maps(world, openings, &maps, shape, &world.domain.name)?;
         system.name_en.clone_from(&world.domain.name_en);
         Ok(system)
     }
@@ -47,14 +51,18 @@ impl CorridorSystem {
         world: &World,
         openings: &Openings,
         maps: &[MapId],
+        shape: &Shape,
         name: &str,
     ) -> Result<Self, CorridorError> {
         let mut parts = Parts::default();
         for map in maps {
             let plan = Plan::of(world, openings, *map);
             parts.floor.clone_from(&world.maps[map].name);
-            let mut floors: Vec<Floor> =
-                plan.shapes.iter().map(|shape| Floor::new(Lanes::of(shape))).collect();
+            let mut floors: Vec<Floor> = plan
+                .shapes
+                .iter()
+                .map(|floor| Floor::new(Lanes::of(floor, shape), *shape))
+                .collect();
             for entrance in &plan.entrances {
                 attach(&mut floors, entrance);
             }
@@ -130,6 +138,7 @@ struct Door {
 /// One connected shape of floor: its lanes cut at the nodes where they meet.
 #[derive(Debug)]
 struct Floor {
+    shape: Shape,
     lanes: Lanes,
     nodes: Vec<Point>,
     segments: Vec<Segment>,
@@ -138,9 +147,9 @@ struct Floor {
 }
 
 impl Floor {
-    fn new(lanes: Lanes) -> Self {
+    fn new(lanes: Lanes, shape: Shape) -> Self {
         let (nodes, stops) = nodes_of(&lanes);
-        let mut floor = Self { lanes, nodes, segments: Vec::new(), stops };
+        let mut floor = Self { shape, lanes, nodes, segments: Vec::new(), stops };
         for lane in 0..floor.lanes.lanes.len() {
             floor.cut(lane);
         }
@@ -159,7 +168,7 @@ impl Floor {
         };
         match (stops.first(), stops.last()) {
             (Some(&(first, a)), Some(&(last, b))) => {
-                if walled(lane.reach[0], first - half_width(a)) > ARM {
+                if walled(lane.reach[0], first - half_width(a)) > self.shape.arm {
                     add([lane.reach[0], first], [None, Some(a)]);
                 }
                 for pair in stops.windows(2) {
@@ -168,7 +177,7 @@ impl Floor {
                         add([low, high], [Some(a), Some(b)]);
                     }
                 }
-                if walled(last + half_width(b), lane.reach[1]) > ARM {
+                if walled(last + half_width(b), lane.reach[1]) > self.shape.arm {
                     add([last, lane.reach[1]], [Some(b), None]);
                 }
             }
@@ -491,7 +500,7 @@ fn settle_doors(segment: &mut Segment) {
 /// Whether a node is no junction: nothing, an end, or a mere bend.
 fn goes_through(floor: &Floor, ends: &[(usize, usize)]) -> bool {
     match *ends {
-        [a, b] => (floor.leaving(a) - floor.leaving(b)).signed().abs() >= 180.0 - BEND,
+        [a, b] => (floor.leaving(a) - floor.leaving(b)).signed().abs() >= 180.0 - floor.shape.bend,
         ref others => others.len() < 2,
     }
 }

@@ -46,16 +46,49 @@ pub(super) struct Lanes {
     pub(super) meetings: Vec<Meeting>,
 }
 
-/// Facing walls may converge by this sine (5.7°).
-const PARALLEL: f64 = 0.1;
-/// The shortest corridor, in cm; a niche is no corridor.
-const SHORTEST: f64 = 120.0;
-/// A corridor is at least this many times as long as wide.
-const SLENDER: f64 = 0.7;
-/// So much of a corridor has walls on both sides; the rest are mouths of branches.
-const COVERED: f64 = 0.35;
-/// Facing walls that are shorter than this share of their distance are the ends of something long.
-const STUB: f64 = 0.25;
+/// What makes a corridor and its arms: a table of numbers that whoever looks for corridors gives.
+///
+/// # Units
+/// Lengths in cm, angles in degrees, shares of one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shape {
+    /// Facing walls converge by no more.
+    pub parallel: f64,
+    /// The shortest corridor; a niche is none.
+    pub shortest: f64,
+    /// A corridor is at least this many times as long as wide.
+    pub slender: f64,
+    /// So much of a corridor has walls on both sides; the rest are mouths of branches.
+    pub covered: f64,
+    /// Facing walls that are shorter than this share of their distance are the ends of something long.
+    pub stub: f64,
+    /// Two lanes that meet at no more than this angle are one corridor with a bend.
+    pub bend: f64,
+    /// An arm goes on between walls for more than this beyond its junction.
+    pub arm: f64,
+}
+
+impl Default for Shape {
+    /// Where no rules say it.
+    fn default() -> Self {
+        Self {
+            parallel: 5.74,
+            shortest: 120.0,
+            slender: 0.7,
+            covered: 0.35,
+            stub: 0.25,
+            bend: 30.0,
+            arm: 80.0,
+        }
+    }
+}
+
+impl Shape {
+    /// Whether a direction turns from another by no more than facing walls do, given the sine of the angle between.
+    fn is_parallel(&self, sine: f64) -> bool {
+        sine.abs() <= self.parallel.to_radians().sin()
+    }
+}
 
 impl Lane {
     pub(super) fn at(&self, t: f64) -> Point {
@@ -75,10 +108,10 @@ impl Lane {
 
 impl Lanes {
     /// The lanes of one shape: its contours, the outer one counter-clockwise, holes clockwise.
-    pub(super) fn of(contours: &[Vec<Point>]) -> Self {
+    pub(super) fn of(contours: &[Vec<Point>], shape: &Shape) -> Self {
         let walls: Vec<Wall> = contours.iter().flat_map(|c| walls_of(c)).collect();
-        let pieces = pieces(&walls);
-        let mut lanes = join_pieces(&pieces, &walls);
+        let pieces = pieces(&walls, shape);
+        let mut lanes = join_pieces(&pieces, &walls, shape);
         if lanes.is_empty() {
             lanes.extend(stoutest(&pieces, &walls));
         }
@@ -211,7 +244,7 @@ impl Piece {
 }
 
 /// Every wall looks across: between neighbouring projections of corners it sees one wall.
-fn pieces(walls: &[Wall]) -> Vec<Piece> {
+fn pieces(walls: &[Wall], shape: &Shape) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     for wall in walls {
         let length = (wall.b - wall.a).norm();
@@ -231,7 +264,7 @@ fn pieces(walls: &[Wall]) -> Vec<Piece> {
                 continue;
             };
             let facing = walls[other].b - walls[other].a;
-            if facing.dot(&dir) >= 0.0 || facing.perp(&dir).abs() > PARALLEL * facing.norm() {
+            if facing.dot(&dir) >= 0.0 || !shape.is_parallel(facing.perp(&dir) / facing.norm()) {
                 continue;
             }
             let across = |t: f64| wall.a + dir * t + inward * (width / 2.0);
@@ -247,18 +280,18 @@ fn pieces(walls: &[Wall]) -> Vec<Piece> {
                 }
             }
         }
-        let broad = |p: &Piece| p.length() >= STUB * p.width;
+        let broad = |p: &Piece| p.length() >= shape.stub * p.width;
         pieces.extend(seen.into_iter().map(|(_, piece)| piece).filter(broad));
     }
     pieces
 }
 
 /// Pieces in one line become one lane; what is wider than long, or runs across a lane, is none.
-fn join_pieces(pieces: &[Piece], walls: &[Wall]) -> Vec<Lane> {
+fn join_pieces(pieces: &[Piece], walls: &[Wall], shape: &Shape) -> Vec<Lane> {
     let mut group: Vec<usize> = (0..pieces.len()).collect();
     for a in 0..pieces.len() {
         for b in a + 1..pieces.len() {
-            if find(&group, a) != find(&group, b) && in_line(&pieces[a], &pieces[b], walls) {
+            if find(&group, a) != find(&group, b) && in_line(&pieces[a], &pieces[b], walls, shape) {
                 unite(&mut group, a, b);
             }
         }
@@ -269,8 +302,8 @@ fn join_pieces(pieces: &[Piece], walls: &[Wall]) -> Vec<Lane> {
             let members = (0..pieces.len()).filter(|&i| find(&group, i) == root);
             lane_of(&members.map(|i| pieces[i]).collect::<Vec<_>>())
         })
-        .filter_map(|(lane, covered)| (covered >= COVERED * lane.length()).then_some(lane))
-        .filter(|lane| lane.length() >= SHORTEST.max(SLENDER * lane.width))
+        .filter_map(|(lane, covered)| (covered >= shape.covered * lane.length()).then_some(lane))
+        .filter(|lane| lane.length() >= shape.shortest.max(shape.slender * lane.width))
         .collect();
     lanes.sort_by(|a, b| (b.length() / b.width).total_cmp(&(a.length() / a.width)));
     let mut kept: Vec<Lane> = Vec::new();
@@ -307,10 +340,10 @@ fn lane_of(members: &[Piece]) -> (Lane, f64) {
     (lane, covered)
 }
 
-fn in_line(a: &Piece, b: &Piece, walls: &[Wall]) -> bool {
+fn in_line(a: &Piece, b: &Piece, walls: &[Wall], shape: &Shape) -> bool {
     let dir = a.dir();
     let ratio = a.width / b.width;
-    if dir.perp(&b.dir()).abs() > PARALLEL || !(0.6..1.67).contains(&ratio) {
+    if !shape.is_parallel(dir.perp(&b.dir())) || !(0.6..1.67).contains(&ratio) {
         return false;
     }
     let offset = |p: Point| dir.perp(&(p - a.a)).abs();

@@ -48,6 +48,7 @@ pub use double::{Bearing, DoubleArc, DoubleArcKind, DoubleGraph};
 pub use error::CorridorError;
 pub use fault::{CorridorFault, CorridorFileError};
 pub use figure::{Figure, FigureArc, FigureVertex, figure};
+pub use lanes::Shape;
 pub use schema::Place;
 pub use single::{SingleArc, SingleGraph, TurnRow};
 pub use system::{

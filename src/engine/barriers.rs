@@ -223,10 +223,8 @@ fn shut(name: &Named, locked: bool) -> &'static str {
 /// How high above the floor the part of a thing hangs that is in the robot's way, and how tall the robot is; none for
 /// what the robot would meet with its wheels.
 fn overhang(world: &World, replica: ReplicaId, item: usize) -> Option<(f64, f64)> {
-    /// Lower things are met, not passed under, by any robot.
-    const HANGS: f64 = 20.0;
     let model = world.replicas.get(&replica)?;
     let part = world.objects[&model.object].items.get(item)?;
     let low = model.frame.z.get() + part.frame.z.get();
-    (low > HANGS.max(world.robot.step.get())).then(|| (low, world.robot.height.get()))
+    (low > world.robot.step.get()).then(|| (low, world.robot.height.get()))
 }

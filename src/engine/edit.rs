@@ -10,7 +10,7 @@ use crate::map::{
     self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, World,
 };
 use crate::semantics::load;
-use crate::store::{self, Change, Difference, ImportReport, Store};
+use crate::store::{self, Change, Changes, Difference, ImportReport, Store};
 use crate::units::{DoorId, ReplicaId, Source, Timestamp};
 
 use super::known::{Floors, Known};
@@ -153,12 +153,13 @@ impl Engine {
         let known = self.surveyed.as_ref().map(|known| Arc::clone(&known.world));
         let had_map = known.is_some();
         let before = known.unwrap_or_else(|| Arc::new(World::empty()));
-        let differences = store::compare(&before, &after)?;
+        let changes = Changes::between(&before, &after)?;
+        let differences = changes.told();
         if mode == Mode::DryRun {
             return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
         }
         let report = match &mut self.store {
-            Some(store) if had_map => Some(store.commit_change(&before, &after, change)?),
+            Some(store) if had_map => Some(store.commit_changes(&changes, change)?),
             // What a map has in common with the empty one is new to the store all the same.
             Some(store) => Some(store.commit(&after, change)?),
             None => None,
@@ -326,6 +327,7 @@ impl Known {
             return true;
         }
         let Some(now) = now else { return false };
+        let now = (!leads_as_before).then_some(&**now);
         floors.all(|floor| floor.follow_building(&of, after, now))
     }
 }

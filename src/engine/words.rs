@@ -1,9 +1,10 @@
 //! A way in words: rooms, doors and turns, and through corridors the instructions of the road graph (SPEC C4).
 
-use crate::corridor::{CorridorSystem, Variant, directions};
+use crate::corridor::{CorridorSystem, Shape, Variant, directions};
 use crate::language::Language;
 use crate::language::report::Detail;
-use crate::units::{AreaId, Deg};
+use crate::semantics::Thresholds;
+use crate::units::{AreaId, Deg, MapId};
 
 use super::known::Known;
 use super::route::RouteAnswer;
@@ -25,9 +26,40 @@ impl State {
     ) -> Result<Vec<String>, Error> {
         self.around()?.route_in_words(answer, heading, language, detail)
     }
+
+    /// The corridors of a Map, without one of all: what makes one is told by the rules.
+    ///
+    /// # Errors
+    /// There is no map, or none of its floors is a corridor's.
+    pub fn corridors(&self, map: Option<MapId>) -> Result<CorridorSystem, Error> {
+        self.surveyed()?.corridors(map)
+    }
+}
+
+/// What makes a corridor.
+fn corridor_shape(told: &Thresholds) -> Shape {
+    Shape {
+        parallel: told.corridor_parallel,
+        shortest: told.corridor_shortest,
+        slender: told.corridor_slender,
+        covered: told.corridor_covered,
+        stub: told.corridor_stub,
+        bend: told.corridor_bend,
+        arm: told.corridor_arm,
+    }
 }
 
 impl Known {
+    /// As [`State::corridors`].
+    fn corridors(&self, map: Option<MapId>) -> Result<CorridorSystem, Error> {
+        let (world, relations) = (self.world(), self.relations()?);
+        let (openings, shape) = (relations.openings(), corridor_shape(relations.thresholds()));
+        Ok(match map {
+            Some(map) => CorridorSystem::from_map(world, openings, map, &shape)?,
+            None => CorridorSystem::from_world(world, openings, &shape)?,
+        })
+    }
+
     /// As [`State::route_in_words`].
     pub(super) fn route_in_words(
         &self,
@@ -42,8 +74,7 @@ impl Known {
             return Ok(way.say_in(language, detail));
         }
         // A map without corridors, or with ones that the road graph cannot read, is told room by room.
-        let corridors =
-            CorridorSystem::from_map(world, self.relations()?.openings(), answer.map).ok();
+        let corridors = self.corridors(Some(answer.map)).ok();
         let is_corridor = |area: AreaId| world.area_has_trait(area, "corridor");
         let mut sentences = Vec::new();
         let mut at = 0;
@@ -67,5 +98,15 @@ impl Known {
             at += 1;
         }
         Ok(sentences)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_no_rules_say_it_a_corridor_is_what_the_standard_text_says() {
+        assert_eq!(corridor_shape(&Thresholds::default()), Shape::default());
     }
 }

@@ -14,6 +14,7 @@ use crate::units::{AreaId, DoorId, ObjectId, OrFrId, ReplicaId};
 
 use super::Bounds;
 use super::buckets::Buckets;
+use super::floor::FragmentFloor;
 use super::opening::Opening;
 use super::openings::Openings;
 use super::plan::{Doorways, FloorPlan};
@@ -39,15 +40,24 @@ impl Touched {
 }
 
 impl FloorPlan {
-    /// Follows a world to an edited one, with the openings of that as the rules let them join; `false` where a new floor is to
-    /// be built: the Map is not on both, the robot is another, or it has a footprint. Nothing is changed then.
-    pub fn follow_building(&mut self, before: &World, after: &World, openings: &Openings) -> bool {
+    /// Follows a world to an edited one, with the openings of that as the rules let them join, none where they are as they
+    /// were; `false` where a new floor is to be built: the Map is not on both, the robot is another, or it has a footprint.
+    /// Nothing is changed then.
+    pub fn follow_building(
+        &mut self,
+        before: &World,
+        after: &World,
+        openings: Option<&Openings>,
+    ) -> bool {
         let is_known = before.maps.contains_key(&self.map) && after.maps.contains_key(&self.map);
         if !is_known || before.robot != after.robot || !self.robot.footprint.is_empty() {
             return false;
         }
         let touched = self.differing(before, after);
-        let doorways = Doorways::of(openings, self.map);
+        let doorways = match openings {
+            Some(openings) => Arc::new(Doorways::of(openings, self.map)),
+            None => Arc::clone(&self.doorways),
+        };
         let frame_of = |area: &AreaId| match touched.rebuilt.get(area) {
             Some(area) => Some(area.frame),
             None if touched.gone.contains(area) => None,
@@ -59,19 +69,19 @@ impl FloorPlan {
         let were = touched.replicas.iter().filter_map(|id| self.scene.replicas.get(id));
         boxes.extend(were.map(|replica| replica.reach().grown(0.2)));
 
-        let changed = |own: &Doorways, other: &Doorways| -> Vec<bool> {
-            let is_other = |doorway: &Opening| {
-                let same = other.find(doorway).map(|n| &other.ways[n]);
-                same.is_none_or(|same| {
-                    !std::ptr::eq(&**same, doorway) && !same.is_shaped_as(doorway)
-                }) || doorway.door.is_some_and(|door| touched.doors.contains(&door))
+        let places = self.doorways.places_in(&doorways);
+        let changed = |own: &Doorways, other: &Doorways, places: &[Option<usize>]| -> Vec<bool> {
+            let is_other = |doorway: &Arc<Opening>, place: Option<usize>| {
+                let same = place.map(|n| &other.ways[n]);
+                same.is_none_or(|same| !Arc::ptr_eq(same, doorway) && !same.is_shaped_as(doorway))
+                    || doorway.door.is_some_and(|door| touched.doors.contains(&door))
             };
-            own.ways.iter().map(|doorway| is_other(doorway)).collect()
+            own.ways.iter().zip(places).map(|(doorway, place)| is_other(doorway, *place)).collect()
         };
         let mut stale: BTreeSet<AreaId> = self.near(&boxes).into_iter().collect();
-        let olds = changed(&self.doorways, &doorways);
+        let olds = changed(&self.doorways, &doorways, &places);
         stale.extend(self.told_by(&touched, &olds));
-        let (news, places) = (changed(&doorways, &self.doorways), self.places_in(&doorways));
+        let news = changed(&doorways, &self.doorways, &doorways.places_in(&self.doorways));
         let is_laid_out_alike = touched.rebuilt.is_empty()
             && touched.gone.is_empty()
             && !olds.into_iter().chain(news.iter().copied()).any(|is_changed| is_changed);
@@ -92,7 +102,7 @@ impl FloorPlan {
         }
         stale.extend(touched.rebuilt.keys());
         scene.areas.extend(touched.rebuilt.iter().map(|(id, area)| (*id, area.clone())));
-        self.doorways = Arc::new(doorways);
+        self.doorways = doorways;
         stale.extend(self.told_by(&touched, &news));
         let zones = placed(after, &self.scene, self.map, Zone::is_standing);
         let shut = shut_otherwise(&self.zones, &zones);
@@ -102,7 +112,7 @@ impl FloorPlan {
         self.zones = Arc::new(zones);
         stale.retain(|area| self.scene.areas.contains_key(area));
         if !is_laid_out_alike {
-            self.renumber(after, &stale, &places);
+            self.renumber(after, &stale, &places, &news);
         } else if !stale.is_empty() {
             self.renew(after, &stale.into_iter().collect::<Vec<_>>());
         }
@@ -127,25 +137,29 @@ impl FloorPlan {
         let areas = before.areas.changes(&after.areas).into_iter();
         let same = |was: &Area, is: &Area| was.items == is.items && was.doors == is.doors;
         let others = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(a, b)| same(a, b)));
-        let others: BTreeSet<AreaId> = others.map(|(id, ..)| id).collect();
-        let items = &after.maps[&self.map].items;
-        let mut moved = BTreeSet::new();
-        for item in items {
+        let mut others: BTreeSet<AreaId> = others.map(|(id, ..)| id).collect();
+        if !parts.is_empty() {
+            others.extend(after.areas_made_of(|part| parts.contains(&part)).map(|area| area.id));
+        }
+        let mut asked = others.clone();
+        let items = before.items_changed(after).into_iter().filter(|(map, _)| *map == self.map);
+        asked.extend(items.flat_map(|(_, items)| items.into_iter().flatten().map(|i| i.area)));
+        let (mut moved, mut standing) = (BTreeSet::new(), BTreeSet::new());
+        let items = after.maps[&self.map].items.iter().filter(|_| !asked.is_empty());
+        for item in items.filter(|item| asked.contains(&item.area)) {
+            standing.insert(item.area);
             let Some(area) = after.areas.get(&item.area) else { continue };
             let was = self.scene.areas.get(&item.area);
             let is_moved = was.is_none_or(|was| was.frame != item.frame);
             if is_moved {
                 moved.insert(item.area);
             }
-            if is_moved || others.contains(&item.area) || uses(&area.items) {
+            if is_moved || others.contains(&item.area) {
                 touched.rebuilt.insert(area.id, PlacedArea::new(after, area.id, item.frame));
             }
         }
-        if before.maps[&self.map].items != *items || !others.is_empty() {
-            let stand: BTreeSet<AreaId> = items.iter().map(|item| item.area).collect();
-            let gone = self.scene.areas.keys().filter(|area| !stand.contains(area));
-            touched.gone.extend(gone);
-        }
+        let stood = asked.difference(&standing).filter(|id| self.scene.areas.contains_key(id));
+        touched.gone.extend(stood);
 
         let hung = |door: &(DoorId, Option<&Door>, Option<&Door>)| {
             let (_, was, is) = door;
@@ -201,13 +215,15 @@ impl FloorPlan {
         found
     }
 
-    /// Where the doorways stand among others; none for one that is not among them.
-    fn places_in(&self, others: &Doorways) -> Vec<Option<usize>> {
-        self.doorways.ways.iter().map(|doorway| others.find(doorway)).collect()
-    }
-
-    /// Takes over the Fragments that are not stale, under their new numbers, and builds the others.
-    fn renumber(&mut self, world: &World, stale: &BTreeSet<AreaId>, places: &[Option<usize>]) {
+    /// Takes over the Fragments that are not stale, under their new numbers, and builds the others; `places` are those of the
+    /// doorways before, and of those now it is told which are others.
+    fn renumber(
+        &mut self,
+        world: &World,
+        stale: &BTreeSet<AreaId>,
+        places: &[Option<usize>],
+        is_new: &[bool],
+    ) {
         let areas: Vec<AreaId> = self.scene.areas.keys().copied().collect();
         let number = |area: &AreaId| areas.binary_search(area).ok().map(|n| n as u32);
         let numbers: Vec<Option<u32>> = self.fragments.iter().map(|f| number(&f.area)).collect();
@@ -231,12 +247,31 @@ impl FloorPlan {
         self.fragments.sort_by_key(|f| f.area);
         self.covered = vec![OnceLock::new(); areas.len()];
         self.straits = vec![Vec::new(); areas.len() + self.doorways.ways.len()];
-        let admits = |doorway: &Arc<Opening>| self.with_site(world, |site| site.is_open(doorway));
-        self.admits = self.doorways.ways.iter().map(admits).collect();
-        let boxes: Vec<Bounds> = self.fragments.iter().map(|f| self.extent_of(f)).collect();
-        self.by_place = Arc::new(Buckets::of(&boxes));
-        let numbers: Vec<usize> = fresh.iter().filter_map(|&area| self.number(area)).collect();
-        self.connect(world, numbers);
+        let mut admitted = vec![None; is_new.len()];
+        for (place, admits) in places.iter().zip(&self.admits) {
+            if let Some(place) = place.filter(|&place| !is_new[place]) {
+                admitted[place] = Some(*admits);
+            }
+        }
+        let admits = |(doorway, known): (&Arc<Opening>, Option<bool>)| {
+            known.unwrap_or_else(|| self.with_site(world, |site| site.is_open(doorway)))
+        };
+        self.admits = self.doorways.ways.iter().zip(admitted).map(admits).collect();
+        let mut known = vec![None; areas.len()];
+        for (number, extent) in numbers.iter().zip(&*self.extents) {
+            if let Some(number) = number {
+                known[*number as usize] = Some(*extent);
+            }
+        }
+        let extent = |(fragment, known): (&Arc<FragmentFloor>, Option<Bounds>)| {
+            known
+                .filter(|_| !stale.contains(&fragment.area))
+                .unwrap_or_else(|| self.extent_of(fragment))
+        };
+        self.extents = Arc::new(self.fragments.iter().zip(known).map(extent).collect());
+        self.by_place = Arc::new(Buckets::of(&self.extents));
+        let fresh: Vec<usize> = fresh.iter().filter_map(|&area| self.number(area)).collect();
+        self.connect(world, fresh);
     }
 
     /// The Areas of the scene that boxes come near to, whatever Fragments there are.
@@ -440,7 +475,7 @@ mod tests {
                 let anew = build(&after);
                 for (floor, anew) in floors.iter_mut().zip(&anew) {
                     let old = floor.fragments.clone();
-                    assert!(floor.follow_building(&before, &after, &openings));
+                    assert!(floor.follow_building(&before, &after, Some(&openings)));
                     same(floor, anew, &format!("{map}, step {step}"));
                     let is_kept = |new: &&Arc<_>| old.iter().any(|old| Arc::ptr_eq(old, new));
                     kept += floor.fragments.iter().filter(is_kept).count();

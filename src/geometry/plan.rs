@@ -57,6 +57,8 @@ pub struct FloorPlan {
     pub(super) network: Network,
     /// By Fragment, then by doorway.
     pub(super) straits: Vec<Vec<Strait>>,
+    /// Of each Fragment the box around all that it can ever reach.
+    pub(super) extents: Arc<Vec<Bounds>>,
     /// The Fragments by place, with half of the walls behind their doorways.
     pub(super) by_place: Arc<Buckets>,
 }
@@ -86,9 +88,27 @@ impl Doorways {
         Self { ways, blind, by_area }
     }
 
-    /// The number of the doorway between the sides of this one.
-    pub(super) fn find(&self, doorway: &Opening) -> Option<usize> {
-        self.ways.binary_search_by(|way| by_place(way, doorway)).ok()
+    /// For each of these doorways the number of that between the same sides among others. Both lists are in the order of
+    /// their places, and one that both share is met in both at once.
+    pub(super) fn places_in(&self, others: &Self) -> Vec<Option<usize>> {
+        if std::ptr::eq(self, others) {
+            return (0..self.ways.len()).map(Some).collect();
+        }
+        let mut rest = others.ways.iter().enumerate().peekable();
+        let place = |doorway: &Arc<Opening>| loop {
+            let (number, other) = rest.peek()?;
+            let order = if Arc::ptr_eq(other, doorway) {
+                Ordering::Equal
+            } else {
+                by_place(other, doorway)
+            };
+            match order {
+                Ordering::Less => drop(rest.next()),
+                Ordering::Equal => return Some(*number),
+                Ordering::Greater => return None,
+            }
+        };
+        self.ways.iter().map(place).collect()
     }
 }
 
@@ -139,6 +159,7 @@ impl FloorPlan {
             admits: Vec::new(),
             network: Network::default(),
             straits: Vec::new(),
+            extents: Arc::default(),
             by_place: Arc::default(),
         };
         let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
@@ -163,8 +184,8 @@ impl FloorPlan {
             (floors, stale.len())
         });
         plan.fragments = fragments;
-        let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
-        plan.by_place = Arc::new(Buckets::of(&boxes));
+        plan.extents = Arc::new(plan.fragments.iter().map(|f| plan.extent_of(f)).collect());
+        plan.by_place = Arc::new(Buckets::of(&plan.extents));
         plan.connect(world, 0..areas.len());
         (plan, built)
     }

@@ -115,19 +115,28 @@ impl<K: Copy + Ord, V> Records<K, V> {
     pub(super) fn of_groups<'a>(
         &'a self,
         number: usize,
-        group: fn(&V) -> u32,
+        groups: fn(&V, &mut dyn FnMut(u32)),
         is_wanted: impl Fn(u32) -> bool + Copy + 'a,
     ) -> impl Iterator<Item = &'a V> + 'a {
         let may_have = move |chunk: &&Chunk<K, V>| {
-            let groups = chunk.groups[number].get_or_init(|| {
-                let all: BTreeSet<u32> = chunk.iter().map(|(_, v)| group(v)).collect();
+            let known = chunk.groups[number].get_or_init(|| {
+                let mut all = BTreeSet::new();
+                for (_, v) in chunk.iter() {
+                    groups(v, &mut |group| {
+                        all.insert(group);
+                    });
+                }
                 all.into_iter().collect()
             });
-            groups.iter().any(|of| is_wanted(*of))
+            known.iter().any(|of| is_wanted(*of))
         };
         let chunks = self.chunks.iter().map(|(_, chunk)| &**chunk).filter(may_have);
         let all = chunks.flat_map(|chunk| chunk.iter().map(|(_, v)| v));
-        all.filter(move |v| is_wanted(group(v)))
+        all.filter(move |v| {
+            let mut is_any = false;
+            groups(v, &mut |group| is_any |= is_wanted(group));
+            is_any
+        })
     }
 
     /// What differs from this map to another, in the order of the keys; looked for only where they share nothing.
@@ -343,9 +352,12 @@ mod tests {
         }
         // Whatever was asked of copies and before changes.
         for wanted in [0, 3] {
-            let of = |v: &u64| (*v % 50) as u32;
-            let found = records.of_groups(0, of, |group| group == wanted);
-            assert!(found.eq(plain.values().filter(|v| of(v) == wanted)));
+            let of = |v: &u64| [(*v % 50) as u32, (*v % 70) as u32];
+            let each = |v: &u64, put: &mut dyn FnMut(u32)| {
+                [(*v % 50) as u32, (*v % 70) as u32].into_iter().for_each(put);
+            };
+            let found = records.of_groups(0, each, |group| group == wanted);
+            assert!(found.eq(plain.values().filter(|v| of(v).contains(&wanted))));
         }
     }
 

@@ -193,6 +193,15 @@ impl Default for RobotProfile {
     }
 }
 
+/// Two lists without what they begin and end with alike.
+pub(crate) fn but_common_ends<'a, T: PartialEq>(one: &'a [T], other: &'a [T]) -> [&'a [T]; 2] {
+    let same = |(a, b): &(&T, &T)| a == b;
+    let first = one.iter().zip(other).take_while(same).count();
+    let (one, other) = (&one[first..], &other[first..]);
+    let last = one.iter().rev().zip(other.iter().rev()).take_while(same).count();
+    [&one[..one.len() - last], &other[..other.len() - last]]
+}
+
 /// What a name can mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entity {
@@ -318,7 +327,7 @@ impl World {
         &'a self,
         is_wanted: impl Fn(AreaId) -> bool + Copy + 'a,
     ) -> impl Iterator<Item = &'a Replica> + 'a {
-        self.replicas.of_groups(0, |r| r.area.0, move |area| is_wanted(AreaId(area)))
+        self.replicas.of_groups(0, |r, put| put(r.area.0), move |area| is_wanted(AreaId(area)))
     }
 
     /// The replicas of the Objects that are wanted, in the order of their ids.
@@ -326,7 +335,60 @@ impl World {
         &'a self,
         is_wanted: impl Fn(ObjectId) -> bool + Copy + 'a,
     ) -> impl Iterator<Item = &'a Replica> + 'a {
-        self.replicas.of_groups(1, |r| r.object.0, move |object| is_wanted(ObjectId(object)))
+        self.replicas.of_groups(1, |r, put| put(r.object.0), move |kind| is_wanted(ObjectId(kind)))
+    }
+
+    /// The Areas of which an item is made of an Orthoframe that is wanted, in the order of their ids.
+    pub fn areas_made_of<'a>(
+        &'a self,
+        is_wanted: impl Fn(OrFrId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Area> + 'a {
+        let parts = |area: &Area, put: &mut dyn FnMut(u32)| {
+            area.items.iter().for_each(|item| put(item.orthoframe.0));
+        };
+        self.areas.of_groups(0, parts, move |part| is_wanted(OrFrId(part)))
+    }
+
+    /// The Areas in which a door that is wanted is mounted, in the order of their ids.
+    pub fn areas_hung_with<'a>(
+        &'a self,
+        is_wanted: impl Fn(DoorId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Area> + 'a {
+        let doors = |area: &Area, put: &mut dyn FnMut(u32)| {
+            area.doors.iter().for_each(|mount| put(mount.door.0));
+        };
+        self.areas.of_groups(1, doors, move |door| is_wanted(DoorId(door)))
+    }
+
+    /// The Objects of which an item is made of an Orthoframe that is wanted, in the order of their ids.
+    pub fn objects_made_of<'a>(
+        &'a self,
+        is_wanted: impl Fn(OrFrId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Object> + 'a {
+        let parts = |object: &Object, put: &mut dyn FnMut(u32)| {
+            object.items.iter().for_each(|item| put(item.orthoframe.0));
+        };
+        self.objects.of_groups(0, parts, move |part| is_wanted(OrFrId(part)))
+    }
+
+    /// The Objects on which a door that is wanted is mounted, in the order of their ids.
+    pub fn objects_hung_with<'a>(
+        &'a self,
+        is_wanted: impl Fn(DoorId) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = &'a Object> + 'a {
+        let doors = |object: &Object, put: &mut dyn FnMut(u32)| {
+            object.doors.iter().for_each(|mount| put(mount.door.0));
+        };
+        self.objects.of_groups(1, doors, move |door| is_wanted(DoorId(door)))
+    }
+
+    /// Where the lists of items of two worlds' Maps differ: of each Map that does, its items in this world and in the other
+    /// but for those at both ends of the lists that are the same in both.
+    #[must_use]
+    pub fn items_changed<'a>(&'a self, other: &'a Self) -> Vec<(MapId, [&'a [MapItem]; 2])> {
+        let items = |map: Option<&'a Map>| map.map_or(&[][..], |map| &map.items);
+        let changes = self.maps.changes(&other.maps).into_iter();
+        changes.map(|(id, was, is)| (id, but_common_ends(items(was), items(is)))).collect()
     }
 
     /// The Orthoframe of an item.

@@ -8,25 +8,38 @@ use std::sync::Arc;
 
 use crate::geometry::{Opening, Openings};
 use crate::map::{Permeability, World};
-use crate::units::{AreaId, OpeningId};
+use crate::units::{AreaId, DoorId, OpeningId};
 
 use super::names::Symbols;
 
 /// The openings of a world with their names; sides are looked for through walls up to `reach` cm thick.
 pub(super) fn openings(world: &World, reach: f64, symbols: &Symbols) -> Openings {
     let mut openings = Openings::of(world, reach);
-    call(&mut openings, world, symbols);
+    call(&mut openings, world, symbols, |_| true);
     openings
 }
 
-/// Gives openings the names of the doors and Areas of a world.
-pub(super) fn call(openings: &mut Openings, world: &World, symbols: &Symbols) {
+/// Gives openings the names of the doors and Areas of a world; of those that bear the name of a door, where that door may be
+/// called otherwise.
+pub(super) fn call(
+    openings: &mut Openings,
+    world: &World,
+    symbols: &Symbols,
+    is_renamed: impl Fn(DoorId) -> bool,
+) {
     let mut taken = BTreeSet::new();
-    openings.name(|opening| match opening.door.filter(|door| world.doors.contains_key(door)) {
-        Some(door) => Some(symbols.door(door))
-            .filter(|name| ***name != *opening.name)
-            .map(ToString::to_string),
-        None => Some(new_name(opening, symbols, &mut taken)),
+    openings.name(|opening| match opening.door {
+        Some(door)
+            if !opening.name.is_empty() && !is_renamed(door) && world.doors.contains_key(&door) =>
+        {
+            None
+        }
+        door => match door.filter(|door| world.doors.contains_key(door)) {
+            Some(door) => Some(symbols.door(door))
+                .filter(|name| ***name != *opening.name)
+                .map(ToString::to_string),
+            None => Some(new_name(opening, symbols, &mut taken)),
+        },
     });
 }
 

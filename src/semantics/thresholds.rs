@@ -239,6 +239,21 @@ thresholds! {
     /// Of what lies on a room with no more than a square of this side nobody speaks.
     zone_patch = "zone patch", Length, 1000;
 
+    /// The walls of a corridor converge by no more than this.
+    corridor_parallel = "corridor parallel", Angle, 574;
+    /// A shorter stretch between walls is a niche,
+    corridor_shortest = "corridor shortest", Length, 12000;
+    /// and so is one that is less than so many times as long as wide.
+    corridor_slender = "corridor slender", Share, 700;
+    /// Along so much of a corridor there are walls on both sides; the rest are mouths of branches.
+    corridor_covered = "corridor covered", Share, 350;
+    /// Facing walls that are shorter than this share of what lies between them are the ends of something long.
+    corridor_stub = "corridor stub", Share, 250;
+    /// Two corridors that meet at no more than this angle are one with a bend.
+    corridor_bend = "corridor bend", Angle, 3000;
+    /// A branch goes on between walls for more than this beyond its junction.
+    corridor_arm = "corridor arm", Length, 8000;
+
     /// Up to here one goes straight on,
     turn_straight = "turn straight", Angle, 2500;
     /// up to here one bears left or right,

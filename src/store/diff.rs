@@ -10,12 +10,11 @@ use crate::units::{
 };
 
 use super::cell::{Cell, Key, Row};
-use super::edits::Edits;
+use super::changes::Changes;
 use super::error::Result;
 use super::keep::Store;
 use super::reader::Reader;
 use super::schema::Record;
-use super::sheet::Sheet;
 use super::tables::{self as t, Table};
 
 /// What became of a record.
@@ -274,19 +273,16 @@ impl Store {
     }
 }
 
-/// What differs between two worlds with the same ids: an edit before it is made.
-///
-/// # Errors
-/// [`StoreError::Duplicate`](super::StoreError::Duplicate) when two parts of a world have one key.
-pub fn compare(old: &World, new: &World) -> Result<Vec<Difference>> {
-    let names = Names::Of([old, new]);
-    let [old, new] = Sheet::of_change(old, new)?;
-    let mut pairs = Pairs::default();
-    for (table, key) in Edits::between(&old, &new).rows.into_keys() {
-        let rows = [old.get(table, &key).cloned(), new.get(table, &key).cloned()];
-        pairs.add(table, &key, rows);
+impl Changes<'_> {
+    /// In the words of a person.
+    #[must_use]
+    pub fn told(&self) -> Vec<Difference> {
+        let mut pairs = Pairs::default();
+        for ((table, key), rows) in &self.rows {
+            pairs.add(*table, key, rows.clone());
+        }
+        pairs.differences(&Names::Of(self.worlds()))
     }
-    Ok(pairs.differences(&names))
 }
 
 /// Rows before and after, by what they speak of.

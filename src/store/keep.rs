@@ -9,6 +9,7 @@ use crate::map::{Replica, World};
 use crate::units::AreaId;
 
 use super::cell::Key;
+use super::changes::Changes;
 use super::disk::{Disk, RealDisk};
 use super::edits::{
     Change, Draft, Edits, ImportReport, Revision, RevisionKind, check_id, check_numbers,
@@ -209,25 +210,25 @@ impl Store {
         self.become_world(world, change, RevisionKind::Edit)
     }
 
-    /// The same, where it is known which world the store holds: what both worlds share is neither read nor compared.
+    /// The same, where it is known what differs from the world that the store holds: what both worlds share is neither read
+    /// nor compared.
     ///
     /// # Errors
     /// As [`Store::commit`].
-    pub fn commit_change(
+    pub fn commit_changes(
         &mut self,
-        before: &World,
-        after: &World,
+        changes: &Changes<'_>,
         change: &Change,
     ) -> Result<ImportReport> {
-        let [old, new] = Sheet::of_change(before, after)?;
-        let edits = Edits::between(&old, &new);
-        for (table, key) in edits.rows.keys() {
+        for ((table, key), [was, _]) in &changes.rows {
             let held = self.reader().version(*table, key)?.filter(|v| !v.stamp.deleted);
-            if held.as_ref().map(|v| &v.row) != old.get(*table, key) {
+            if held.as_ref().map(|v| &v.row) != was.as_ref() {
                 // It holds another: all of it is compared.
-                return self.commit(after, change);
+                return self.commit(changes.worlds()[1], change);
             }
         }
+        let news = changes.rows.iter().map(|(at, [_, is])| (at.clone(), is.clone()));
+        let edits = Edits { rows: news.collect() };
         self.write(&edits, change, RevisionKind::Edit, None)
     }
 

@@ -36,6 +36,7 @@ use orthoframe_units as units;
 
 mod behind;
 mod cell;
+mod changes;
 mod check;
 mod derived;
 mod diff;
@@ -75,9 +76,10 @@ mod write;
 
 pub use crate::units::{Timestamp, TimestampError};
 pub use cell::{Cell, Key, Kind, Row};
+pub use changes::Changes;
 pub use check::{Finding, FsckReport, Severity, fsck};
 pub use derived::Derived;
-pub use diff::{Difference, Fate, FieldChange, compare};
+pub use diff::{Difference, Fate, FieldChange};
 pub use edits::{Change, Counts, Edits, ImportReport, Revision, RevisionKind};
 pub use error::StoreError;
 pub use gc::Forgotten;

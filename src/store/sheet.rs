@@ -110,6 +110,12 @@ impl Sheet {
         self.tables.iter().flat_map(|(table, rows)| rows.iter().map(|(k, r)| (*table, k, r)))
     }
 
+    pub(super) fn into_rows(self) -> impl Iterator<Item = (Table, Key, Row)> {
+        self.tables
+            .into_iter()
+            .flat_map(|(table, rows)| rows.into_iter().map(move |(key, row)| (table, key, row)))
+    }
+
     #[must_use]
     pub fn len(&self) -> usize {
         self.tables.values().map(BTreeMap::len).sum()

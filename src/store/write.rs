@@ -149,13 +149,13 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
     // Sizes of Objects, Areas and Maps are made of those of Orthoframes.
     let parts = before.orthoframes.changes(&after.orthoframes).into_iter();
     let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).collect();
-    let uses = |items: &[Item]| items.iter().any(|item| parts.contains(&item.orthoframe));
+    let mut others = BTreeSet::new();
     macro_rules! put_users {
-        ($groups:ident, $put:ident) => {{
-            let using = |world: &World| -> BTreeSet<_> {
-                world.$groups.values().filter(|g| uses(&g.items)).map(|g| g.id).collect()
-            };
-            let all = &using(before) | &using(after);
+        ($groups:ident, $made_of:ident, $put:ident) => {{
+            let using = [before, after].into_iter().flat_map(|world| {
+                world.$made_of(|part| parts.contains(&part)).map(|group| group.id)
+            });
+            let all: BTreeSet<_> = using.collect();
             for id in &all {
                 let [was, is] = [before.$groups.get(id), after.$groups.get(id)];
                 if let (Some(was), true) = (was, was == is) {
@@ -163,23 +163,25 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
                     $put(new, after, was)?;
                 }
             }
+            all
         }};
     }
     if !parts.is_empty() {
-        put_users!(objects, put_object);
-        put_users!(areas, put_area);
+        put_users!(objects, objects_made_of, put_object);
+        others.extend(put_users!(areas, areas_made_of, put_area));
     }
     // A Map tells of an Area's items alone.
     let areas = before.areas.changes(&after.areas).into_iter();
     let made = |was: &Area, is: &Area| was.items == is.items;
     let areas = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(was, is)| made(was, is)));
-    let others: BTreeSet<AreaId> = areas.map(|(id, ..)| id).collect();
-    let ids: BTreeSet<MapId> = before.maps.keys().chain(after.maps.keys()).copied().collect();
+    others.extend(areas.map(|(id, ..)| id));
+    let mut ids: BTreeSet<MapId> =
+        before.maps.changes(&after.maps).into_iter().map(|(id, ..)| id).collect();
+    if !others.is_empty() {
+        ids.extend(before.maps.keys().chain(after.maps.keys()));
+    }
     for id in ids {
         let [was, is] = [before.maps.get(&id), after.maps.get(&id)];
-        if was == is && others.is_empty() && parts.is_empty() {
-            continue;
-        }
         for (sheet, world, own, other) in
             [(&mut *old, before, was, is), (&mut *new, after, is, was)]
         {

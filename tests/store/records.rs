@@ -1,7 +1,7 @@
 //! A map goes in and comes out: records, keys, ids, Fragments, derived tables.
 
 use orthoframe_map::World;
-use orthoframe_store::{Cell, Counts, Edits, Key, Sheet, StoreError, Table, compare, records};
+use orthoframe_store::{Cell, Changes, Counts, Edits, Key, Sheet, StoreError, Table, records};
 use orthoframe_units::{AreaId, Point, ReplicaId};
 use proptest::prelude::*;
 
@@ -232,7 +232,7 @@ fn an_edit_is_shown_before_it_is_made() {
     let mut edited = map.clone();
     edited.replicas.values_mut().next().unwrap().move_prob = 101;
     let said: Vec<String> =
-        compare(&map, &edited).unwrap().iter().map(ToString::to_string).collect();
+        Changes::between(&map, &edited).unwrap().told().iter().map(ToString::to_string).collect();
     assert_eq!(said.len(), 1);
     assert!(
         said[0].ends_with("→ 101") && said[0].starts_with("экземпляр «Вещь-0»: подвижность"),

@@ -7,11 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Checker;
 use crate::fault::Record;
-use crate::units::{AreaId, MapId, OrFrId, ReplicaId};
-use crate::{
-    Area, Door, DoorMount, Entity, Extent, Item, Map, MapItem, MapLink, NameIndex, Object, Place,
-    Records, TypeKind, World,
-};
+use crate::units::{AreaId, DoorId, MapId, OrFrId, ReplicaId};
+use crate::{Door, Entity, Extent, Map, MapLink, NameIndex, Place, Records, TypeKind, World};
 
 /// The part of a map that is to be checked, in the map before an edit and in that after it.
 #[derive(Default)]
@@ -57,12 +54,8 @@ impl<'w> Scope<'w> {
             scope.records.insert(Record::Door(id));
             scope.entities.insert(Entity::Door(id));
         }
-        let tells = |items: &[Item], mounts: &[DoorMount]| {
-            items.iter().any(|item| parts.contains(&item.orthoframe))
-                || mounts.iter().any(|mount| hung.contains(&mount.door))
-        };
-        scope.add_objects(before, after, &tells);
-        scope.add_areas(before, after, !parts.is_empty() || !hung.is_empty(), &tells);
+        scope.add_objects(before, after, &parts, &hung);
+        scope.add_areas(before, after, &parts, &hung);
         scope.add_maps(before, after);
         for (id, was, is) in before.zones.changes(&after.zones) {
             let _ = (was, is);
@@ -104,50 +97,55 @@ impl<'w> Scope<'w> {
         note!(orthoframes doors objects areas zones);
     }
 
+    /// Objects that differ, and those that tell of such parts and doors.
     fn add_objects(
         &mut self,
         before: &World,
         after: &World,
-        tells: &impl Fn(&[Item], &[DoorMount]) -> bool,
+        parts: &BTreeSet<OrFrId>,
+        hung: &BTreeSet<DoorId>,
     ) {
         let changed = before.objects.changes(&after.objects).into_iter();
-        let changed: Vec<_> = changed.map(|(id, ..)| id).collect();
-        let telling = |o: &&Object| tells(&o.items, &o.doors);
-        let all = before.objects.values().chain(after.objects.values()).filter(telling);
-        let all = all.map(|object| object.id).chain(changed).map(Record::Object);
-        self.records.extend(all.collect::<Vec<_>>());
-        for object in before.objects.values().chain(after.objects.values()) {
-            if self.records.contains(&Record::Object(object.id)) {
-                self.records.extend(object.doors.iter().map(|mount| Record::Door(mount.door)));
+        let mut all: BTreeSet<_> = changed.map(|(id, ..)| id).collect();
+        for world in [before, after] {
+            if !parts.is_empty() {
+                all.extend(world.objects_made_of(|id| parts.contains(&id)).map(|o| o.id));
             }
+            if !hung.is_empty() {
+                all.extend(world.objects_hung_with(|id| hung.contains(&id)).map(|o| o.id));
+            }
+        }
+        for id in all {
+            self.records.insert(Record::Object(id));
+            let both = [before, after].into_iter().filter_map(|world| world.objects.get(&id));
+            let doors = both.flat_map(|object| &object.doors).map(|mount| mount.door);
+            self.records.extend(doors.map(Record::Door));
         }
     }
 
+    /// The same of Areas.
     fn add_areas(
         &mut self,
         before: &World,
         after: &World,
-        tells_of_any: bool,
-        tells: &impl Fn(&[Item], &[DoorMount]) -> bool,
+        parts: &BTreeSet<OrFrId>,
+        hung: &BTreeSet<DoorId>,
     ) {
         for (id, ..) in before.areas.changes(&after.areas) {
             self.areas.insert(id);
             self.entities.insert(Entity::Area(id));
         }
-        if tells_of_any {
-            let telling = |a: &&Area| tells(&a.items, &a.doors);
-            let all = before.areas.values().chain(after.areas.values()).filter(telling);
-            self.areas.extend(all.map(|area| area.id));
+        for world in [before, after] {
+            if !parts.is_empty() {
+                self.areas.extend(world.areas_made_of(|id| parts.contains(&id)).map(|a| a.id));
+            }
+            if !hung.is_empty() {
+                self.areas.extend(world.areas_hung_with(|id| hung.contains(&id)).map(|a| a.id));
+            }
         }
         self.moved.extend(&self.areas);
-        for (_, was, is) in before.maps.changes(&after.maps) {
-            let [was, is] = [was, is].map(|map| map.map_or(&[][..], |map| &map.items));
-            let same = |(a, b): &(&MapItem, &MapItem)| a == b;
-            let first = was.iter().zip(is).take_while(same).count();
-            let (was, is) = (&was[first..], &is[first..]);
-            let last = was.iter().rev().zip(is.iter().rev()).take_while(same).count();
-            let others = was[..was.len() - last].iter().chain(&is[..is.len() - last]);
-            self.moved.extend(others.map(|item| item.area));
+        for (_, items) in before.items_changed(after) {
+            self.moved.extend(items.into_iter().flatten().map(|item| item.area));
         }
         self.records.extend(self.areas.iter().map(|id| Record::Area(*id)));
         for id in &self.moved {
@@ -264,7 +262,12 @@ impl<'w> Checker<'w> {
         let mut found: BTreeMap<K, &V> =
             ids.filter_map(|id| Some((id, records.get(&id)?))).collect();
         if let Some(keys) = scope.keys.get(kind) {
-            let bearing = records.iter().filter(|(_, record)| keys.contains(key(record)));
+            // Few are looked for: texts of other lengths differ at once.
+            let is_asked = |own: &str| match keys.len() {
+                0..=8 => keys.iter().any(|key| *key == own),
+                _ => keys.contains(own),
+            };
+            let bearing = records.iter().filter(|(_, record)| is_asked(key(record)));
             found.extend(bearing.map(|(id, record)| (*id, record)));
         }
         found.into_values().collect()

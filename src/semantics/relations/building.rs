@@ -5,13 +5,14 @@
 //! What was measured of an Area or an Object that changed, and of every thing near it, is measured anew, and of them alone;
 //! so are openings that its sides may make.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::feed::{Cell, Feed};
 use crate::geometry::{OpenSide, Opening, Openings};
-use crate::map::{Area, Entity, Item, Object, Orthoframe, World};
+use crate::map::{Area, Entity, Object, Orthoframe, World};
 use crate::measure::{Change, Room, asks_of_all};
 use crate::names::Subject;
 use crate::openings::call;
@@ -37,7 +38,8 @@ struct Touched {
     reshaped: BTreeSet<AreaId>,
     /// The same, and those that bear another name.
     rebuilt: BTreeSet<AreaId>,
-    places: BTreeMap<AreaId, (MapId, Frame)>,
+    /// Where Areas stand now; found when it is asked for.
+    places: OnceCell<BTreeMap<AreaId, (MapId, Frame)>>,
     /// Whether openings may be others.
     opens: bool,
     /// Whether they may be called otherwise.
@@ -59,9 +61,8 @@ impl Touched {
                 remade_parts.insert(id);
             }
         }
-        let uses = |items: &[Item]| items.iter().any(|i| remade_parts.contains(&i.orthoframe));
-        touched.objects(before, after, &uses);
-        touched.areas(before, after, &uses);
+        touched.objects(before, after, &remade_parts);
+        touched.areas(before, after, &remade_parts);
         for (id, was, is) in before.doors.changes(&after.doors) {
             touched.doors.insert(id);
             touched.opens |= was.zip(is).is_none_or(|(was, is)| {
@@ -76,13 +77,17 @@ impl Touched {
         touched
     }
 
-    fn objects(&mut self, before: &World, after: &World, uses: &impl Fn(&[Item]) -> bool) {
+    fn places(&self, after: &World) -> &BTreeMap<AreaId, (MapId, Frame)> {
+        self.places.get_or_init(|| after.placements())
+    }
+
+    fn objects(&mut self, before: &World, after: &World, parts: &BTreeSet<OrFrId>) {
         let changed = before.objects.changes(&after.objects).into_iter();
         self.objects = changed.map(|(id, ..)| id).collect();
-        let using = |world: &World| -> Vec<ObjectId> {
-            world.objects.values().filter(|o| uses(&o.items)).map(|o| o.id).collect()
-        };
-        self.remade.extend([before, after].into_iter().flat_map(using));
+        for world in [before, after].into_iter().filter(|_| !parts.is_empty()) {
+            let made = world.objects_made_of(|part| parts.contains(&part));
+            self.remade.extend(made.map(|object| object.id));
+        }
         let types = [&before.types.object, &after.types.object];
         if types[0] != types[1] {
             let is_other = |o: &&Object| types[0].get(o.object_type) != types[1].get(o.object_type);
@@ -101,20 +106,22 @@ impl Touched {
         self.objects.extend(&self.remade);
     }
 
-    fn areas(&mut self, before: &World, after: &World, uses: &impl Fn(&[Item]) -> bool) {
+    fn areas(&mut self, before: &World, after: &World, parts: &BTreeSet<OrFrId>) {
         let changed = before.areas.changes(&after.areas).into_iter();
         self.areas = changed.map(|(id, ..)| id).collect();
-        self.places = after.placements();
-        if before.maps != after.maps {
-            let old = before.placements();
-            let all: BTreeSet<&AreaId> = old.keys().chain(self.places.keys()).collect();
-            let moved = all.into_iter().filter(|id| old.get(id) != self.places.get(id)).copied();
-            self.reshaped.extend(moved.collect::<Vec<_>>());
-        }
-        let using = |world: &World| -> Vec<AreaId> {
-            world.areas.values().filter(|a| uses(&a.items)).map(|a| a.id).collect()
+        let items = before.items_changed(after);
+        let placed = |at: usize| -> BTreeMap<AreaId, (MapId, Frame)> {
+            let items =
+                items.iter().flat_map(|(map, items)| items[at].iter().map(move |i| (map, i)));
+            items.map(|(map, item)| (item.area, (*map, item.frame))).collect()
         };
-        self.reshaped.extend([before, after].into_iter().flat_map(using));
+        let (old, new) = (placed(0), placed(1));
+        let all = old.keys().chain(new.keys());
+        self.reshaped.extend(all.filter(|id| old.get(id) != new.get(id)));
+        for world in [before, after].into_iter().filter(|_| !parts.is_empty()) {
+            let made = world.areas_made_of(|part| parts.contains(&part));
+            self.reshaped.extend(made.map(|area| area.id));
+        }
         for id in &self.areas {
             let both = before.areas.get(id).zip(after.areas.get(id));
             let made = |(was, is): (&Area, &Area)| was.items == is.items && was.doors == is.doors;
@@ -162,12 +169,16 @@ impl Relations {
         let renamed_maps = before.maps.changes(&after.maps).into_iter().any(|(_, was, is)| {
             was.zip(is).is_some_and(|(was, is)| (&was.name, &was.key) != (&is.name, &is.key))
         });
-        let things = |world: &World, areas: usize| asks_of_all(world.replicas.len(), areas);
         let touched = Touched::between(before, after);
+        let rooms = if touched.rebuilt.is_empty() {
+            self.measured.rooms.len()
+        } else {
+            touched.places(after).len()
+        };
         if before.domain.profile != after.domain.profile
             || renamed_maps
             || !self.told.is_empty()
-            || self.measured.asks_of_all() != things(after, touched.places.len())
+            || self.measured.asks_of_all() != asks_of_all(after.replicas.len(), rooms)
         {
             return Ok(false);
         }
@@ -189,15 +200,16 @@ impl Relations {
         }
         let mut new = old.iter().filter_map(|(subject, _)| self.symbols.known(*subject));
         let calls = touched.calls || new.any(is_like_opening);
+        let is_renamed = |door: DoorId| touched.doors.contains(&door);
         let new = if touched.opens {
             let (reach, Touched { reshaped, doors, .. }) = (self.rules.step_cm(), &touched);
             let followed = self.openings.follow(before, after, reach, reshaped, doors);
             let mut new = followed.unwrap_or_else(|| Openings::of(after, reach));
-            call(&mut new, after, &self.symbols);
+            call(&mut new, after, &self.symbols, is_renamed);
             Arc::new(new)
         } else if calls {
             let mut same = Openings::clone(&self.openings);
-            call(&mut same, after, &self.symbols);
+            call(&mut same, after, &self.symbols, is_renamed);
             Arc::new(same)
         } else {
             Arc::clone(&self.openings)
@@ -237,7 +249,7 @@ impl Relations {
         self.openings = new;
         touched.remade.iter().for_each(|&id| self.measured.enter_kind(after, id));
         for &id in &touched.rebuilt {
-            match touched.places.get(&id) {
+            match touched.places(after).get(&id) {
                 Some(&place) => self.measured.enter_room(after, id, place),
                 None => self.measured.forget_room(id),
             }
@@ -311,7 +323,8 @@ impl Relations {
             }
         }
         for area in touched.rebuilt.union(mouths) {
-            let new = touched.places.get(area).and_then(|place| Room::of(after, *area, *place));
+            let new =
+                touched.places(after).get(area).and_then(|place| Room::of(after, *area, *place));
             for room in self.measured.rooms.get(area).into_iter().chain(&new) {
                 replicas.extend(self.measured.things_near(room));
             }

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::facts::{FactError, Value};
+use crate::facts::{FactError, RelationId, Value};
 use crate::feed::{Cell, Feed};
 use crate::map::{Entity, Object, World};
 use crate::names::Subject;
@@ -254,17 +254,29 @@ impl Relations {
         changed.into_iter().for_each(|id| feed.replica_properties(id, &mut sink));
     }
 
-    /// Takes rows out and puts others in; those in both stay as they are.
+    /// Takes rows out and puts others in; those in both stay as they are. What the rule text does not declare is in neither.
     pub(super) fn settle(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
         let mut fault: Option<FactError> = None;
         let Difference { out, into } = std::mem::take(rows);
+        let program = self.rules.program();
+        let mut last: (&str, Option<RelationId>) = ("", None);
+        let mut declared = |relation: &'static str| {
+            if last.0 != relation {
+                last = (relation, program.relation(relation));
+            }
+            last.1
+        };
         for (relation, row) in out.difference(&into) {
-            if let Err(e) = self.live.remove(*relation, row) {
+            if let Some(relation) = declared(relation)
+                && let Err(e) = self.live.remove(relation, row)
+            {
                 note(&mut fault, e);
             }
         }
         for (relation, row) in &into {
-            if let Err(e) = self.live.insert(*relation, row) {
+            if let Some(relation) = declared(relation)
+                && let Err(e) = self.live.insert(relation, row)
+            {
                 note(&mut fault, e);
             }
         }
