@@ -235,3 +235,124 @@ fn of_one_thing_there_are_no_others() {
     }
     assert!(shown > 0, "none of them was understood");
 }
+
+/// "Which books are there? What colour is it?": one word in the singular means no one of several that were listed.
+#[test]
+fn it_is_none_of_several_that_were_listed() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let kinds = [("books", "книги"), ("chairs", "стулья"), ("lamps", "лампы"), ("windows", "окна")];
+    let mut asked_back = 0;
+    for (english, russian) in kinds {
+        for (list, asked) in [
+            (format!("Which {english} are there?"), "What colour is it?"),
+            (format!("Which {english} are there?"), "Is it in Room V?"),
+            (format!("Which {english} are there?"), "What is next to it?"),
+            (format!("Какие {russian} есть?"), "Какого цвета она?"),
+            (format!("Какие {russian} есть?"), "Что рядом с ним?"),
+        ] {
+            let mut memory = Memory::default();
+            let Ok(listed) = rb2.ask(&list, &mut memory).unwrap() else { continue };
+            if listed.things.len() < 2 {
+                continue;
+            }
+            match rb2.ask(asked, &mut memory).unwrap() {
+                Ok(told) => {
+                    let of_one = listed.things.iter().filter(|t| told.things.contains(t)).count();
+                    assert_ne!(of_one, 1, "{list} {asked} {}", told.text);
+                }
+                Err(unanswered) => {
+                    asked_back += usize::from(unanswered.doubt.kind() == "ambiguous");
+                }
+            }
+        }
+    }
+    assert!(asked_back > 3, "{asked_back}");
+}
+
+/// «Я в спальне, что тут …?»: "here" is where the person says to be, and never where the robot is.
+#[test]
+fn here_is_where_the_person_says_to_be() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let mut same = 0;
+    for room in ["Room V", "Room Z", "Room Y"] {
+        for thing in ["chairs", "books", "lamps"] {
+            let whole = format!("How many {thing} are in {room}?");
+            let plain = rb2.ask(&whole, &mut Memory::default()).unwrap().expect("a plain question");
+            for lead in [
+                format!("I'm in {room}, how many {thing} are here?"),
+                format!("I'm in {room} and I'm bored, how many {thing} are there here?"),
+                format!("I'm sitting in {room}. How many {thing} are in here?"),
+            ] {
+                let Ok(told) = rb2.ask(&lead, &mut Memory::default()).unwrap() else { continue };
+                assert_eq!(told.number, plain.number, "{lead} {}", told.text);
+                same += 1;
+            }
+        }
+    }
+    for (room, inside) in [("Комнате-В", "в Комнате-В"), ("Комнате-Z", "в Комнате-Z")]
+    {
+        for deed in ["почитать", "включить"] {
+            let whole = format!("Что {inside} можно {deed}?");
+            let plain = answered(&rb2, &whole, &mut Memory::default());
+            let here = format!("Я сейчас в {room}, что тут можно {deed}?");
+            let told = answered(&rb2, &here, &mut Memory::default());
+            assert!(told.is_none() || told == plain, "{here}\n  {told:?}\n  {plain:?}");
+        }
+    }
+    assert!(same > 8, "{same}");
+}
+
+/// What is thrown in behind a question word changes no answer.
+#[test]
+fn what_is_thrown_in_behind_a_question_word_changes_no_answer() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    for (case, thrown) in [("rb2-ru", ", спрашивается, "), ("rb2-en", ", pray tell, ")]
+    {
+        let (mut asked, mut same) = (0, 0);
+        for question in golden(case).iter().step_by(4) {
+            let Some((first, rest)) = question.split_once(' ') else { continue };
+            let words = ["Где", "Куда", "Сколько", "Where", "What"];
+            if !words.contains(&first) {
+                continue;
+            }
+            let Some(plain) = answered(&rb2, question, &mut Memory::default()) else { continue };
+            let line = format!("{first}{thrown}{rest}");
+            asked += 1;
+            if let Some(told) = answered(&rb2, &line, &mut Memory::default()) {
+                assert_eq!(told, plain, "{line}");
+                same += 1;
+            }
+        }
+        assert!(same * 2 >= asked && asked > 3, "{case}: {same} of {asked}");
+    }
+}
+
+/// «Сколько стульев в А? А в Б их сколько?» counts those of the kind in the other room; "the other rooms" leave out the one
+/// that was spoken of.
+#[test]
+fn what_goes_on_moves_to_another() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let counted = |question: &str, memory: &mut Memory| {
+        rb2.ask(question, memory).unwrap().ok().and_then(|answer| answer.number)
+    };
+    let rooms = ["Room V", "Room Z", "Room Y", "the corridor"];
+    for kind in ["chairs", "books", "lamps", "windows"] {
+        for (from, to) in rooms.iter().zip(rooms.iter().cycle().skip(1)) {
+            let first = format!("How many {kind} are in {from}?");
+            let second = format!("How many of them are in {to}?");
+            let mut memory = Memory::default();
+            answered(&rb2, &first, &mut memory);
+            let told = counted(&second, &mut memory);
+            let plain = counted(&format!("How many {kind} are in {to}?"), &mut Memory::default());
+            assert!(told.is_none() || told == plain, "{first} {second} {told:?} {plain:?}");
+        }
+        let all = counted(&format!("How many {kind} are there?"), &mut Memory::default());
+        for room in rooms {
+            let mut memory = Memory::default();
+            let here = counted(&format!("How many {kind} are in {room}?"), &mut memory);
+            let rest = counted(&format!("How many {kind} are in the other rooms?"), &mut memory);
+            let (Some(all), Some(here), Some(rest)) = (all, here, rest) else { continue };
+            assert!((all - here - rest).abs() < 0.5, "{kind}, {room}: {all} {here} {rest}");
+        }
+    }
+}

@@ -108,7 +108,10 @@ impl Memory {
     /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
         (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
-        if matches!(doubt, Doubt::Ambiguous { .. }) {
+        // "By the book, do you mean …? – Is it open?" means one of those.
+        if let Doubt::Ambiguous { candidates, .. } = doubt {
+            self.exchanges.insert(0, Exchange::list(candidates));
+            self.exchanges.truncate(RECENT);
             return;
         }
         // "And on the bed?" goes on from what was not understood, and not from the question before it.
@@ -194,8 +197,34 @@ impl Knowledge<'_> {
                 room.is_some_and(|room| Some(Thing::Entity(Entity::Area(room))) != own)
             };
             let robots = own.is_some_and(|own| noun.head.things.as_deref() == Some(&[own]));
+            // Other than nothing is no other.
+            let bare = Noun { other: true, ..Noun { head: noun.head.clone(), ..Noun::default() } };
+            let all = self.base(&noun.head);
+            // «Хлеб остался ещё?»
+            let whether = matches!(query, Query::Exists { .. });
+            let other = noun.other
+                && !whether
+                && !noun.head.anything
+                && noun.head.things.is_none()
+                && noun.except.is_empty();
+            if other
+                && !all.is_empty()
+                && self.find(&bare, true).is_ok_and(|f| f.len() == all.len())
+            {
+                word.get_or_insert_with(|| noun.text.clone());
+            }
+            // "Which ones are nearer?" after nothing that is known.
+            let unsaid = points(noun) && noun.restrictions.is_empty() && noun.filters.is_empty();
+            if unsaid && noun.head.things.is_none() && noun.except.is_empty() {
+                word.get_or_insert_with(|| noun.text.clone());
+            }
+            let missing = |noun: &Noun| noun.head.things.as_deref() == Some(&[]);
+            let anchors = || noun.restrictions.iter().flat_map(|place| &place.anchors);
             if is_shown(noun) && (lacks || robots && elsewhere()) {
                 word.get_or_insert_with(|| noun.text.clone());
+            }
+            if let Some(anchor) = anchors().find(|anchor| missing(anchor)) {
+                word.get_or_insert_with(|| anchor.text.clone());
             }
         });
         word
@@ -287,7 +316,9 @@ impl Knowledge<'_> {
             }
         });
         self.put_together(query);
+        self.keep_room(query);
         self.by_state(query);
+        self.resume(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()
@@ -296,6 +327,22 @@ impl Knowledge<'_> {
             && let Some(kind) = self.kind_of(*only)
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+    }
+
+    /// "The kitchen one, is it white?": the pronoun resumes the subject, and claims nothing of it.
+    fn resume(&self, query: &mut Query) {
+        let Query::Holds { claims, .. } = query else { return };
+        let resumes = |claim: &Claim| match claim {
+            Claim::Kind(noun) => {
+                let words = word_keys(&noun.text);
+                let said = vocabulary::longest(&words);
+                matches!(said, Some((taken, Mark::Pronoun(_))) if taken == words.len())
+            }
+            _ => false,
+        };
+        if claims.iter().any(|claim| !resumes(claim)) {
+            claims.retain(|claim| !resumes(claim));
         }
     }
 
@@ -369,6 +416,10 @@ impl Knowledge<'_> {
                 if let Some(told) = told {
                     let things = Some(told.listed.clone());
                     anchor.head = Head { things, ..Head::default() };
+                } else if matches!(rel, Rel::On | Rel::In) && anchor.head.anything {
+                    // "What is lying on the bigger bed? And on the smaller one?"
+                    anchor.head =
+                        self.like_anchor(rel).unwrap_or_else(|| Noun::of(Vec::new()).head);
                 }
             }
         }
@@ -379,6 +430,88 @@ impl Knowledge<'_> {
                 *anchor = Noun { text, ..Noun::of(vec![meant]) };
             }
         }
+    }
+
+    /// «Какой он?»: asked which one it is, a thing that was spoken of is only itself; and of floors, which have no names,
+    /// there is no list.
+    pub(super) fn tells_nothing(&self, query: &Query) -> bool {
+        let floors = |noun: &Noun| self.is_floor(noun) && noun.head.things.is_none();
+        match query {
+            Query::Find(noun) => {
+                let bare = Noun {
+                    head: Head::default(),
+                    text: String::new(),
+                    plural: false,
+                    all: false,
+                    ..noun.clone()
+                };
+                let words = word_keys(&noun.text);
+                let ones = words.last().is_some_and(|word| matches!(&**word, "one" | "ones"));
+                let said = vocabulary::longest(&words);
+                let pronoun = matches!(said, Some((n, Mark::Pronoun(_))) if n == words.len());
+                let itself = matches!(noun.head.things.as_deref(), Some([_])) && pronoun
+                    || ones && noun.head.things.is_some();
+                floors(noun) || itself && bare == Noun::default()
+            }
+            Query::Count(noun) | Query::Where(noun) => floors(noun),
+            Query::Exists { what, .. } => what.iter().any(floors),
+            _ => false,
+        }
+    }
+
+    /// Keeps a place of a surface in the room that was spoken of: «Что на полу? А на стенах?»
+    fn keep_room(&self, query: &mut Query) {
+        let (Query::Find(noun) | Query::Count(noun)) = query else {
+            if let Query::Exists { what, .. } = query
+                && let [noun] = &mut what[..]
+            {
+                self.keep_room_of(noun);
+            }
+            return;
+        };
+        self.keep_room_of(noun);
+    }
+
+    fn keep_room_of(&self, noun: &mut Noun) {
+        let surface = |a: &Noun| {
+            (self.is_floor(a) || self.is_walls(a)) && a.restrictions.is_empty() && !a.all
+        };
+        let [place] = &noun.restrictions[..] else { return };
+        if place.negated || !place.anchors.iter().all(surface) {
+            return;
+        }
+        let Some(last) = &self.memory.query else { return };
+        let mut rooms: Vec<Thing> = Vec::new();
+        last.clone().each_noun(&mut |noun| {
+            for anchor in noun.restrictions.iter().flat_map(|place| &place.anchors) {
+                let found = self.find(anchor, true).unwrap_or_default();
+                rooms.extend(found.into_iter().filter(|t| t.area().is_some()));
+            }
+        });
+        rooms.dedup();
+        if let [room] = rooms[..] {
+            let anchors = vec![Noun::of(vec![room])];
+            noun.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
+        }
+    }
+
+    /// In which rooms the things are that were spoken of last.
+    pub(super) fn rooms_spoken_of(&self) -> Vec<Thing> {
+        let last = self.memory.exchanges.first().into_iter().flat_map(Exchange::things);
+        let rooms = last.filter_map(|thing| self.area_of(*thing));
+        rooms.map(|room| Thing::Entity(Entity::Area(room))).collect()
+    }
+
+    /// The kind of what the last question asked to be on or in.
+    fn like_anchor(&self, rel: Rel) -> Option<Head> {
+        let mut told: Vec<Noun> = Vec::new();
+        self.memory.query.clone()?.each_noun(&mut |noun| {
+            let places = noun.restrictions.iter().filter(|place| place.rel == rel);
+            told.extend(places.flat_map(|place| place.anchors.clone()));
+        });
+        let [anchor] = &told[..] else { return None };
+        let found = self.find(anchor, true).ok().filter(|found| !found.is_empty())?;
+        Some(Head { kinds: vec![self.alike(&found)?], ..Head::default() })
     }
 
     /// What a pronoun means: what was last spoken of that agrees with it, and may stand in the relation that it is named
@@ -410,24 +543,70 @@ impl Knowledge<'_> {
             Pronoun::They => {
                 let several =
                     |t: &Thing| self.memory.is_plural || self.gender(*t).1 == Number::Plural;
-                self.taken_up(pronoun, rel).filter(several).into_iter().collect()
+                self.taken_up(pronoun, rel).into_iter().take(1).filter(several).collect()
             }
-            _ => self.taken_up(pronoun, rel).into_iter().collect(),
+            _ => self.taken_up(pronoun, rel),
         }
     }
 
-    fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Option<Thing> {
+    /// The one that was spoken of last, or all of a list none of which was spoken of more than the others.
+    fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
         /// A pronoun passes over no more exchanges for something that may stand in its relation.
         const NEAR: usize = 2;
-        let ranked = |exchanges: &[Exchange]| -> Vec<Thing> {
-            let ranks = exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
-            ranks.flatten().copied().filter(|t| self.agrees(pronoun, *t)).collect()
+        let may = |t: &Thing| rel.is_none_or(|rel| self.may_be_anchor(rel, *t));
+        let near = self.memory.exchanges.iter().take(NEAR);
+        let fitting = |admits: &dyn Fn(&Thing) -> bool| -> Vec<Thing> {
+            let fits = |t: &Thing| self.agrees(pronoun, *t) && admits(t);
+            let rank = near.clone().find_map(|exchange| {
+                let topic = exchange.topics.iter().find(|t| fits(t)).map(|t| vec![*t]);
+                let listed = || exchange.listed.iter().copied().filter(|t| fits(t)).collect();
+                topic.or_else(|| Some(listed()).filter(|all: &Vec<Thing>| !all.is_empty()))
+            });
+            rank.unwrap_or_default()
         };
-        let exchanges = &self.memory.exchanges[..];
-        let near = ranked(&exchanges[..exchanges.len().min(NEAR)]);
-        let may = |t: &&Thing| rel.is_none_or(|rel| self.may_be_anchor(rel, **t));
-        let spoken = || self.memory.spoken.iter().copied().find(|t| self.agrees(pronoun, *t));
-        near.iter().find(may).or(near.first()).copied().or_else(spoken)
+        let found = fitting(&may);
+        let found = if found.is_empty() { fitting(&|_| true) } else { found };
+        if !found.is_empty() {
+            return found;
+        }
+        let spoken = self.memory.spoken.iter().copied().find(|t| self.agrees(pronoun, *t));
+        spoken.into_iter().collect()
+    }
+
+    /// What one word in the singular may mean of several: "it" after a list, "that one". Where they are told by name one
+    /// by one, all of them are.
+    pub(super) fn contested(&self, query: &Query) -> Option<Doubt> {
+        if matches!(query, Query::Where(_) | Query::RoomOf(_) | Query::Several(_)) {
+            return None;
+        }
+        let mut doubt = None;
+        let single = |noun: &Noun| {
+            let words = word_keys(&noun.text);
+            let pronoun = match vocabulary::longest(&words) {
+                Some((taken, Mark::Pronoun(p))) if taken == words.len() => Some(p),
+                _ => None,
+            };
+            let shown = words.last().is_some_and(|word| word == "one") && is_shown(noun);
+            shown || pronoun.is_some_and(|p| !matches!(p, Pronoun::They | Pronoun::There))
+        };
+        let mut check = |noun: &Noun| {
+            let several = noun.head.things.as_deref().filter(|things| things.len() > 1);
+            let bare = noun.filters.is_empty()
+                && noun.restrictions.is_empty()
+                && noun.sizes.is_empty()
+                && noun.best.is_none()
+                && noun.rank.is_none()
+                && !noun.other;
+            if let Some(candidates) = several.filter(|_| bare && single(noun)) {
+                let (reference, candidates) = (noun.text.clone(), candidates.to_vec());
+                doubt.get_or_insert(Doubt::Ambiguous { reference, candidates });
+            }
+        };
+        query.clone().each_noun(&mut |noun| {
+            check(noun);
+            noun.restrictions.iter().flat_map(|place| &place.anchors).for_each(&mut check);
+        });
+        doubt
     }
 
     /// From what something is taken that lies on "it" or in it: what was last spoken of that agrees and may bear things.

@@ -3,7 +3,8 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
-    Asker, Claim, Filter, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several,
+    Asker, Best, Claim, Extreme, Filter, Head, Memory, Noun, Query, Rel, Restriction, Thing,
+    assemble, several,
 };
 use crate::map::Entity;
 use crate::words::{Language, word_keys, word_ranges};
@@ -25,6 +26,9 @@ impl Asker<'_> {
             && (0..sentence.keys.len()).any(|at| sentence.points_ahead(at))
         {
             return None;
+        }
+        if let Some(query) = self.one_of_asked(&sentence, last, memory) {
+            return Some(query);
         }
         if let Some(query) = where_such(&sentence, last) {
             return Some(query);
@@ -105,6 +109,17 @@ impl Asker<'_> {
         let of_told = |r: &super::Restriction| matches!(r.rel, Rel::From | Rel::Of);
         if counts && noun.restrictions.iter().any(of_told) {
             return None;
+        }
+        // «Какая картина висит ниже всех? А выше всех?» goes on about where they hang.
+        let level = |best: &Best| matches!(best.extreme, Extreme::Topmost | Extreme::Bottommost);
+        let mut hangs = false;
+        query_nouns(last, &mut |old| hangs |= old.best.as_ref().is_some_and(level));
+        if let Some(best) = noun.best.as_mut().filter(|_| hangs && keys_compare(&sentence.keys)) {
+            best.extreme = match best.extreme {
+                Extreme::Tallest => Extreme::Topmost,
+                Extreme::Lowest => Extreme::Bottommost,
+                other => other,
+            };
         }
         // "Which one is the smallest?"
         if noun.head.anything && noun.best.is_some() && noun.restrictions.is_empty() {
@@ -203,6 +218,50 @@ impl Asker<'_> {
             }
         });
         placed.then_some(query)
+    }
+
+    /// "Is the bedroom door shut? – No, neither Door 1 nor Door 2. – The one to the kitchen?": the same of that one of
+    /// those that were told.
+    fn one_of_asked(
+        &self,
+        sentence: &Sentence<'_>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
+        let items = sentence.items();
+        let small = |item: &Item| matches!(item, Item::Mark(Mark::And | Mark::The));
+        let mut own = items.iter().skip_while(|item| small(item));
+        let Some(Item::Noun(phrase)) = own.next() else { return None };
+        let places = own.all(|item| matches!(item, Item::Place { .. }));
+        let points = phrase.noun.head.anything && word_keys(&phrase.noun.text).last()? == "one";
+        if !places || !points || memory.listed.len() < 2 || memory.pending.is_some() {
+            return None;
+        }
+        let noun = self.fragment(sentence, memory).filter(|noun| !noun.restrictions.is_empty())?;
+        let asks = matches!(
+            last,
+            Query::Holds { .. }
+                | Query::Choice { .. }
+                | Query::Property { .. }
+                | Query::Size { .. }
+        );
+        let told = |noun: &Noun| {
+            let knowledge = self.knowledge(sentence.language, memory);
+            let found = knowledge.find(noun, true).unwrap_or_default();
+            !found.is_empty() && found.iter().all(|t| memory.listed.contains(t))
+        };
+        let (mut subject, mut first) = (false, true);
+        query_nouns(last, &mut |old| {
+            if std::mem::take(&mut first) {
+                subject = told(old);
+            }
+        });
+        let head = Head { things: Some(memory.listed.clone()), ..Head::default() };
+        let narrowed = Noun { head, plural: true, ..noun };
+        let knowledge = self.knowledge(sentence.language, memory);
+        let found = knowledge.find(&narrowed, true).ok().filter(|_| asks && subject)?;
+        let [only] = found[..] else { return None };
+        Some(last.clone().of_another(&Noun::of(vec![only])))
     }
 
     /// "Is there a sink in the bathroom? One in the kitchen too?": whether there is another of the kind.
@@ -593,6 +652,15 @@ fn where_such(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
     let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
     let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
     (!filters.is_empty()).then(|| Query::Where(Noun { head, filters, ..Noun::default() }))
+}
+
+fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {
+    query.clone().each_noun(&mut |noun| act(noun));
+}
+
+/// «выше», «ниже», by place as well as by size.
+fn keys_compare(keys: &[String]) -> bool {
+    keys.iter().any(|key| matches!(key.as_str(), "выше" | "ниже"))
 }
 
 /// Whether a relation says where things are, and not what they have or whose they are.

@@ -632,6 +632,10 @@ impl Asker<'_> {
         language: Language,
         memory: &Memory,
     ) -> Outcome {
+        // «Я в спальне, что тут можно включить?» asks nothing of where the robot is.
+        let elsewhere = place.filter(|place| premise::says_here(text) && self.is_room(place));
+        let unsaid = elsewhere.map(|_| premise::without_here(text));
+        let text = unsaid.as_deref().unwrap_or(text);
         if let Some(query) = self.clarified(text, memory) {
             let language = memory.pending.as_ref().map_or(language, |p| p.language);
             let knowledge = self.knowledge(language, memory);
@@ -649,8 +653,7 @@ impl Asker<'_> {
         };
         if let Some(place) = place {
             query = query.asked_at(place);
-            // «Я в спальне, что тут можно включить?»: in the bedroom.
-            if premise::says_here(text) && self.is_room(place) && !query.narrow(place) {
+            if elsewhere.is_some() && !query.narrow(place) {
                 let words = text.to_owned();
                 return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
             }
@@ -663,6 +666,13 @@ impl Asker<'_> {
         let none = knowledge.points_at_nothing(&query).or_else(|| knowledge.is_at_itself(&query));
         if let Some(word) = none {
             return Err(Box::new((Doubt::NoReferent { word }, None)));
+        }
+        if let Some(doubt) = knowledge.contested(&query) {
+            return Err(Box::new((doubt, Some(query))));
+        }
+        if knowledge.tells_nothing(&query) {
+            let words = text.to_owned();
+            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
         }
         let answer = knowledge.answer(&query);
         let answer = answer.map(|answer| Answer { words: text.to_owned(), ..answer });

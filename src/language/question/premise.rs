@@ -6,7 +6,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
 use super::{Asker, Memory, Noun, Query, Rel, Restriction};
-use crate::words::{is_first_person, word_keys};
+use crate::words::{is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
 const SMALL: [&str; 14] = [
@@ -89,6 +89,20 @@ pub(super) fn says_here(text: &str) -> bool {
     word_keys(text).iter().any(|key| matches!(key.as_str(), "здесь" | "тут" | "here"))
 }
 
+/// The same question without the word for "here".
+pub(super) fn without_here(text: &str) -> String {
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let here = |key: &String| matches!(key.as_str(), "здесь" | "тут" | "here");
+    let Some(at) = keys.iter().position(here) else { return text.to_owned() };
+    let from = match at.checked_sub(1) {
+        Some(before) if keys[before] == "in" => before,
+        _ => at,
+    };
+    let mut rest = text.to_owned();
+    rest.replace_range(words[from].start..words[at].end, "");
+    rest
+}
+
 impl Query {
     /// Asks of what is in a place alone; false where that cannot be put to the question.
     pub(super) fn narrow(&mut self, place: &Noun) -> bool {
@@ -110,8 +124,9 @@ impl Query {
             | Self::Passing { .. } => return true,
             _ => return false,
         };
-        // A place that was read already is that of "here", or another.
-        if sought.restrictions.is_empty() && sought.best.is_none() {
+        // A room that was told is another.
+        let within = |r: &Restriction| r.rel == Rel::In;
+        if !sought.restrictions.iter().any(within) && sought.best.is_none() {
             let restriction =
                 Restriction { rel: Rel::In, anchors: vec![place.clone()], negated: false };
             sought.restrictions.push(restriction);

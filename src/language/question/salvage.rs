@@ -5,7 +5,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::{Asker, Doubt, Memory, Noun, Outcome, Said, Thing, opening, several, vocabulary};
+use super::{
+    Asker, Doubt, Memory, Noun, Outcome, Said, Thing, opening, premise, several, vocabulary,
+};
 use crate::command::is_order;
 use crate::words::{Language, word_keys, word_ranges};
 
@@ -44,7 +46,9 @@ impl Asker<'_> {
         language: Language,
         memory: &Memory,
     ) -> Option<Outcome> {
-        let shortened = self.without_idle_tail(text);
+        let parted = self.without_interjection(text);
+        let tailless = self.without_idle_tail(parted.as_deref().unwrap_or(text));
+        let shortened = tailless.or(parted);
         let (text, whole) = (shortened.as_deref().unwrap_or(text), shortened.is_some());
         let parts = parts(text);
         if parts.len() > MOST_PARTS {
@@ -102,6 +106,11 @@ impl Asker<'_> {
                 if self.says_something(&span[..begin]) || !self.asks_of_something(asked) {
                     continue;
                 }
+                // «Сижу в гостиной, скучно, что тут …?»: "here" is where the person is, or nowhere.
+                let placed = told.place.is_some() || told.named.places.is_empty();
+                if premise::says_here(asked) && !placed {
+                    continue;
+                }
                 let pronouns = self.pronouns(asked);
                 if !told.named.may_be_meant(&pronouns) {
                     // «Телефон потерялся, где он?» of two: which one is asked back.
@@ -128,7 +137,13 @@ impl Asker<'_> {
                     Err(unanswered) if self.is_understood(&unanswered.0) => {
                         doubted.get_or_insert(unanswered);
                     }
-                    Err(_) => {}
+                    // "… which bins do we have, and where are they?"
+                    Err(_) => match self.each_part(asked, language, &mut heard) {
+                        Some(Ok(answer)) if told.place.is_none() => {
+                            return Some(Ok(answer.understood_as(asked, language)));
+                        }
+                        _ => {}
+                    },
                 }
             }
         }
@@ -158,6 +173,30 @@ impl Asker<'_> {
             }
         }
         Some(told)
+    }
+
+    /// A question without what is thrown in behind its question word: «Какого, блин, цвета …?», "Where, pray tell, is …?"
+    fn without_interjection(&self, text: &str) -> Option<String> {
+        const MOST: usize = 3;
+        let parts = parts(text);
+        let [(from, first), (thrown, last), (rest, _), ..] = parts[..] else { return None };
+        let items = |part: &str| {
+            let plain = self.plain(part);
+            Sentence::new(&plain, &self.mind.lexicon).items()
+        };
+        let asks = items(&text[from..first]).iter().all(|item| matches!(item, Item::Mark(_)))
+            && opening::begins_question(&word_keys(&text[from..first]));
+        let thrown = &text[thrown..last];
+        let says_nothing = |item: &Item| match item {
+            Item::Unknown(_) => true,
+            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::You | Mark::Me),
+            _ => false,
+        };
+        let idle = word_keys(thrown).len() <= MOST
+            && !thrown.ends_with('?')
+            && !self.is_word(thrown)
+            && items(thrown).iter().all(says_nothing);
+        (asks && idle).then(|| format!("{} {}", &text[from..first], &text[rest..]))
     }
 
     /// A line without an "or" at its end that puts nothing of the map for choice: "…, or shall I get up?", «… или всё
@@ -296,7 +335,8 @@ impl Asker<'_> {
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
         let wishes = keys.iter().any(|key| key == "бы" || key == "б");
         let begs = only_begs(&keys);
-        if several::asks_outright(text) && !wishes && !begs {
+        let tells = tells_there_is(text, &keys) || is_own_clause(&keys);
+        if several::asks_outright(text) && !wishes && !begs && !tells {
             return None;
         }
         // «Ту, что в комоде, достань» orders.
@@ -379,7 +419,13 @@ impl Named {
 
 /// "If you don't mind", «если не секрет», "while you're at it": who says so is polite, and supposes nothing.
 fn is_polite(keys: &[String]) -> bool {
-    const POLITE: [&str; 17] = [
+    const POLITE: [&str; 23] = [
+        "remember",
+        "recall",
+        "wrong",
+        "mistaken",
+        "ошибаюсь",
+        "помню",
         "mind",
         "please",
         "possible",
@@ -513,6 +559,24 @@ pub(super) fn goes_on(before: &str, part: &str) -> bool {
         Some(first) => first.starts_with("котор") && !told.is_empty(),
         None => false,
     }
+}
+
+/// "Someone told me there's a cart in the hall": that there is something is told, where "there" stands before "is".
+fn tells_there_is(text: &str, keys: &[String]) -> bool {
+    let there = |pair: &[String]| pair[0] == "there" && ["is", "s", "are"].contains(&&*pair[1]);
+    let Some(at) = keys.windows(2).position(there).filter(|_| !text.ends_with('?')) else {
+        return false;
+    };
+    let asks = |words: &[String]| several::asks_outright(&words.join(" "));
+    !asks(&keys[..at]) && !asks(&keys[at + 2..])
+}
+
+/// «которую я вчера не дочитал», "that I bought yesterday": what the person did with a thing.
+fn is_own_clause(keys: &[String]) -> bool {
+    let Some((first, rest)) = keys.split_first() else { return false };
+    let joins = first.starts_with("котор") || first == "which" || first == "that";
+    let own = |key: &String| matches!(key.as_str(), "я" | "мы" | "i" | "we");
+    joins && rest.first().is_some_and(own) && !several::asks_outright(&rest.join(" "))
 }
 
 /// «не подскажешь?», "do you know?": a part that asks for nothing of its own.

@@ -27,7 +27,9 @@ fn is_sound(key: &str) -> bool {
 }
 
 fn is_interjection(key: &str) -> bool {
-    const SAID: [&str; 46] = [
+    const SAID: [&str; 48] = [
+        "seriously",
+        "already",
         "hey",
         "hi",
         "hello",

@@ -4,7 +4,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::lexicon::{Extension, KindId};
-use super::{Asker, Doubt, Head, Memory, Noun, Query, Rel};
+use super::{Asker, Doubt, Head, Memory, Noun, Query, Rel, Thing};
 
 impl Asker<'_> {
     /// Asks of all things of the kind, where a pronoun means some of them and the whole building is named.
@@ -20,7 +20,8 @@ impl Asker<'_> {
         let (Query::Count(noun) | Query::Find(noun)) = query else { return Ok(()) };
         let Some(told) = noun.head.things.as_deref() else { return Ok(()) };
         let in_parts = told.iter().all(|thing| thing.area().is_none());
-        if !in_parts || !noun.restrictions.is_empty() || !self.names_the_whole(text) {
+        let whole = noun.restrictions.is_empty() && self.names_the_whole(text);
+        if !in_parts || !(whole || self.is_moved_on(noun, told, memory)) {
             return Ok(());
         }
         // As they were asked for, else by what they are.
@@ -40,6 +41,27 @@ impl Asker<'_> {
         let head = Head { kinds, ..Head::default() };
         *noun = Noun { head, plural: true, all: false, ..noun.clone() };
         Ok(())
+    }
+
+    /// «Сколько стульев в гостиной? А на кухне их сколько?»: those that were found in one room are in no other.
+    fn is_moved_on(&self, noun: &Noun, told: &[Thing], memory: &Memory) -> bool {
+        let knowledge = self.knowledge(memory.language, memory);
+        let within = |noun: &Noun| match &noun.restrictions[..] {
+            [place] if place.rel == Rel::In && !place.negated => match &place.anchors[..] {
+                [anchor] => {
+                    let found = knowledge.find(anchor, true).unwrap_or_default();
+                    match found[..] {
+                        [only] => only.area(),
+                        _ => None,
+                    }
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        let before = memory.query.as_ref().and_then(Query::sought).and_then(within);
+        let (Some(before), Some(now)) = (before, within(noun)) else { return false };
+        before != now && told.iter().all(|thing| knowledge.area_of(*thing) == Some(before))
     }
 
     fn names_the_whole(&self, text: &str) -> bool {

@@ -188,6 +188,16 @@ impl Knowledge<'_> {
             let text = self.no_property(&property, thing);
             return Ok(Draft::new(Said::Unknown, text).with(found));
         }
+        if let (&[thing, _, ..], [Claim::Value(filter)]) = (&found[..], claims)
+            && found.iter().all(|t| t.replica().is_some())
+            && found.iter().all(|t| self.own_value(*t, filter.value).is_none())
+            && !found.iter().any(|t| self.fits(*t, filter))
+            && self.lexicon().values.entry(filter.value).russian != "пустой"
+        {
+            let property = self.lexicon().values.entry(filter.value).property.clone();
+            let text = self.no_property(&property, thing);
+            return Ok(Draft::new(Said::Unknown, text).with(found));
+        }
         let mut facts = Vec::new();
         let mut topic = Vec::new();
         let mut failed: Vec<Thing> = Vec::new();

@@ -4,6 +4,7 @@
 //! not to be understood, however well the rest of the sentence was read.
 
 use super::Frame;
+use crate::question::grammar::points;
 use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Extreme, Noun, Quantity, Query, Rel, Restriction, Thing,
@@ -97,8 +98,13 @@ impl Frame<'_, '_> {
         let query = &*query;
         // «Какие картины или картины …?», where two words mean the same
         let twice = self.nouns.windows(2).any(|pair| pair[0].noun.head == pair[1].noun.head);
+        // «Чайник ещё закрыт?» asks whether it still is.
+        let still = matches!(query, Query::Holds { .. } | Query::Choice { .. })
+            && self.sentence.keys.iter().any(|key| key == "еще");
         let asks = |(mark, _): &(Mark, usize)| {
-            !(answers(query, *mark, &told) || twice && *mark == Mark::Or)
+            !(answers(query, *mark, &told)
+                || twice && *mark == Mark::Or
+                || still && *mark == Mark::Other)
         };
         // «Для чего он нужен?»: nothing lies to anything as a way leads.
         let leads = matches!(query, Query::Anchor { rel: Rel::To | Rel::Through, .. });
@@ -143,6 +149,67 @@ impl Frame<'_, '_> {
             || self.is_piece(query)
             || self.loses_there(query)
             || self.loses_a_side(query)
+            || self.loses_what_governs(query)
+            || self.loses_the_property(query)
+            || self.loses_what_is_shown(query)
+    }
+
+    /// «Какая это комната?», "How many do they have?", "The one in the hall" by itself: what was spoken of is neither
+    /// listed with all others, nor counted, nor said to be where it was only described to be.
+    fn loses_what_is_shown(&self, query: &Query) -> bool {
+        let placed = |claim: &Claim| matches!(claim, Claim::Related(_));
+        match query {
+            Query::Find(noun) => {
+                let bare = noun.head.things.is_none()
+                    && !noun.head.anything
+                    && noun.filters.is_empty()
+                    && noun.restrictions.is_empty()
+                    && noun.best.is_none();
+                bare && self.sentence.language == Language::Russian
+                    && self.sentence.keys.iter().any(|key| key == "это")
+            }
+            Query::Count(noun) => {
+                self.has(Mark::Have) && noun.head.things.is_some() && noun.restrictions.is_empty()
+            }
+            Query::Holds { subject, claims, .. } => {
+                let says = self.has(Mark::Be) || self.has(Mark::Exists) || self.has(Mark::All);
+                points(subject) && claims.iter().all(placed) && !says
+            }
+            _ => false,
+        }
+    }
+
+    /// «Какого цвета табурет, чёрный?»: the property is asked, and not for those that have the value.
+    fn loses_the_property(&self, query: &Query) -> bool {
+        let (Query::Find(noun), Some((asked, at))) = (query, &self.property) else { return false };
+        // «Что красного цвета?» asks for no colour.
+        let which = |(mark, before): &(Mark, usize)| *mark == Mark::Which && before + 1 == *at;
+        if !self.marks.iter().any(which) {
+            return false;
+        }
+        let own = |value| self.lexicon.values.entry(value).property == *asked;
+        noun.like.is_none() && noun.filters.iter().any(|filter| own(filter.value))
+    }
+
+    /// "Where did you get it from?", «В какой из них больше?»: a preposition of what is asked that the query has not.
+    fn loses_what_governs(&self, query: &Query) -> bool {
+        let has = |rel: Rel| self.links.iter().any(|(own, _)| *own == rel);
+        match query {
+            Query::Where(noun) => {
+                has(Rel::From)
+                    && !self.has(Mark::Lead)
+                    && noun.restrictions.iter().all(|place| place.rel != Rel::From)
+            }
+            Query::Find(noun) => {
+                let things = noun.head.things.as_deref().unwrap_or_default();
+                let told = !things.is_empty() && things.iter().all(|t| t.replica().is_some());
+                let asked = self.links.first().is_some_and(|(rel, at)| {
+                    matches!(rel, Rel::In | Rel::On) && *at < 2 && self.has(Mark::Which)
+                });
+                told && asked && noun.best.is_some() && noun.restrictions.is_empty()
+            }
+            _ => false,
+        }
     }
 
     /// «Туда дверь открыта?»: of the door there, and not of any.

@@ -68,7 +68,13 @@ impl Knowledge<'_> {
             // What was spoken of long ago is no part of "what else".
             const RECENT: usize = 12;
             let recent = &self.memory.spoken[..self.memory.spoken.len().min(RECENT)];
+            let before = found.len();
             found.retain(|t| !recent.contains(t));
+            // "The other rooms" after what was spoken of in one of them.
+            if found.len() == before && !noun.head.anything {
+                let rooms: Vec<Thing> = self.rooms_spoken_of();
+                found.retain(|t| !rooms.contains(t));
+            }
         }
         for sort in &noun.also {
             let own: HashSet<Thing> = self.base(sort).into_iter().collect();
