@@ -184,6 +184,33 @@ fn a_pronoun_for_what_left_the_map_is_answered() {
     }
 }
 
+/// «Все» without a noun are those that were spoken of, and nobody's where nothing was; «всё» is everything there is.
+#[test]
+fn all_without_a_noun_are_those_that_were_spoken_of() {
+    const DEVICES: [&str; 3] = ["Телевизор-1", "Лампа-1", "Лампа-2"];
+    for (spoken, order, left) in [
+        (vec![], "Выключи все", vec!["Телевизор-1", "Лампа-1"]),
+        (vec!["Где Лампа-1?"], "Выключи все", vec!["Телевизор-1"]),
+        (vec!["Лампа-1 включена?"], "Пожалуйста, выключи все", vec!["Телевизор-1"]),
+        (vec!["Где Лампа-1?"], "Выключи всё", vec![]),
+        (vec!["Where is Lamp 1?"], "Turn everything off", vec![]),
+    ] {
+        let (mut engine, mut dialogue) = (flat(), Dialogue::default());
+        assert_eq!(words(&hear(&mut dialogue, &mut engine, "Включи Телевизор-1")), ["done"]);
+        dialogue = Dialogue::default();
+        for line in spoken {
+            assert_eq!(words(&hear(&mut dialogue, &mut engine, line)), ["found"], "{line}");
+        }
+        let heard = hear(&mut dialogue, &mut engine, order).text();
+        let mut is_on = |device: &&str| {
+            let asked = format!("{device} включён?");
+            hear(&mut Dialogue::default(), &mut engine, &asked).text().starts_with("Да")
+        };
+        let on: Vec<&str> = DEVICES.into_iter().filter(|device| is_on(device)).collect();
+        assert_eq!(on, left, "{order}: {heard}");
+    }
+}
+
 /// Another thing that later bears the id of one that left is not it; one that was renamed is the same.
 #[test]
 fn an_id_is_no_thing() {

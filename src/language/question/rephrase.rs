@@ -136,6 +136,10 @@ fn everything_switched(words: &Words<'_>) -> Option<String> {
         return None;
     }
     let all = words.find(&["все", "everything"]).filter(|all| *all > orders)?;
+    // «Выключи все», with nothing behind it and no ё: those that were spoken of, and without any it is asked which.
+    if all + 1 == words.keys.len() && words.text[words.at[all].clone()].to_lowercase() == "все" {
+        return None;
+    }
     let ends = ["в", "во", "на", "кроме", "здесь", "тут", "off", "on", "in", "down", "except"];
     if all + 1 < words.keys.len() && !words.is(all + 1, &ends) {
         return None;
