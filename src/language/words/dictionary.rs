@@ -114,7 +114,7 @@ mod source {
 
     #[cfg(feature = "packed")]
     fn open() -> Result<Dictionary, rumorph::Error> {
-        Dictionary::from_bytes(&orthoframe_dictionary::unpacked()?)
+        Dictionary::from_bytes(&orthoframe_language_dictionary::unpacked()?)
     }
 
     pub(super) fn readings(word: &str) -> Readings {
