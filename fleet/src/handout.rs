@@ -129,15 +129,15 @@ pub async fn note_conflict(client: &mut Object, key: &str, conflict: &Conflict) 
 /// # Errors
 /// [`FleetError::Store`].
 pub fn apart(base: Option<&Sheet>, robots: &Sheet, centres: &Sheet) -> Result<Vec<Apart>> {
-    use crate::store::compare;
+    use crate::store::Changes;
     use crate::units::Language::Russian;
     let (Some(mine), Some(theirs)) = (robots.world()?, centres.world()?) else {
         return Err(FleetError::content("на карте нет Домейна"));
     };
     let base = base.map(Sheet::world).transpose()?.flatten();
     let from = base.as_ref().unwrap_or(&mine);
-    let by_robot = if base.is_some() { compare(from, &mine)? } else { Vec::new() };
-    let by_centre = compare(from, &theirs)?;
+    let by_robot = if base.is_some() { Changes::between(from, &mine)?.told() } else { Vec::new() };
+    let by_centre = Changes::between(from, &theirs)?.told();
     let subjects: BTreeSet<&str> =
         by_robot.iter().chain(&by_centre).map(|d| d.subject.say(Russian)).collect();
     let told = |differences: &[crate::store::Difference], subject: &str| {

@@ -20,7 +20,7 @@ use crate::sheets::{revision, sheet};
 use crate::store::records::{LastIds, Revisions};
 use crate::store::shipping::Written;
 use crate::store::{
-    Change, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, compare, next_ids, numbered,
+    Change, Changes, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, next_ids, numbered,
 };
 use crate::units::{Language, Source};
 
@@ -116,7 +116,7 @@ fn work_in(old: &Sheet, ids: &[LastIds], edit: &Edit) -> Result<(Revised, Sheet)
             return Err(wrong(&found));
         }
     }
-    let differences = compare(&before, &after)?;
+    let differences = Changes::between(&before, &after)?.told();
     let revised = Revised {
         revision: 0,
         differences: differences.iter().map(|d| d.say(Language::Russian)).collect(),
