@@ -14,7 +14,7 @@ use orthoframe_fleet::pull::Pulled;
 use orthoframe_fleet::push::Line;
 use orthoframe_fleet::{FleetError, db, revise, sheets};
 use orthoframe_map::World;
-use orthoframe_store::{Change, Store, Timestamp};
+use orthoframe_store::{Change, Changes, Store, Timestamp};
 use orthoframe_units::{Frame, ReplicaId};
 
 fn move_thing(world: &mut World, name: &str, by: f64) -> ReplicaId {
@@ -31,7 +31,9 @@ fn edit(store: &Path, alter: impl FnOnce(&mut World)) {
     let mut after = before.clone();
     alter(&mut after);
     let change = Change::new("робот", Timestamp(1_850_000_000_000), "сам");
-    store.commit_change(&before, &after, &change).expect("commits");
+    store
+        .commit_changes(&Changes::between(&before, &after).expect("no key twice"), &change)
+        .expect("commits");
 }
 
 async fn revised(client: &mut Object, building: i64, world: &World, change: &Change) -> i64 {

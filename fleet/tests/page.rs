@@ -14,7 +14,7 @@ use common::{Centre, Postgres, furnish};
 use orthoframe_fleet::pull::Pulled;
 use orthoframe_fleet::push::Line;
 use orthoframe_fleet::{FleetError, db, keys, revise};
-use orthoframe_store::{Change, Store, Timestamp};
+use orthoframe_store::{Change, Changes, Store, Timestamp};
 use orthoframe_units::Frame;
 
 /// Moves the last thing of a store's map a little, as a robot of its own does.
@@ -26,7 +26,9 @@ fn moved(store: &Path) {
     let at = thing.frame;
     thing.frame = Frame::new(at.x.get() + 1.0, at.y.get(), at.z.get(), at.angle);
     let change = Change::new("робот", Timestamp(1_850_000_000_000), "сам");
-    store.commit_change(&before, &after, &change).expect("commits");
+    store
+        .commit_changes(&Changes::between(&before, &after).expect("no key twice"), &change)
+        .expect("commits");
 }
 
 fn judged(arguments: &[&str]) {

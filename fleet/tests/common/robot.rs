@@ -7,8 +7,8 @@ use deadpool_postgres::Pool;
 use orthoframe_fleet::rows::{At, cell, place, quoted};
 use orthoframe_map::{DoorState, DoorStatus, Replica, World};
 use orthoframe_store::{
-    Cell, Change, Key, Observation, Queue, QueuedTask, RevisionKind, RobotMemory, Row, Seen, Sheet,
-    Store, Table,
+    Cell, Change, Changes, Key, Observation, Queue, QueuedTask, RevisionKind, RobotMemory, Row,
+    Seen, Sheet, Store, Table,
 };
 use orthoframe_units::{Deg, Frame, Point, Pose, ReplicaId, Timestamp};
 
@@ -65,7 +65,12 @@ impl Life {
             70..85 => {
                 let mut after = self.world.clone();
                 alter(&mut after, &mut self.rng, n);
-                self.store.commit_change(&self.world, &after, &change).expect("commits");
+                self.store
+                    .commit_changes(
+                        &Changes::between(&self.world, &after).expect("no key twice"),
+                        &change,
+                    )
+                    .expect("commits");
                 self.world = after;
             }
             // The first map is never taken back.
