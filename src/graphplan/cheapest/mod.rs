@@ -7,13 +7,12 @@
 //! **Invariant**: what is carried out in one step costs as much as one by one. A robot with one drive does one thing at a
 //! time.
 
-use crate::bits;
 use crate::plan::Plan;
 use crate::portfolio::parallel::{in_parallel, needful};
-use crate::portfolio::relaxed::{State, carry_out, initial};
+use crate::portfolio::relaxed::{carry_out, initial, needed_by};
 use crate::portfolio::solve_anytime;
 use crate::proof::needed::Reduced;
-use crate::strips::{FactId, OperatorId, Task};
+use crate::strips::{OperatorId, Task};
 use crate::{Limit, Limits, Outcome, Unfinished, validate};
 
 mod search;
@@ -155,18 +154,6 @@ fn cost(task: &Task, row: &[OperatorId]) -> u64 {
     row.iter().map(|&id| u64::from(task.operator(id).cost)).sum()
 }
 
-/// What must hold for the last actions of a plan to reach the goal.
-fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
-    let mut needed: State = vec![0; bits::words(task.facts.len())].into();
-    task.goal.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
-    for &id in row.iter().rev() {
-        let operator = task.operator(id);
-        operator.add_effects.iter().for_each(|fact| bits::take(&mut needed, fact.index()));
-        operator.preconditions.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
-    }
-    bits::members(&needed).map(|fact| FactId(fact as u32)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::cmp::Reverse;
@@ -174,6 +161,7 @@ mod tests {
 
     use super::*;
     use crate::samples::{Random, random_errand, random_task};
+    use crate::strips::FactId;
 
     /// The least that any plan costs, by all states in the order of their costs.
     fn least_cost(task: &Task) -> Option<u64> {

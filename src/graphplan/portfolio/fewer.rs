@@ -11,8 +11,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
 use super::parallel::{follows, has_less, in_parallel, needful};
-use super::relaxed::{Relaxed, State, carry_out, initial};
-use crate::bits;
+use super::relaxed::{Relaxed, State, carry_out, initial, needed_by};
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
 use crate::{Limit, Limits};
@@ -250,18 +249,6 @@ fn path(nodes: &[Node], to: u32) -> Vec<OperatorId> {
     }
     path.reverse();
     path
-}
-
-/// What must hold for the last actions of a plan to reach the goal.
-fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
-    let mut needed = vec![0; bits::words(task.facts.len())].into_boxed_slice();
-    task.goal.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
-    for &id in row.iter().rev() {
-        let operator = task.operator(id);
-        operator.add_effects.iter().for_each(|fact| bits::take(&mut needed, fact.index()));
-        operator.preconditions.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
-    }
-    bits::members(&needed).map(|fact| FactId(fact as u32)).collect()
 }
 
 /// For each action those before it that must stay before it: it needs what they bring, or interferes.

@@ -18,6 +18,18 @@ pub(crate) fn initial(task: &Task) -> State {
     state
 }
 
+/// What must hold for the last actions of a plan to reach the goal.
+pub(crate) fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
+    let mut needed = vec![0; bits::words(task.facts.len())].into_boxed_slice();
+    task.goal.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
+    for &id in row.iter().rev() {
+        let operator = task.operator(id);
+        operator.add_effects.iter().for_each(|fact| bits::take(&mut needed, fact.index()));
+        operator.preconditions.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
+    }
+    bits::members(&needed).map(|fact| FactId(fact as u32)).collect()
+}
+
 /// Carries out an action whose conditions hold.
 pub(crate) fn carry_out(task: &Task, state: &mut State, id: OperatorId) {
     let operator = task.operator(id);

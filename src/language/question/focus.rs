@@ -11,126 +11,16 @@ use super::grammar::points;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, Meaning};
 use super::mark::{Mark, Pronoun};
+use super::memory::Exchange;
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
-use super::{Answer, Doubt, Memory, vocabulary};
+use super::{Doubt, vocabulary};
 use crate::map::Entity;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
-
-/// So many exchanges back a description is still understood by what was spoken of.
-const RECENT: usize = 4;
-
-/// What one question and its answer, or an order, were about.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Exchange {
-    /// What a singular pronoun takes up, in this order.
-    topics: Vec<Thing>,
-    /// The members of a list, none of which is more spoken of than the others.
-    listed: Vec<Thing>,
-}
-
-impl Exchange {
-    fn of(answer: &Answer) -> Self {
-        let others = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied();
-        let found = answer.things.iter().copied();
-        match &answer.query {
-            // "What is the lamp on?" goes on being about the lamp.
-            Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
-                Self { topics: others().chain(found).collect(), listed: Vec::new() }
-            }
-            _ if answer.things.len() > 1 => {
-                Self { topics: others().collect(), listed: answer.things.clone() }
-            }
-            _ => Self { topics: found.chain(others()).collect(), listed: Vec::new() },
-        }
-    }
-
-    /// Several things alike.
-    pub(super) fn list(things: &[Thing]) -> Self {
-        Self { topics: Vec::new(), listed: things.to_vec() }
-    }
-
-    /// What it was most about.
-    pub(super) fn topic(&self) -> Option<Thing> {
-        self.topics.first().copied()
-    }
-
-    /// What a singular pronoun takes up, in this order.
-    pub(super) fn topics(&self) -> &[Thing] {
-        &self.topics
-    }
-
-    /// The members of a list that was told.
-    pub(super) fn members(&self) -> &[Thing] {
-        &self.listed
-    }
-
-    /// All that it was about.
-    pub(super) fn things(&self) -> impl Iterator<Item = &Thing> {
-        self.topics.iter().chain(&self.listed)
-    }
-
-    fn is_empty(&self) -> bool {
-        self.topics.is_empty() && self.listed.is_empty()
-    }
-}
-
-impl Memory {
-    /// Notes what an answer was about.
-    pub(super) fn hear(&mut self, answer: &Answer) {
-        self.follow(Exchange::of(answer));
-    }
-
-    /// Notes what an order names, the last of which is spoken of most.
-    pub(super) fn hear_of_things(&mut self, things: &[Thing]) {
-        let topics = things.iter().rev().copied().collect();
-        self.follow(Exchange { topics, listed: Vec::new() });
-    }
-
-    fn follow(&mut self, exchange: Exchange) {
-        self.is_lost = false;
-        if !exchange.is_empty() {
-            self.exchanges.insert(0, exchange);
-            self.exchanges.truncate(RECENT);
-            if self.exchanges.len() == RECENT {
-                self.departed.clear();
-            }
-        }
-    }
-
-    /// The one of several things that was spoken of by itself before they were listed.
-    pub(super) fn topic_among(&self, listed: &[Thing]) -> Option<Thing> {
-        let before = self.exchanges.iter().flat_map(|exchange| &exchange.topics);
-        let mut named = before.filter(|t| listed.len() > 1 && listed.contains(t));
-        let first = named.next()?;
-        named.all(|t| t == first).then_some(*first)
-    }
-
-    /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
-    pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
-        (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
-        // "By the book, do you mean …? – Is it open?" means one of those.
-        if let Doubt::Ambiguous { candidates, .. } = doubt {
-            self.exchanges.insert(0, Exchange::list(candidates));
-            self.exchanges.truncate(RECENT);
-            return;
-        }
-        // "And on the bed?" goes on from what was not understood, and not from the question before it.
-        self.query = None;
-        self.counted.clear();
-        self.is_lost |= matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
-        if names_nothing {
-            self.exchanges.clear();
-            self.spoken.clear();
-            self.last.clear();
-            self.listed.clear();
-        }
-    }
-}
 
 impl Knowledge<'_> {
     /// The one of several things that was spoken of last.
     pub(super) fn in_focus(&self, found: &[Thing]) -> Option<Thing> {
-        let ranks = self.memory.exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
+        let ranks = self.memory.exchanges.iter().flat_map(|e| [e.topics(), e.members()]);
         for rank in ranks {
             let mut named = found.iter().filter(|t| rank.contains(t));
             match (named.next(), named.next()) {
@@ -355,7 +245,7 @@ impl Knowledge<'_> {
         let Some([only]) = subject.head.things.as_deref() else { return };
         let lacks = |thing: Thing| self.own_value(thing, filter.value).is_none();
         let Some(exchange) = self.memory.exchanges.first().filter(|_| lacks(*only)) else { return };
-        let mut spoken = exchange.topics.iter().chain(&exchange.listed);
+        let mut spoken = exchange.things();
         if let Some(&meant) = spoken.find(|t| !lacks(**t) && self.agrees(pronoun, **t)) {
             subject.head.things = Some(vec![meant]);
         }
@@ -409,12 +299,12 @@ impl Knowledge<'_> {
         for place in restrictions.iter_mut() {
             let rel = place.rel;
             let bear = |e: &&Exchange| {
-                e.listed.len() > 1 && e.listed.iter().all(|t| self.may_be_anchor(rel, *t))
+                e.members().len() > 1 && e.members().iter().all(|t| self.may_be_anchor(rel, *t))
             };
             let told = self.memory.exchanges.iter().find(bear);
             for anchor in place.anchors.iter_mut().filter(|a| points(a) && !a.other) {
                 if let Some(told) = told {
-                    let things = Some(told.listed.clone());
+                    let things = Some(told.members().to_vec());
                     anchor.head = Head { things, ..Head::default() };
                 } else if matches!(rel, Rel::On | Rel::In) && anchor.head.anything {
                     // "What is lying on the bigger bed? And on the smaller one?"
@@ -535,7 +425,7 @@ impl Knowledge<'_> {
             Pronoun::Any
                 if matches!(self.memory.query, Some(Query::Find(_)))
                     && last.len() > 1
-                    && self.memory.exchanges.first().is_some_and(|e| e.topics.is_empty()) =>
+                    && self.memory.exchanges.first().is_some_and(|e| e.topics().is_empty()) =>
             {
                 last.clone()
             }
@@ -558,8 +448,8 @@ impl Knowledge<'_> {
         let fitting = |admits: &dyn Fn(&Thing) -> bool| -> Vec<Thing> {
             let fits = |t: &Thing| self.agrees(pronoun, *t) && admits(t);
             let rank = near.clone().find_map(|exchange| {
-                let topic = exchange.topics.iter().find(|t| fits(t)).map(|t| vec![*t]);
-                let listed = || exchange.listed.iter().copied().filter(|t| fits(t)).collect();
+                let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| vec![*t]);
+                let listed = || exchange.members().iter().copied().filter(|t| fits(t)).collect();
                 topic.or_else(|| Some(listed()).filter(|all: &Vec<Thing>| !all.is_empty()))
             });
             rank.unwrap_or_default()
@@ -615,7 +505,7 @@ impl Knowledge<'_> {
             return None;
         }
         let exchanges = self.memory.exchanges.iter();
-        let mut ranked = exchanges.flat_map(|e| [&e.topics, &e.listed]).flatten();
+        let mut ranked = exchanges.flat_map(|e| [e.topics(), e.members()]).flatten();
         let bears = |t: &Thing| self.may_be_anchor(Rel::On, *t) || self.may_be_anchor(Rel::In, *t);
         ranked.find(|t| self.agrees(pronoun, **t) && bears(t)).copied()
     }
@@ -701,8 +591,8 @@ impl Knowledge<'_> {
             return Some(room);
         }
         // «Что на кухне?» lists things there; the kitchen is the place.
-        let latest = self.memory.exchanges.first().filter(|e| !e.listed.is_empty());
-        if let Some(place) = latest.and_then(|e| e.topics.iter().copied().find(|t| bears(*t))) {
+        let latest = self.memory.exchanges.first().filter(|e| !e.members().is_empty());
+        if let Some(place) = latest.and_then(|e| e.topics().iter().copied().find(|t| bears(*t))) {
             return Some(place);
         }
         let latest = *self.memory.spoken.first()?;

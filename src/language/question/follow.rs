@@ -1,10 +1,11 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
+use super::bare::{by_how_much, room_alone, where_such};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
-    Asker, Best, Claim, Extreme, Filter, Head, Memory, Noun, Query, Rel, Restriction, Thing,
-    assemble, several,
+    Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
+    several,
 };
 use crate::map::Entity;
 use crate::words::{Language, word_keys, word_ranges};
@@ -638,22 +639,6 @@ impl Asker<'_> {
     }
 }
 
-/// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
-fn where_such(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
-    let (mut filters, mut asks) = (Vec::new(), false);
-    for item in sentence.items() {
-        match item {
-            Item::Mark(Mark::Where) => asks = true,
-            Item::Mark(Mark::And | Mark::Be | Mark::The) => {}
-            Item::Value(value) => filters.push(Filter::new(value, false)),
-            _ => return None,
-        }
-    }
-    let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
-    let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
-    (!filters.is_empty()).then(|| Query::Where(Noun { head, filters, ..Noun::default() }))
-}
-
 fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {
     query.clone().each_noun(&mut |noun| act(noun));
 }
@@ -667,57 +652,6 @@ fn keys_compare(keys: &[String]) -> bool {
 fn is_place(place: &Restriction) -> bool {
     let other = [Rel::Has, Rel::Bears, Rel::Of, Rel::From, Rel::Opens, Rel::Through, Rel::To];
     !other.contains(&place.rel)
-}
-
-/// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
-fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
-    const ROOM: [&str; 8] = [
-        "which room",
-        "what room",
-        "in which room",
-        "in what room",
-        "which room is it",
-        "в какой комнате",
-        "а в какой комнате",
-        "в какой",
-    ];
-    let said = word_keys(text).join(" ");
-    let thing = memory.exchanges.first()?.topic().filter(|t| t.replica().is_some())?;
-    ROOM.contains(&said.as_str()).then(|| Query::RoomOf(Noun::of(vec![thing])))
-}
-
-/// «На сколько?», "By how much?": the difference of what was compared.
-fn by_how_much(key: &str, last: &Query) -> Option<Query> {
-    const BY: [&str; 12] = [
-        "на сколько",
-        "а на сколько",
-        "насколько",
-        "а насколько",
-        "и на сколько",
-        "by how much",
-        "and by how much",
-        "how much",
-        "by how many",
-        "how many more",
-        "how much more",
-        "and how much",
-    ];
-    let key = key.trim_end_matches(['?', '.', '!', ' ']);
-    if !BY.contains(&key) {
-        return None;
-    }
-    let mut query = last.clone();
-    match &mut query {
-        Query::Larger { by, .. } | Query::MoreOf { by, .. } => *by = true,
-        Query::WhichMore { of, extreme, to } => {
-            let [what, than] = &of[..] else { return None };
-            let (what, than) = (what.clone(), than.clone());
-            let (extreme, to) = (*extreme, to.clone());
-            return Some(Query::Larger { what, than, extreme, to, by: true });
-        }
-        _ => return None,
-    }
-    Some(query)
 }
 
 /// A question about one thing, put of another of its kind that is elsewhere.

@@ -4,7 +4,7 @@
 
 use super::outlive::{Departed, Stamp};
 use super::query::{Noun, Query, Thing};
-use super::{Answer, Fact, focus, resolution};
+use super::{Answer, Doubt, Fact, resolution};
 use crate::units::Bilingual;
 use crate::words::Language;
 
@@ -16,7 +16,7 @@ pub struct Memory {
     /// What was spoken of, the latest first.
     pub(super) spoken: Vec<Thing>,
     /// What the last exchanges were about, the latest first.
-    pub(super) exchanges: Vec<focus::Exchange>,
+    pub(super) exchanges: Vec<Exchange>,
     /// Whether what was spoken of last was called by a plural: «таблетки» may be one thing.
     pub(super) is_plural: bool,
     /// The place that a person has told before asking of "there".
@@ -145,7 +145,7 @@ impl Memory {
             _ => {
                 self.mention(things);
                 if let Some(exchange) = self.exchanges.first_mut() {
-                    *exchange = focus::Exchange::list(things);
+                    *exchange = Exchange::list(things);
                 }
                 self.listed = things.to_vec();
             }
@@ -163,5 +163,116 @@ impl Memory {
         things.retain(|t| t != first);
         things.push(*first);
         things
+    }
+}
+
+/// So many exchanges back a description is still understood by what was spoken of.
+const RECENT: usize = 4;
+
+/// What one question and its answer, or an order, were about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Exchange {
+    /// What a singular pronoun takes up, in this order.
+    topics: Vec<Thing>,
+    /// The members of a list, none of which is more spoken of than the others.
+    listed: Vec<Thing>,
+}
+
+impl Exchange {
+    fn of(answer: &Answer) -> Self {
+        let others = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied();
+        let found = answer.things.iter().copied();
+        match &answer.query {
+            // "What is the lamp on?" goes on being about the lamp.
+            Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
+                Self { topics: others().chain(found).collect(), listed: Vec::new() }
+            }
+            _ if answer.things.len() > 1 => {
+                Self { topics: others().collect(), listed: answer.things.clone() }
+            }
+            _ => Self { topics: found.chain(others()).collect(), listed: Vec::new() },
+        }
+    }
+
+    /// Several things alike.
+    pub(super) fn list(things: &[Thing]) -> Self {
+        Self { topics: Vec::new(), listed: things.to_vec() }
+    }
+
+    /// What it was most about.
+    pub(super) fn topic(&self) -> Option<Thing> {
+        self.topics.first().copied()
+    }
+
+    /// What a singular pronoun takes up, in this order.
+    pub(super) fn topics(&self) -> &[Thing] {
+        &self.topics
+    }
+
+    /// The members of a list that was told.
+    pub(super) fn members(&self) -> &[Thing] {
+        &self.listed
+    }
+
+    /// All that it was about.
+    pub(super) fn things(&self) -> impl Iterator<Item = &Thing> {
+        self.topics.iter().chain(&self.listed)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.topics.is_empty() && self.listed.is_empty()
+    }
+}
+
+impl Memory {
+    /// Notes what an answer was about.
+    pub(super) fn hear(&mut self, answer: &Answer) {
+        self.follow(Exchange::of(answer));
+    }
+
+    /// Notes what an order names, the last of which is spoken of most.
+    pub(super) fn hear_of_things(&mut self, things: &[Thing]) {
+        let topics = things.iter().rev().copied().collect();
+        self.follow(Exchange { topics, listed: Vec::new() });
+    }
+
+    fn follow(&mut self, exchange: Exchange) {
+        self.is_lost = false;
+        if !exchange.is_empty() {
+            self.exchanges.insert(0, exchange);
+            self.exchanges.truncate(RECENT);
+            if self.exchanges.len() == RECENT {
+                self.departed.clear();
+            }
+        }
+    }
+
+    /// The one of several things that was spoken of by itself before they were listed.
+    pub(super) fn topic_among(&self, listed: &[Thing]) -> Option<Thing> {
+        let before = self.exchanges.iter().flat_map(|exchange| &exchange.topics);
+        let mut named = before.filter(|t| listed.len() > 1 && listed.contains(t));
+        let first = named.next()?;
+        named.all(|t| t == first).then_some(*first)
+    }
+
+    /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
+    pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
+        (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
+        // "By the book, do you mean …? – Is it open?" means one of those.
+        if let Doubt::Ambiguous { candidates, .. } = doubt {
+            self.exchanges.insert(0, Exchange::list(candidates));
+            self.exchanges.truncate(RECENT);
+            return;
+        }
+        // "And on the bed?" goes on from what was not understood, and not from the question before it.
+        self.query = None;
+        self.counted.clear();
+        self.is_lost |= matches!(doubt, Doubt::NoReferent { .. }) || names_nothing;
+        if names_nothing {
+            self.exchanges.clear();
+            self.spoken.clear();
+            self.last.clear();
+            self.listed.clear();
+        }
     }
 }

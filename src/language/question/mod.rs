@@ -10,6 +10,7 @@
 mod answer;
 mod asides;
 mod assemble;
+mod bare;
 mod compared;
 mod constructions;
 mod courtesy;

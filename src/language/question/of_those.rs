@@ -5,7 +5,7 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::{Best, Extreme};
-use super::{Asker, Memory, Noun, Query, Rel, Thing, focus, vocabulary};
+use super::{Asker, Memory, Noun, Query, Rel, Thing, memory, vocabulary};
 use crate::words::{Gender, Language, word_keys};
 
 impl Asker<'_> {
@@ -65,7 +65,7 @@ impl Asker<'_> {
     fn alike_spoken_of(&self, memory: &Memory) -> Option<Vec<Thing>> {
         let knowledge = self.knowledge(memory.language, memory);
         let mut spoken: Vec<Thing> = Vec::new();
-        for thing in memory.exchanges.iter().flat_map(focus::Exchange::things) {
+        for thing in memory.exchanges.iter().flat_map(memory::Exchange::things) {
             if !spoken.contains(thing) {
                 spoken.push(*thing);
             }

@@ -4,10 +4,10 @@
 
 use std::collections::HashSet;
 
-use super::focus::Exchange;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
 use super::mark::Pronoun;
+use super::memory::Exchange;
 use super::query::{Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::words::Number;
 

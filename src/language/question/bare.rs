@@ -1,0 +1,73 @@
+//! Questions of a word or two, whose rest is the question before: "Which room?", «На сколько?», «А где чёрная?»
+
+use super::grammar::{Item, Sentence};
+use super::mark::Mark;
+use super::{Filter, Head, Memory, Noun, Query};
+use crate::words::word_keys;
+
+/// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
+pub(super) fn where_such(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+    let (mut filters, mut asks) = (Vec::new(), false);
+    for item in sentence.items() {
+        match item {
+            Item::Mark(Mark::Where) => asks = true,
+            Item::Mark(Mark::And | Mark::Be | Mark::The) => {}
+            Item::Value(value) => filters.push(Filter::new(value, false)),
+            _ => return None,
+        }
+    }
+    let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
+    let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
+    (!filters.is_empty()).then(|| Query::Where(Noun { head, filters, ..Noun::default() }))
+}
+
+/// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
+pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
+    const ROOM: [&str; 8] = [
+        "which room",
+        "what room",
+        "in which room",
+        "in what room",
+        "which room is it",
+        "в какой комнате",
+        "а в какой комнате",
+        "в какой",
+    ];
+    let said = word_keys(text).join(" ");
+    let thing = memory.exchanges.first()?.topic().filter(|t| t.replica().is_some())?;
+    ROOM.contains(&said.as_str()).then(|| Query::RoomOf(Noun::of(vec![thing])))
+}
+
+/// «На сколько?», "By how much?": the difference of what was compared.
+pub(super) fn by_how_much(key: &str, last: &Query) -> Option<Query> {
+    const BY: [&str; 12] = [
+        "на сколько",
+        "а на сколько",
+        "насколько",
+        "а насколько",
+        "и на сколько",
+        "by how much",
+        "and by how much",
+        "how much",
+        "by how many",
+        "how many more",
+        "how much more",
+        "and how much",
+    ];
+    let key = key.trim_end_matches(['?', '.', '!', ' ']);
+    if !BY.contains(&key) {
+        return None;
+    }
+    let mut query = last.clone();
+    match &mut query {
+        Query::Larger { by, .. } | Query::MoreOf { by, .. } => *by = true,
+        Query::WhichMore { of, extreme, to } => {
+            let [what, than] = &of[..] else { return None };
+            let (what, than) = (what.clone(), than.clone());
+            let (extreme, to) = (*extreme, to.clone());
+            return Some(Query::Larger { what, than, extreme, to, by: true });
+        }
+        _ => return None,
+    }
+    Some(query)
+}
