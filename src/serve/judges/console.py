@@ -77,6 +77,11 @@ def picture(page, name):
         page.screenshot(path=PICTURES / f"{name}.png")
 
 
+def drawn(page, selector, at_least=1):
+    """The page draws with its next frame: what is to stand on the map is waited for, never counted at once."""
+    expect(page.locator(selector).nth(at_least - 1)).to_be_attached()
+
+
 def get(page, path):
     return json.loads(page.evaluate("path => fetch(path).then((answer) => answer.text())", path))
 

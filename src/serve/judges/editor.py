@@ -7,7 +7,7 @@ import struct
 import time
 import zlib
 
-from console import Error, drag, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched
+from console import Error, drag, drawn, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched
 
 
 def revision(page):
@@ -174,7 +174,7 @@ def run(browser, server, faults):
     zones = get(page, "/api/drawing")["zones"]
     assert [zone["kind"] for zone in zones] == ["closed"] and zones[0]["until"].startswith("2099"), zones
     assert zones[0]["in_force"] and zones[0]["reason"] == "моют пол", zones
-    assert page.locator("#map .m-zone").count() == 1
+    expect(page.locator("#map .m-zone")).to_have_count(1)
     page.keyboard.press("Escape")
     picture(page, "zone")
     page.mouse.click(*at(page, left + 300, bottom + 310))
@@ -193,7 +193,7 @@ def run(browser, server, faults):
     page.keyboard.press("-")
     for number in range(4):
         press(page, '#map [data-name="Кладовая"]')
-        assert page.locator("#map rect.m-handle").count() == 0, "no handle while the shape is locked"
+        expect(page.locator("#map rect.m-handle")).to_have_count(0)
         tool(page, "Форма заперта")
         page.wait_for_selector("#map rect.m-handle", state="attached")
         corners, area = of_room("polygons")[0], of_room("m2")
@@ -257,7 +257,7 @@ def tasks(page, browser, server, faults):
     expect(page.locator(".next")).to_contain_text("Точка-К")
     picture(page, "way")
     if "не проехать" in page.locator(".next").inner_text():
-        assert page.locator("#map .m-cure").count() > 0, "what would open the way is drawn"
+        drawn(page, "#map .m-cure")
     get_posted(page, "/api/undo", {"on": revision(page)})
     page.keyboard.press("Escape")
     print("is shown the way, and what bars it")
@@ -266,7 +266,7 @@ def tasks(page, browser, server, faults):
     say(page, "Принеси лекарство")
     expect(page.locator(".next")).to_contain_text("План")
     expect(page.locator("#panel")).to_contain_text("План держится на том, что")
-    assert "ДВЕРЬ_" not in page.locator("#panel").inner_text(), page.locator("#panel").inner_text()
+    expect(page.locator("#panel")).not_to_contain_text("ДВЕРЬ_")
     page.locator("#panel .star").first.click()
     page.locator(".next").get_by_role("button", name="Позже").click()
     page.locator("#tab-task").click()

@@ -5,7 +5,7 @@ One line for each thing done; the first that fails ends it.
 
 import time
 
-from console import drag, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched, where
+from console import drag, drawn, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched, where
 
 
 def run(browser, server, faults):
@@ -17,7 +17,7 @@ def run(browser, server, faults):
 
     say(page, "Где лекарство?")
     expect(page.locator(".log .turn").last).to_contain_text("Тумбочк")
-    assert page.locator("#map .m-mark").count() > 0, "what is named is marked on the map"
+    drawn(page, "#map .m-mark")
     picture(page, "asked")
     print("asks")
 
@@ -25,7 +25,7 @@ def run(browser, server, faults):
     say(page, "Поезжай к Точке-К")
     expect(page.locator(".next")).to_contain_text("План")
     before = get(page, "/api/state")["robot"]["place"]["pose"]
-    assert page.locator("#map .m-planned").count() > 0
+    drawn(page, "#map .m-planned")
     picture(page, "planned")
     page.press("#say", "Enter")
     page.wait_for_selector("#map .m-trail", state="attached")
@@ -54,15 +54,15 @@ def run(browser, server, faults):
     tasks = idle(page)
     assert tasks["ended"][-1]["state"] == "stopped", tasks["ended"][-1]
     expect(page.locator(".next")).to_contain_text("Остановлено")
-    assert page.input_value("#say") == "что-то недописанное", "what was typed stays"
+    expect(page.locator("#say")).to_have_value("что-то недописанное")
     page.fill("#say", "")
     print("stops, while typing")
 
     other = watched(browser, server, faults, color_scheme="dark", locale="en-GB")
     token = get_posted(page, "/api/invite", {"role": "edit", "name": "Борис"})["token"]
     opened(other, f"{server.base}/?token={token}")
-    assert other.evaluate("document.documentElement.lang") == "en"
-    assert other.evaluate("document.documentElement.dataset.theme") == "dark"
+    expect(other.locator("html")).to_have_attribute("lang", "en")
+    expect(other.locator("html")).to_have_attribute("data-theme", "dark")
     no_overflow(other)
     picture(other, "dark")
     print("opens in English and dark, by the browser")
@@ -119,7 +119,7 @@ def run(browser, server, faults):
     expect(page.locator("#panel .title")).to_contain_text("Кровать")
     page.locator("#panel .why").first.click()
     page.wait_for_selector("#panel .pf p")
-    assert page.locator("#map .m-reason").count() > 0, "reasons are on the map"
+    drawn(page, "#map .m-reason")
     picture(page, "why")
     print("selects a thing and asks why")
 
@@ -128,7 +128,8 @@ def run(browser, server, faults):
     opened(phone, f"{server.base}/?token={token}")
     no_overflow(phone)
     stop = phone.locator(".pstop")
-    assert stop.is_visible() and stop.bounding_box()["height"] >= 44
+    expect(stop).to_be_visible()
+    assert stop.bounding_box()["height"] >= 44
     picture(phone, "phone")
     for tab in ["task", "thing", "map"]:
         phone.locator(f"#tab-{tab}").click()

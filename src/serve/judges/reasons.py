@@ -5,9 +5,10 @@ revisions beside each other. One line for each thing done; the first that fails 
 """
 
 import os
+import re
 import subprocess
 
-from console import ORTHO, expect, get, get_posted, idle, judge, opened, picture, say, watched, where
+from console import ORTHO, drawn, expect, get, get_posted, idle, judge, opened, picture, say, watched, where
 from editor import at, revision
 
 
@@ -20,8 +21,10 @@ def select(page, name):
     expect(page.locator("#panel .title").first).to_have_text(name)
 
 
-def tags(page):
-    return page.locator("#map .m-tag text").all_text_contents()
+def tagged(page, *lengths):
+    """Waits for a tag on the map with one of these lengths."""
+    text = re.compile("|".join(f"^{re.escape(length)}$" for length in lengths))
+    expect(page.locator("#map .m-tag text", has_text=text).first).to_be_attached()
 
 
 def measured(page, relation, *of):
@@ -39,7 +42,7 @@ def ortho(server, *arguments):
 def reasons(page):
     select(page, "Стул-1")
     page.wait_for_selector("#map .m-rel", state="attached")
-    assert page.locator("#map .m-rellab").count() > 2, "relations are named on the map"
+    drawn(page, "#map .m-rellab", 3)
     page.locator("#map").focus()
     page.keyboard.press("l")
     page.get_by_label("Отношения выбранного").uncheck()
@@ -61,8 +64,8 @@ def reasons(page):
     row = page.locator("#panel .rel > li", has_text="рядом с").first
     row.locator(".why").click()
     page.wait_for_selector("#map .m-measure", state="attached")
-    assert any(length in tags(page) for length in lengths), (lengths, tags(page))
-    assert page.locator("#map .m-reason").count() >= 2, "the things that the reason speaks of are marked"
+    tagged(page, *lengths)
+    drawn(page, "#map .m-reason", 2)
     expect(row.locator(".pf p").first).to_contain_text("потому что")
     picture(page, "why-measured")
     row.locator(".why").click()
@@ -77,9 +80,9 @@ def reasons(page):
     told, lengths = measured(page, "НАХОДИТСЯ_РЯДОМ_С", "Стул-1", "Шкаф-1")
     assert not told["holds"], told
     assert {"Стул-1", "Шкаф-1"} <= set(told["about"]), told["about"]
-    assert page.locator("#map .m-reason").count() >= 2
+    drawn(page, "#map .m-reason", 2)
     for length in lengths:
-        assert length in tags(page), (lengths, tags(page))
+        tagged(page, length)
     picture(page, "why-not")
     print("is shown why not")
 
