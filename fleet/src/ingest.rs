@@ -194,7 +194,28 @@ async fn check_known(transaction: &Transaction<'_>, robot: &Robot, known: &[Fram
     Ok(())
 }
 
+/// So many bytes of frames go to the server at a time: it keeps them while the next come.
+const PIECE: usize = 256 << 10;
+
 async fn keep_frames(transaction: &Transaction<'_>, robot: &Robot, frames: &[Frame]) -> Result<()> {
+    let mut pieces = Vec::new();
+    let mut rest = frames;
+    while !rest.is_empty() {
+        let mut size = 0;
+        let is_full = |frame: &Frame| {
+            size += frame.bytes.len();
+            size > PIECE
+        };
+        let count = rest.iter().position(is_full).unwrap_or(rest.len()).max(1);
+        let (piece, after) = rest.split_at(count);
+        pieces.push(keep_piece(transaction, robot, piece));
+        rest = after;
+    }
+    try_join_all(pieces).await?;
+    Ok(())
+}
+
+async fn keep_piece(transaction: &Transaction<'_>, robot: &Robot, frames: &[Frame]) -> Result<()> {
     let sequences = frames.iter().map(|f| number(f.sequence)).collect::<Result<Vec<_>>>()?;
     let checksums: Vec<i64> = frames.iter().map(|f| i64::from(f.checksum)).collect();
     let bytes: Vec<&[u8]> = frames.iter().map(|f| &f.bytes[..]).collect();

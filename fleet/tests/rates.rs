@@ -5,10 +5,12 @@
 
 mod common;
 
+use std::io::Cursor;
 use std::time::{Duration, Instant};
 
 use common::robot::{home, live};
 use common::{Postgres, furnish, number};
+use futures_util::SinkExt;
 use orthoframe_fleet::query::Question;
 use orthoframe_fleet::rows::place;
 use orthoframe_fleet::{db, derive, ingest, keys};
@@ -55,7 +57,7 @@ async fn frames_beside_copy() {
         .map(|t| place(*t))
         .chain(["frame", "mission", "work", "proposed"].map(|name| format!("fleet.{name}")))
         .collect();
-    let (mut applied, mut copied, mut plain) = (Vec::new(), Vec::new(), Vec::new());
+    let [mut applied, mut copied, mut streamed, mut plain] = [const { Vec::new() }; 4];
     for (n, key) in made.iter().enumerate() {
         let building = n as i64 + 1;
         let begin = Instant::now();
@@ -95,6 +97,26 @@ async fn frames_beside_copy() {
         }
         transaction.commit().await.expect("commits");
         copied.push(begin.elapsed());
+        for table in &tables {
+            let sql = format!("DELETE FROM {table} WHERE building = {building}");
+            client.execute(&sql, &[]).await.expect("deletes");
+        }
+        client.batch_execute("VACUUM").await.expect("vacuums");
+        // As a client brings them, by the line on which the frames came.
+        let read = |at| std::fs::read(format!("{folder}/fleet_rates_{at}")).expect("reads");
+        let files: Vec<Vec<u8>> = (0..tables.len()).map(read).collect();
+        let begin = Instant::now();
+        let transaction = client.transaction().await.expect("begins");
+        for (table, file) in tables.iter().zip(files) {
+            let sql = format!("COPY {table} FROM STDIN (FORMAT binary)");
+            let mut sink = std::pin::pin!(transaction.copy_in(&sql).await.expect("copies"));
+            for piece in file.chunks(64 << 10) {
+                sink.feed(Cursor::new(piece.to_vec())).await.expect("is sent");
+            }
+            sink.close().await.expect("copies");
+        }
+        transaction.commit().await.expect("commits");
+        streamed.push(begin.elapsed());
         // The frames alone, into a table with a key and nothing else.
         client
             .batch_execute(&format!(
@@ -113,17 +135,25 @@ async fn frames_beside_copy() {
             .expect("copies");
         plain.push(begin.elapsed());
         println!(
-            "round {n}: applied {:?}, rows by COPY {:?} ({rows} rows), frames alone by COPY {:?}",
-            applied[n], copied[n], plain[n]
+            "round {n}: applied {:?}, rows by COPY {:?} ({rows} rows), by COPY of a client {:?}, frames alone by COPY {:?}",
+            applied[n], copied[n], streamed[n], plain[n]
         );
     }
-    let (a, c, p) = (median(applied), median(copied), median(plain));
+    let ratios = |of: &[Duration]| {
+        let mut all: Vec<f64> =
+            of.iter().zip(&applied).map(|(o, a)| o.as_secs_f64() / a.as_secs_f64()).collect();
+        all.sort_by(f64::total_cmp);
+        format!("{:.2} (pair by pair {:.2?})", all[all.len() / 2], all)
+    };
+    println!("beside COPY of a file {}; of a client {}", ratios(&copied), ratios(&streamed));
+    let [a, c, s, p] = [applied, copied, streamed, plain].map(median);
     println!(
-        "{} frames, {bytes} bytes: applied {a:?} = {:.0} frames/s, {:.1} MB/s; the same rows by COPY {c:?}, {:.2} of its rate; frames alone {p:?}, {:.2}",
+        "{} frames, {bytes} bytes: applied {a:?} = {:.0} frames/s, {:.1} MB/s; the same rows by COPY {c:?}, {:.2} of its rate; by COPY of a client {s:?}, {:.2}; frames alone {p:?}, {:.2}",
         frames.len(),
         frames.len() as f64 / a.as_secs_f64(),
         bytes as f64 / 1e6 / a.as_secs_f64(),
         c.as_secs_f64() / a.as_secs_f64(),
+        s.as_secs_f64() / a.as_secs_f64(),
         p.as_secs_f64() / a.as_secs_f64(),
     );
 }
