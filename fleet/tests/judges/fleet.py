@@ -83,7 +83,7 @@ def run(browser):
     expect(page.locator("#list-robots .pill", has_text="карты разошлись")).to_have_count(1)
     expect(page.locator("#list-buildings")).to_contain_text("Корпус-2")
     expect(page.locator("#list-missions")).to_contain_text("Принеси чашку")
-    assert page.locator("#list-proposals tbody tr").count() > 0
+    expect(page.locator("#list-proposals tbody tr").first).to_be_attached()
     expect(page.locator(".conflict .thing").first).to_be_visible()
     no_overflow(page)
     picture(page, "fleet")
@@ -107,8 +107,8 @@ def run(browser):
     drawn(page)
     page.locator("#believed").check()
     drawn(page)
-    assert page.locator("#list-facts tbody tr").count() > 10
-    assert page.locator("#editor").count() == 0, "a robot's map is its own"
+    expect(page.locator("#list-facts tbody tr").nth(10)).to_be_attached()
+    expect(page.locator("#editor")).to_have_count(0)
     no_overflow(page)
     picture(page, "robot")
     print("shows a building as its robot has it")
@@ -125,7 +125,7 @@ def run(browser):
     page.locator("#editor details").first.get_by_role("button", name="Проверить").click()
     expect(page.locator("#editor .told.ok")).to_contain_text(thing)
     picture(page, "centre")
-    assert int(page.locator("#list-revisions tbody td").first.inner_text()) == revision
+    expect(page.locator("#list-revisions tbody td").first).to_have_text(str(revision))
     page.locator("#editor details").first.get_by_role("button", name="Записать ревизию").click()
     expect(page.get_by_role("status")).to_contain_text(f"ревизия {revision + 1}")
     expect(page.locator("#list-revisions tbody tr").first).to_contain_text("сдвинули на обходе")
@@ -153,12 +153,12 @@ def run(browser):
         page = watched(browser, **more)
         entered(page, LOOKER)
         expect(page.locator("#list-robots")).to_contain_text("robot 1.1")
-        assert page.get_by_role("button", name="Оставить карту центра").count() == 0
+        expect(page.get_by_role("button", name="Оставить карту центра")).to_have_count(0)
         no_overflow(page)
         picture(page, f"fleet-{name}")
         page.goto(f"{ADDRESS}/#/building/1/robot/0")
         drawn(page)
-        assert page.locator("#editor").count() == 0, "who looks does not edit"
+        expect(page.locator("#editor")).to_have_count(0)
         no_overflow(page)
         picture(page, f"building-{name}")
         status = """fetch('/v1/insist', { method: 'POST', headers: { 'Content-Type': 'application/json' },
