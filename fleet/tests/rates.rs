@@ -283,7 +283,8 @@ async fn buildings_derived() {
     }
 }
 
-/// What a robot's store takes for a transaction, alone and while all that it writes is sent at once.
+/// What a robot's store takes for a transaction, alone and while all that it writes is sent at once. Under `taskset -c 1` the
+/// line and the centre have that core, the store the other: as if the centre were another machine.
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "takes minutes"]
 async fn a_store_beside_its_line() {
@@ -292,6 +293,12 @@ async fn a_store_beside_its_line() {
     let centre = common::Centre::start(&postgres.address());
     let dir = tempfile::tempdir().expect("a folder");
     let store = dir.path().join("store");
+    if std::thread::available_parallelism().is_ok_and(|n| n.get() == 1) {
+        let thread = std::fs::read_link("/proc/thread-self").expect("a system with threads");
+        let id = thread.file_name().expect("its number");
+        let moved = std::process::Command::new("taskset").args(["-cp", "0"]).arg(id).status();
+        assert!(moved.expect("taskset runs").success());
+    }
     live(&store, 200, 1, &home(), false);
     let mut each = [Vec::new(), Vec::new()];
     for round in 0..10 {

@@ -35,6 +35,17 @@ fn plans_and_explanations_are_english_where_english_is_asked_for() {
     assert!(json["explanation"].as_str().unwrap().contains("РОБОТ-ДЕРЖИТ_("), "{json}");
 }
 
+/// A scenario of a house of its own declares its rooms and doors, and is planned whatever map the store holds.
+#[test]
+fn every_scenario_of_the_rules_is_planned_on_a_map() {
+    let place = Place::with_rb2();
+    for file in std::fs::read_dir(project("rules/scenarios")).unwrap() {
+        let file = file.unwrap().path();
+        let code = i32::from(file.ends_with("two-goals-exclude.strips"));
+        place.run(&["plan", "--any", &file.display().to_string()]).is(code);
+    }
+}
+
 /// The time that a plan is told to take is that of the drive, but for where the robot turns to at first.
 #[test]
 fn the_quickest_plan_takes_as_long_as_its_drive() {
