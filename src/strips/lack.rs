@@ -584,7 +584,7 @@ impl<'a> Lacks<'a> {
         let makes = match (self.reached.changing[wanted.predicate.index()], wanted.negated) {
             _ if number == 0 => return None,
             // Of these very objects the world's make is known: this lift has other doors.
-            (false, false) if open == 0 && !is_unspoken => 150,
+            (false, false) if !is_unspoken && (open == 0 || self.is_known_of_all(wanted)) => 150,
             (false, false) => 10,
             (false, true) => 140,
             (true, true) => 160,
@@ -600,6 +600,21 @@ impl<'a> Lacks<'a> {
             (true, false) => 30,
         };
         Some(makes + 10 * open as u32 + 80 * u32::from(is_unspoken))
+    }
+
+    /// Whether of every object that could stand in an open place such facts are stated: each lift has its doors.
+    fn is_known_of_all(&self, wanted: &Wanted) -> bool {
+        let taken = &self.domain.predicates[wanted.predicate.index()].args;
+        let facts = &self.initial[wanted.predicate.index()];
+        let is_known = |place: usize| {
+            let asked = &wanted.kinds[place];
+            let kinds = if asked.is_empty() { &taken[place] } else { asked };
+            let all = (0..self.resolved.things.len() as u32).map(ThingId);
+            let mut fitting = all.filter(|&thing| !kinds.is_empty() && self.is_of(thing, kinds));
+            let is_stated = |thing| facts.iter().any(|atom| atom.args[place] == thing);
+            fitting.next().is_some_and(|first| is_stated(first) && fitting.all(is_stated))
+        };
+        (0..wanted.args.len()).any(|place| wanted.args[place].is_none() && is_known(place))
     }
 
     fn is_attained_of_any(&self, predicate: PredicateId) -> bool {
