@@ -7,7 +7,7 @@ use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
 use crate::units::{Deg, Frame};
 
-use super::args::{Common, Lang, moment};
+use super::args::{Common, Lang, finite, moment};
 use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
@@ -51,11 +51,12 @@ pub(super) struct ObserveArgs {
         long,
         value_name = "X,Y[,Z]",
         allow_hyphen_values = true,
+        value_parser = coordinates,
         required_unless_present_any = ["missing", "pose"]
     )]
     at: Option<Numbers>,
     /// Where it was seen, in the frame of the Map: that of `where` and `route`, and of the file of an imported map, cm
-    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, conflicts_with_all = ["at", "area", "missing"])]
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = coordinates, conflicts_with_all = ["at", "area", "missing"])]
     pose: Option<Numbers>,
     /// The Map of --pose; the one on which the map has the thing when left out
     #[arg(long, value_name = "NAME", requires = "pose")]
@@ -64,7 +65,7 @@ pub(super) struct ObserveArgs {
     #[arg(long, value_name = "NAME")]
     area: Option<String>,
     /// Degrees counter-clockwise; as the map has it when left out
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     angle: Option<f64>,
     /// It was not where it was expected
     #[arg(long, conflicts_with = "at")]
@@ -75,6 +76,13 @@ pub(super) struct ObserveArgs {
     /// When; now when left out
     #[arg(long, value_name = "MOMENT", value_parser = moment)]
     when: Option<Timestamp>,
+}
+
+/// Two numbers of the plane, and the height where it is known.
+fn coordinates(text: &str) -> Result<Numbers, String> {
+    let numbers: Numbers = text.parse()?;
+    let is_place = matches!(numbers.0.len(), 2 | 3);
+    if is_place { Ok(numbers) } else { Err("X,Y or X,Y,Z is wanted".to_owned()) }
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -191,7 +191,7 @@ impl Engine {
     /// that it was not where it was expected. The map stays as it was.
     ///
     /// # Errors
-    /// As [`State::thing`]; the disk refused.
+    /// As [`State::thing`]; no Area of the Map holds the place; the disk refused.
     pub fn observe(
         &mut self,
         name: &str,
@@ -206,7 +206,13 @@ impl Engine {
             None => None,
             Some((area, frame)) => {
                 let area = area.map_or(Ok(home), |name| self.area(name))?;
-                Some(Seen { area, frame })
+                let seen = Seen { area, frame };
+                if let Some((map, at)) = self.on_map(&seen)?
+                    && self.relations()?.measurements().area_at(map, at.origin()).is_none()
+                {
+                    return Err(nowhere_on(self.world()?, self.floor(map)?, at.origin()).into());
+                }
+                Some(seen)
             }
         };
         self.next().forget_present();

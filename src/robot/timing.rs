@@ -136,8 +136,10 @@ impl<'a> Clock<'a> {
                 self.drive(from, Spot::Door(name_key(door), into))?
             }
             Deed::SetDoor { .. } | Deed::SetOpen { .. } => DOOR_TIME,
-            Deed::CallLift { .. } => LIFT_WAIT,
-            Deed::Ride { lift, to, .. } => self.ride(directive, lift, to)?,
+            Deed::CallLift { door, .. } => LIFT_WAIT + self.opens(door),
+            Deed::Ride { lift, to, door } => {
+                self.ride(directive, lift, to)? + self.opens(door)
+            }
             Deed::Push(_) => PUSH_TIME,
             Deed::Take(_) | Deed::Put { .. } | Deed::HandOver { .. } => GRASP_TIME,
             Deed::Switch { .. } => SWITCH_TIME,
@@ -271,6 +273,13 @@ impl<'a> Clock<'a> {
             seconds += end.heading.map_or(0.0, turn);
             Some(seconds)
         })
+    }
+
+    /// The lift opens its own door, where it has one.
+    fn opens(&self, door: &str) -> f64 {
+        let key = name_key(door);
+        let mut named = self.joins.iter().filter(|join| name_key(&join.opening) == key);
+        if named.any(|join| join.door.is_some()) { DOOR_TIME } else { 0.0 }
     }
 
     fn ride(&self, directive: &Directive, lift: &str, to: &str) -> Result<f64, Untimed> {

@@ -10,7 +10,7 @@ use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
-use crate::units::name_key;
+use crate::units::{Bilingual, name_key};
 
 /// An object of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -298,6 +298,7 @@ impl Resolver<'_> {
                 continue;
             };
             self.check_kind(statement, predicate, place, id, wanted);
+            self.check_said(statement, place, id);
             args.push(id);
         }
         (args.len() == signature.len()).then_some(GroundAtom { predicate, args })
@@ -313,6 +314,39 @@ impl Resolver<'_> {
         });
         let name = name.to_owned();
         move |at| RuleError::UnknownObject { name, help, at }
+    }
+
+    /// The type that a fact gives an object in its place is one, and the object's own.
+    fn check_said(&mut self, statement: &Statement, place: usize, id: ThingId) {
+        let Some(term) = statement.text.as_ref().and_then(|atom| atom.args.get(place)) else {
+            return;
+        };
+        let Some(said) = &term.kind else { return };
+        let kinds = &self.things[id.index()].kinds;
+        match self.domain.kind(&said.text) {
+            Some(kind) if self.domain.fits(kinds, &[kind]) || self.domain.fits(&[kind], kinds) => {}
+            Some(kind) => {
+                let error = |at| RuleError::ObjectType {
+                    name: term.name.text.clone(),
+                    found: self.domain.kind_names(&[kind]),
+                    earlier: self.domain.kind_names(kinds),
+                    at,
+                };
+                self.faults.push(said.fault(error));
+            }
+            None => {
+                let (word, name) = (&said.text, &term.name.text);
+                let known = self.domain.kinds.iter().map(|kind| kind.name.as_str());
+                let help = hint(word, known).unwrap_or_else(|| {
+                    Bilingual::new(
+                        format!("имя из нескольких слов пишут в кавычках: «{word} {name}»"),
+                        format!("a name of several words stands in quotes: «{word} {name}»"),
+                    )
+                });
+                let (name, help) = (word.clone(), Some(help));
+                self.faults.push(said.fault(|at| RuleError::UnknownType { name, help, at }));
+            }
+        }
     }
 
     fn check_kind(

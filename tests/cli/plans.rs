@@ -61,7 +61,24 @@ fn the_quickest_plan_takes_as_long_as_its_drive() {
     assert!((told - driven).abs() < 0.15 * driven, "{told} told, {driven} driven");
     let words = place.run(&["--lang", "en", "plan", "--metric", "time", &walk]).is(0).out;
     assert!(words.contains("a quicker one is proven impossible"), "{words}");
+    // A lift opens its own doors, which takes as long as with others.
+    let storeys = project("maps/two-storeys.toml").display().to_string();
+    place.run(&["import", &storeys]).is(0);
+    let rules = project("rules/service-robot.strips").display().to_string();
+    let above = place.path("above.strips");
+    let text = format!(
+        "Включить: {rules}\nИсходная позиция:\nРОБОТ-НАХОДИТСЯ-В_(Холл-1)\nРОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(«Стойка охраны»)\n\
+         РУКА-СВОБОДНА_()\nЦелевая позиция:\nРОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(Окно)\n"
+    );
+    std::fs::write(&above, text).unwrap();
+    let above = above.display().to_string();
+    let told = place.json(&["plan", "--metric", "time", &above], 0)["seconds"].as_f64().unwrap();
+    let driven = place.run(&["do", "--json", "--scenario", &above]).is(0).out;
+    let end: Value = serde_json::from_str(driven.lines().last().unwrap()).unwrap();
+    let driven = end["seconds"].as_f64().unwrap();
+    assert!((told - driven).abs() < 2.0, "{told} told, {driven} driven");
     // Without a map there is no time.
+    let place = Place::empty();
     place.run(&["plan", "--metric", "time", &scenario("another-floor")]).is(2);
 }
 

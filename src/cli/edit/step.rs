@@ -5,6 +5,8 @@ use clap::{Args, Subcommand};
 
 use crate::map;
 
+use crate::cli::args::finite;
+
 #[derive(Debug, Subcommand)]
 pub(super) enum Step {
     /// Place a replica of an Object in an Area
@@ -41,7 +43,7 @@ pub(super) enum Step {
         /// Instead of --at, in the frame of the Map, cm; --heading is then of that frame as well
         #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "at")]
         pose: Option<Numbers>,
-        #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
         heading: Option<f64>,
         /// The thing that is served from here
         #[arg(long, value_name = "NAME")]
@@ -66,9 +68,9 @@ pub(super) enum Step {
     Turn {
         name: String,
         /// Degrees counter-clockwise
-        #[arg(long, value_name = "DEG", allow_hyphen_values = true, conflicts_with = "by")]
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true, conflicts_with = "by", value_parser = finite)]
         to: Option<f64>,
-        #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
         by: Option<f64>,
         /// With what stands on it or lies in it
         #[arg(long)]
@@ -117,7 +119,7 @@ pub(super) enum Step {
         door: String,
         state: String,
         /// Percent of the largest opening
-        #[arg(long, value_name = "PERCENT")]
+        #[arg(long, value_name = "PERCENT", value_parser = finite)]
         opening: Option<f64>,
         /// A door of this thing
         #[arg(long, value_name = "NAME")]
@@ -243,7 +245,7 @@ pub(super) enum Step {
         /// Offset of the second from the first, cm
         #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
         rel: Option<Numbers>,
-        #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
         angle: Option<f64>,
     },
     /// Take a link away
@@ -290,10 +292,10 @@ pub(super) enum Step {
         #[arg(long, value_name = "NAME")]
         map: Option<String>,
         /// Of a slow zone, cm/s
-        #[arg(long, value_name = "CM/S")]
+        #[arg(long, value_name = "CM/S", value_parser = finite)]
         speed: Option<f64>,
         /// Of a one-way zone, degrees counter-clockwise
-        #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+        #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
         heading: Option<f64>,
         /// Why, in a few words that follow "closed:"
         #[arg(long, value_name = "TEXT")]
@@ -320,7 +322,7 @@ pub(super) struct At {
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
     pub(super) at: Option<Numbers>,
     /// Degrees counter-clockwise
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = finite)]
     pub(super) angle: Option<f64>,
 }
 
@@ -363,7 +365,7 @@ pub(in crate::cli) struct Numbers(pub(in crate::cli) Vec<f64>);
 impl std::str::FromStr for Numbers {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        let number = |n: &str| n.trim().parse::<f64>().map_err(|e| format!("{n}: {e}"));
+        let number = |n: &str| finite(n).map_err(|wanted| format!("“{}”: {wanted}", n.trim()));
         text.split(',').map(number).collect::<Result<_, _>>().map(Self)
     }
 }
