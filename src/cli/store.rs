@@ -131,15 +131,15 @@ fn kind(kind: RevisionKind, lang: Lang) -> &'static str {
 
 fn history(common: &Common, last: Option<usize>) -> Result<Answer, Failure> {
     let mut revisions = open(common)?.revisions()?;
+    if revisions.is_empty() && !common.json {
+        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
+    }
     if let Some(last) = last {
         revisions.drain(..revisions.len().saturating_sub(last));
     }
     if common.json {
         let all: Vec<Value> = revisions.iter().map(views::revision).collect();
         return say(&json!({ "revisions": all }).to_string());
-    }
-    if revisions.is_empty() {
-        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
     }
     let line = |r: &Revision| {
         let of = r.undoes.map_or_else(String::new, |n| format!(" {n}"));
@@ -260,7 +260,7 @@ fn fsck(common: &Common) -> Result<Answer, Failure> {
             report.lsn, report.revision, report.records, report.snapshots
         ),
         Lang::En => format!(
-            "{verdict}: {} transactions, {} revisions, {} records (with history), {} snapshots.",
+            "{verdict}: transactions {}, revisions {}, records {} (with history), snapshots {}.",
             report.lsn, report.revision, report.records, report.snapshots
         ),
     })?;

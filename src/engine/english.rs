@@ -31,6 +31,7 @@ impl RequestError {
                 format!("“.{ending}”: a drawing is written as SVG or PNG")
             }
             Self::NoMaps => "the domain has no map".to_owned(),
+            Self::BeforeTheMap => "there was no map yet: the history begins later".to_owned(),
             Self::NoMap { store } => format!("the store “{store}” has no map"),
             Self::Fact { text } => format!("“{text}” cannot be read as a fact"),
             Self::UnknownName { name, .. } => format!("the map has no name “{name}”"),
@@ -162,6 +163,7 @@ impl InEnglish for RequestError {
             }
             Self::DrawingFormat { .. } => "name a file that ends in .svg or .png, or add --png",
             Self::NoMaps => "draw an object: ortho draw object NAME",
+            Self::BeforeTheMap => "what was when: ortho history",
             Self::NoMap { .. } => "import a map: ortho import maps/rb2.toml",
             Self::Fact { .. } => {
                 "a fact is written RELATION(name, name), such as ON_TOP_OF(Cup, Table)"

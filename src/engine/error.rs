@@ -170,6 +170,11 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_map), help("импортируйте карту: ortho import maps/rb2.toml"))]
     NoMap { store: String },
 
+    /// The history begins later.
+    #[error("карты ещё не было: история начинается позже")]
+    #[diagnostic(code(engine::before_the_map), help("когда что было: ortho history"))]
+    BeforeTheMap,
+
     /// A fact that does not read as one.
     #[error("«{text}» не читается как факт")]
     #[diagnostic(

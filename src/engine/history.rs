@@ -8,7 +8,7 @@ use crate::store::{
 use crate::units::Bilingual;
 
 use super::edit::Spares;
-use super::{Engine, Error, State};
+use super::{Engine, Error, RequestError, State};
 
 /// A point of the history as a person names it: a revision's number, or a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,8 +69,8 @@ impl Engine {
     /// There is no such revision, or there was no map yet.
     pub fn as_of(self, when: When) -> Result<Self, Error> {
         let revision = self.revision_of(when)?;
-        let world = self.store()?.world_as_of(revision)?;
-        let then = State::new(None, Arc::clone(&self.state.rules), world);
+        let world = self.store()?.world_as_of(revision)?.ok_or(RequestError::BeforeTheMap)?;
+        let then = State::new(None, Arc::clone(&self.state.rules), Some(world));
         let (state, spares) = (Arc::new(then), Spares::default());
         Ok(Self { store: None, state, waiting: self.waiting, spares, opened: self.opened })
     }

@@ -184,7 +184,7 @@ pub(super) async fn then(house: &House, revision: u64) -> Result<Arc<State>, Fau
     let world =
         house.desk.ask(move |engine| engine.store()?.world_as_of(revision).map_err(Error::from));
     let world = world.await??;
-    let world = world.ok_or_else(|| Error::from(RequestError::NoMap { store: String::new() }))?;
+    let world = world.ok_or_else(|| Error::from(RequestError::BeforeTheMap))?;
     let rules = house.rules.clone();
     apart(move || Engine::in_memory(world, rules.as_deref())?.state()).await
 }

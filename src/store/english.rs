@@ -61,6 +61,9 @@ impl InEnglish for StoreError {
             Self::UndoConflict { revision, record, by } => format!(
                 "the revision {revision} cannot be undone: the record {record} was changed later, by revision {by}"
             ),
+            Self::AlreadyUndone { revision, by } => {
+                format!("the revision {revision} is undone already, by revision {by}")
+            }
             Self::UndoBreaks { revision, what } => format!(
                 "the revision {revision} cannot be undone: the map would become faulty: {}",
                 en(what)
@@ -105,6 +108,9 @@ impl InEnglish for StoreError {
             }
             Self::ForgottenRevision { .. } => "take a backup of that time",
             Self::UndoConflict { by, .. } => return Some(format!("first undo revision {by}")),
+            Self::AlreadyUndone { by, .. } => {
+                return Some(format!("it comes back by ortho redo, or ortho undo {by}"));
+            }
             Self::UndoBreaks { .. } => "first undo the revisions that rest on it: ortho history",
             Self::BadFile { .. } => "take another backup",
         };

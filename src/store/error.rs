@@ -160,6 +160,14 @@ pub enum StoreError {
     #[diagnostic(code(store::undo_conflict), help("сначала отмените правку {by}"))]
     UndoConflict { revision: u64, record: String, by: u64 },
 
+    /// It was undone already, and not brought back since.
+    #[error("правка {revision} уже отменена правкой {by}")]
+    #[diagnostic(
+        code(store::already_undone),
+        help("вернуть её можно правкой «ortho redo» или «ortho undo {by}»")
+    )]
+    AlreadyUndone { revision: u64, by: u64 },
+
     /// Without what the revision made, the map would be faulty.
     #[error("правку {revision} нельзя отменить: карта стала бы неверной: {what}")]
     #[diagnostic(

@@ -38,11 +38,15 @@ impl Store {
     /// Takes back one revision, wherever it stands, if nothing that it touched was changed since.
     ///
     /// # Errors
-    /// [`StoreError::UndoConflict`] names the record and the later revision; [`StoreError::UnknownRevision`].
+    /// [`StoreError::UndoConflict`] names the record and the later revision; [`StoreError::AlreadyUndone`];
+    /// [`StoreError::UnknownRevision`].
     pub fn undo_revision(&mut self, revision: u64, change: &Change) -> Result<ImportReport> {
         if revision == 0 || revision > self.revision() {
             let last = self.revision();
             return Err(StoreError::UnknownRevision { wanted: revision, last });
+        }
+        if let Some(by) = undone_by(&self.revisions()?, revision) {
+            return Err(StoreError::AlreadyUndone { revision, by });
         }
         self.revert(revision, change, RevisionKind::Undo)
     }
@@ -112,6 +116,12 @@ fn check_untouched_since(now: &Reader, target: u64, table: Table, key: &Key) -> 
         record: format!("{} ({})", table.name(), describe_key(table, &current.row)),
         by: current.stamp.revision,
     })
+}
+
+/// The revision that took this one back and was not taken back itself; a redo takes back the undo.
+fn undone_by(revisions: &[Revision], number: u64) -> Option<u64> {
+    let mut takers = revisions.iter().filter(|r| r.undoes == Some(number)).map(|r| r.number);
+    takers.find(|taker| undone_by(revisions, *taker).is_none())
 }
 
 /// The changes that stand, the oldest first: an undo takes its target off, a redo puts it back on.

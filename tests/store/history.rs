@@ -116,6 +116,26 @@ fn an_edit_that_others_build_on_is_not_undone() {
     assert_eq!(Cm::of(first_x(&store)), Cm::of(20.0));
 }
 
+/// What is undone is not undone again, whatever later edit came to the same values; brought back, it is.
+#[test]
+fn what_is_undone_is_not_undone_again() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    store.import(&world(43, 3), &change("первая")).unwrap();
+    nudge(&mut store, 10.0);
+    store.undo(&change("")).unwrap();
+    nudge(&mut store, 10.0);
+    let refused = store.undo_revision(2, &change("")).unwrap_err();
+    assert!(matches!(refused, StoreError::AlreadyUndone { revision: 2, by: 3 }), "{refused}");
+    store.undo_revision(4, &change("")).unwrap();
+    store.undo_revision(5, &change("brings 4 back")).unwrap();
+    store.undo_revision(4, &change("")).unwrap();
+    store.redo(&change("")).unwrap();
+    store.undo_revision(4, &change("")).unwrap();
+    let refused = store.undo_revision(4, &change("")).unwrap_err();
+    assert!(matches!(refused, StoreError::AlreadyUndone { revision: 4, .. }), "{refused}");
+}
+
 #[test]
 fn two_revisions_are_compared_in_words() {
     let dir = scratch();
