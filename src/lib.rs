@@ -30,9 +30,8 @@ pub use orthoframe_units::{
 
 /// The map: what stands in a [`World`].
 pub use orthoframe_map::{
-    Area, Door, DoorKind, DoorState, DoorStatus, Edit, EditReading, Edits, Entity, Fault, Item,
-    MapErrors, NewRecord, NextIds, Object, Orthoframe, Permeability, Place, Profile, Replica,
-    RobotProfile, World,
+    Area, Door, DoorKind, DoorState, DoorStatus, Edit, Edits, Entity, Fault, Item, MapErrors,
+    NextIds, Object, Orthoframe, Permeability, Place, Profile, Replica, RobotProfile, World,
 };
 
 /// Free floor, openings and ways.

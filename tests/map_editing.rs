@@ -5,7 +5,7 @@ use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
-use orthoframe_map::{Edits, NameIndex, Naming, NextIds, World, check, edit};
+use orthoframe_map::{Edit, Edits, NameIndex, Naming, NextIds, World, check, edit};
 use orthoframe_semantics::{Profile, derive};
 use orthoframe_units::{Frame, ReplicaId, Source};
 
@@ -222,6 +222,29 @@ fn an_edit_is_a_value_of_the_library_too() {
     });
     assert!(told(refused).starts_with("-: «Стул-1» стоит вне своего помещения «Комната-В»"));
     check_in_step(&engine, "library");
+
+    // The steps of a file are values as well, and are refused in the words of one.
+    let moved = |by: &str| Edit::Move {
+        name: "Стул-1".to_owned(),
+        to: None,
+        by: Some(by.parse().unwrap()),
+        area: None,
+        carry: false,
+    };
+    let turned = |by: f64| {
+        let (name, by) = ("Стул-1".to_owned(), by.try_into().ok());
+        Edit::Turn { name, to: None, by, carry: false }
+    };
+    let edits = Edits::from(vec![moved("0,5"), turned(90.0)]);
+    let done = told(engine.edit(&edits, &change("повернул"), Mode::Commit));
+    assert_eq!(
+        done,
+        "экземпляр «Стул-1»: передвинут на 5 см, повёрнут на 90° против часовой стрелки\n"
+    );
+    let refused =
+        engine.edit(&vec![turned(90.0), moved("9000,0")].into(), &change(""), Mode::Commit);
+    assert!(told(refused).starts_with("6:6: «Стул-1» стоит вне своего помещения «Комната-В»"));
+    check_in_step(&engine, "values");
 }
 
 #[test]

@@ -36,9 +36,9 @@
 //! A `World` that came out of `World::load` has passed every check of `map/check`; warnings do not hinder. What
 //! reads well and cannot be (`check/doubts`) is looked for by `ortho check` alone. Writing a checked `World` and
 //! reading it again gives the same `World`, ids included. A fault knows its place as a path into the model; only
-//! `map/file` turns it into a place in the text. An edit file is worked into the map's own tree and read as a map
-//! file is, so that nothing can be edited into a map that a map file could not say. Reading takes bounded memory:
-//! text size, nesting, alias replay, vectors per base are limited. A conditional side bears exactly one door; a
+//! `map/file` turns it into a place in the text. An [`Edit`] is a value, which a text of edits is read into; it changes
+//! the records that it names, and nothing can be edited into a map that a map file could not say. Reading takes bounded
+//! memory: text size, nesting, alias replay, vectors per base are limited. A conditional side bears exactly one door; a
 //! named passage is a door without leaves.
 
 use orthoframe_units as units;

@@ -41,7 +41,7 @@ pub(super) struct EditArgs {
 pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
     let edits = match (&args.step, &args.file) {
         (Some(step), _) => {
-            let edit = step.edit().map_err(|error| Error::from(MapErrors::of(error)))?;
+            let edit = step.edit().map_err(|error| Error::from(MapErrors::of(*error)))?;
             Edits::from(vec![edit]).named(common.lang.pick("аргументы", "arguments"))
         }
         (None, Some(file)) => Edits::read(&read(file)?, Format::of(file)),

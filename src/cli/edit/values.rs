@@ -9,7 +9,7 @@ use crate::map::{Edit, MapError, NewRecord};
 
 use super::step::{Group, Names, Numbers, Step};
 
-type Told<T> = Result<T, MapError>;
+type Told<T> = Result<T, Box<MapError>>;
 
 fn number(value: Option<f64>) -> Told<Option<Number>> {
     value.map(Number::try_from).transpose()
@@ -93,7 +93,7 @@ fn regular(told: &Numbers) -> Told<RegularFile> {
     let (what, value) = ("corners".into(), corners.get());
     if value.fract() != 0.0 || value < 0.0 {
         let range = ("целое от 3 до 360", "whole, from 3 to 360").into();
-        return Err(MapError::OutOfRange { what, value, range });
+        return Err(Box::new(MapError::OutOfRange { what, value, range }));
     }
     Ok(RegularFile { corners: value as u32, radius })
 }
@@ -123,7 +123,7 @@ fn plan_item(told: &String) -> Told<PlanItemFile> {
     Ok(PlanItemFile { area, at, angle, base: false })
 }
 
-fn word<T: std::str::FromStr<Err = MapError>>(told: Option<&String>) -> Told<Option<T>> {
+fn word<T: std::str::FromStr<Err = Box<MapError>>>(told: Option<&String>) -> Told<Option<T>> {
     told.map(|word| word.parse()).transpose()
 }
 
@@ -202,11 +202,11 @@ impl Step {
                 NewRecord::Area(key.clone(), file)
             }
             Self::Map { names, .. } if !names.properties.is_empty() => {
-                return Err(MapError::UnknownField {
+                return Err(Box::new(MapError::UnknownField {
                     field: "properties".to_owned(),
                     nearest: None,
                     expected: "name, name_en, type".to_owned(),
-                });
+                }));
             }
             Self::Map { key, areas, links, names } => {
                 let link = |told: &String| {
@@ -228,7 +228,7 @@ impl Step {
     }
 
     /// The step as an edit.
-    pub(super) fn edit(&self) -> Result<Edit, MapError> {
+    pub(super) fn edit(&self) -> Told<Edit> {
         if let Some(record) = self.record()? {
             return Ok(Edit::New(Box::new(record)));
         }

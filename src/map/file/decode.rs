@@ -47,9 +47,9 @@ pub(super) fn decode<'n, T: Deserialize<'n>>(
 }
 
 /// The value for which a word stands.
-pub(super) fn word<T: for<'de> Deserialize<'de>>(word: &str) -> Result<T, MapError> {
+pub(super) fn word<T: for<'de> Deserialize<'de>>(word: &str) -> Result<T, Box<MapError>> {
     let reader: StrDeserializer<'_, DecodeError> = word.into_deserializer();
-    T::deserialize(reader).map_err(|fault| *fault.error)
+    T::deserialize(reader).map_err(|fault| fault.error)
 }
 
 /// A fault on its way up; the innermost value sets the place.

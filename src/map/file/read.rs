@@ -86,10 +86,13 @@ pub(super) struct Index<'n, Id> {
     behind: Option<Behind<'n, Id>>,
 }
 
+/// What a name leads to.
+type ByName<'n, T> = Box<dyn Fn(&str) -> Option<T> + 'n>;
+
 /// Records of a world to which a text refers.
 pub(super) struct Behind<'n, Id> {
-    pub(super) find: Box<dyn Fn(&str) -> Option<Id> + 'n>,
-    pub(super) nearest: Box<dyn Fn(&str) -> Option<String> + 'n>,
+    pub(super) find: ByName<'n, Id>,
+    pub(super) nearest: ByName<'n, String>,
     /// The record where there is but one.
     pub(super) only: Option<Id>,
 }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::decode::word;
 use super::text::{Lines, Printed, line};
-pub use super::values::{Coordinates, Number, pair};
+pub use super::values::{At, Coordinates, Number, pair};
 use crate::fault::MapError;
 use crate::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 
@@ -558,11 +558,6 @@ tables! {
     }
 }
 
-/// [x, y] or [x, y, z]; nothing stands for the origin.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub struct At(#[schemars(length(min = 2, max = 3))] pub Vec<Number>);
-
 impl ZoneFile {
     /// A zone of which nothing is said but what the robot is to do there.
     pub(super) fn of_kind(kind: ZoneWord) -> Self {
@@ -605,9 +600,9 @@ macro_rules! words {
         }
 
         impl std::str::FromStr for $name {
-            type Err = MapError;
+            type Err = Box<MapError>;
 
-            fn from_str(text: &str) -> Result<Self, MapError> {
+            fn from_str(text: &str) -> Result<Self, Box<MapError>> {
                 word(text)
             }
         }
@@ -628,9 +623,9 @@ pub enum ZoneWord {
 }
 
 impl std::str::FromStr for ZoneWord {
-    type Err = MapError;
+    type Err = Box<MapError>;
 
-    fn from_str(text: &str) -> Result<Self, MapError> {
+    fn from_str(text: &str) -> Result<Self, Box<MapError>> {
         word(text)
     }
 }

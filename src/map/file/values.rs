@@ -11,9 +11,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::decode::{
     COORDINATES, MODEST_NUMBER, NUMBER, TWO_OR_THREE, a_number, a_text, expected_words, list_of,
 };
-use super::schema::At;
 use crate::fault::MapError;
-use crate::units::Cm;
+use crate::units::{Bilingual, Cm};
 
 /// A finite number of modest size: a length in cm or an angle in degrees. Whole numbers are written without a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,22 +28,24 @@ impl Number {
 }
 
 impl TryFrom<f64> for Number {
-    type Error = MapError;
+    type Error = Box<MapError>;
 
-    fn try_from(value: f64) -> Result<Self, MapError> {
-        Cm::new(value).map(Self::from).map_err(|_| MapError::WrongKind {
-            found: a_number(value),
-            expected: expected_words(MODEST_NUMBER),
-        })
+    fn try_from(value: f64) -> Result<Self, Box<MapError>> {
+        match Cm::new(value) {
+            Ok(length) => Ok(length.into()),
+            Err(_) => Err(wrong(a_number(value), expected_words(MODEST_NUMBER))),
+        }
     }
 }
 
 impl FromStr for Number {
-    type Err = MapError;
+    type Err = Box<MapError>;
 
-    fn from_str(text: &str) -> Result<Self, MapError> {
-        let refused = |_| MapError::WrongKind { found: a_text(text), expected: NUMBER.into() };
-        text.trim().parse::<f64>().map_err(refused)?.try_into()
+    fn from_str(text: &str) -> Result<Self, Box<MapError>> {
+        match text.trim().parse::<f64>() {
+            Ok(number) => number.try_into(),
+            Err(_) => Err(wrong(a_text(text), NUMBER.into())),
+        }
     }
 }
 
@@ -84,6 +85,11 @@ impl JsonSchema for Number {
     }
 }
 
+/// [x, y] or [x, y, z]; nothing stands for the origin.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct At(#[schemars(length(min = 2, max = 3))] pub Vec<Number>);
+
 impl From<Coordinates> for At {
     fn from(at: Coordinates) -> Self {
         Self(at.numbers())
@@ -105,25 +111,22 @@ impl Coordinates {
 }
 
 impl TryFrom<&[Number]> for Coordinates {
-    type Error = MapError;
+    type Error = Box<MapError>;
 
-    fn try_from(numbers: &[Number]) -> Result<Self, MapError> {
+    fn try_from(numbers: &[Number]) -> Result<Self, Box<MapError>> {
         match *numbers {
             [x, y] => Ok(Self { x, y, z: None }),
             [x, y, z] => Ok(Self { x, y, z: Some(z) }),
-            _ => Err(MapError::WrongKind {
-                found: list_of(numbers.len()),
-                expected: TWO_OR_THREE.into(),
-            }),
+            _ => Err(wrong(list_of(numbers.len()), TWO_OR_THREE.into())),
         }
     }
 }
 
 /// «X,Y» or «X,Y,Z».
 impl FromStr for Coordinates {
-    type Err = MapError;
+    type Err = Box<MapError>;
 
-    fn from_str(text: &str) -> Result<Self, MapError> {
+    fn from_str(text: &str) -> Result<Self, Box<MapError>> {
         let numbers: Vec<Number> = text.split(',').map(str::parse).collect::<Result<_, _>>()?;
         Self::try_from(&numbers[..])
     }
@@ -148,8 +151,10 @@ impl<'de> Deserialize<'de> for Coordinates {
                 while let Some(axis) = seq.next_element::<Number>()? {
                     axes.push(axis);
                 }
-                let refused = |_| A::Error::invalid_length(axes.len(), &self);
-                Coordinates::try_from(&axes[..]).map_err(refused)
+                match Coordinates::try_from(&axes[..]) {
+                    Ok(coordinates) => Ok(coordinates),
+                    Err(_) => Err(A::Error::invalid_length(axes.len(), &self)),
+                }
             }
         }
         deserializer.deserialize_any(Axes)
@@ -160,9 +165,13 @@ impl<'de> Deserialize<'de> for Coordinates {
 ///
 /// # Errors
 /// There are not two numbers.
-pub fn pair(numbers: &[Number]) -> Result<[Number; 2], MapError> {
-    numbers.try_into().map_err(|_| MapError::WrongKind {
-        found: list_of(numbers.len()),
-        expected: expected_words("an array of length 2"),
-    })
+pub fn pair(numbers: &[Number]) -> Result<[Number; 2], Box<MapError>> {
+    match *numbers {
+        [x, y] => Ok([x, y]),
+        _ => Err(wrong(list_of(numbers.len()), expected_words("an array of length 2"))),
+    }
+}
+
+fn wrong(found: Bilingual, expected: Bilingual) -> Box<MapError> {
+    Box::new(MapError::WrongKind { found, expected })
 }

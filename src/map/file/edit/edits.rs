@@ -13,7 +13,7 @@ use super::verbs::{self, Edit, NewRecord};
 use super::word::{Done, Slips, misprint, text_of, unknown_field, wrong_kind};
 use crate::TypeKind;
 use crate::fault::MapError;
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, Source, name_key};
 
 /// Edits that make one transaction.
 ///
@@ -27,6 +27,8 @@ pub struct Edits {
     pub(super) misprints: Vec<Misprint>,
     /// Entries and lines that could not be read.
     pub(super) left_out: HashSet<Span>,
+    /// Names of what is new and could not be read, as they are compared: that they lead nowhere is no second fault.
+    pub(super) unread: HashSet<String>,
     /// Whether it is worth looking at what the map would become.
     pub(super) is_read: bool,
     /// Whether there is nothing but one step, which answers for all that it spoils elsewhere.
@@ -97,6 +99,7 @@ impl Edits {
             reason: None,
             misprints: Vec::new(),
             left_out: HashSet::new(),
+            unread: HashSet::new(),
             is_read: true,
             is_one_step: false,
         }
@@ -104,8 +107,8 @@ impl Edits {
 
     /// Takes a whole file: what is new first, then the steps in their order.
     fn take(&mut self, root: &Node) {
-        let Self { told, misprints, left_out, reason, .. } = self;
-        let mut reading = Reading { told, slips: Slips { misprints, left_out } };
+        let Self { told, misprints, left_out, unread, reason, .. } = self;
+        let mut reading = Reading { told, unread, slips: Slips { misprints, left_out } };
         for entry in root.entries() {
             let done = match entry.key.as_str() {
                 "format" => check_format(&entry.node),
@@ -211,6 +214,7 @@ const SECTIONS: [&str; 11] = [
 /// Edits on their way from a text.
 struct Reading<'e> {
     told: &'e mut Vec<Told>,
+    unread: &'e mut HashSet<String>,
     slips: Slips<'e>,
 }
 
@@ -236,6 +240,10 @@ impl Reading<'_> {
         let verb = edit.as_ref().and_then(Edit::verb).and_then(|verb| node.entry(verb));
         let key_span = verb.map_or(node.span.clone(), |verb| verb.key_span.clone());
         let is_broken = self.slips.misprints.len() > before;
+        if edit.is_none() {
+            let names = verbs::MAKING.iter().filter_map(|verb| node.entry(verb)?.node.text());
+            self.unread.extend(names.map(name_key));
+        }
         self.tell(edit, &key_span, node, is_broken);
     }
 
@@ -265,6 +273,10 @@ impl Reading<'_> {
                 Kind::Zone => new!(Zone),
                 Kind::Replica | Kind::Place => unreachable!("lines have no section"),
             };
+            if new.is_none() {
+                let name = record.node.entry("name").and_then(|e| e.node.text());
+                self.unread.extend(name.into_iter().chain([&*record.key]).map(name_key));
+            }
             let edit = new.map(|new| Edit::New(Box::new(new)));
             self.tell(edit, &record.key_span, &record.node, is_broken);
         }

@@ -32,8 +32,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::node::Span;
 use super::report;
-use crate::fault::Fault;
-use crate::units::ReplicaId;
+use crate::fault::{Fault, MapError};
+use crate::units::{ReplicaId, name_key};
 use crate::{Entity, MapErrors, NameIndex, TypeKind, World, check};
 
 pub use edits::Edits;
@@ -159,6 +159,10 @@ pub(super) fn edit_judged(
     let Steps { world: edited, said, misprints, faults, broken, carriers, .. } = steps;
     all.extend(misprints.into_iter().map(Fault::from));
     all.extend(faults);
+    all.retain(|fault| match &fault.error {
+        MapError::UnknownReference { name, .. } => !edits.unread.contains(&name_key(name)),
+        _ => true,
+    });
     // What a step did not do is missed by others: its own fault is enough.
     let is_whole = all.is_empty();
     let news = if is_whole {

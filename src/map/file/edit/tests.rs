@@ -322,6 +322,8 @@ fn what_a_step_leaves_in_pieces_is_told_in_a_list_of_many() {
         let one = |f: &Fault| format!("{:?} {f}", reading.faults.position(f).expect("a place"));
         reading.faults.faults.iter().map(one).collect::<Vec<_>>()
     };
+    let unread = "[door.d]\nwidth = 80\nheight = 200\n[[edit]]\nbind = \"d\"\nto = \"room-v\"\nside = \"A\"\n";
+    assert_eq!(told(unread), ["(1, 7) не хватает поля «kind»"]);
     let start = world.places.values().find(|p| Some(p.id) == world.robot.start).expect("it starts");
     let room = &world.areas[&start.area].name;
     let gone = format!("[robot]\nspeed = 20\n[[edit]]\nremove = \"{room}\"\n");

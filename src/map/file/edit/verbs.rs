@@ -61,7 +61,7 @@ macro_rules! verbs {
         }
     )+) => {
         /// One step of an edit. Names are those that the map gives, or that an edit before gave; lengths are cm, angles degrees
-        /// counter-clockwise.
+        /// counter-clockwise, made by `"10,0".parse()` and `90.0.try_into()`, which refuse what no map has.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Edit {
             /// A record that was not there. All that edits bring is there before the first step is done.
@@ -356,6 +356,9 @@ verbs! {
         item: Option<String>,
     }
 }
+
+/// Verbs whose steps make something, which others may speak of.
+pub(super) const MAKING: [&str; 3] = ["place", "point", "zone"];
 
 /// Reads one step; what it is refused for is noted.
 pub(super) fn read_step(slips: &mut Slips<'_>, node: &Node) -> Option<Edit> {

@@ -1,18 +1,14 @@
 //! What binds parts together: doors on sides, items of a group, links between faces and between Areas.
 
 use super::super::said::table;
-use super::{Done, Frame, Kind, MapError, Number, Outcome, Record, Span, Step, Steps, frame_of};
-use super::{misprint, standing};
+use super::standing::{self, Stands};
+use super::{Done, Frame, Kind, MapError, Outcome, Record, Span, Step, Steps, frame_of, misprint};
 use crate::file::decode::shortened;
-use crate::file::schema::Coordinates;
 use crate::units::AreaId;
 use crate::{DoorMount, Item, ItemLink, MapLink, OpensTo, SideRef};
 
 /// What is made of Orthoframes.
 const GROUPS: &[Kind] = &[Kind::Area, Kind::Object];
-
-/// Where a step says that something stands, and whether that is the base.
-pub(super) type Stands<'t> = (Option<&'t Coordinates>, Option<Number>, Option<bool>);
 
 impl Steps<'_> {
     fn items(&self, group: Record) -> &[Item] {

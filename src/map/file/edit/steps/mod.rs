@@ -18,7 +18,7 @@ use super::NextIds;
 use super::edits::{Edits, Told};
 use super::kind::Kind;
 use super::said::Said;
-use super::verbs::Edit;
+use super::verbs::{Edit, MAKING};
 use super::word::{Done, Outcome, misprint};
 use crate::World;
 use crate::fault::{Fault, MapError, Record};
@@ -148,10 +148,8 @@ impl<'a> Steps<'a> {
         let Some(verb) = told.edit.verb().and_then(|verb| told.node.entry(verb)) else {
             return Ok(());
         };
-        let makes =
-            matches!(told.edit, Edit::Place { .. } | Edit::Point { .. } | Edit::Zone { .. });
         // What is made is spoken of by others, whatever is wrong with it.
-        if told.is_broken && !makes {
+        if told.is_broken && !MAKING.contains(&verb.key.as_str()) {
             return Ok(());
         }
         let step = &Step { node: &told.node, verb };
@@ -214,7 +212,10 @@ impl<'a> Steps<'a> {
 
 /// A length that was worked out from others, or its fault.
 fn cm(value: f64, at: &Span) -> Outcome<Cm> {
-    Cm::new(value).map_err(|_| too_large(value, at))
+    match Cm::new(value) {
+        Ok(length) => Ok(length),
+        Err(_) => Err(too_large(value, at)),
+    }
 }
 
 fn too_large(value: f64, at: &Span) -> Box<Misprint> {

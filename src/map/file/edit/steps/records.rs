@@ -41,7 +41,13 @@ impl Steps<'_> {
                 let is_it = self.world.domain.maps.iter().position(|own| own.map == id);
                 if let Some(no) = is_it {
                     let maps = &mut self.world.domain.maps;
-                    standing::with_base(maps, |m| &mut m.is_base, |maps| drop(maps.remove(no)));
+                    standing::with_base(
+                        maps,
+                        |m| &mut m.is_base,
+                        |maps| {
+                            maps.remove(no);
+                        },
+                    );
                     self.said.of(Record::Domain).drop_element("maps", no);
                 }
             }
@@ -85,7 +91,13 @@ impl Steps<'_> {
             while let Some(no) = self.world.maps[&map].items.iter().position(|item| item.area == id)
             {
                 let items = &mut self.map_mut(map).items;
-                standing::with_base(items, |i| &mut i.is_base, |items| drop(items.remove(no)));
+                standing::with_base(
+                    items,
+                    |i| &mut i.is_base,
+                    |items| {
+                        items.remove(no);
+                    },
+                );
                 self.said.of(said).drop_element("items", no);
             }
             while let Some(no) =

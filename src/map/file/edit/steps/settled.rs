@@ -26,6 +26,9 @@ impl Late {
 impl Steps<'_> {
     pub(super) fn settle(&mut self) {
         for (id, draft) in std::mem::take(&mut self.zones) {
+            if self.broken.contains(&Record::Zone(id)) {
+                continue;
+            }
             let raw = Raw { id, key: draft.key, file: draft.file };
             let read = self.reading(|reader| reader.zone(raw));
             self.world.zones.extend(read.map(|zone| (id, zone)));

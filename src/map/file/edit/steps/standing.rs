@@ -1,11 +1,13 @@
 //! Where the large things stand: Areas on a Map, Maps in the Domain, lifts between them.
 
 use super::super::said::{entry, table};
-use super::bonds::Stands;
-use super::{Done, Kind, Outcome, Record, Step, Steps, frame_of};
+use super::{Coordinates, Done, Kind, Number, Outcome, Record, Step, Steps, frame_of};
 use crate::file::node::Value;
 use crate::units::{Cm, Deg, Frame, MapId};
 use crate::{DomainMap, LiftStop, MapItem};
+
+/// Where a step says that something stands, and whether that is the base.
+pub(super) type Stands<'t> = (Option<&'t Coordinates>, Option<Number>, Option<bool>);
 
 /// Changes a list of which one is the base: the one that says so, or else the first.
 pub(super) fn with_base<T>(

@@ -274,7 +274,7 @@ impl Steps<'_> {
             (None, None) => return Err(step.missing("by")),
         };
         let at = step.at(field);
-        let angle = Deg::new(angle).map_err(|_| too_large(angle, at))?;
+        let Ok(angle) = Deg::new(angle) else { return Err(too_large(angle, at)) };
         let told = match record {
             Record::Replica(id) => {
                 self.replica_mut(id).frame.angle = angle;

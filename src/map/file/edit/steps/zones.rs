@@ -6,7 +6,7 @@ use super::{Done, Kind, MapError, Outcome, Record, Step, Steps, cm, misprint};
 use crate::World;
 use crate::file::decode::shortened;
 use crate::file::node::{Node, Value};
-use crate::file::schema::{Coordinates, Number, ZoneFile};
+use crate::file::schema::{Coordinates, Number, ZoneFile, ZoneWord};
 use crate::file::write;
 use crate::units::ZoneId;
 
@@ -73,7 +73,9 @@ impl Steps<'_> {
 
     fn new_zone(&mut self, step: &Step<'_>, edit: &Edit) -> Outcome<ZoneId> {
         let Edit::Zone { name, kind, .. } = edit else { unreachable!("it is of its verb") };
-        let kind = kind.ok_or_else(|| step.missing("kind"))?;
+        // A kind that could not be read is told already; nothing is read of that zone.
+        let unread = step.entry("kind").map(|_| ZoneWord::Closed);
+        let kind = kind.or(unread).ok_or_else(|| step.missing("kind"))?;
         // A key has no point, which is what parts keys in a reference.
         let key = name.replace('.', "-");
         if !self.bearers(&key, Kind::Zone).is_empty() {
