@@ -22,7 +22,7 @@ const SECTIONS: [&str; 10] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map", "zone"];
 
 /// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
-const MOST_GUESSES: usize = 30;
+pub(super) const MOST_GUESSES: usize = 30;
 
 /// A world as far as it could be read, its faults, and where its records stand in the tree.
 pub(super) struct Draft<'n> {
@@ -51,10 +51,15 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
     Draft { world, faults, origins, broken, left_out }
 }
 
+/// Where a record stands in a text.
+pub(super) type Elsewhere<'n> = Box<dyn Fn(Record) -> Option<Origin<'n>> + 'n>;
+
 pub(super) struct Reader<'n> {
     pub(super) root: &'n Node,
     faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Where records stand that are told of elsewhere.
+    elsewhere: Option<Elsewhere<'n>>,
     pub(super) broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
     /// Names for which a likely one is still looked for among all there are.
@@ -213,6 +218,7 @@ impl<'n> Reader<'n> {
             root,
             faults: Vec::new(),
             origins: BTreeMap::new(),
+            elsewhere: None,
             broken: BTreeSet::new(),
             left_out: HashSet::new(),
             guesses_left: MOST_GUESSES,
@@ -223,12 +229,12 @@ impl<'n> Reader<'n> {
     /// For single records, of which it is told elsewhere what they may name and where they stand.
     pub(super) fn among(
         names: Names<'n>,
-        origins: BTreeMap<Record, Origin<'n>>,
+        elsewhere: Elsewhere<'n>,
         left_out: HashSet<Span>,
         broken: BTreeSet<Record>,
     ) -> Self {
         const NO_TEXT: &Node = &Node { span: 0..0, value: Value::Nothing };
-        Reader { names, origins, left_out, broken, ..Self::of(NO_TEXT) }
+        Reader { names, elsewhere: Some(elsewhere), left_out, broken, ..Self::of(NO_TEXT) }
     }
 
     /// What was wrong with the records, and with which.
@@ -280,7 +286,9 @@ impl<'n> Reader<'n> {
     pub(super) fn fault(&mut self, error: MapError, spot: Spot) {
         self.broken.insert(spot.record);
         let mut fault = Fault::new(error, vec![spot]);
-        fault.locate(|record| self.origins.get(&record).cloned(), &self.left_out);
+        let elsewhere = |record| self.elsewhere.as_ref().and_then(|find| find(record));
+        let origin = |record| self.origins.get(&record).cloned().or_else(|| elsewhere(record));
+        fault.locate(origin, &self.left_out);
         self.faults.push(fault);
     }
 

@@ -138,17 +138,25 @@ impl Edits {
 /// Edits made by a program. Each is written as a text would tell it, for the faults that are told there.
 impl From<Vec<Edit>> for Edits {
     fn from(values: Vec<Edit>) -> Self {
-        let (mut text, mut told) = (String::new(), Vec::new());
+        let (mut text, mut told, mut misprints) = (String::new(), Vec::new(), Vec::new());
         let is_one_step = values.len() == 1 && values[0].verb().is_some();
         for edit in values {
             let piece = edit.text();
-            let mut root =
-                node::parse(&piece, Format::Toml).expect("what is written can be parsed");
-            root.displace(text.len());
+            let by = text.len();
             text.push_str(&piece);
-            told.push(Told::of_piece(edit, &root));
+            match node::parse(&piece, Format::Toml) {
+                Ok(mut root) => {
+                    root.displace(by);
+                    told.push(Told::of_piece(edit, &root));
+                }
+                // A table that has one key twice cannot be written.
+                Err(found) => misprints.extend(found.into_iter().map(|found| Misprint {
+                    span: found.span.map(|span| span.start + by..span.end + by),
+                    ..found
+                })),
+            }
         }
-        Self { told, is_one_step, ..Self::of_source(Source::new("правка", text)) }
+        Self { told, misprints, is_one_step, ..Self::of_source(Source::new("правка", text)) }
     }
 }
 

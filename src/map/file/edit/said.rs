@@ -118,13 +118,13 @@ impl Said {
         self.records.get_mut(&record).expect("made by the line before").name = name.clone();
     }
 
-    /// Where each record stands of which something was said.
-    pub(super) fn origins(&self) -> BTreeMap<Record, Origin<'_>> {
-        self.records.iter().map(|(record, of)| (*record, of.origin())).collect()
+    /// Where a record stands of which something was said.
+    pub(super) fn origin(&self, record: Record) -> Option<Origin<'_>> {
+        self.records.get(&record).map(Of::origin)
     }
 
     /// Finds the places of a fault in the text.
     pub(super) fn locate(&self, fault: &mut Fault, left_out: &HashSet<Span>) {
-        fault.locate(|record| self.records.get(&record).map(Of::origin), left_out);
+        fault.locate(|record| self.origin(record), left_out);
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::*;
 use crate::dice::dice;
+use crate::file::schema::{OrthoframeFile, SideTraitsFile, Table};
 use crate::units::Source;
 use crate::{Area, BaseVector, Format, NameIndex};
 
@@ -324,6 +325,10 @@ fn what_a_step_leaves_in_pieces_is_told_in_a_list_of_many() {
     };
     let unread = "[door.d]\nwidth = 80\nheight = 200\n[[edit]]\nbind = \"d\"\nto = \"room-v\"\nside = \"A\"\n";
     assert_eq!(told(unread), ["(1, 7) не хватает поля «kind»"]);
+    let side = ("A".to_owned(), SideTraitsFile::default());
+    let twice = OrthoframeFile { side: Table(vec![side.clone(), side]), ..Default::default() };
+    let twice = Edit::New(Box::new(NewRecord::Orthoframe("slab".to_owned(), twice)));
+    assert!(done(&world, &vec![twice].into()).faults.has_errors(), "a key that is there twice");
     let start = world.places.values().find(|p| Some(p.id) == world.robot.start).expect("it starts");
     let room = &world.areas[&start.area].name;
     let gone = format!("[robot]\nspeed = 20\n[[edit]]\nremove = \"{room}\"\n");

@@ -103,6 +103,7 @@ impl Steps<'_> {
         let of = record_of(kind, record);
         self.said.new_record(of, &told.key_span, told.node.clone());
         self.coming.insert(of, key.clone());
+        self.coming_keys.insert((kind, key.clone()), of);
         [key].into_iter().chain(names).for_each(|name| self.note(name, of));
         if told.is_broken {
             self.broken.insert(of);

@@ -11,6 +11,7 @@ mod traits;
 mod walls;
 mod zones;
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use super::Naming;
@@ -24,7 +25,7 @@ use crate::World;
 use crate::fault::{Fault, MapError, Record};
 use crate::file::decode::{MODEST_NUMBER, a_number, expected_words};
 use crate::file::node::{Entry, Misprint, Node, Span};
-use crate::file::read::Reader;
+use crate::file::read::{MOST_GUESSES, Reader};
 use crate::file::schema::{Coordinates, Number};
 use crate::units::{Cm, Deg, Frame, ReplicaId, ZoneId};
 
@@ -53,6 +54,9 @@ pub(super) struct Steps<'a> {
     given: HashMap<String, Vec<Record>>,
     /// Records that have an id and are not yet in the world, by their keys.
     coming: BTreeMap<Record, String>,
+    coming_keys: HashMap<(Kind, String), Record>,
+    /// Names for which a likely one is still looked for among all there are.
+    guesses_left: Cell<usize>,
     zones: BTreeMap<ZoneId, Draft>,
     late: Late,
 }
@@ -128,6 +132,8 @@ impl<'a> Steps<'a> {
             keys: Keys::default(),
             given: HashMap::new(),
             coming: BTreeMap::new(),
+            coming_keys: HashMap::new(),
+            guesses_left: Cell::new(MOST_GUESSES),
             zones: BTreeMap::new(),
             late: Late::default(),
         }
@@ -199,9 +205,9 @@ impl<'a> Steps<'a> {
 
     /// Reads what stands in records by the words of a map file.
     fn reading<T>(&mut self, read: impl for<'n> FnOnce(&mut Reader<'n>) -> T) -> T {
-        let broken = self.broken.clone();
-        let mut reader =
-            Reader::among(self.names(), self.said.origins(), self.left_out.clone(), broken);
+        let broken = std::mem::take(&mut self.broken);
+        let elsewhere = Box::new(|record| self.said.origin(record));
+        let mut reader = Reader::among(self.names(), elsewhere, self.left_out.clone(), broken);
         let value = read(&mut reader);
         let (faults, broken) = reader.finish();
         self.faults.extend(faults);

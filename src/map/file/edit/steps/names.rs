@@ -64,8 +64,6 @@ impl Steps<'_> {
                 self.world.$records.values().find(|r| r.key == key).map(|r| Record::$record(r.id))
             };
         }
-        let of_kind = |record: &Record| Kind::of(*record) == Some(kind);
-        let coming = || self.coming.iter().find(|(r, own)| of_kind(r) && *own == key);
         let found = match kind {
             Kind::Replica | Kind::Place => return None,
             Kind::Area => keyed!(areas, Area),
@@ -78,7 +76,10 @@ impl Steps<'_> {
                 draft.map(|(id, _)| Record::Zone(*id)).or_else(|| keyed!(zones, Zone))
             }
         };
-        found.or_else(|| coming().map(|(record, _)| *record))
+        found.or_else(|| {
+            let coming = self.coming_keys.get(&(kind, key.to_owned())).copied();
+            coming.filter(|record| self.coming.contains_key(record))
+        })
     }
 
     /// Makes a name known.
@@ -151,6 +152,7 @@ impl Steps<'_> {
 
     /// The likeliest name among some kinds.
     pub(super) fn nearest(&self, name: &str, kinds: &[Kind]) -> Option<String> {
+        self.guesses_left.set(self.guesses_left.get().checked_sub(1)?);
         let of_kind = |kind: &Kind| {
             let drafts = self.zones.keys().map(|id| Record::Zone(*id));
             let more = drafts.chain(self.coming.keys().copied());
