@@ -11,7 +11,7 @@ use std::time::Duration;
 use cpu_time::ProcessTime;
 use orthoframe::Engine;
 use orthoframe::engine::{Method, Mode, State, World, change_now};
-use orthoframe_map::{Area, Format, Forms, MapItem, MapLink, Place, Replica, SideRef};
+use orthoframe_map::{Area, Edits, Format, Forms, MapItem, MapLink, Place, Replica, SideRef};
 use orthoframe_store::Store;
 use orthoframe_units::{
     AreaId, Cm, Deg, DoorId, Frame, ObjectId, OrFrId, PlaceId, Point, ReplicaId, Source,
@@ -278,7 +278,8 @@ fn measure(wards: usize) {
         let texts = left.iter().take(8).enumerate().map(|(n, chair)| {
             let source = Source::new("edit.toml", format!("[[edit]]\n{}", text(chair, n)));
             let clock = ProcessTime::now();
-            let edited = engine.edit(&source, Format::Toml, &change, Mode::Commit);
+            let edits = Edits::read(&source, Format::Toml);
+            let edited = engine.edit(&edits, &change, Mode::Commit);
             engine.relations().expect("they end");
             engine.floors().expect("they are built");
             let spent = clock.elapsed();

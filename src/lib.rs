@@ -30,7 +30,7 @@ pub use orthoframe_units::{
 
 /// The map: what stands in a [`World`].
 pub use orthoframe_map::{
-    Area, Door, DoorKind, DoorState, DoorStatus, EditReading, Entity, Fault, Item, MapErrors,
+    Area, Door, DoorKind, DoorState, DoorStatus, Edit, Edits, Entity, Fault, Item, MapErrors,
     NextIds, Object, Orthoframe, Permeability, Place, Profile, Replica, RobotProfile, World,
 };
 

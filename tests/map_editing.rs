@@ -5,7 +5,7 @@ use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
-use orthoframe_map::{NameIndex, Naming, NextIds, World, check, edit};
+use orthoframe_map::{Edit, Edits, NameIndex, Naming, NextIds, World, check, edit};
 use orthoframe_semantics::{Profile, derive};
 use orthoframe_units::{Frame, ReplicaId, Source};
 
@@ -22,8 +22,8 @@ fn rb2(dir: &Path) -> Engine {
     engine
 }
 
-fn toml(text: &str) -> Source {
-    Source::new("edits.toml", text)
+fn toml(text: &str) -> Edits {
+    Edits::read(&Source::new("edits.toml", text), Format::Toml)
 }
 
 fn told(outcome: Result<orthoframe::engine::Edited, Error>) -> String {
@@ -64,10 +64,11 @@ fn edit_files_do_what_they_say_or_are_refused_with_places() {
             file.file_name().unwrap().to_string_lossy(),
             std::fs::read_to_string(&file).unwrap(),
         );
+        let edits = Edits::read(&source, Format::of(&file));
         let before = engine.world().ok().cloned();
-        let tried = told(engine.edit(&source, Format::of(&file), &change(""), Mode::DryRun));
+        let tried = told(engine.edit(&edits, &change(""), Mode::DryRun));
         assert_eq!(engine.world().ok(), before.as_ref(), "{name}: a dry run changes nothing");
-        let outcome = engine.edit(&source, Format::of(&file), &change(""), Mode::Commit);
+        let outcome = engine.edit(&edits, &change(""), Mode::Commit);
         let done = outcome.is_ok();
         let told = told(outcome);
         assert_eq!(tried, told, "{name}: a dry run says what the run says");
@@ -124,7 +125,7 @@ fn relations_and_free_floor_follow_every_edit() {
         "[[edit]]\nset = \"Стул-3\"\nproperty = \"ЦВЕТ\"\nvalue = \"Чёрный\"\n",
         "[[edit]]\nrename = \"Стул-3\"\nto = \"Стул хозяина\"\n",
     ] {
-        engine.edit(&toml(text), Format::Toml, &change("правка"), Mode::Commit).unwrap();
+        engine.edit(&toml(text), &change("правка"), Mode::Commit).unwrap();
         check_in_step(&engine, text);
     }
     for _ in 0..2 {
@@ -164,7 +165,7 @@ fn a_load_goes_with_what_bears_it_or_is_told_to_stay() {
     };
     let edit = |engine: &mut Engine, step: &str, mode| {
         let text = format!("[[edit]]\n{step}\n");
-        engine.edit(&toml(&text), Format::Toml, &change("переставил"), mode).unwrap()
+        engine.edit(&toml(&text), &change("переставил"), mode).unwrap()
     };
 
     let left = edit(&mut engine, &format!("move = \"{bearer}\"\nby = [-3, 2]"), Mode::DryRun);
@@ -192,7 +193,7 @@ fn a_load_goes_with_what_bears_it_or_is_told_to_stay() {
 
     let point = engine.world().unwrap().places.values().next().unwrap().name.clone();
     let text = format!("[[edit]]\nmove = \"{point}\"\nby = [1, 0]\ncarry = true\n");
-    let refused = engine.edit(&toml(&text), Format::Toml, &change(""), Mode::DryRun);
+    let refused = engine.edit(&toml(&text), &change(""), Mode::DryRun);
     assert!(told(refused).contains("на точке ничего не стоит"));
 }
 
@@ -221,6 +222,29 @@ fn an_edit_is_a_value_of_the_library_too() {
     });
     assert!(told(refused).starts_with("-: «Стул-1» стоит вне своего помещения «Комната-В»"));
     check_in_step(&engine, "library");
+
+    // The steps of a file are values as well, and are refused in the words of one.
+    let moved = |by: &str| Edit::Move {
+        name: "Стул-1".to_owned(),
+        to: None,
+        by: Some(by.parse().unwrap()),
+        area: None,
+        carry: false,
+    };
+    let turned = |by: f64| {
+        let (name, by) = ("Стул-1".to_owned(), by.try_into().ok());
+        Edit::Turn { name, to: None, by, carry: false }
+    };
+    let edits = Edits::from(vec![moved("0,5"), turned(90.0)]);
+    let done = told(engine.edit(&edits, &change("повернул"), Mode::Commit));
+    assert_eq!(
+        done,
+        "экземпляр «Стул-1»: передвинут на 5 см, повёрнут на 90° против часовой стрелки\n"
+    );
+    let refused =
+        engine.edit(&vec![turned(90.0), moved("9000,0")].into(), &change(""), Mode::Commit);
+    assert!(told(refused).starts_with("6:6: «Стул-1» стоит вне своего помещения «Комната-В»"));
+    check_in_step(&engine, "values");
 }
 
 #[test]
@@ -228,7 +252,7 @@ fn the_history_says_who_and_why_and_the_past_can_be_asked() {
     let scratch = tempfile::tempdir().unwrap();
     let mut engine = rb2(scratch.path());
     let text = "reason = \"к обеду\"\n[[edit]]\nmove = \"Стул-1\"\nby = [5, 0]\n";
-    engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).unwrap();
+    engine.edit(&toml(text), &change(""), Mode::Commit).unwrap();
     let last = engine.revisions().unwrap().pop().unwrap();
     assert_eq!((last.user.as_str(), last.reason.as_str()), ("Мастер", "к обеду"));
     let diff = engine.diff(When::Revision(1), When::Revision(2)).unwrap();
@@ -245,10 +269,10 @@ fn what_others_stand_on_cannot_be_undone_from_under_them() {
     let scratch = tempfile::tempdir().unwrap();
     let mut engine = rb2(scratch.path());
     let new = "[orthoframe.slab]\nrect = [20, 20]\nheight = 5\n[object.slab]\nitems = [{ id = \"A\", orthoframe = \"slab\" }]\n";
-    engine.edit(&toml(new), Format::Toml, &change("новый вид"), Mode::Commit).unwrap();
+    engine.edit(&toml(new), &change("новый вид"), Mode::Commit).unwrap();
     let placed =
         "[[edit]]\nplace = \"Плита-9\"\nobject = \"slab\"\narea = \"Комната-Z\"\nat = [100, 200]\n";
-    engine.edit(&toml(placed), Format::Toml, &change("поставил"), Mode::Commit).unwrap();
+    engine.edit(&toml(placed), &change("поставил"), Mode::Commit).unwrap();
     let refused = engine.undo(Some(2), &change("назад")).unwrap_err();
     assert!(
         refused.to_string().starts_with("правку 2 нельзя отменить: карта стала бы неверной"),
@@ -271,12 +295,12 @@ fn ids_of_what_is_gone_are_not_given_to_what_is_new() {
     let id = |e: &Engine, name: &str| {
         e.world().unwrap().replicas.values().find(|r| r.name == name).unwrap().id
     };
-    engine.edit(&toml(&place("Первая")), Format::Toml, &change("1"), Mode::Commit).unwrap();
+    engine.edit(&toml(&place("Первая")), &change("1"), Mode::Commit).unwrap();
     let first = id(&engine, "Первая");
     let text = "[[edit]]\nremove = \"Первая\"\n[[edit]]\nremove = \"Стул-2\"\n";
-    engine.edit(&toml(text), Format::Toml, &change("2"), Mode::Commit).unwrap();
+    engine.edit(&toml(text), &change("2"), Mode::Commit).unwrap();
     let chair = id(&engine, "Стул-3");
-    engine.edit(&toml(&place("Вторая")), Format::Toml, &change("3"), Mode::Commit).unwrap();
+    engine.edit(&toml(&place("Вторая")), &change("3"), Mode::Commit).unwrap();
     assert!(id(&engine, "Вторая") > first);
     assert_eq!(id(&engine, "Стул-3"), chair);
 }
@@ -340,7 +364,7 @@ fn no_edit_text_makes_the_reader_panic() {
             }
         }
         let naming = Naming { exact: &names, in_other_words: &|_| Vec::new() };
-        let done = edit(&world, &toml(&text), Format::Toml, &NextIds::after(&world), naming);
+        let done = edit(&world, &toml(&text), &NextIds::after(&world), naming);
         if let Some(edited) = done.world {
             assert!(check(&edited).iter().all(|f| f.is_warning()), "{text}");
         } else {
@@ -375,9 +399,7 @@ fn what_is_placed_in_the_frame_of_the_map_stands_there() {
             items = [{{ area = "room", at = [100, 50], angle = {turn} }}]
             "#
         );
-        let mut edit = |text: &str| {
-            engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).map(|_| ())
-        };
+        let mut edit = |text: &str| engine.edit(&toml(text), &change(""), Mode::Commit).map(|_| ());
         edit(&room).unwrap();
         let frame = Frame::new(100.0, 50.0, 0.0, orthoframe_units::Deg::of(turn));
         let (box_at, spot) = (
@@ -421,8 +443,7 @@ fn the_robot_is_edited_and_names_change_in_the_language_in_which_they_are_called
     let dir = tempfile::tempdir().unwrap();
     let mut engine = rb2(dir.path());
     let before = engine.world().unwrap().robot.clone();
-    let mut edit =
-        |text: &str| engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).map(|_| ());
+    let mut edit = |text: &str| engine.edit(&toml(text), &change(""), Mode::Commit).map(|_| ());
     edit("[robot]\nspeed = 33\nstart = 'Точка-К'\n").unwrap();
     let refused = edit("[robot]\nspeed = 'fast'\n").unwrap_err();
     assert!(matches!(refused, Error::Map(_)), "{refused}");

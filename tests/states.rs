@@ -5,7 +5,7 @@ use std::sync::mpsc;
 use std::sync::{Arc, Mutex};
 
 use orthoframe::engine::{Engine, Memory, Method, Mode, State, change_now};
-use orthoframe_map::{DoorState, Entity, Format, Replica};
+use orthoframe_map::{DoorState, Edits, Entity, Format, Replica};
 use orthoframe_store::Change;
 use orthoframe_units::{ReplicaId, Source};
 
@@ -15,7 +15,7 @@ use crate::worlds::rb2;
 fn edit(engine: &mut Engine, text: &str, change: &Change) {
     let source = Source::new("edit.toml", text);
     engine
-        .edit(&source, Format::Toml, change, Mode::Commit)
+        .edit(&Edits::read(&source, Format::Toml), change, Mode::Commit)
         .unwrap_or_else(|e| panic!("{text}\n{e}"));
 }
 

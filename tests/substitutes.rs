@@ -1,7 +1,7 @@
 //! A goal that cannot be met as said is answered with the nearest that can, and carried out only when that is agreed to.
 
 use orthoframe::engine::{Change, Dialogue, Engine, Format, Mode, Outcome, Timestamp};
-use orthoframe_map::{Entity, World};
+use orthoframe_map::{Edits, Entity, World};
 use orthoframe_units::{ReplicaId, Source};
 
 use crate::files::project;
@@ -44,7 +44,7 @@ property = "СОСТОЯНИЕ"
 value = "Грязный"
 "#;
     engine
-        .edit(&Source::new("glass.toml", edits), Format::Toml, &change, Mode::Commit)
+        .edit(&Edits::read(&Source::new("glass.toml", edits), Format::Toml), &change, Mode::Commit)
         .expect("the glass stands on the table");
     engine
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Dialogue, Engine, Format, Method, Mode, Timestamp};
-use orthoframe_map::World;
+use orthoframe_map::{Edits, World};
 use orthoframe_units::Source;
 
 use crate::files::project;
@@ -24,8 +24,8 @@ fn rb2(dir: &Path, zones: &str) -> Engine {
 }
 
 fn lay(engine: &mut Engine, zones: &str) {
-    let done =
-        engine.edit(&Source::new("zones.toml", zones), Format::Toml, &change(""), Mode::Commit);
+    let zones = Edits::read(&Source::new("zones.toml", zones), Format::Toml);
+    let done = engine.edit(&zones, &change(""), Mode::Commit);
     done.expect("good zones");
 }
 

@@ -6,12 +6,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::geometry::Openings;
-use crate::map::{
-    self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, Replica, World,
-};
+use crate::map::{self, EditReading, Edits, MapErrors, NameIndex, Naming, NextIds, Replica, World};
 use crate::semantics::load;
 use crate::store::{self, Change, Changes, Difference, ImportReport, Store};
-use crate::units::{DoorId, ReplicaId, Source, Timestamp};
+use crate::units::{DoorId, ReplicaId, Timestamp};
 
 use super::known::{Floors, Known};
 use super::{Engine, Error, Relations, State};
@@ -52,17 +50,12 @@ impl State {
 }
 
 impl Engine {
-    /// Works a text of edits into the map, or into an empty one: see [`map::edit`]. A reason in the text counts where `change` has none.
+    /// Works edits into the map, or into an empty one: values, or what a text tells of them ([`Edits::read`]). A reason in the
+    /// text counts where `change` has none.
     ///
     /// # Errors
     /// All faults of the text and of the map that it would make; the map is then as it was.
-    pub fn edit(
-        &mut self,
-        source: &Source,
-        format: Format,
-        change: &Change,
-        mode: Mode,
-    ) -> Result<Edited, Error> {
+    pub fn edit(&mut self, edits: &Edits, change: &Change, mode: Mode) -> Result<Edited, Error> {
         let nothing = (World::empty(), NameIndex::default());
         let known = self.surveyed.as_ref().map(|known| (known.world(), known.names()));
         let (world, exact) = known.unwrap_or((&nothing.0, &nothing.1));
@@ -73,7 +66,7 @@ impl Engine {
         };
         let naming = Naming { exact, in_other_words: &in_other_words };
         let EditReading { world: edited, faults, reason, carriers } =
-            map::edit(world, source, format, &ids, naming);
+            map::edit(world, edits, &ids, naming);
         let Some(edited) = edited else { return Err(faults.into()) };
         let reason = reason.filter(|_| change.reason.is_empty());
         let change =

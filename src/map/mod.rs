@@ -36,9 +36,9 @@
 //! A `World` that came out of `World::load` has passed every check of `map/check`; warnings do not hinder. What
 //! reads well and cannot be (`check/doubts`) is looked for by `ortho check` alone. Writing a checked `World` and
 //! reading it again gives the same `World`, ids included. A fault knows its place as a path into the model; only
-//! `map/file` turns it into a place in the text. An edit file is worked into the map's own tree and read as a map
-//! file is, so that nothing can be edited into a map that a map file could not say. Reading takes bounded memory:
-//! text size, nesting, alias replay, vectors per base are limited. A conditional side bears exactly one door; a
+//! `map/file` turns it into a place in the text. An [`Edit`] is a value, which a text of edits is read into; it changes
+//! the records that it names, and nothing can be edited into a map that a map file could not say. Reading takes bounded
+//! memory: text size, nesting, alias replay, vectors per base are limited. A conditional side bears exactly one door; a
 //! named passage is a door without leaves.
 
 use orthoframe_units as units;
@@ -67,8 +67,8 @@ pub use device::{is_dark, is_on, is_open, set_open, stands, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{
-    EditReading, Format, Naming, NextIds, Reading, Truth, edit, json_schema, kinds, locate, read,
-    read_file, read_truth,
+    Edit, EditReading, Edits, Format, Naming, NewRecord, NextIds, Reading, Truth, edit,
+    json_schema, kinds, locate, read, read_file, read_truth, schema,
 };
 pub use marks::Mark;
 pub use name_index::NameIndex;

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now, json as views};
+use crate::map::Edits;
 use crate::units::{Language, Source};
 
 use super::drive::Declined;
@@ -332,7 +333,8 @@ pub(super) async fn edited(
     mode: Mode,
 ) -> Result<Value, Fault> {
     let written = write(house, on, move |engine| {
-        let edited = engine.edit(&Source::new("правка", text), Format::Json, &change, mode)?;
+        let edits = Edits::read(&Source::new("правка", text), Format::Json);
+        let edited = engine.edit(&edits, &change, mode)?;
         let warnings: Vec<Value> = edited
             .warnings
             .faults

@@ -8,7 +8,7 @@ use orthoframe::engine::{
     Change, Dialogue as Talk, Drawing, Format, ImportOptions, Method, Mode, Rules, When,
     change_now, json, name_in, parse_pose, read_building,
 };
-use orthoframe::{Deg, Frame, Language, SourceText, World};
+use orthoframe::{Deg, Edits, Frame, Language, SourceText, World};
 use orthoframe_graphplan::Limits;
 use orthoframe_robot::{Address, Patience, Wanted};
 use orthoframe_strips::Scenario;
@@ -441,7 +441,8 @@ impl Engine {
         let mode = if dry_run { Mode::DryRun } else { Mode::Commit };
         self.desk.answer(py, || {
             self.desk.write(|engine| {
-                let edited = engine.edit(&SourceText::new("edits", text), format, &change, mode)?;
+                let edits = Edits::read(&SourceText::new("edits", text), format);
+                let edited = engine.edit(&edits, &change, mode)?;
                 Ok(json::edited(&edited, self.desk.language))
             })
         })

@@ -1,17 +1,17 @@
 //! `ortho edit`: one step of an edit told in arguments, or a whole file of them.
 //!
-//! The arguments are written out as an edit file (see [`crate::map::edit`]) and go its way, so that both can do the
-//! same and are refused for the same.
+//! Either becomes the same edits (see [`crate::map::Edit`]), so that both can do the same and are refused for the same.
 
 mod step;
-mod text;
+mod values;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::engine::{Edited, Format, Mode, change_now};
+use crate::engine::{Edited, Error, Format, Mode, change_now};
+use crate::map::{Edits, MapErrors};
 use crate::units::Source;
 
 use super::args::{Common, Lang};
@@ -39,17 +39,18 @@ pub(super) struct EditArgs {
 }
 
 pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
-    let (source, format) = match (&args.step, &args.file) {
+    let edits = match (&args.step, &args.file) {
         (Some(step), _) => {
-            (Source::new(common.lang.pick("аргументы", "arguments"), step.text()), Format::Toml)
+            let edit = step.edit().map_err(|error| Error::from(MapErrors::of(*error)))?;
+            Edits::from(vec![edit]).named(common.lang.pick("аргументы", "arguments"))
         }
-        (None, Some(file)) => (read(file)?, Format::of(file)),
-        (None, None) => (Source::new(common.lang.pick("аргументы", "arguments"), ""), Format::Toml),
+        (None, Some(file)) => Edits::read(&read(file)?, Format::of(file)),
+        (None, None) => Edits::from(Vec::new()),
     };
     let mut engine = open_to_write(common)?;
     let mode = if args.dry_run { Mode::DryRun } else { Mode::Commit };
     let change = change_now(&common.user, args.reason.as_deref().unwrap_or_default());
-    let edited = engine.edit(&source, format, &change, mode)?;
+    let edited = engine.edit(&edits, &change, mode)?;
     warn(&edited.warnings, common.lang);
     if common.json {
         say(&super::json::edited(&edited, common.lang.language()).to_string())

@@ -46,6 +46,12 @@ pub(super) fn decode<'n, T: Deserialize<'n>>(
     }
 }
 
+/// The value for which a word stands.
+pub(super) fn word<T: for<'de> Deserialize<'de>>(word: &str) -> Result<T, Box<MapError>> {
+    let reader: StrDeserializer<'_, DecodeError> = word.into_deserializer();
+    T::deserialize(reader).map_err(|fault| fault.error)
+}
+
 /// A fault on its way up; the innermost value sets the place.
 #[derive(Debug)]
 pub(super) struct DecodeError {
@@ -163,6 +169,8 @@ pub(super) fn list_of(length: usize) -> Bilingual {
 
 /// What a number that is not finite, or larger than any building ([`Cm::LIMIT`](crate::units::Cm::LIMIT)), should be.
 pub(super) const MODEST_NUMBER: &str = "a number of modest size";
+/// What [`Coordinates`](super::schema::Coordinates) are.
+pub(super) const COORDINATES: &str = "coordinates";
 pub(super) const TEXT: (&str, &str) = ("текст", "a text");
 pub(super) const NUMBER: (&str, &str) = ("число", "a number");
 pub(super) const BOOLEAN: (&str, &str) = ("true или false", "true or false");
@@ -173,11 +181,12 @@ pub(super) const TWO_OR_THREE: (&str, &str) =
     ("два или три числа [x, y, z]", "two or three numbers [x, y, z]");
 
 /// What serde wants, in people's words.
-fn expected_words(expected: &str) -> Bilingual {
+pub(super) fn expected_words(expected: &str) -> Bilingual {
     let words = match expected {
         "a string" | "a borrowed string" => TEXT,
         "f64" => NUMBER,
         MODEST_NUMBER => ("число от -10000000 до 10000000", "a number from -10000000 to 10000000"),
+        COORDINATES => TWO_OR_THREE,
         "u32" | "u8" | "u64" | "i64" => ("целое число не меньше нуля", "a whole number from 0 up"),
         "a boolean" => BOOLEAN,
         "a sequence" => LIST,

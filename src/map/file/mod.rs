@@ -10,12 +10,13 @@ mod misprint;
 mod node;
 mod read;
 mod records;
-mod schema;
+pub mod schema;
 mod text;
 mod truth;
+mod values;
 mod write;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 use std::path::Path;
 
 use miette::SourceSpan;
@@ -26,7 +27,7 @@ use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::{Bilingual, FileFault, Source};
 
-pub use edit::{EditReading, Naming, NextIds, edit, kinds};
+pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, edit, kinds};
 pub use schema::json_schema;
 pub use truth::{Truth, read_truth};
 
@@ -101,7 +102,7 @@ pub fn read(source: &Source, format: Format) -> Reading {
     }
     let Draft { world, mut faults, origins, broken, left_out } = read::build(&root);
     for mut fault in super::check::check_except(&world, &broken) {
-        fault.locate(&origins, &left_out);
+        fault.locate(|record| origins.get(&record).cloned(), &left_out);
         faults.push(fault);
     }
     let faults = report(source, faults);
@@ -120,10 +121,13 @@ impl Step {
 
 impl Fault {
     /// Finds the places in the text of the places in the model.
-    fn locate(&mut self, origins: &BTreeMap<Record, Origin<'_>>, left_out: &HashSet<Span>) {
-        let place = |spot: &Spot| {
-            origins.get(&spot.record).map(|o| SourceSpan::from(place(o, spot, left_out)))
-        };
+    fn locate<'n>(
+        &mut self,
+        origin: impl Fn(Record) -> Option<Origin<'n>>,
+        left_out: &HashSet<Span>,
+    ) {
+        let place =
+            |spot: &Spot| origin(spot.record).map(|o| SourceSpan::from(place(&o, spot, left_out)));
         self.spans = self.spots.iter().filter_map(place).collect();
     }
 }
@@ -148,7 +152,8 @@ pub fn read_file(path: &Path) -> Reading {
 pub fn locate(source: &Source, format: Format, faults: &mut [Fault]) {
     let Ok(root) = node::parse(source.text(), format) else { return };
     let Draft { origins, left_out, .. } = read::build(&root);
-    faults.iter_mut().for_each(|fault| fault.locate(&origins, &left_out));
+    let origin = |record| origins.get(&record).cloned();
+    faults.iter_mut().for_each(|fault| fault.locate(origin, &left_out));
     faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
 }
 

@@ -67,7 +67,7 @@ impl Node {
 }
 
 /// A fault of the notation itself.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Misprint {
     pub(super) error: MapError,
     pub(super) span: Option<Span>,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use serde::Deserialize;
 
 use super::decode::{LONGEST_WORD, decode, likely, shortened};
-use super::node::{Entry, Misprint, Node, Span};
+use super::node::{Misprint, Node, Span, Value};
 use super::records::type_entry;
 use super::schema::{
     AreaFile, DoorFile, FORMAT, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile,
@@ -22,7 +22,7 @@ const SECTIONS: [&str; 10] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map", "zone"];
 
 /// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
-const MOST_GUESSES: usize = 30;
+pub(super) const MOST_GUESSES: usize = 30;
 
 /// A world as far as it could be read, its faults, and where its records stand in the tree.
 pub(super) struct Draft<'n> {
@@ -45,65 +45,82 @@ pub(super) struct Origin<'n> {
 
 /// Builds the world that a tree describes.
 pub(super) fn build(root: &Node) -> Draft<'_> {
-    let mut reader = Reader {
-        root,
-        faults: Vec::new(),
-        origins: BTreeMap::new(),
-        broken: BTreeSet::new(),
-        left_out: HashSet::new(),
-        guesses_left: MOST_GUESSES,
-        names: Names::default(),
-    };
+    let mut reader = Reader::of(root);
     let world = reader.world();
     let Reader { faults, origins, broken, left_out, .. } = reader;
     Draft { world, faults, origins, broken, left_out }
 }
 
+/// Where a record stands in a text.
+pub(super) type Elsewhere<'n> = Box<dyn Fn(Record) -> Option<Origin<'n>> + 'n>;
+
 pub(super) struct Reader<'n> {
     pub(super) root: &'n Node,
     faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Where records stand that are told of elsewhere.
+    elsewhere: Option<Elsewhere<'n>>,
     pub(super) broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
     /// Names for which a likely one is still looked for among all there are.
     guesses_left: usize,
-    pub(super) names: Names,
+    pub(super) names: Names<'n>,
 }
 
 /// What references may name.
 #[derive(Default)]
-pub(super) struct Names {
-    types: HashMap<TypeKind, Index<TypeId>>,
-    pub(super) orthoframes: Index<OrFrId>,
-    pub(super) doors: Index<DoorId>,
-    pub(super) objects: Index<ObjectId>,
-    pub(super) areas: Index<AreaId>,
-    pub(super) maps: Index<MapId>,
-    pub(super) replicas: Index<ReplicaId>,
-    pub(super) places: Index<PlaceId>,
+pub(super) struct Names<'n> {
+    pub(super) types: HashMap<TypeKind, Index<'n, TypeId>>,
+    pub(super) orthoframes: Index<'n, OrFrId>,
+    pub(super) doors: Index<'n, DoorId>,
+    pub(super) objects: Index<'n, ObjectId>,
+    pub(super) areas: Index<'n, AreaId>,
+    pub(super) maps: Index<'n, MapId>,
+    pub(super) replicas: Index<'n, ReplicaId>,
+    pub(super) places: Index<'n, PlaceId>,
 }
 
 /// The records of one kind by key and by name.
-pub(super) struct Index<Id> {
+pub(super) struct Index<'n, Id> {
     keys: HashMap<String, Id>,
     folded: HashMap<String, Id>,
     spellings: Vec<String>,
     /// Names of records with faults of their own: a reference to one is no second fault.
     broken: HashSet<String>,
+    /// Records that do not stand in the text.
+    behind: Option<Behind<'n, Id>>,
 }
 
-impl<Id> Default for Index<Id> {
+/// What a name leads to.
+type ByName<'n, T> = Box<dyn Fn(&str) -> Option<T> + 'n>;
+
+/// Records of a world to which a text refers.
+pub(super) struct Behind<'n, Id> {
+    pub(super) find: ByName<'n, Id>,
+    pub(super) nearest: ByName<'n, String>,
+    /// The record where there is but one.
+    pub(super) only: Option<Id>,
+}
+
+impl<'n, Id> From<Behind<'n, Id>> for Index<'n, Id> {
+    fn from(behind: Behind<'n, Id>) -> Self {
+        Self { behind: Some(behind), ..Self::default() }
+    }
+}
+
+impl<Id> Default for Index<'_, Id> {
     fn default() -> Self {
         Self {
             keys: HashMap::new(),
             folded: HashMap::new(),
             spellings: Vec::new(),
             broken: HashSet::new(),
+            behind: None,
         }
     }
 }
 
-impl<Id: Copy> Index<Id> {
+impl<Id: Copy> Index<'_, Id> {
     fn add(&mut self, id: Id, key: &str, names: &[&str]) {
         self.keys.entry(key.to_owned()).or_insert(id);
         for name in std::iter::once(&key).chain(names).filter(|name| !name.is_empty()) {
@@ -114,21 +131,37 @@ impl<Id: Copy> Index<Id> {
 
     /// The record where there is but one.
     pub(super) fn only(&self) -> Option<Id> {
+        if let Some(behind) = &self.behind {
+            return behind.only;
+        }
         let mut ids = self.keys.values().copied();
         ids.next().filter(|_| ids.next().is_none())
     }
 
     fn get(&self, name: &str) -> Option<Id> {
+        if let Some(behind) = &self.behind {
+            return (behind.find)(name);
+        }
         self.keys.get(name).or_else(|| self.folded.get(&name_key(name))).copied()
+    }
+
+    /// The likeliest name.
+    fn nearest(&self, name: &str) -> Option<String> {
+        match &self.behind {
+            Some(behind) => (behind.nearest)(name),
+            None => {
+                let spellings = self.spellings.iter().map(String::as_str);
+                nearest_name(name, spellings).map(str::to_owned)
+            }
+        }
     }
 }
 
 /// A record of the file before its references are followed.
-pub(super) struct Raw<'n, Id, T> {
+pub(super) struct Raw<Id, T> {
     pub(super) id: Id,
     pub(super) key: String,
     pub(super) file: T,
-    pub(super) entry: &'n Entry,
 }
 
 /// Kinds of records that a section holds.
@@ -180,6 +213,35 @@ fn number(given: &[Option<u32>]) -> Vec<u32> {
 }
 
 impl<'n> Reader<'n> {
+    fn of(root: &'n Node) -> Self {
+        Reader {
+            root,
+            faults: Vec::new(),
+            origins: BTreeMap::new(),
+            elsewhere: None,
+            broken: BTreeSet::new(),
+            left_out: HashSet::new(),
+            guesses_left: MOST_GUESSES,
+            names: Names::default(),
+        }
+    }
+
+    /// For single records, of which it is told elsewhere what they may name and where they stand.
+    pub(super) fn among(
+        names: Names<'n>,
+        elsewhere: Elsewhere<'n>,
+        left_out: HashSet<Span>,
+        broken: BTreeSet<Record>,
+    ) -> Self {
+        const NO_TEXT: &Node = &Node { span: 0..0, value: Value::Nothing };
+        Reader { names, elsewhere: Some(elsewhere), left_out, broken, ..Self::of(NO_TEXT) }
+    }
+
+    /// What was wrong with the records, and with which.
+    pub(super) fn finish(self) -> (Vec<Fault>, BTreeSet<Record>) {
+        (self.faults, self.broken)
+    }
+
     fn world(&mut self) -> World {
         self.top_level();
         let types = self.types();
@@ -214,8 +276,8 @@ impl<'n> Reader<'n> {
 
     fn records<Id: Ord + Copy, F, T>(
         &mut self,
-        raw: Vec<Raw<'n, Id, F>>,
-        mut convert: impl FnMut(&mut Self, Raw<'n, Id, F>) -> T,
+        raw: Vec<Raw<Id, F>>,
+        mut convert: impl FnMut(&mut Self, Raw<Id, F>) -> T,
     ) -> BTreeMap<Id, T> {
         raw.into_iter().map(|raw| (raw.id, convert(self, raw))).collect()
     }
@@ -224,7 +286,9 @@ impl<'n> Reader<'n> {
     pub(super) fn fault(&mut self, error: MapError, spot: Spot) {
         self.broken.insert(spot.record);
         let mut fault = Fault::new(error, vec![spot]);
-        fault.locate(&self.origins, &self.left_out);
+        let elsewhere = |record| self.elsewhere.as_ref().and_then(|find| find(record));
+        let origin = |record| self.origins.get(&record).cloned().or_else(|| elsewhere(record));
+        fault.locate(origin, &self.left_out);
         self.faults.push(fault);
     }
 
@@ -281,10 +345,10 @@ impl<'n> Reader<'n> {
         what: (&'static str, &'static str),
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
-    ) -> Vec<Raw<'n, Id, T>> {
+    ) -> Vec<Raw<Id, T>> {
         let entries = self.root.entry(section).map_or(&[][..], |entry| entry.node.entries());
         if let Some(entry) = self.root.entry(section)
-            && !matches!(entry.node.value, super::node::Value::Table(_))
+            && !matches!(entry.node.value, Value::Table(_))
         {
             self.misprints(vec![Misprint {
                 error: MapError::WrongKind {
@@ -315,7 +379,7 @@ impl<'n> Reader<'n> {
             if seen.insert(number) {
                 let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
                 self.origins.insert(record(id), origin);
-                records.push(Raw { id, key: entry.key.clone(), file, entry });
+                records.push(Raw { id, key: entry.key.clone(), file });
             } else {
                 let span = Some(entry.key_span.clone());
                 let error = MapError::DuplicateId { what: what.into(), id: number };
@@ -325,7 +389,7 @@ impl<'n> Reader<'n> {
         records
     }
 
-    fn index<Id: Copy, T: Keyed>(&self, section: &str, records: &[Raw<'_, Id, T>]) -> Index<Id> {
+    fn index<Id: Copy, T: Keyed>(&self, section: &str, records: &[Raw<Id, T>]) -> Index<'n, Id> {
         let mut index = Index::default();
         for raw in records {
             index.add(raw.id, &raw.key, &raw.file.names());
@@ -343,7 +407,7 @@ impl<'n> Reader<'n> {
     /// Follows a reference; a fault when it leads nowhere.
     pub(super) fn follow<Id: Copy>(
         &mut self,
-        index: impl Fn(&Names) -> &Index<Id>,
+        index: impl for<'i> Fn(&'i Names<'n>) -> &'i Index<'n, Id>,
         what: (&'static str, &'static str),
         name: &str,
         spot: Spot,
@@ -352,10 +416,7 @@ impl<'n> Reader<'n> {
         let found = index.get(name);
         if found.is_none() && !index.broken.contains(&name_key(name)) {
             let may_guess = self.guesses_left > 0 && name.len() <= 2 * LONGEST_WORD;
-            let nearest = may_guess
-                .then(|| nearest_name(name, index.spellings.iter().map(String::as_str)))
-                .flatten()
-                .map(str::to_owned);
+            let nearest = may_guess.then(|| index.nearest(name)).flatten();
             self.guesses_left = self.guesses_left.saturating_sub(1);
             let (what, name) = (what.into(), shortened(name));
             self.fault(MapError::UnknownReference { what, name, nearest }, spot);
@@ -432,24 +493,19 @@ impl<'n> Reader<'n> {
     /// Takes the replicas out of their Areas and numbers them through the whole file.
     fn replicas(
         &mut self,
-        areas: &mut [Raw<'n, AreaId, AreaFile>],
+        areas: &mut [Raw<AreaId, AreaFile>],
     ) -> Vec<(AreaId, ReplicaId, ReplicaFile)> {
-        let lists: Vec<_> = areas
-            .iter_mut()
-            .map(|a| (a.id, a.entry, std::mem::take(&mut a.file.replicas)))
-            .collect();
+        let lists: Vec<_> =
+            areas.iter_mut().map(|a| (a.id, std::mem::take(&mut a.file.replicas))).collect();
         let (lines, index) =
             self.lines(lists, "replicas", ("Экземпляр", "Replica"), ReplicaId, Record::Replica);
         self.names.replicas = index;
         lines
     }
 
-    fn places(
-        &mut self,
-        areas: &mut [Raw<'n, AreaId, AreaFile>],
-    ) -> Vec<(AreaId, PlaceId, PlaceFile)> {
+    fn places(&mut self, areas: &mut [Raw<AreaId, AreaFile>]) -> Vec<(AreaId, PlaceId, PlaceFile)> {
         let lists: Vec<_> =
-            areas.iter_mut().map(|a| (a.id, a.entry, std::mem::take(&mut a.file.places))).collect();
+            areas.iter_mut().map(|a| (a.id, std::mem::take(&mut a.file.places))).collect();
         let (lines, index) =
             self.lines(lists, "places", ("Место", "Place"), PlaceId, Record::Place);
         self.names.places = index;
@@ -459,19 +515,20 @@ impl<'n> Reader<'n> {
     /// Lines of all Areas in file order, numbered.
     fn lines<Id: Copy, T: Keyed>(
         &mut self,
-        lists: Vec<(AreaId, &'n Entry, Vec<T>)>,
+        lists: Vec<(AreaId, Vec<T>)>,
         field: &str,
         what: (&'static str, &'static str),
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
-    ) -> (Vec<(AreaId, Id, T)>, Index<Id>) {
-        let given: Vec<_> = lists.iter().flat_map(|l| l.2.iter().map(Keyed::id)).collect();
+    ) -> (Vec<(AreaId, Id, T)>, Index<'n, Id>) {
+        let given: Vec<_> = lists.iter().flat_map(|l| l.1.iter().map(Keyed::id)).collect();
         let mut ids = number(&given).into_iter();
         let mut seen = HashSet::new();
         let mut index = Index::default();
         let mut lines = Vec::new();
-        for (area, entry, list) in lists {
-            let nodes = entry.node.entry(field).map_or(&[][..], |e| e.node.elements());
+        for (area, list) in lists {
+            let of_area = self.origins[&Record::Area(area)].node;
+            let nodes = of_area.entry(field).map_or(&[][..], |e| e.node.elements());
             let name_of =
                 |node: &Node| node.entry("name").and_then(|n| n.node.text()).map(name_key);
             index.broken.extend(nodes.iter().filter_map(name_of));

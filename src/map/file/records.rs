@@ -8,7 +8,7 @@ use super::read::{Origin, Raw, Reader};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, ItemFile, ItemLinkFile, MountFile, Number,
     ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile, SideTraitsFile,
-    StatusFile, TypeFile, ZoneFile, ZoneWord,
+    TypeFile, ZoneFile, ZoneWord,
 };
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::units::{
@@ -23,7 +23,7 @@ use crate::{
 };
 
 impl Reader<'_> {
-    pub(super) fn domain(&mut self, maps: &[Raw<'_, MapId, PlanFile>]) -> Domain {
+    pub(super) fn domain(&mut self, maps: &[Raw<MapId, PlanFile>]) -> Domain {
         let entry = self.root.entry("domain");
         if let Some(entry) = entry {
             let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
@@ -87,11 +87,14 @@ impl Reader<'_> {
         robot.speed = file.speed.map_or(robot.speed, |n| n.0);
         robot.turn_rate = file.turn_rate.map_or(robot.turn_rate, |n| n.0);
         robot.opens = file.opens.unwrap_or(false);
-        if let Some(start) = file.start {
-            let spot = Spot::of(Record::Robot).field("start");
-            robot.start = self.follow(|n| &n.places, ("Место", "Place"), &start, spot);
-        }
+        robot.start = file.start.and_then(|start| self.start(&start));
         robot
+    }
+
+    /// Where the robot stands when nothing else is known.
+    pub(super) fn start(&mut self, name: &str) -> Option<PlaceId> {
+        let spot = Spot::of(Record::Robot).field("start");
+        self.follow(|n| &n.places, ("Место", "Place"), name, spot)
     }
 
     /// A frame from `at` and `angle`.
@@ -112,8 +115,8 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn orthoframe(&mut self, raw: Raw<'_, OrFrId, OrthoframeFile>) -> Orthoframe {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn orthoframe(&mut self, raw: Raw<OrFrId, OrthoframeFile>) -> Orthoframe {
+        let Raw { id, key, file } = raw;
         let spot = Spot::of(Record::Orthoframe(id));
         let mut base = self.base(&key, &file, &spot);
         // A base that could not be read has no sides to speak of.
@@ -239,8 +242,8 @@ impl Reader<'_> {
         vector.properties = traits.properties;
     }
 
-    pub(super) fn door(&mut self, raw: Raw<'_, DoorId, DoorFile>) -> Door {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn door(&mut self, raw: Raw<DoorId, DoorFile>) -> Door {
+        let Raw { id, key, file } = raw;
         let kind: DoorKind = file.kind.into();
         let equal_share = 1.0 / file.leaves.len().max(1) as f64;
         let full = if kind == DoorKind::Hinged { 90.0 } else { 100.0 };
@@ -261,14 +264,14 @@ impl Reader<'_> {
             width: Cm::of(file.width.0),
             height: Cm::of(file.height.0),
             leaves: leaves.collect(),
-            state: door_state(file.state, file.opening),
+            state: door_state(file.state.into(), file.opening),
             properties: file.properties,
             forms: file.forms,
         }
     }
 
-    pub(super) fn object(&mut self, raw: Raw<'_, ObjectId, ObjectFile>) -> Object {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn object(&mut self, raw: Raw<ObjectId, ObjectFile>) -> Object {
+        let Raw { id, key, file } = raw;
         let spot = Spot::of(Record::Object(id));
         let items = self.items(&file.items, &spot);
         Object {
@@ -291,8 +294,8 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn area(&mut self, raw: Raw<'_, AreaId, AreaFile>) -> Area {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn area(&mut self, raw: Raw<AreaId, AreaFile>) -> Area {
+        let Raw { id, key, file } = raw;
         let spot = Spot::of(Record::Area(id));
         let items = self.items(&file.items, &spot);
         Area {
@@ -418,20 +421,13 @@ impl Reader<'_> {
         let (area, id, file) = line;
         let spot = Spot::of(Record::Replica(id));
         let frame = self.frame(&file.at, file.angle, &spot);
-        if file.move_prob > 100 {
-            let error = MapError::OutOfRange {
-                what: "move_prob".into(),
-                value: f64::from(file.move_prob),
-                range: ("от 0 до 100", "from 0 to 100").into(),
-            };
-            self.fault(error, spot.clone().field("move_prob"));
-        }
+        let move_prob = self.move_prob(id, file.move_prob);
         let mut door_states = BTreeMap::new();
         for (door, state) in file.doors.0 {
             let at = spot.clone().field("doors").key(&door);
             let door = self.follow(|n| &n.doors, ("Дверь", "Door"), &door, at);
             let DoorStateFile { state, opening } = state;
-            door_states.extend(door.map(|door| (door, door_state(state, opening))));
+            door_states.extend(door.map(|door| (door, door_state(state.into(), opening))));
         }
         let object =
             self.follow(|n| &n.objects, ("Объект", "Object"), &file.object, spot.field("object"))?;
@@ -442,7 +438,7 @@ impl Reader<'_> {
             name: file.name,
             name_en: file.name_en,
             frame,
-            move_prob: file.move_prob.min(100) as u8,
+            move_prob,
             properties: file.properties,
             door_states,
             forms: file.forms,
@@ -450,12 +446,28 @@ impl Reader<'_> {
         Some((id, replica))
     }
 
+    /// How likely a replica is to be moved, in percent.
+    pub(super) fn move_prob(&mut self, id: ReplicaId, percent: u32) -> u8 {
+        if percent > 100 {
+            let error = MapError::OutOfRange {
+                what: "move_prob".into(),
+                value: f64::from(percent),
+                range: ("от 0 до 100", "from 0 to 100").into(),
+            };
+            self.fault(error, Spot::of(Record::Replica(id)).field("move_prob"));
+        }
+        percent.min(100) as u8
+    }
+
+    /// The replica that is served from a place.
+    pub(super) fn served(&mut self, from: PlaceId, name: &str) -> Option<ReplicaId> {
+        let spot = Spot::of(Record::Place(from)).field("serves");
+        self.follow(|n| &n.replicas, ("Экземпляр", "Replica"), name, spot)
+    }
+
     pub(super) fn place(&mut self, line: (AreaId, PlaceId, PlaceFile)) -> (PlaceId, Place) {
         let (area, id, file) = line;
-        let serves = file.serves.and_then(|name| {
-            let spot = Spot::of(Record::Place(id)).field("serves");
-            self.follow(|n| &n.replicas, ("Экземпляр", "Replica"), &name, spot)
-        });
+        let serves = file.serves.and_then(|name| self.served(id, &name));
         let place = Place {
             id,
             area,
@@ -470,8 +482,8 @@ impl Reader<'_> {
     }
 
     /// None where it does not say where it is or what is to be done there.
-    pub(super) fn zone(&mut self, raw: Raw<'_, ZoneId, ZoneFile>) -> Option<Zone> {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn zone(&mut self, raw: Raw<ZoneId, ZoneFile>) -> Option<Zone> {
+        let Raw { id, key, file } = raw;
         let spot = Spot::of(Record::Zone(id));
         let extent = self.extent(&file, &spot);
         let kind = match (file.kind, file.speed, file.heading) {
@@ -582,12 +594,8 @@ impl Reader<'_> {
         moment.ok()
     }
 
-    pub(super) fn plan(
-        &mut self,
-        raw: Raw<'_, MapId, PlanFile>,
-        areas: &Records<AreaId, Area>,
-    ) -> Map {
-        let Raw { id, key, file, .. } = raw;
+    pub(super) fn plan(&mut self, raw: Raw<MapId, PlanFile>, areas: &Records<AreaId, Area>) -> Map {
+        let Raw { id, key, file } = raw;
         let spot = Spot::of(Record::Map(id));
         let none_is_base = file.items.iter().all(|item| !item.base);
         let mut items = Vec::new();
@@ -671,8 +679,7 @@ pub(super) fn type_entry(id: TypeId, file: TypeFile) -> TypeEntry {
     }
 }
 
-fn door_state(status: StatusFile, opening: Option<Number>) -> DoorState {
-    let status: DoorStatus = status.into();
+pub(super) fn door_state(status: DoorStatus, opening: Option<Number>) -> DoorState {
     let full = if status == DoorStatus::Open { 100.0 } else { 0.0 };
     DoorState { status, opening: opening.map_or(full, |n| n.0) }
 }

@@ -8,14 +8,15 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error as _, MapAccess, Unexpected, Visitor};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::decode::MODEST_NUMBER;
+use super::decode::word;
 use super::text::{Lines, Printed, line};
-use crate::units::Cm;
+pub use super::values::{At, Coordinates, Number, pair};
+use crate::fault::MapError;
 use crate::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 
 /// The only format that this version reads and writes.
@@ -30,43 +31,9 @@ pub fn json_schema() -> String {
     format!("{:#}", schemars::schema_for!(MapFile).as_value())
 }
 
-/// A finite number of modest size: a length in cm or an angle in degrees. Whole numbers are written without a point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Number(pub(super) f64);
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = f64::deserialize(deserializer)?;
-        let refused = |_| D::Error::invalid_value(Unexpected::Float(value), &MODEST_NUMBER);
-        Cm::new(value).map(|cm| Self(cm.get())).map_err(refused)
-    }
-}
-
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if self.0.fract() == 0.0 && self.0.abs() <= Cm::LIMIT {
-            serializer.serialize_i64(self.0 as i64)
-        } else {
-            serializer.serialize_f64(self.0)
-        }
-    }
-}
-
-impl JsonSchema for Number {
-    fn schema_name() -> Cow<'static, str> {
-        "Number".into()
-    }
-    fn inline_schema() -> bool {
-        true
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "number", "minimum": -Cm::LIMIT, "maximum": Cm::LIMIT })
-    }
-}
-
 /// Keyed tables in the order of the file, which is the order of their ids.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Table<T>(pub(super) Vec<(String, T)>);
+pub struct Table<T>(pub Vec<(String, T)>);
 
 impl<T> Default for Table<T> {
     fn default() -> Self {
@@ -122,7 +89,7 @@ impl<T: JsonSchema> JsonSchema for Table<T> {
     }
 }
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
@@ -139,12 +106,12 @@ macro_rules! tables {
         $(#[$doc])*
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
-        pub(super) struct $name {
-            $( $(#[$req_doc])* pub(super) $req: $req_ty, )*
+        pub struct $name {
+            $( $(#[$req_doc])* pub $req: $req_ty, )*
             $(
                 $(#[$opt_doc])*
                 #[serde(default, skip_serializing_if = "is_default")]
-                pub(super) $opt: $opt_ty,
+                pub $opt: $opt_ty,
             )*
         }
 
@@ -167,9 +134,9 @@ macro_rules! tables {
 }
 
 /// Name-value pairs.
-pub(super) type Pairs = BTreeMap<String, String>;
+pub type Pairs = BTreeMap<String, String>;
 /// Word forms by grammatical case.
-pub(super) type FormsFile = BTreeMap<Case, String>;
+pub type FormsFile = BTreeMap<Case, String>;
 
 tables! {
     /// A map file of orthoframe: a building, its rooms, what stands in them, and the robot.
@@ -292,6 +259,7 @@ tables! {
     }
 
     /// A vertical prism. Its base is given by exactly one of `rect`, `regular`, `points`, `sides`.
+    #[derive(Default)]
     OrthoframeFile {
         ..
         id: Option<u32>;
@@ -349,6 +317,7 @@ tables! {
     }
 
     /// What a side has beyond its base vector.
+    #[derive(Default)]
     SideTraitsFile {
         ..
         /// Name of an entry of `type.side`.
@@ -433,6 +402,7 @@ tables! {
     }
 
     /// A kind of thing.
+    #[derive(Default)]
     ObjectFile {
         items: Vec<ItemFile>;
         ..
@@ -452,6 +422,7 @@ tables! {
     }
 
     /// A room, corridor or hall, with all that stands in it.
+    #[derive(Default)]
     AreaFile {
         items: Vec<ItemFile>;
         ..
@@ -544,6 +515,7 @@ tables! {
     }
 
     /// A floor or flat.
+    #[derive(Default)]
     PlanFile {
         items: Vec<PlanItemFile>;
         ..
@@ -586,17 +558,34 @@ tables! {
     }
 }
 
-/// [x, y] or [x, y, z]; nothing stands for the origin.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(transparent)]
-pub(super) struct At(#[schemars(length(min = 2, max = 3))] pub(super) Vec<Number>);
+impl ZoneFile {
+    /// A zone of which nothing is said but what the robot is to do there.
+    pub(super) fn of_kind(kind: ZoneWord) -> Self {
+        Self {
+            kind,
+            id: None,
+            name: String::new(),
+            name_en: String::new(),
+            rooms: Vec::new(),
+            map: None,
+            points: Vec::new(),
+            speed: None,
+            heading: None,
+            reason: String::new(),
+            reason_en: String::new(),
+            from: None,
+            until: None,
+            forms: FormsFile::new(),
+        }
+    }
+}
 
 /// Words that stand for a value of the model, English first, Russian as well.
 macro_rules! words {
     ($( $(#[$doc:meta])* $name:ident = $model:ident { $( $variant:ident: $word:literal | $russian:literal ),+ } )+) => {$(
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-        pub(super) enum $name { $( #[serde(rename = $word, alias = $russian)] $variant ),+ }
+        pub enum $name { $( #[serde(rename = $word, alias = $russian)] $variant ),+ }
 
         impl From<$name> for $model {
             fn from(word: $name) -> Self {
@@ -609,12 +598,20 @@ macro_rules! words {
                 match value { $( $model::$variant => Self::$variant ),+ }
             }
         }
+
+        impl std::str::FromStr for $name {
+            type Err = Box<MapError>;
+
+            fn from_str(text: &str) -> Result<Self, Box<MapError>> {
+                word(text)
+            }
+        }
     )+};
 }
 
 /// What the robot is to do in a zone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub(super) enum ZoneWord {
+pub enum ZoneWord {
     #[serde(rename = "keep-out", alias = "запретная")]
     KeepOut,
     #[serde(rename = "closed", alias = "закрыта")]
@@ -623,6 +620,14 @@ pub(super) enum ZoneWord {
     Slow,
     #[serde(rename = "one-way", alias = "односторонняя")]
     OneWay,
+}
+
+impl std::str::FromStr for ZoneWord {
+    type Err = Box<MapError>;
+
+    fn from_str(text: &str) -> Result<Self, Box<MapError>> {
+        word(text)
+    }
 }
 
 words! {

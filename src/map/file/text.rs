@@ -8,8 +8,8 @@ use serde::Serialize;
 use toml::ser::ValueSerializer;
 
 use super::schema::{
-    At, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile, StatusFile,
-    Table, ZoneWord,
+    At, Coordinates, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile,
+    StatusFile, Table, ZoneWord,
 };
 use crate::Gender;
 
@@ -108,6 +108,7 @@ printed!(
     bool,
     Number,
     At,
+    Coordinates,
     Gender,
     PermeabilityFile,
     ZoneWord,

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use super::edit::edit_judged;
+use super::edit::{Edits, edit_judged};
 use super::node::{self, Value};
 use super::{Format, Naming, NextIds, locate, read, report};
 use crate::counterpart::Counterparts;
@@ -67,7 +67,8 @@ pub fn read_truth(
         found
     };
     let naming = Naming { exact: &NameIndex::of(believed), in_other_words };
-    let done = edit_judged(believed, source, format, &NextIds::after(believed), naming, &judge);
+    let edits = Edits::read(source, format);
+    let done = edit_judged(believed, &edits, &NextIds::after(believed), naming, &judge);
     let world = done.world.map(|world| in_their_ids(&world));
     Truth { world, faults: done.faults, carriers: done.carriers }
 }

@@ -17,16 +17,16 @@ use crate::{
 
 /// The types of the file, from which any notation can be written.
 pub(super) fn to_file(world: &World) -> MapFile {
-    Writer { world, every_id: false }.file()
+    Writer { world }.file()
 }
 
 pub(super) fn to_toml(world: &World) -> String {
     as_toml(&to_file(world))
 }
 
-/// With the id of every record, so that what is put between them or taken out changes no other's.
-pub(super) fn to_numbered_toml(world: &World) -> String {
-    as_toml(&Writer { world, every_id: true }.file())
+/// A zone as a map file tells of it.
+pub(super) fn zone_file(world: &World, zone: &Zone) -> ZoneFile {
+    Writer { world }.zone(zone, Some(zone.id.0))
 }
 
 fn as_toml(file: &MapFile) -> String {
@@ -99,7 +99,6 @@ fn base_marks(marks: &[bool]) -> Vec<bool> {
 
 struct Writer<'w> {
     world: &'w World,
-    every_id: bool,
 }
 
 impl Writer<'_> {
@@ -108,11 +107,11 @@ impl Writer<'_> {
         &self,
         ids: I,
     ) -> impl Iterator<Item = Option<u32>> + use<'_, I> {
-        let (mut last, every_id) = (0, self.every_id);
+        let mut last = 0;
         ids.into_iter().map(move |id| {
             let follows = id == last + 1;
             last = id;
-            (every_id || !follows).then_some(id)
+            (!follows).then_some(id)
         })
     }
 

@@ -1,7 +1,8 @@
-//! Edits of a map written as a text (M11): the steps of the paper's MapUpdater, one transaction a file.
+//! Edits of a map (M11): the steps of the paper's MapUpdater, one transaction a list.
 //!
-//! An edit file has the sections of a map file for what is new (`[orthoframe.KEY]`, `[door.KEY]`, `[object.KEY]`,
-//! `[area.KEY]`, `[map.KEY]`, `[[type.object]]` and so on), and a list of steps, `[[edit]]`, for all else:
+//! An [`Edit`] is a value: a program makes it, and a text tells it. An edit file has the sections of a map file for what is
+//! new (`[orthoframe.KEY]`, `[door.KEY]`, `[object.KEY]`, `[area.KEY]`, `[map.KEY]`, `[[type.object]]` and so on), and a list
+//! of steps, `[[edit]]`, for all else:
 //!
 //! ```toml
 //! reason = "перестановка"
@@ -13,29 +14,34 @@
 //! is = "locked"
 //! ```
 //!
-//! The records that the text speaks of are written out as a tree (`part`), the text is worked into it, it is read as any map
-//! file is, and the map takes over what became of them. What changed is checked. So an edit can do what a file can say, is
-//! refused for what a file is refused for, and every fault has its place in the text of the edits. Where it is not sound, it
-//! is worked into the tree of the whole map, so that its faults are told with all the names that there are.
+//! Each edit changes the records that it names (`steps`), in a world that shares all else with the one before; what is new
+//! is read as a map file is. What changed is checked. So an edit costs what it changes, is refused for what a map file is
+//! refused for, and every fault has its place in the text of the edits (`said`).
 
-mod part;
+mod edits;
+mod in_file;
+mod kind;
+mod said;
 mod steps;
-mod tree;
+#[cfg(test)]
+mod tests;
+mod verbs;
+mod word;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::node::{self, Node, Span, Value};
-use super::read::{self, Draft};
-use super::{Format, LIMIT, report, write};
+use super::node::Span;
+use super::report;
 use crate::fault::{Fault, MapError};
-use crate::units::{ReplicaId, Source};
+use crate::units::{ReplicaId, name_key};
 use crate::{Entity, MapErrors, NameIndex, TypeKind, World, check};
 
-pub use tree::kinds;
+pub use edits::Edits;
+pub use kind::kinds;
+pub use verbs::{Edit, NewRecord};
 
-use part::{Part, into_part, part_of, with_part};
+use kind::Kind;
 use steps::Steps;
-use tree::{Kind, Tree};
 
 /// The ids that new records get: ids are never given twice, so whoever keeps the history names them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -103,27 +109,26 @@ pub struct EditReading {
 /// Works edits into a checked world.
 ///
 /// ```
-/// use orthoframe_map::{Format, NameIndex, Naming, NextIds, World, edit};
+/// use orthoframe_map::{Edit, Edits, Format, NameIndex, Naming, NextIds, World, edit};
 /// use orthoframe_units::Source;
 ///
 /// # std::env::set_current_dir("../..").unwrap();
 /// let world = World::load("maps/rb2.toml").unwrap();
-/// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
 /// let naming = Naming { exact: &NameIndex::of(&world), in_other_words: &|_| Vec::new() };
-/// let done = edit(&world, &text, Format::Toml, &NextIds::after(&world), naming);
+/// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
+/// let edits = Edits::read(&text, Format::Toml);
+/// let done = edit(&world, &edits, &NextIds::after(&world), naming);
 /// assert!(done.world.is_none());
 /// let fault = &done.faults.faults[0]; // «Стул-1» стоит вне своего помещения …
 /// assert_eq!(done.faults.position(fault), Some((3, 6)));
+///
+/// let value = Edit::Remove { name: "Стул-1".to_owned(), kind: None };
+/// let done = edit(&world, &vec![value].into(), &NextIds::after(&world), naming);
+/// assert_eq!(done.world.unwrap().replicas.len() + 1, world.replicas.len());
 /// ```
 #[must_use]
-pub fn edit(
-    world: &World,
-    source: &Source,
-    format: Format,
-    ids: &NextIds,
-    naming: Naming<'_>,
-) -> EditReading {
-    edit_judged(world, source, format, ids, naming, &|_| Vec::new())
+pub fn edit(world: &World, edits: &Edits, ids: &NextIds, naming: Naming<'_>) -> EditReading {
+    edit_judged(world, edits, ids, naming, &|_| Vec::new())
 }
 
 /// How names that an edit speaks of are understood.
@@ -138,106 +143,55 @@ pub struct Naming<'a> {
 /// The same, where the edited world has also to please a judge: what that finds is told as the faults of the map are.
 pub(super) fn edit_judged(
     world: &World,
-    source: &Source,
-    format: Format,
+    edits: &Edits,
     ids: &NextIds,
     naming: Naming<'_>,
     judge: &dyn Fn(&World) -> Vec<Fault>,
 ) -> EditReading {
-    let text = source.text();
-    let fail = |faults: Vec<Fault>| EditReading {
-        world: None,
-        faults: report(source, faults),
-        reason: None,
-        carriers: BTreeSet::new(),
-    };
-    if text.len() as u64 > LIMIT {
-        let error = MapError::TooLarge { bytes: text.len() as u64, limit: LIMIT };
-        return fail(vec![Fault::new(error, Vec::new())]);
-    }
-    let edits = match node::parse(text, format) {
-        Ok(edits) => edits,
-        Err(misprints) => return fail(misprints.into_iter().map(Fault::from).collect()),
-    };
-    if !matches!(&edits.value, Value::Table(entries) if !entries.is_empty()) {
-        return fail(vec![Fault::new(MapError::NoEdits, Vec::new())]);
-    }
-    let work = Work { world, source, edits: &edits, ids, naming, judge };
-    // What does not go smoothly is told with all that the map has.
-    part_of(world, &edits, &naming)
-        .and_then(|part| work.on(Some(&part)))
-        .or_else(|| work.on(None))
-        .expect("the whole map is always gone through")
-}
-
-/// An edit on its way into a map.
-struct Work<'a> {
-    world: &'a World,
-    source: &'a Source,
-    edits: &'a Node,
-    ids: &'a NextIds,
-    naming: Naming<'a>,
-    judge: &'a dyn Fn(&World) -> Vec<Fault>,
-}
-
-impl Work<'_> {
-    /// Works the edits into the tree of the map, or of a part of it; none where they do not go into the part smoothly.
-    fn on(&self, part: Option<&Part>) -> Option<EditReading> {
-        let Self { world, source, edits, naming, judge, .. } = *self;
-        let text = source.text();
-        let base = node::parse(
-            &write::to_numbered_toml(part.map_or(world, |part| &part.world)),
-            Format::Toml,
-        )
-        .expect("what is written can be parsed");
-        let tree = Tree::new(base, text.len());
-        let mut steps = Steps::new(tree, world, self.ids.clone(), naming.in_other_words);
-        steps.take(edits);
-        let Steps { tree, misprints, reason, only, carriers, .. } = steps;
-        let root = tree.finish();
-        let Draft { world: read, faults, origins, broken, left_out } = read::build(&root);
-        let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
-        all.extend(faults);
-        // What a step did not do is missed by others: its own fault is enough.
-        let is_whole = all.is_empty();
-        if part.is_some() && !is_whole {
-            return None;
-        }
-        let (edited, part) = match part {
-            Some(part) => (with_part(world, part, &read), Some(read)),
-            None => (read, None),
-        };
-        let news = if is_whole {
-            crate::news(world, &edited, || naming.exact.clone())
-        } else {
-            let known = check(world);
-            let found = super::super::check::check_except(&edited, &broken).into_iter();
-            found.filter(|f| !known.iter().any(|k| k.error == f.error)).collect()
-        };
-        let judged = if is_whole { judge(&edited) } else { Vec::new() };
-        for mut fault in news.into_iter().chain(judged) {
-            let mut told = fault.clone();
-            if let Some(part) = &part {
-                told.spots.retain_mut(|spot| into_part(spot, &edited, part));
-            }
-            told.locate(&origins, &left_out);
-            fault.spans = told.spans;
-            all.push(fault);
-        }
-        for fault in &mut all {
-            fault.spans.retain(|span| span.offset() + span.len() <= text.len());
-            if let (true, Some(step)) = (fault.spans.is_empty(), &only) {
-                fault.spans.push(Span::clone(step).into());
-            }
-        }
-        if !is_whole {
-            all.retain(|fault| !fault.spans.is_empty());
-        }
-        // What is told at one place in the same words is told once.
-        all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
-        all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
+    let source = &edits.source;
+    let mut all: Vec<Fault> = edits.misprints.iter().cloned().map(Fault::from).collect();
+    if !edits.is_read {
         let faults = report(source, all);
-        let world = (!faults.has_errors()).then_some(edited);
-        Some(EditReading { world, faults, reason, carriers })
+        return EditReading { world: None, faults, reason: None, carriers: BTreeSet::new() };
     }
+    let mut steps = Steps::new(world, ids.clone(), naming, &edits.left_out);
+    steps.take(edits);
+    let Steps { world: edited, said, misprints, faults, broken, carriers, .. } = steps;
+    all.extend(misprints.into_iter().map(Fault::from));
+    all.extend(faults);
+    all.retain(|fault| match &fault.error {
+        MapError::UnknownReference { name, .. } => !edits.unread.contains(&name_key(name)),
+        _ => true,
+    });
+    // What a step did not do is missed by others: its own fault is enough.
+    let is_whole = all.is_empty();
+    let news = if is_whole {
+        crate::news(world, &edited, || naming.exact.clone())
+    } else {
+        let known = check(world);
+        let found = super::super::check::check_except(&edited, &broken).into_iter();
+        found.filter(|f| !known.iter().any(|k| k.error == f.error)).collect()
+    };
+    let judged = if is_whole { judge(&edited) } else { Vec::new() };
+    for mut fault in news.into_iter().chain(judged) {
+        said.locate(&mut fault, &edits.left_out);
+        all.push(fault);
+    }
+    let text = source.text();
+    let only = edits.only_step();
+    for fault in &mut all {
+        fault.spans.retain(|span| span.offset() + span.len() <= text.len());
+        if let (true, Some(step)) = (fault.spans.is_empty(), &only) {
+            fault.spans.push(Span::clone(step).into());
+        }
+    }
+    if !is_whole && all.iter().any(|fault| !fault.is_warning() && !fault.spans.is_empty()) {
+        all.retain(|fault| !fault.spans.is_empty());
+    }
+    // What is told at one place in the same words is told once.
+    all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
+    all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
+    let faults = report(source, all);
+    let world = (!faults.has_errors()).then_some(edited);
+    EditReading { world, faults, reason: edits.reason.clone(), carriers }
 }

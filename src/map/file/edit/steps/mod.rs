@@ -1,241 +1,238 @@
-//! The steps of an edit file, each a change of the tree.
+//! The steps of an edit, each a change of the world.
 
 mod bonds;
+mod brings;
 mod names;
-mod news;
 mod records;
+mod settled;
 mod standing;
 mod things;
 mod traits;
 mod walls;
-mod word;
 mod zones;
 
-use std::collections::BTreeSet;
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
+use super::Naming;
 use super::NextIds;
-use super::tree::{Kind, Tree};
-use crate::fault::MapError;
-use crate::file::decode::{NUMBER, likely, shortened};
-use crate::file::node::{Misprint, Node, Span, Value};
-use crate::file::schema::FORMAT;
-use crate::units::ReplicaId;
-use crate::{Entity, World};
+use super::edits::{Edits, Told};
+use super::kind::Kind;
+use super::said::Said;
+use super::verbs::{Edit, MAKING};
+use super::word::{Done, Outcome, misprint};
+use crate::World;
+use crate::fault::{Fault, MapError, Record};
+use crate::file::decode::{MODEST_NUMBER, a_number, expected_words};
+use crate::file::node::{Entry, Misprint, Node, Span};
+use crate::file::read::{MOST_GUESSES, Reader};
+use crate::file::schema::{Coordinates, Number};
+use crate::units::{Cm, Deg, Frame, ReplicaId, ZoneId};
 
-use word::{Done, Step, misprint, text_of, unknown_field, wrong_kind};
+use names::Keys;
+use settled::Late;
+use zones::Draft;
 
-/// Every verb with the fields that may stand beside it.
-const VERBS: &[(&str, &[&str])] = &[
-    (
-        "place",
-        &[
-            "object",
-            "area",
-            "at",
-            "pose",
-            "angle",
-            "name_en",
-            "move_prob",
-            "properties",
-            "doors",
-            "forms",
-        ],
-    ),
-    ("point", &["area", "at", "pose", "heading", "serves", "name_en", "forms"]),
-    ("move", &["to", "by", "area", "carry"]),
-    ("turn", &["to", "by", "carry"]),
-    ("remove", &["kind"]),
-    ("rename", &["to", "en", "forms", "kind"]),
-    ("set", &["property", "value", "side", "move_prob", "kind"]),
-    ("unset", &["property", "side", "kind"]),
-    ("state", &["is", "opening", "on"]),
-    ("bind", &["to", "side", "opens"]),
-    ("unbind", &["from"]),
-    ("item", &["of", "orthoframe", "at", "angle", "base"]),
-    ("link", &["to", "of", "rel", "angle"]),
-    ("unlink", &["to", "of"]),
-    ("stand", &["map", "at", "angle", "base", "relink"]),
-    ("include", &["at", "angle", "base"]),
-    ("lift", &["stops"]),
-    ("zone", ZONE),
-    ("cut", &["side", "from", "to", "as", "type", "permeability"]),
-    ("shape", &["points", "item"]),
-];
-
-/// Whether a step may be told by this word.
-pub(super) fn is_verb(word: &str) -> bool {
-    VERBS.iter().any(|(verb, _)| *verb == word)
-}
-
-/// What can be said of a zone, in the words of the map file.
-const ZONE: &[&str] = &[
-    "kind",
-    "rooms",
-    "map",
-    "points",
-    "speed",
-    "heading",
-    "reason",
-    "reason_en",
-    "from",
-    "until",
-    "name_en",
-    "forms",
-];
-
-/// What may stand in an edit file beside `edit`.
-const SECTIONS: [&str; 11] = [
-    "format",
-    "reason",
-    "edit",
-    "robot",
-    "type",
-    "orthoframe",
-    "door",
-    "object",
-    "area",
-    "map",
-    "zone",
-];
-const GROUPS: &[Kind] = &[Kind::Area, Kind::Object];
-
+/// A world on its way through edits.
 pub(super) struct Steps<'a> {
-    pub(super) tree: Tree,
-    world: &'a World,
+    /// What it has become so far. Zones that are spoken of are in `zones`.
+    pub(super) world: World,
+    /// As it was.
+    start: &'a World,
     ids: NextIds,
-    names: &'a dyn Fn(&str) -> Vec<Entity>,
+    naming: Naming<'a>,
+    left_out: &'a HashSet<Span>,
+    pub(super) said: Said,
     pub(super) misprints: Vec<Misprint>,
-    pub(super) reason: Option<String>,
+    /// What is wrong with records that were brought.
+    pub(super) faults: Vec<Fault>,
+    pub(super) broken: BTreeSet<Record>,
     /// What is moved with all that stands on it.
     pub(super) carriers: BTreeSet<ReplicaId>,
-    /// The place of the only step, if there is but one: what it spoils elsewhere is told there.
-    pub(super) only: Option<Span>,
+    keys: Keys,
+    /// Names that edits gave, as they are compared.
+    given: HashMap<String, Vec<Record>>,
+    /// Records that have an id and are not yet in the world, by their keys.
+    coming: BTreeMap<Record, String>,
+    coming_keys: HashMap<(Kind, String), Record>,
+    /// Names for which a likely one is still looked for among all there are.
+    guesses_left: Cell<usize>,
+    zones: BTreeMap<ZoneId, Draft>,
+    late: Late,
+}
+
+/// A step with its places.
+pub(super) struct Step<'t> {
+    node: &'t Node,
+    verb: &'t Entry,
+}
+
+impl<'t> Step<'t> {
+    /// The place of what the verb is done to.
+    fn span(&self) -> &'t Span {
+        &self.verb.node.span
+    }
+
+    /// The place of the verb, which is that of what the step makes.
+    fn key_span(&self) -> &'t Span {
+        &self.verb.key_span
+    }
+
+    /// The place of the whole of it, as far as one looks.
+    fn whole(&self) -> Span {
+        self.verb.key_span.start..self.verb.node.span.end.max(self.verb.key_span.end)
+    }
+
+    fn entry(&self, field: &str) -> Option<&'t Entry> {
+        self.node.entry(field)
+    }
+
+    /// The place of a field's value.
+    fn at(&self, field: &str) -> &'t Span {
+        self.entry(field).map_or(self.span(), |entry| &entry.node.span)
+    }
+
+    /// What a step says in these fields, as a map file would.
+    fn copies(&self, fields: &[&str]) -> Vec<Entry> {
+        self.node.entries().iter().filter(|e| fields.contains(&e.key.as_str())).cloned().collect()
+    }
+
+    /// What the step is about, as the field of a record.
+    fn verb_as(&self, field: &str) -> Entry {
+        Entry { key: field.to_owned(), ..self.verb.clone() }
+    }
+
+    fn missing(&self, field: &'static str) -> Box<Misprint> {
+        misprint(MapError::MissingField { field }, self.key_span())
+    }
+
+    fn bad(&self, field: &str, message: (&'static str, &'static str)) -> Box<Misprint> {
+        misprint(MapError::BadValue { message: message.into() }, self.at(field))
+    }
 }
 
 impl<'a> Steps<'a> {
     pub(super) fn new(
-        tree: Tree,
         world: &'a World,
         ids: NextIds,
-        names: &'a dyn Fn(&str) -> Vec<Entity>,
+        naming: Naming<'a>,
+        left_out: &'a HashSet<Span>,
     ) -> Self {
         Self {
-            tree,
-            world,
+            world: world.clone(),
+            start: world,
             ids,
-            names,
+            naming,
+            left_out,
+            said: Said::default(),
             misprints: Vec::new(),
-            reason: None,
+            faults: Vec::new(),
+            broken: BTreeSet::new(),
             carriers: BTreeSet::new(),
-            only: None,
+            keys: Keys::default(),
+            given: HashMap::new(),
+            coming: BTreeMap::new(),
+            coming_keys: HashMap::new(),
+            guesses_left: Cell::new(MOST_GUESSES),
+            zones: BTreeMap::new(),
+            late: Late::default(),
         }
     }
 
-    /// Works a whole file in: what is new first, then the steps in their order.
-    pub(super) fn take(&mut self, edits: &Node) {
-        for entry in edits.entries() {
-            let done = match entry.key.as_str() {
-                "format" => check_format(&entry.node),
-                "reason" => text_of(&entry.node).map(|r| self.reason = Some(r.to_owned())),
-                "type" => {
-                    self.types(&entry.node);
-                    Ok(())
-                }
-                "edit" => Ok(()),
-                "robot" => self.robot(&entry.node),
-                other => {
-                    match Kind::ALL.into_iter().find(|k| k.lines().is_none() && k.word() == other) {
-                        Some(kind) => {
-                            self.section(kind, entry);
-                            Ok(())
-                        }
-                        None => Err(unknown_field(entry, &SECTIONS)),
-                    }
-                }
-            };
-            self.misprints.extend(done.err().map(|fault| *fault));
-        }
-        let Some(list) = edits.entry("edit") else { return };
-        if !matches!(list.node.value, Value::List(_)) {
-            self.misprints.push(*wrong_kind(
-                &list.node,
-                ("список шагов [[edit]]", "a list of steps [[edit]]"),
-            ));
-        }
-        for node in list.node.elements() {
-            if let Err(fault) = self.step(node) {
+    /// Works edits in: what is new first, then the steps in their order.
+    pub(super) fn take(&mut self, edits: &Edits) {
+        self.bring(&edits.told);
+        for told in &edits.told {
+            if let Err(fault) = self.step(told) {
                 self.misprints.push(*fault);
             }
         }
-        if let ([only], true) = (
-            list.node.elements(),
-            edits.entries().iter().all(|e| ["edit", "reason", "format"].contains(&e.key.as_str())),
-        ) {
-            let verb = only.entries().iter().find(|e| is_verb(&e.key));
-            self.only = verb.map(|v| v.key_span.start..v.node.span.end.max(v.key_span.end));
+        self.settle();
+    }
+
+    fn step(&mut self, told: &Told) -> Done {
+        let Some(verb) = told.edit.verb().and_then(|verb| told.node.entry(verb)) else {
+            return Ok(());
+        };
+        // What is made is spoken of by others, whatever is wrong with it.
+        if told.is_broken && !MAKING.contains(&verb.key.as_str()) {
+            return Ok(());
+        }
+        let step = &Step { node: &told.node, verb };
+        match &told.edit {
+            Edit::New(_) | Edit::Robot { .. } => Ok(()),
+            Edit::Place { .. } => self.place(step, &told.edit, told.is_broken),
+            Edit::Point { .. } => self.point(step, &told.edit, told.is_broken),
+            Edit::Move { name, to, by, area, carry } => {
+                let by_how_much = (to.as_ref(), by.as_ref());
+                self.shift(step, name, by_how_much, area.as_deref(), *carry)
+            }
+            Edit::Turn { name, to, by, carry } => self.turn(step, name, (*to, *by), *carry),
+            Edit::Remove { name, kind } => self.remove(step, name, kind.as_deref()),
+            Edit::Rename { .. } => self.rename(step, &told.edit),
+            Edit::Set { .. } => self.set(step, &told.edit),
+            Edit::Unset { name, property, side, kind } => {
+                self.unset(step, name, property, side.as_deref(), kind.as_deref())
+            }
+            Edit::State { name, is, opening, on } => {
+                self.state(step, name, *is, *opening, on.as_deref())
+            }
+            Edit::Bind { name, to, side, opens } => {
+                self.bind(step, name, to, side, opens.unwrap_or(crate::OpensTo::Inside))
+            }
+            Edit::Unbind { name, from } => self.unbind(step, name, from.as_deref()),
+            Edit::Item { name, of, orthoframe, at, angle, base } => {
+                let stands = (at.as_ref(), *angle, *base);
+                self.item(step, name, (of, orthoframe), stands)
+            }
+            Edit::Link { name, to, of, rel, angle } => {
+                self.link(step, (name, to), of.as_deref(), frame_of(rel.as_ref(), *angle))
+            }
+            Edit::Unlink { name, to, of } => self.unlink(step, (name, to), of.as_deref()),
+            Edit::Stand { name, map, at, angle, base, relink } => {
+                let stands = (at.as_ref(), *angle, *base);
+                self.stand(step, name, map.as_deref(), stands, *relink)
+            }
+            Edit::Include { name, at, angle, base } => {
+                self.include(step, name, (at.as_ref(), *angle, *base))
+            }
+            Edit::Lift { name, stops } => self.lift(step, name, stops),
+            Edit::Zone { .. } => self.zone(step, &told.edit, told.is_broken),
+            Edit::Cut { .. } => self.cut(step, &told.edit),
+            Edit::Shape { name, points, item } => self.shape(step, name, points, item.as_deref()),
         }
     }
 
-    fn step(&mut self, node: &Node) -> Done {
-        let verbs: Vec<&str> = VERBS.iter().map(|(verb, _)| *verb).collect();
-        let Some(verb) = node.entries().iter().find(|e| verbs.contains(&e.key.as_str())) else {
-            let expected = verbs.join(", ");
-            return Err(match node.entries().first() {
-                None => wrong_kind(
-                    node,
-                    ("шаг правки: таблица с глаголом", "a step of an edit: a table with a verb"),
-                ),
-                Some(first) => misprint(
-                    MapError::UnknownVerb {
-                        found: shortened(&first.key),
-                        nearest: likely(&first.key, &verbs),
-                        expected,
-                    },
-                    &first.key_span,
-                ),
-            });
-        };
-        let (_, fields) = VERBS.iter().find(|(v, _)| *v == verb.key).expect("found by its name");
-        let mut whole = true;
-        for entry in node.entries().iter().filter(|e| e.key != verb.key) {
-            if !fields.contains(&entry.key.as_str()) {
-                self.misprints.push(*unknown_field(entry, fields));
-                whole = false;
-            }
-        }
-        let step = Step { node, verb };
-        if !whole {
-            return Ok(());
-        }
-        match verb.key.as_str() {
-            "place" => self.place(&step),
-            "point" => self.point(&step),
-            "move" => self.shift(&step),
-            "turn" => self.turn(&step),
-            "remove" => self.remove(&step),
-            "rename" => self.rename(&step),
-            "set" => self.set(&step),
-            "unset" => self.unset(&step),
-            "state" => self.state(&step),
-            "bind" => self.bind(&step),
-            "unbind" => self.unbind(&step),
-            "item" => self.item(&step),
-            "link" => self.link(&step),
-            "unlink" => self.unlink(&step),
-            "stand" => self.stand(&step),
-            "include" => self.include(&step),
-            "zone" => self.zone(&step),
-            "cut" => self.cut(&step),
-            "shape" => self.shape(&step),
-            _ => self.lift(&step),
-        }
+    /// Reads what stands in records by the words of a map file.
+    fn reading<T>(&mut self, read: impl for<'n> FnOnce(&mut Reader<'n>) -> T) -> T {
+        let broken = std::mem::take(&mut self.broken);
+        let elsewhere = Box::new(|record| self.said.origin(record));
+        let mut reader = Reader::among(self.names(), elsewhere, self.left_out.clone(), broken);
+        let value = read(&mut reader);
+        let (faults, broken) = reader.finish();
+        self.faults.extend(faults);
+        self.broken = broken;
+        value
     }
 }
 
-fn check_format(node: &Node) -> Done {
-    match node.value {
-        Value::Integer(n) if n == i64::from(FORMAT) => Ok(()),
-        Value::Integer(n) => Err(misprint(MapError::Format { found: n.to_string() }, &node.span)),
-        _ => Err(wrong_kind(node, NUMBER)),
+/// A length that was worked out from others, or its fault.
+fn cm(value: f64, at: &Span) -> Outcome<Cm> {
+    match Cm::new(value) {
+        Ok(length) => Ok(length),
+        Err(_) => Err(too_large(value, at)),
     }
+}
+
+fn too_large(value: f64, at: &Span) -> Box<Misprint> {
+    let (found, expected) = (a_number(value), expected_words(MODEST_NUMBER));
+    misprint(MapError::WrongKind { found, expected }, at)
+}
+
+/// Where something stands, as a step tells it: what it does not tell is as it would be in a map file.
+fn frame_of(at: Option<&Coordinates>, angle: Option<Number>) -> Frame {
+    let angle = angle.map_or(Deg::ZERO, |n| Deg::of(n.get()));
+    at.map_or(Frame { angle, ..Frame::IDENTITY }, |at| {
+        Frame::new(at.x.get(), at.y.get(), at.z.map_or(0.0, Number::get), angle)
+    })
 }

@@ -1,184 +1,246 @@
 //! Records of any kind taken out and renamed, and all that refers to them with them.
 
-use super::word::{Done, Step, misprint, text_of};
-use super::{GROUPS, Steps};
-use crate::fault::MapError;
-use crate::file::edit::tree::{Handle, Kind};
-use crate::file::node::{Entry, Node, Value};
-use crate::units::{Bilingual, name_key};
+use super::super::verbs::Edit;
+use super::{Done, Kind, MapError, Record, Span, Step, Steps, misprint, standing};
+use crate::file::decode::{likely, shortened};
+use crate::file::node::Entry;
+use crate::units::{AreaId, Bilingual, name_key};
+use crate::{Extent, Forms};
 
 impl Steps<'_> {
     /// Takes a record out, with what only it gave a place: an Area's standing on its Map, a door's bindings.
-    pub(super) fn remove(&mut self, step: &Step<'_>) -> Done {
-        let kinds = self.kinds(step, &Kind::ALL)?;
-        let at = self.find(&step.verb.node, &kinds)?;
-        let name = self.tree.reference(at);
-        let users = self.users(at, &name);
+    pub(super) fn remove(&mut self, step: &Step<'_>, name: &str, kind: Option<&str>) -> Done {
+        let kinds = self.kinds(step, kind, &Kind::ALL)?;
+        let record = self.find(name, step.span(), &kinds)?;
+        let name = self.reference(record);
+        let users = self.users(record);
         if !users.is_empty() {
-            let (what, by) = (at.kind.title().into(), Bilingual::list(&users));
+            let kind = Kind::of(record).expect("what has a name is of a kind");
+            let (what, by) = (kind.title().into(), Bilingual::list(&users));
             return Err(misprint(MapError::StillUsed { what, name, by }, step.span()));
         }
-        self.change(at).value = Value::Nothing;
-        let is = |field: &'static str, name: String| {
-            move |node: &Node| node.entry(field).and_then(|e| e.node.text()) == Some(name.as_str())
-        };
-        match at.kind {
-            Kind::Replica => {
-                for area in self.tree.all(Kind::Area) {
-                    let area = self.change(area);
-                    if let Some(Value::List(places)) =
-                        area.entry_mut("places").map(|e| &mut e.node.value)
-                    {
-                        let serving = is("serves", name.clone());
-                        places
-                            .iter_mut()
-                            .filter(|p| serving(p))
-                            .for_each(|p| p.drop_entry("serves"));
-                    }
+        self.late.note_removal(record, &name, &step.whole());
+        match record {
+            Record::Replica(id) => {
+                self.world.replicas.remove(&id);
+                let serving = self.world.places.values().filter(|p| p.serves == Some(id));
+                let serving: Vec<_> = serving.map(|p| p.id).collect();
+                for place in serving {
+                    self.place_mut(place).serves = None;
                 }
             }
-            Kind::Door => {
-                for kind in GROUPS {
-                    for group in self.tree.all(*kind) {
-                        self.change(group).strike("doors", is("door", name.clone()));
-                    }
+            Record::Door(id) => {
+                self.world.doors.remove(&id);
+                for group in self.hung_with(id) {
+                    self.take_off(group, id);
                 }
             }
-            Kind::Area => {
-                let of_area = |text: Option<&str>| {
-                    text.is_some_and(|t| {
-                        t.strip_prefix(&name).is_some_and(|rest| rest.starts_with('.'))
-                    })
-                };
-                for map in self.tree.all(Kind::Map) {
-                    let map = self.change(map);
-                    map.strike("items", is("area", name.clone()));
-                    map.strike("links", |link| {
-                        ["from", "to"]
-                            .iter()
-                            .any(|f| of_area(link.entry(f).and_then(|e| e.node.text())))
-                    });
+            Record::Area(id) => self.remove_area(id, &step.whole()),
+            Record::Map(id) => {
+                self.world.maps.remove(&id);
+                let is_it = self.world.domain.maps.iter().position(|own| own.map == id);
+                if let Some(no) = is_it {
+                    let maps = &mut self.world.domain.maps;
+                    standing::with_base(
+                        maps,
+                        |m| &mut m.is_base,
+                        |maps| {
+                            maps.remove(no);
+                        },
+                    );
+                    self.said.of(Record::Domain).drop_element("maps", no);
                 }
             }
-            Kind::Map => {
-                if let Some(domain) = self.tree.table_mut("domain") {
-                    domain.strike("maps", is("map", name));
-                }
+            Record::Place(id) => drop(self.world.places.remove(&id)),
+            Record::Zone(id) => {
+                self.zones.remove(&id);
+                self.world.zones.remove(&id);
             }
-            Kind::Place | Kind::Zone | Kind::Object | Kind::Orthoframe => {}
+            Record::Object(id) => drop(self.world.objects.remove(&id)),
+            Record::Orthoframe(id) => drop(self.world.orthoframes.remove(&id)),
+            Record::Domain | Record::Robot | Record::Type(..) => {
+                unreachable!("it was looked for among what has a name")
+            }
         }
         Ok(())
     }
 
-    /// What could not be without a record, and does not go with it.
-    fn users(&self, at: Handle, name: &str) -> Vec<Bilingual> {
-        let is =
-            |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(name);
-        let lines = |owner: Handle, list: &str, field: &str| -> Vec<&Node> {
-            let nodes = self.tree.get(owner).and_then(|n| n.entry(list));
-            let nodes = nodes.map_or(&[][..], |e| e.node.elements());
-            nodes.iter().filter(|n| is(n, field)).collect()
+    /// An Area goes with all that stands in it.
+    fn remove_area(&mut self, id: AreaId, at: &Span) {
+        self.world.areas.remove(&id);
+        let gone: Vec<_> = self.world.replicas_in(id).map(|r| r.id).collect();
+        for replica in gone {
+            if let Some(replica) = self.world.replicas.remove(&replica) {
+                self.late.note_removal(Record::Replica(replica.id), &replica.name, at);
+            }
+        }
+        let gone: Vec<_> =
+            self.world.places.values().filter(|p| p.area == id).map(|p| p.id).collect();
+        for place in gone {
+            if let Some(place) = self.world.places.remove(&place) {
+                self.late.note_removal(Record::Place(place.id), &place.name, at);
+            }
+        }
+        let is_of = |map: &&crate::Map| {
+            map.items.iter().any(|item| item.area == id)
+                || map.links.iter().any(|link| link.area == id || link.to_area == id)
         };
-        let quoted = Bilingual::quoted;
-        match at.kind {
-            Kind::Object => {
-                let areas = self.tree.all(Kind::Area).into_iter();
-                let replicas = areas.flat_map(|area| lines(area, "replicas", "object"));
-                replicas.filter_map(|r| r.entry("name")?.node.text()).map(quoted).collect()
+        let maps: Vec<_> = self.world.maps.values().filter(is_of).map(|map| map.id).collect();
+        for map in maps {
+            let said = Record::Map(map);
+            while let Some(no) = self.world.maps[&map].items.iter().position(|item| item.area == id)
+            {
+                let items = &mut self.map_mut(map).items;
+                standing::with_base(
+                    items,
+                    |i| &mut i.is_base,
+                    |items| {
+                        items.remove(no);
+                    },
+                );
+                self.said.of(said).drop_element("items", no);
             }
-            Kind::Orthoframe => {
-                let groups = GROUPS.iter().flat_map(|kind| self.tree.all(*kind));
-                let using = groups.filter(|g| !lines(*g, "items", "orthoframe").is_empty());
-                using.map(|g| quoted(self.tree.key(g))).collect()
+            while let Some(no) =
+                self.world.maps[&map].links.iter().position(|l| l.area == id || l.to_area == id)
+            {
+                self.map_mut(map).links.remove(no);
+                self.said.of(said).drop_element("links", no);
             }
-            Kind::Area => {
-                let names = |zone: &Handle| {
-                    let rooms = self.tree.get(*zone).and_then(|n| n.entry("rooms"));
-                    let rooms = rooms.map_or(&[][..], |e| e.node.elements());
-                    rooms.iter().any(|room| room.text() == Some(name))
-                };
-                let zones = self.tree.all(Kind::Zone).into_iter().filter(names);
-                zones.map(|zone| quoted(&self.tree.reference(zone))).collect()
+        }
+    }
+
+    /// What could not be without a record, and does not go with it.
+    fn users(&self, record: Record) -> Vec<Bilingual> {
+        let quoted = |text: &str| Bilingual::quoted(text);
+        let zones = |of: &dyn Fn(&Extent) -> bool, told: &dyn Fn(&super::Draft) -> bool| {
+            let drafts = self.zones.values().filter(|draft| told(draft));
+            let untouched = self.world.zones.values().filter(|z| !self.zones.contains_key(&z.id));
+            let mut all: Vec<&str> =
+                untouched.filter(|zone| of(&zone.extent)).map(|zone| &*zone.key).collect();
+            all.extend(drafts.map(|draft| &*draft.key));
+            all.into_iter().map(quoted).collect()
+        };
+        let key = self.reference(record);
+        match record {
+            Record::Object(id) => {
+                let mut all: Vec<_> = self.world.replicas_of(|of| of == id).collect();
+                all.sort_by_key(|r| (r.area, r.id));
+                all.into_iter().map(|r| quoted(&r.name)).collect()
             }
-            Kind::Map => {
-                let zones = self.tree.all(Kind::Zone).into_iter();
-                let on = zones.filter(|zone| self.tree.get(*zone).is_some_and(|n| is(n, "map")));
-                on.map(|zone| quoted(&self.tree.reference(zone))).collect()
+            Record::Orthoframe(id) => {
+                let areas = self.world.areas_made_of(|of| of == id).map(|a| quoted(&a.key));
+                areas
+                    .chain(self.world.objects_made_of(|of| of == id).map(|o| quoted(&o.key)))
+                    .collect()
             }
-            Kind::Place => {
-                let robot = self.tree.section("robot").iter().find(|e| e.key == "start");
-                let starts = robot.is_some_and(|e| e.node.text() == Some(name));
-                if starts {
-                    vec![("робот начинает отсюда", "the robot starts from here").into()]
-                } else {
-                    Vec::new()
-                }
+            Record::Area(id) => zones(
+                &|extent| matches!(extent, Extent::Areas(areas) if areas.contains(&id)),
+                &|draft| draft.file.rooms.contains(&key),
+            ),
+            Record::Map(id) => zones(
+                &|extent| matches!(extent, Extent::Polygon { map, .. } if *map == id),
+                &|draft| draft.file.map.as_ref() == Some(&key),
+            ),
+            Record::Place(id) if self.world.robot.start == Some(id) => {
+                vec![("робот начинает отсюда", "the robot starts from here").into()]
             }
             _ => Vec::new(),
         }
     }
 
-    /// A new name; what refers to the old one follows. Word forms of the old name do not fit the new one.
-    pub(super) fn rename(&mut self, step: &Step<'_>) -> Done {
-        let kinds = self.kinds(step, &Kind::ALL)?;
-        let at = self.find(&step.verb.node, &kinds)?;
-        let old = self.tree.reference(at);
-        if step.field("to").is_none() && step.field("en").is_none() {
-            return Err(misprint(MapError::MissingField { field: "to" }, &step.verb.key_span));
+    /// A new name. Word forms of the old name do not fit the new one.
+    pub(super) fn rename(&mut self, step: &Step<'_>, edit: &Edit) -> Done {
+        let Edit::Rename { name, to, en, forms, kind } = edit else {
+            unreachable!("it is of its verb")
+        };
+        let kinds = self.kinds(step, kind.as_deref(), &Kind::ALL)?;
+        let record = self.find(name, step.span(), &kinds)?;
+        if to.is_none() && en.is_none() {
+            return Err(step.missing("to"));
         }
-        if let Some(to) = step.field("to") {
-            let new = text_of(to)?.to_owned();
-            let called = text_of(&step.verb.node).map(name_key)?;
-            let record = self.change(at);
-            let is_called = |field: &str| {
-                let name = record.entry(field).and_then(|e| e.node.text());
-                name.is_some_and(|name| name_key(name) == called)
-            };
+        let called = name_key(name);
+        let key = self.reference(record);
+        let mut named = self.named_mut(record);
+        if let Some(to) = to {
+            let is_called = |name: &str| !name.is_empty() && name_key(name) == called;
             // Called by its English name, it has that no more.
-            if is_called("name_en") && !is_called("name") {
-                record.drop_entry("name_en");
+            if is_called(named.name_en) && (*named.name == key || !is_called(named.name)) {
+                named.name_en.clear();
             }
-            record.put(Entry {
-                key: "name".to_owned(),
-                key_span: to.span.clone(),
-                node: to.clone(),
-            });
-            record.drop_entry("forms");
-            self.tree.note(&new, at);
-            self.follow_name(at.kind, &old, to);
+            named.name.clone_from(to);
+            if to.is_empty() && !matches!(record, Record::Replica(_) | Record::Place(_)) {
+                *named.name = key;
+            }
+            named.forms.iter_mut().for_each(|forms| forms.clear());
         }
-        if let Some(en) = step.field("en") {
-            text_of(en)?;
-            let name =
-                Entry { key: "name_en".to_owned(), key_span: en.span.clone(), node: en.clone() };
-            self.change(at).put(name);
+        if let Some(en) = en {
+            named.name_en.clone_from(en);
         }
-        for forms in step.copies(&["forms"]) {
-            self.change(at).put(forms);
+        let has_forms = named.forms.is_some();
+        if let (Some(own), Some(forms)) = (&mut named.forms, forms) {
+            own.clone_from(forms);
         }
-        Ok(())
+        let said = self.said.of(record);
+        for (told, field) in [("to", "name"), ("en", "name_en"), ("forms", "forms")] {
+            if let Some(told) = step.entry(told) {
+                let node = told.node.clone();
+                said.put(Entry { key: field.to_owned(), key_span: node.span.clone(), node });
+            } else if field == "forms" && to.is_some() {
+                said.drop_entry(field);
+            }
+        }
+        if let Some(to) = to {
+            self.note(to, record);
+        }
+        match step.entry("forms") {
+            Some(told) if !has_forms => {
+                let fields = ["to", "en", "kind"];
+                let error = MapError::UnknownField {
+                    field: shortened("forms"),
+                    nearest: likely("forms", &fields),
+                    expected: fields.join(", "),
+                };
+                Err(misprint(error, &told.key_span))
+            }
+            _ => Ok(()),
+        }
     }
 
-    /// Lines are referred to by their names, not by keys.
-    fn follow_name(&mut self, kind: Kind, old: &str, new: &Node) {
-        let named =
-            |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(old);
-        if kind == Kind::Place
-            && let Some(robot) = self.tree.table_mut("robot")
-            && named(robot, "start")
-        {
-            robot.put(Entry { key: "start".into(), key_span: new.span.clone(), node: new.clone() });
+    /// The names of a record, and the forms of its name if it has any.
+    fn named_mut(&mut self, record: Record) -> Named<'_> {
+        macro_rules! of {
+            ($records:ident, $id:expr, with forms) => {{
+                let record = self.world.$records.get_mut(&$id).expect("it was found");
+                let forms = Some(&mut record.forms);
+                Named { name: &mut record.name, name_en: &mut record.name_en, forms }
+            }};
+            ($records:ident, $id:expr) => {{
+                let record = self.world.$records.get_mut(&$id).expect("it was found");
+                Named { name: &mut record.name, name_en: &mut record.name_en, forms: None }
+            }};
         }
-        if kind != Kind::Replica {
-            return;
-        }
-        for area in self.tree.all(Kind::Area) {
-            let places = self.change(area).entry_mut("places").map(|e| &mut e.node.value);
-            let Some(Value::List(places)) = places else { continue };
-            for place in places.iter_mut().filter(|p| named(p, "serves")) {
-                let key_span = new.span.clone();
-                place.put(Entry { key: "serves".into(), key_span, node: new.clone() });
+        match record {
+            Record::Replica(id) => of!(replicas, id, with forms),
+            Record::Place(id) => of!(places, id, with forms),
+            Record::Area(id) => of!(areas, id, with forms),
+            Record::Door(id) => of!(doors, id, with forms),
+            Record::Map(id) => of!(maps, id),
+            Record::Object(id) => of!(objects, id),
+            Record::Orthoframe(id) => of!(orthoframes, id),
+            Record::Zone(id) => {
+                let zone = self.zone_mut(id);
+                let forms = Some(&mut zone.forms);
+                Named { name: &mut zone.name, name_en: &mut zone.name_en, forms }
+            }
+            Record::Domain | Record::Robot | Record::Type(..) => {
+                unreachable!("it was looked for among what has a name")
             }
         }
     }
+}
+
+struct Named<'r> {
+    name: &'r mut String,
+    name_en: &'r mut String,
+    forms: Option<&'r mut Forms>,
 }

@@ -1,100 +1,156 @@
 //! Where the large things stand: Areas on a Map, Maps in the Domain, lifts between them.
 
-use super::Steps;
-use super::word::{Done, Outcome, Step, misprint, table};
-use crate::fault::MapError;
-use crate::file::edit::tree::{Handle, Kind, entry};
-use crate::file::node::{Entry, Node, Value};
+use super::super::said::{entry, table};
+use super::{Coordinates, Done, Kind, Number, Outcome, Record, Step, Steps, frame_of};
+use crate::file::node::Value;
+use crate::units::{Cm, Deg, Frame, MapId};
+use crate::{DomainMap, LiftStop, MapItem};
+
+/// Where a step says that something stands, and whether that is the base.
+pub(super) type Stands<'t> = (Option<&'t Coordinates>, Option<Number>, Option<bool>);
+
+/// Changes a list of which one is the base: the one that says so, or else the first.
+pub(super) fn with_base<T>(
+    list: &mut Vec<T>,
+    is_base: impl Fn(&mut T) -> &mut bool,
+    change: impl FnOnce(&mut Vec<T>),
+) {
+    let marks: Vec<bool> = list.iter_mut().map(|one| *is_base(one)).collect();
+    // That the first one is the base goes without saying, until another says that it is.
+    if marks.iter().position(|&mark| mark) == Some(0) && marks.iter().filter(|&&m| m).count() == 1 {
+        *is_base(&mut list[0]) = false;
+    }
+    change(list);
+    if list.iter_mut().all(|one| !*is_base(one))
+        && let Some(first) = list.first_mut()
+    {
+        *is_base(first) = true;
+    }
+}
+
+/// What a step says anew of where something stands.
+fn restand(frame: &mut Frame, is_base: &mut bool, (at, angle, base): Stands<'_>) {
+    if let Some(at) = at {
+        let z = at.z.map_or(Cm::ZERO, |z| Cm::of(z.get()));
+        *frame = Frame { x: Cm::of(at.x.get()), y: Cm::of(at.y.get()), z, angle: frame.angle };
+    }
+    if let Some(angle) = angle {
+        frame.angle = Deg::of(angle.get());
+    }
+    *is_base = base.unwrap_or(*is_base);
+}
 
 impl Steps<'_> {
+    pub(super) fn map_mut(&mut self, id: MapId) -> &mut crate::Map {
+        self.world.maps.get_mut(&id).expect("what was found is in the world")
+    }
+
     /// Where an Area stands on a Map; with `relink` what its links say of that is told anew, and the Map keeps its coordinates.
-    pub(super) fn stand(&mut self, step: &Step<'_>) -> Done {
-        let area = self.find(&step.verb.node, &[Kind::Area])?;
-        let map = match step.field("map") {
-            Some(map) => self.find(map, &[Kind::Map])?,
-            None => self.only_map(step)?,
+    pub(super) fn stand(
+        &mut self,
+        step: &Step<'_>,
+        name: &str,
+        map: Option<&str>,
+        stands: Stands<'_>,
+        relink: bool,
+    ) -> Done {
+        let area = self.area(name, step.span())?;
+        let map = match map {
+            Some(map) => self.map(map, step.at("map"))?,
+            None => {
+                let mut maps = self.world.maps.keys();
+                match (maps.next(), maps.next()) {
+                    (Some(only), None) => *only,
+                    _ => return Err(step.missing("map")),
+                }
+            }
         };
-        self.put_down("items", "area", area, map, step)?;
-        if step.field("relink").is_some_and(|node| node.value == Value::Bool(true)) {
+        let items = &self.world.maps[&map].items;
+        let known = items.iter().position(|item| item.area == area);
+        let no = known.unwrap_or(items.len());
+        self.tell_standing(step, (Record::Map(map), "items", no), known.is_none(), "area");
+        with_base(
+            &mut self.map_mut(map).items,
+            |i| &mut i.is_base,
+            |items| {
+                if known.is_none() {
+                    items.push(MapItem { area, frame: frame_of(None, None), is_base: false });
+                }
+                let item = &mut items[no];
+                restand(&mut item.frame, &mut item.is_base, stands);
+            },
+        );
+        if relink {
             self.keep_coordinates(area, step.span());
             self.relink(area);
         }
         Ok(())
     }
 
-    fn only_map(&self, step: &Step<'_>) -> Outcome<Handle> {
-        match self.tree.all(Kind::Map)[..] {
-            [only] => Ok(only),
-            _ => Err(misprint(MapError::MissingField { field: "map" }, &step.verb.key_span)),
+    fn map(&self, name: &str, at: &super::Span) -> Outcome<MapId> {
+        match self.find(name, at, &[Kind::Map])? {
+            Record::Map(id) => Ok(id),
+            _ => unreachable!("it was looked for among Maps"),
         }
     }
 
-    fn put_down(
+    /// Where it is told that something stands: a line of a list.
+    fn tell_standing(
         &mut self,
-        list: &str,
-        field: &str,
-        what: Handle,
-        on: Handle,
         step: &Step<'_>,
-    ) -> Done {
-        let key = self.tree.key(what).to_owned();
-        let mut fields = step.copies(&["at", "angle", "base"]);
-        let owner = self.change(on);
-        let known = owner.entry_mut(list).and_then(|e| match &mut e.node.value {
-            Value::List(lines) => lines
-                .iter_mut()
-                .find(|l| l.entry(field).and_then(|e| e.node.text()) == Some(key.as_str())),
-            _ => None,
-        });
-        if let Some(line) = known {
-            fields.into_iter().for_each(|f| line.put(f));
+        (record, list, no): (Record, &str, usize),
+        is_new: bool,
+        what: &str,
+    ) {
+        let fields = step.copies(&["at", "angle", "base"]);
+        let line = self.said.of(record).element_at(list, no);
+        if is_new {
+            *line = table(step.key_span(), vec![step.verb_as(what)]);
         } else {
-            fields.push(entry(field, step.span(), Value::Text(key)));
-            owner.push(list, table(&step.verb.key_span, fields));
+            line.span = step.whole();
         }
-        Ok(())
+        fields.into_iter().for_each(|field| line.put(field));
     }
 
     /// Where a Map stands in the Domain.
-    pub(super) fn include(&mut self, step: &Step<'_>) -> Done {
-        let map = self.find(&step.verb.node, &[Kind::Map])?;
-        let key = self.tree.key(map).to_owned();
-        let fields = step.copies(&["at", "angle", "base"]);
-        let Some(domain) = self.tree.table_mut("domain") else { return Ok(()) };
-        let known = domain.entry_mut("maps").and_then(|e| match &mut e.node.value {
-            Value::List(lines) => lines
-                .iter_mut()
-                .find(|l| l.entry("map").and_then(|e| e.node.text()) == Some(key.as_str())),
-            _ => None,
-        });
-        match known {
-            Some(line) => fields.into_iter().for_each(|f| line.put(f)),
-            None => {
-                let mut line = fields;
-                line.push(entry("map", step.span(), Value::Text(key)));
-                domain.push("maps", table(&step.verb.key_span, line));
-            }
-        }
+    pub(super) fn include(&mut self, step: &Step<'_>, name: &str, stands: Stands<'_>) -> Done {
+        let map = self.map(name, step.span())?;
+        let maps = &self.world.domain.maps;
+        let known = maps.iter().position(|own| own.map == map);
+        let no = known.unwrap_or(maps.len());
+        self.tell_standing(step, (Record::Domain, "maps", no), known.is_none(), "map");
+        with_base(
+            &mut self.world.domain.maps,
+            |m| &mut m.is_base,
+            |maps| {
+                if known.is_none() {
+                    maps.push(DomainMap { map, frame: Frame::IDENTITY, is_base: false });
+                }
+                let own = &mut maps[no];
+                restand(&mut own.frame, &mut own.is_base, stands);
+            },
+        );
         Ok(())
     }
 
     /// A lift, or a flight of stairs, with its stops; one of this name gets these stops.
-    pub(super) fn lift(&mut self, step: &Step<'_>) -> Done {
-        let name = step.what()?.to_owned();
-        let stops = step.required("stops")?;
-        let areas: Vec<Node> = stops
-            .elements()
-            .iter()
-            .map(|stop| self.reference(stop, &[Kind::Area]))
-            .collect::<Result<_, _>>()?;
-        let line = vec![
-            Entry { key: "name".into(), ..step.verb.clone() },
-            entry("stops", &stops.span, Value::List(areas)),
-        ];
-        let Some(domain) = self.tree.table_mut("domain") else { return Ok(()) };
-        domain
-            .strike("lifts", |lift| lift.entry("name").and_then(|e| e.node.text()) == Some(&name));
-        domain.push("lifts", table(&step.verb.key_span, line));
+    pub(super) fn lift(&mut self, step: &Step<'_>, name: &str, stops: &[String]) -> Done {
+        let nodes = step.entry("stops").map_or(&[][..], |e| e.node.elements());
+        let mut areas = Vec::new();
+        for (no, stop) in stops.iter().enumerate() {
+            let at = nodes.get(no).map_or(step.at("stops"), |node| &node.span);
+            areas.push(LiftStop { area: self.area(stop, at)? });
+        }
+        let is_it = |(own, _): &(String, Vec<LiftStop>)| own == name;
+        while let Some(no) = self.world.domain.lifts.iter().position(is_it) {
+            self.world.domain.lifts.remove(no);
+            self.said.of(Record::Domain).drop_element("lifts", no);
+        }
+        let no = self.world.domain.lifts.len();
+        self.world.domain.lifts.push((name.to_owned(), areas));
+        let list = Value::List(nodes.to_vec());
+        let told = vec![step.verb_as("name"), entry("stops", step.at("stops"), list)];
+        *self.said.of(Record::Domain).element_at("lifts", no) = table(step.key_span(), told);
         Ok(())
     }
 }

@@ -1,112 +1,146 @@
 //! What records are like: their properties and those of their sides, probabilities, the states of doors.
 
-use super::Steps;
-use super::word::{Done, Outcome, Step, misprint, number, table, text_of};
-use crate::fault::MapError;
+use super::super::said::{entry, table};
+use super::super::verbs::Edit;
+use super::{Done, Kind, MapError, Outcome, Record, Step, Steps, misprint};
 use crate::file::decode::shortened;
-use crate::file::edit::tree::{Kind, entry};
-use crate::file::node::{Entry, Node, Value};
+use crate::file::node::{Entry, Value};
+use crate::file::records::door_state;
+use crate::file::schema::Number;
+use crate::units::nearest_name;
+use crate::{DoorStatus, Properties};
 
 /// Kinds that have properties.
 const PROPERTIED: &[Kind] =
     &[Kind::Replica, Kind::Area, Kind::Door, Kind::Object, Kind::Orthoframe];
 
 impl Steps<'_> {
-    pub(super) fn set(&mut self, step: &Step<'_>) -> Done {
-        if let Some(probability) = step.field("move_prob") {
-            let at = self.find(&step.verb.node, &[Kind::Replica])?;
-            number(probability)?;
-            let new = step.copies(&["move_prob"]).remove(0);
-            self.change(at).put(new);
-            if step.field("property").is_none() {
+    pub(super) fn set(&mut self, step: &Step<'_>, edit: &Edit) -> Done {
+        let Edit::Set { name, property, value, side, move_prob, kind } = edit else {
+            unreachable!("it is of its verb")
+        };
+        if let Some(probability) = *move_prob {
+            let record = self.find(name, step.span(), &[Kind::Replica])?;
+            let Record::Replica(id) = record else { unreachable!("it was looked for among these") };
+            let new = step.copies(&["move_prob"]);
+            new.into_iter().for_each(|new| self.said.of(record).put(new));
+            let read = self.reading(|reader| reader.move_prob(id, probability));
+            self.replica_mut(id).move_prob = read;
+            if property.is_none() {
                 return Ok(());
             }
         }
-        let property = step.required("property")?;
-        let value = step.required("value")?.clone();
-        let name = text_of(property)?.to_owned();
-        text_of(&value)?;
-        let properties = self.properties(step)?;
-        properties.put(Entry { key: name, key_span: property.span.clone(), node: value });
-        Ok(())
-    }
-
-    pub(super) fn unset(&mut self, step: &Step<'_>) -> Done {
-        let property = step.required("property")?;
-        let name = text_of(property)?.to_owned();
-        let properties = self.properties(step)?;
-        if properties.entry(&name).is_none() {
-            let nearest = None;
-            let error =
-                MapError::UnknownReference {
-                    what: ("Свойство", "Property").into(), name, nearest
-                };
-            return Err(misprint(error, &property.span));
-        }
-        properties.drop_entry(&name);
-        Ok(())
-    }
-
-    /// The table of properties of what a step speaks of, or of one of its sides.
-    fn properties(&mut self, step: &Step<'_>) -> Outcome<&mut Node> {
-        let kinds = if step.field("side").is_some() {
-            vec![Kind::Orthoframe]
-        } else {
-            self.kinds(step, PROPERTIED)?
+        let property = property.as_ref().ok_or_else(|| step.missing("property"))?;
+        let value = value.as_ref().ok_or_else(|| step.missing("value"))?;
+        let record = self.with_properties(step, name, side.as_deref(), kind.as_deref())?;
+        let properties = self.properties(step, record, side.as_deref())?;
+        properties.insert(property.clone(), value.clone());
+        let told = step.entry("value").map(|e| Entry { key: property.clone(), ..e.clone() });
+        let said = self.said.of(record);
+        let of = match side {
+            Some(side) => said.table_at("side").table_at(side),
+            None => said,
         };
-        let at = self.find(&step.verb.node, &kinds)?;
-        let side = step.field("side").map(text_of).transpose()?;
-        let mut record = self.change(at);
-        if let Some(side) = side {
-            record = side_of(record, side).ok_or_else(|| {
-                let (what, name, nearest) = (("Сторона", "Side").into(), shortened(side), None);
-                misprint(MapError::UnknownReference { what, name, nearest }, step.span())
-            })?;
+        told.into_iter().for_each(|told| of.table_at("properties").put(told));
+        Ok(())
+    }
+
+    pub(super) fn unset(
+        &mut self,
+        step: &Step<'_>,
+        name: &str,
+        property: &str,
+        side: Option<&str>,
+        kind: Option<&str>,
+    ) -> Done {
+        let record = self.with_properties(step, name, side, kind)?;
+        if self.properties(step, record, side)?.remove(property).is_none() {
+            let (what, nearest) = (("Свойство", "Property").into(), None);
+            let error = MapError::UnknownReference { what, name: property.to_owned(), nearest };
+            return Err(misprint(error, step.at("property")));
         }
-        if record.entry("properties").is_none() {
-            record.put(entry("properties", step.span(), Value::Table(Vec::new())));
+        Ok(())
+    }
+
+    /// The record that a step speaks of, or that has the side of which it speaks.
+    fn with_properties(
+        &self,
+        step: &Step<'_>,
+        name: &str,
+        side: Option<&str>,
+        kind: Option<&str>,
+    ) -> Outcome<Record> {
+        let kinds = match side {
+            Some(_) => vec![Kind::Orthoframe],
+            None => self.kinds(step, kind, PROPERTIED)?,
+        };
+        self.find(name, step.span(), &kinds)
+    }
+
+    fn properties(
+        &mut self,
+        step: &Step<'_>,
+        record: Record,
+        side: Option<&str>,
+    ) -> Outcome<&mut Properties> {
+        let world = &mut self.world;
+        macro_rules! of {
+            ($records:ident, $id:expr) => {
+                &mut world.$records.get_mut(&$id).expect("it was found").properties
+            };
         }
-        Ok(&mut record.entry_mut("properties").expect("it was put there").node)
+        Ok(match (record, side) {
+            (Record::Orthoframe(id), Some(side)) => {
+                let base = &mut world.orthoframes.get_mut(&id).expect("it was found").base;
+                let Some(at) = base.iter().position(|vector| vector.id == side) else {
+                    let ids = base.iter().map(|vector| vector.id.as_str());
+                    let nearest = nearest_name(side, ids).map(str::to_owned);
+                    let (what, name) = (("Сторона", "Side").into(), shortened(side));
+                    let error = MapError::UnknownReference { what, name, nearest };
+                    return Err(misprint(error, step.span()));
+                };
+                &mut base[at].properties
+            }
+            (Record::Orthoframe(id), None) => of!(orthoframes, id),
+            (Record::Replica(id), _) => of!(replicas, id),
+            (Record::Area(id), _) => of!(areas, id),
+            (Record::Door(id), _) => of!(doors, id),
+            (Record::Object(id), _) => of!(objects, id),
+            _ => unreachable!("it was looked for among these"),
+        })
     }
 
     /// The state of a door, or of a door of a replica's Object on that replica.
-    pub(super) fn state(&mut self, step: &Step<'_>) -> Done {
-        let door = self.find(&step.verb.node, &[Kind::Door])?;
-        let is = step.required("is")?;
-        let mut state =
-            vec![Entry { key: "state".into(), key_span: is.span.clone(), node: is.clone() }];
-        state.extend(step.copies(&["opening"]));
-        let Some(on) = step.field("on") else {
-            let record = self.change(door);
-            record.drop_entry("opening");
-            state.into_iter().for_each(|field| record.put(field));
+    pub(super) fn state(
+        &mut self,
+        step: &Step<'_>,
+        name: &str,
+        is: DoorStatus,
+        opening: Option<Number>,
+        on: Option<&str>,
+    ) -> Done {
+        let record = self.find(name, step.span(), &[Kind::Door])?;
+        let Record::Door(door) = record else { unreachable!("it was looked for among doors") };
+        let state = door_state(is, opening);
+        let mut told = step.copies(&["opening"]);
+        told.extend(step.entry("is").map(|e| Entry { key: "state".to_owned(), ..e.clone() }));
+        let Some(on) = on else {
+            self.world.doors.get_mut(&door).expect("it was found").state = state;
+            let said = self.said.of(record);
+            said.drop_entry("opening");
+            told.into_iter().for_each(|field| said.put(field));
             return Ok(());
         };
-        let replica = self.find(on, &[Kind::Replica])?;
-        let key = self.tree.key(door).to_owned();
-        let record = self.change(replica);
-        if record.entry("doors").is_none() {
-            record.put(entry("doors", &on.span, Value::Table(Vec::new())));
+        let replica = self.find(on, step.at("on"), &[Kind::Replica])?;
+        let Record::Replica(id) = replica else { unreachable!("it was looked for among these") };
+        self.replica_mut(id).door_states.insert(door, state);
+        let key = self.reference(record);
+        let node = table(step.at("is"), told);
+        let said = self.said.of(replica);
+        if said.entry("doors").is_none() {
+            said.put(entry("doors", step.at("on"), Value::Table(Vec::new())));
         }
-        let doors = &mut record.entry_mut("doors").expect("it was put there").node;
-        doors.put(Entry { key, key_span: step.span().clone(), node: table(&is.span, state) });
+        said.table_at("doors").put(Entry { key, key_span: step.span().clone(), node });
         Ok(())
     }
-}
-
-/// The table of one side of an Orthoframe's base, made where its corners alone are written.
-fn side_of<'t>(record: &'t mut Node, side: &str) -> Option<&'t mut Node> {
-    if record.entry("sides").is_some() {
-        let Value::List(sides) = &mut record.entry_mut("sides")?.node.value else { return None };
-        return sides.iter_mut().find(|s| s.entry("id").and_then(|e| e.node.text()) == Some(side));
-    }
-    let span = record.span.clone();
-    if record.entry("side").is_none() {
-        record.put(entry("side", &span, Value::Table(Vec::new())));
-    }
-    let traits = &mut record.entry_mut("side")?.node;
-    if traits.entry(side).is_none() {
-        traits.put(entry(side, &span, Value::Table(Vec::new())));
-    }
-    Some(&mut traits.entry_mut(side)?.node)
 }

@@ -1,114 +1,187 @@
-//! Zones laid out, changed and moved.
+//! Zones laid out, changed and moved. What steps say of one is gathered in the words of a map file, and read when all is said.
 
-use super::word::{Done, Step, misprint, numbers, table, text_of, written};
-use super::{Steps, ZONE};
-use crate::fault::MapError;
+use super::super::said::{entry, table};
+use super::super::verbs::Edit;
+use super::{Done, Kind, MapError, Outcome, Record, Step, Steps, cm, misprint};
+use crate::World;
 use crate::file::decode::shortened;
-use crate::file::edit::tree::{Handle, Kind, entry};
-use crate::file::node::{Entry, Node, Value};
+use crate::file::node::{Node, Value};
+use crate::file::schema::{Coordinates, Number, ZoneFile, ZoneWord};
+use crate::file::write;
+use crate::units::ZoneId;
+
+/// A zone as it is told so far.
+pub(super) struct Draft {
+    pub(super) key: String,
+    pub(super) file: ZoneFile,
+}
+
+impl Draft {
+    pub(super) fn names(&self) -> [&str; 3] {
+        [&self.key, &self.file.name, &self.file.name_en]
+    }
+}
+
+/// A text that is empty is taken back.
+fn told(text: &str) -> Option<String> {
+    (!text.is_empty()).then(|| text.to_owned())
+}
 
 impl Steps<'_> {
-    /// `zone`: a new one, or what is said anew of one that is there. A field that is empty is taken back.
-    pub(super) fn zone(&mut self, step: &Step<'_>) -> Done {
-        let name = step.what()?;
-        let mut said = step.copies(ZONE);
-        for field in &mut said {
-            match (field.key.as_str(), &mut field.node.value) {
-                ("rooms", Value::List(rooms)) => {
-                    for room in rooms {
-                        *room = self.reference(room, &[Kind::Area])?;
-                    }
-                }
-                ("map", Value::Text(map)) if !map.is_empty() => {
-                    field.node = self.reference(&field.node, &[Kind::Map])?;
-                }
-                _ => {}
-            }
+    /// The zone, to be changed.
+    pub(super) fn zone_mut(&mut self, id: ZoneId) -> &mut ZoneFile {
+        let world: &World = &self.world;
+        let draft = self.zones.entry(id).or_insert_with(|| {
+            let zone = &world.zones[&id];
+            Draft { key: zone.key.clone(), file: write::zone_file(world, zone) }
+        });
+        &mut draft.file
+    }
+
+    /// `zone`: a new one, or what is said anew of one that is there.
+    pub(super) fn zone(&mut self, step: &Step<'_>, edit: &Edit, is_broken: bool) -> Done {
+        let Edit::Zone { name, rooms, map, .. } = edit else { unreachable!("it is of its verb") };
+        let elements = step.entry("rooms").map_or(&[][..], |e| e.node.elements());
+        let mut keys = Vec::new();
+        for (no, room) in rooms.iter().flatten().enumerate() {
+            let at = elements.get(no).map_or(step.at("rooms"), |node| &node.span);
+            keys.push(self.reference(self.find(room, at, &[Kind::Area])?));
         }
-        if self.tree.find(name, &[Kind::Zone]).is_empty() && (self.names)(name).is_empty() {
-            return self.new_zone(step, said);
+        let rooms = rooms.as_ref().map(|_| keys);
+        let map = match map.as_deref() {
+            Some("") | None => map.clone(),
+            Some(map) => Some(self.reference(self.find(map, step.at("map"), &[Kind::Map])?)),
+        };
+        let is_new = self.bearers(name, Kind::Zone).is_empty()
+            && (self.naming.in_other_words)(name).is_empty();
+        let id = match is_new {
+            true => self.new_zone(step, edit)?,
+            false => match self.find(name, step.span(), &[Kind::Zone])? {
+                Record::Zone(id) => id,
+                _ => unreachable!("it was looked for among zones"),
+            },
+        };
+        let fields = step.node.entries().iter().filter(|e| e.key != "zone").cloned();
+        let record = self.said.of(Record::Zone(id));
+        fields.for_each(|field| record.put(field));
+        if is_broken {
+            self.broken.insert(Record::Zone(id));
         }
-        let at = self.find(&step.verb.node, &[Kind::Zone])?;
-        let zone = self.change(at);
-        // A zone is told in one way, and has the number that its kind has.
-        for (field, others) in [
-            ("rooms", &["points", "map"][..]),
-            ("points", &["rooms"]),
-            ("kind", &["speed", "heading"]),
-        ] {
-            if said.iter().any(|e| e.key == field) {
-                others.iter().for_each(|other| zone.drop_entry(other));
-            }
-        }
-        for field in said {
-            match &field.node.value {
-                Value::Text(text) if text.is_empty() => zone.drop_entry(&field.key),
-                _ => zone.put(field),
-            }
-        }
+        say(self.zone_mut(id), edit, rooms, map);
         Ok(())
     }
 
-    fn new_zone(&mut self, step: &Step<'_>, mut said: Vec<Entry>) -> Done {
-        step.required("kind")?;
-        let name = text_of(&step.verb.node)?;
-        let span = step.span();
+    fn new_zone(&mut self, step: &Step<'_>, edit: &Edit) -> Outcome<ZoneId> {
+        let Edit::Zone { name, kind, .. } = edit else { unreachable!("it is of its verb") };
+        // A kind that could not be read is told already; nothing is read of that zone.
+        let unread = step.entry("kind").map(|_| ZoneWord::Closed);
+        let kind = kind.or(unread).ok_or_else(|| step.missing("kind"))?;
         // A key has no point, which is what parts keys in a reference.
         let key = name.replace('.', "-");
-        if !self.tree.find(&key, &[Kind::Zone]).is_empty() {
+        if !self.bearers(&key, Kind::Zone).is_empty() {
             let (what, name) = (Kind::Zone.title().into(), shortened(name));
-            return Err(misprint(MapError::AlreadyThere { what, name }, span));
+            return Err(misprint(MapError::AlreadyThere { what, name }, step.span()));
         }
-        said.push(Entry { key: "name".to_owned(), ..step.verb.clone() });
-        said.push(self.fresh_id(Kind::Zone, span));
-        let node = table(&step.verb.key_span, said);
-        self.tree.add(Kind::Zone, Entry { key, key_span: span.clone(), node });
-        Ok(())
+        let id = ZoneId(self.fresh_id(Kind::Zone));
+        let record = Record::Zone(id);
+        self.said.new_record(
+            record,
+            step.span(),
+            table(step.key_span(), vec![step.verb_as("name")]),
+        );
+        [&key, name].iter().for_each(|name| self.note(name, record));
+        let file = ZoneFile { name: name.clone(), ..ZoneFile::of_kind(kind) };
+        self.zones.insert(id, Draft { key, file });
+        Ok(id)
     }
 
     /// `move` of a zone: all its corners by an offset, or so that the first one comes to a place.
-    pub(super) fn shift_zone(&mut self, at: Handle, step: &Step<'_>) -> Done {
-        let corners = self.tree.get(at).and_then(|n| n.entry("points"));
-        let corners: Vec<Vec<f64>> = match corners {
-            Some(points) => points.node.elements().iter().map(numbers).collect::<Result<_, _>>()?,
-            None => Vec::new(),
-        };
-        let Some(first) = corners.first() else {
+    pub(super) fn shift_zone(
+        &mut self,
+        id: ZoneId,
+        step: &Step<'_>,
+        by: (Option<&Coordinates>, Option<&Coordinates>),
+    ) -> Done {
+        let corners = self.zone_mut(id).points.clone();
+        let Some([x, y]) = corners.first() else {
             let message = (
                 "зона состоит из помещений: её не сдвинуть, назовите другие в zone … rooms",
                 "the zone is made of areas and cannot be moved; name others by zone … rooms",
             );
             return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
         };
-        if let Some(field) = ["area", "carry"].iter().find_map(|f| step.field(f)) {
-            let message = ("у зоны такого нет", "a zone has no such thing").into();
-            return Err(misprint(MapError::BadValue { message }, &field.span));
+        if let Some(field) = ["area", "carry"].into_iter().find(|f| step.entry(f).is_some()) {
+            return Err(step.bad(field, ("у зоны такого нет", "a zone has no such thing")));
         }
-        let component = |list: &[f64], axis: usize| list.get(axis).copied().unwrap_or(0.0);
-        let (by, node) = match (step.field("to"), step.field("by")) {
-            (Some(to), None) => {
-                let place = numbers(to)?;
-                ([0, 1].map(|k| component(&place, k) - component(first, k)), to)
-            }
-            (None, Some(by)) => {
-                let offset = numbers(by)?;
-                ([0, 1].map(|k| component(&offset, k)), by)
-            }
-            (None, None) => {
-                return Err(misprint(MapError::MissingField { field: "to" }, &step.verb.key_span));
-            }
-            (Some(_), Some(by)) => {
-                let message = ("дайте либо to, либо by", "give either to or by").into();
-                return Err(misprint(MapError::BadValue { message }, &by.span));
+        let (by, field) = match by {
+            (Some(to), None) => ([to.x.get() - x.get(), to.y.get() - y.get()], "to"),
+            (None, Some(by)) => ([by.x.get(), by.y.get()], "by"),
+            (None, None) => return Err(step.missing("to")),
+            (Some(_), Some(_)) => {
+                return Err(step.bad("by", ("дайте либо to, либо by", "give either to or by")));
             }
         };
-        let at_node = |value: Value| Node { span: node.span.clone(), value };
-        let corner = |corner: &Vec<f64>| {
-            let axes = [0, 1].map(|k| at_node(written(component(corner, k) + by[k])));
-            at_node(Value::List(axes.into()))
-        };
-        let moved = Value::List(corners.iter().map(corner).collect());
-        self.change(at).put(entry("points", &node.span, moved));
+        let at = step.at(field);
+        let mut moved = Vec::new();
+        for [x, y] in &corners {
+            moved.push([cm(x.get() + by[0], at)?, cm(y.get() + by[1], at)?].map(Number::from));
+        }
+        let node = |value| Node { span: at.clone(), value };
+        let list = moved.iter().map(|_| node(Value::List(Vec::new()))).collect();
+        self.said.of(Record::Zone(id)).put(entry("points", at, Value::List(list)));
+        self.zone_mut(id).points = moved;
         Ok(())
+    }
+}
+
+/// Says anew what a step tells of a zone.
+fn say(zone: &mut ZoneFile, edit: &Edit, rooms: Option<Vec<String>>, map: Option<String>) {
+    let Edit::Zone {
+        kind,
+        points,
+        speed,
+        heading,
+        reason,
+        reason_en,
+        from,
+        until,
+        name_en,
+        forms,
+        ..
+    } = edit
+    else {
+        unreachable!("it is of its verb")
+    };
+    // A zone is told in one way, and has the number that its kind has.
+    if rooms.is_some() {
+        (zone.points, zone.map) = (Vec::new(), None);
+    }
+    if points.is_some() {
+        zone.rooms = Vec::new();
+    }
+    if let Some(kind) = kind {
+        (zone.kind, zone.speed, zone.heading) = (*kind, None, None);
+    }
+    zone.rooms = rooms.unwrap_or(std::mem::take(&mut zone.rooms));
+    zone.map = map.map_or(zone.map.take(), |map| told(&map));
+    if let Some(points) = points {
+        zone.points.clone_from(points);
+    }
+    zone.speed = speed.or(zone.speed);
+    zone.heading = heading.or(zone.heading);
+    for (field, text) in
+        [(&mut zone.reason, reason), (&mut zone.reason_en, reason_en), (&mut zone.name_en, name_en)]
+    {
+        if let Some(text) = text {
+            field.clone_from(text);
+        }
+    }
+    for (field, text) in [(&mut zone.from, from), (&mut zone.until, until)] {
+        if let Some(text) = text {
+            *field = told(text);
+        }
+    }
+    if let Some(forms) = forms {
+        zone.forms.clone_from(forms);
     }
 }

@@ -6,45 +6,59 @@
 //! where a corner leaves the origin.
 
 mod relink;
-mod side;
-mod stands;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeSet;
 
-use super::word::{Done, Outcome, Step, misprint, number, numbers, text_of};
-use super::{GROUPS, Steps};
-use crate::fault::MapError;
+use super::super::said::{entry, table};
+use super::super::verbs::Edit;
+use super::{Done, Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::corners::letters;
 use crate::file::decode::shortened;
-use crate::file::edit::tree::{Handle, Kind, entry};
-use crate::file::node::{Entry, Node, Value};
-use side::Side;
-use stands::{Stands, base_of, is_origin};
+use crate::file::node::{Node, Value};
+use crate::file::schema::Number;
+use crate::units::{AreaId, Deg, Frame, OrFrId, Point};
+use crate::{BaseVector, Item, MapItem, Orthoframe, Permeability};
 
 /// Shorter than this is no side, cm.
 const LEAST: f64 = 1.0;
+/// What is nearer to the origin than this stands there, cm.
+const THERE: f64 = 0.01;
+
+/// Whether a point is that from which all is measured.
+fn is_origin(p: Point) -> bool {
+    p.coords.norm() < THERE
+}
+
+/// Of the items of an Area the one that gives it its coordinates: that which says so, or else the first.
+fn base_item(items: &[Item]) -> Option<&Item> {
+    items.iter().find(|item| item.is_base).or_else(|| items.first())
+}
 
 impl Steps<'_> {
     /// `cut`: of a side of an Area the stretch `from … to`, cm from where the side begins, as a side `as` with a type and a
     /// permeability of its own.
-    pub(super) fn cut(&mut self, step: &Step<'_>) -> Done {
-        let area = self.find(&step.verb.node, &[Kind::Area])?;
-        let side_node = step.required("side")?;
-        let (item, side) = split(text_of(side_node)?);
-        let (from, to) = (number(step.required("from")?)?, number(step.required("to")?)?);
+    pub(super) fn cut(&mut self, step: &Step<'_>, edit: &Edit) -> Done {
+        let Edit::Cut { name, side, from, to, r#as, r#type, permeability } = edit else {
+            unreachable!("it is of its verb")
+        };
+        let area = self.area(name, step.span())?;
+        let (item, side) = match side.split_once('.') {
+            Some((item, side)) => (Some(item), side),
+            None => (None, side.as_str()),
+        };
+        let (from, to) = (from.get(), to.get());
         let (own, _) = self.own_base(area, item, step)?;
-        let mut sides = self.sides(own, step.span())?;
+        let mut sides = self.world.orthoframes[&own].base.clone();
         let Some(index) = sides.iter().position(|s| s.id == side) else {
             let (what, name, nearest) = (("Сторона", "Side").into(), shortened(side), None);
-            return Err(misprint(
-                MapError::UnknownReference { what, name, nearest },
-                &side_node.span,
-            ));
+            let error = MapError::UnknownReference { what, name, nearest };
+            return Err(misprint(error, step.at("side")));
         };
         let whole = sides.remove(index);
-        let length = whole.length();
+        let way = whole.end - whole.start;
+        let length = way.x.hypot(way.y);
         let fits = from > -LEAST && to < length + LEAST && to - from >= LEAST;
         if !fits {
             let message = (
@@ -56,6 +70,7 @@ impl Steps<'_> {
         // What is left of a side and is no longer than that belongs to the stretch.
         let from = if from < LEAST { 0.0 } else { from };
         let to = if to > length - LEAST { length } else { to };
+        let along = |way: f64| whole.start + (whole.end - whole.start) * (way / length);
         let mut taken: BTreeSet<String> = sides.iter().map(|s| s.id.clone()).collect();
         taken.insert(whole.id.clone());
         let mut fresh = || {
@@ -63,151 +78,157 @@ impl Steps<'_> {
             taken.insert(free.clone());
             free
         };
-        let named = match step.field("as") {
-            Some(name) => text_of(name)?.to_owned(),
-            None => fresh(),
-        };
+        let id = r#as.clone().unwrap_or_else(&mut fresh);
         let mut pieces = Vec::new();
         if from > 0.0 {
-            let traits = whole.traits.clone();
-            pieces.push(Side { id: whole.id.clone(), to: whole.at(from), traits, ..whole });
+            pieces.push(BaseVector { end: along(from), ..whole.clone() });
         }
-        let traits = step.copies(&["type", "permeability"]);
-        let stretch = Side { id: named, from: whole.at(from), to: whole.at(to), traits };
-        pieces.push(stretch);
+        let stretch = pieces.len();
+        pieces.push(BaseVector {
+            id,
+            start: along(from),
+            end: along(to),
+            side_type: None,
+            permeability: permeability.unwrap_or(Permeability::Impermeable),
+            names: Vec::new(),
+            properties: Default::default(),
+        });
         if to < length {
             let id = if from > 0.0 { fresh() } else { whole.id.clone() };
-            pieces.push(Side { id, from: whole.at(to), to: whole.to, traits: whole.traits });
+            pieces.push(BaseVector { id, start: along(to), ..whole });
         }
         sides.splice(index..index, pieces);
-        self.put_sides(own, sides, step.span());
+        self.tell_sides(own, sides.len(), step.span());
+        let record = Record::Orthoframe(own);
+        let told = self.said.of(record).element_at("sides", index + stretch);
+        step.copies(&["type", "permeability"]).into_iter().for_each(|field| told.put(field));
+        let spot = crate::Spot::of(record).field("sides").index(index + stretch).field("type");
+        let kind = crate::TypeKind::Side;
+        let read = self.reading(|reader| reader.type_of(kind, r#type.as_deref(), spot));
+        sides[index + stretch].side_type = read;
+        self.orthoframe_mut(own).base = sides;
         self.relink(area);
         Ok(())
     }
 
+    fn orthoframe_mut(&mut self, id: OrFrId) -> &mut Orthoframe {
+        self.world.orthoframes.get_mut(&id).expect("what was found is in the world")
+    }
+
+    /// The sides are told where the step is.
+    fn tell_sides(&mut self, of: OrFrId, count: usize, at: &Span) {
+        let said = self.said.of(Record::Orthoframe(of));
+        ["rect", "points", "side"].iter().for_each(|field| said.drop_entry(field));
+        let sides: Vec<Node> = (0..count).map(|_| table(at, Vec::new())).collect();
+        said.put(entry("sides", at, Value::List(sides)));
+    }
+
     /// `shape`: the corners of an Area's item elsewhere, in the Area's frame; there are as many as before.
-    pub(super) fn shape(&mut self, step: &Step<'_>) -> Done {
-        let area = self.find(&step.verb.node, &[Kind::Area])?;
-        let points_node = step.required("points")?;
-        let points: Vec<Vec<f64>> =
-            points_node.elements().iter().map(numbers).collect::<Result<_, _>>()?;
-        let item = step.field("item").map(text_of).transpose()?;
-        let (own, item) = self.own_base(area, item, step)?;
-        let mut sides = self.sides(own, step.span())?;
-        if sides.len() != points.len() {
+    pub(super) fn shape(
+        &mut self,
+        step: &Step<'_>,
+        name: &str,
+        points: &[[Number; 2]],
+        item: Option<&str>,
+    ) -> Done {
+        let area = self.area(name, step.span())?;
+        let (own, no) = self.own_base(area, item, step)?;
+        if self.world.orthoframes[&own].base.len() != points.len() {
             let message = (
                 "углов столько же, сколько у помещения; новый угол делает cut",
                 "as many corners as the area has; cut makes a new one",
             );
-            return Err(misprint(
-                MapError::BadValue { message: message.into() },
-                &points_node.span,
-            ));
+            return Err(step.bad("points", message));
         }
-        let mut stands = self.frame_of(area, &item)?;
+        let points: Vec<Point> = points.iter().map(|[x, y]| Point::new(x.get(), y.get())).collect();
+        let items = &self.world.areas[&area].items;
+        let mut stands = items[no].frame;
         // The base item gives the room its coordinates: where no corner of it stands at their origin any more, its own
         // origin does.
-        let leaves = !points.iter().any(|p| is_origin([p[0], p[1]])) && !is_origin(stands.at);
-        if leaves && self.is_base(area, &item) {
-            stands = Stands::default();
-            self.stand_at_origin(area, &item);
+        let leaves = !points.iter().any(|p| is_origin(*p)) && !is_origin(stands.origin());
+        if leaves && base_item(items).is_some_and(|base| base.id == items[no].id) {
+            stands = Frame { angle: Deg::ZERO, ..Frame::IDENTITY };
+            self.area_mut(area).items[no].frame = stands;
         }
-        let corners: Vec<[f64; 2]> = points.iter().map(|p| stands.invert([p[0], p[1]])).collect();
-        for (index, side) in sides.iter_mut().enumerate() {
-            (side.from, side.to) = (corners[index], corners[(index + 1) % corners.len()]);
+        let corners: Vec<Point> = points.iter().map(|p| stands.invert(*p)).collect();
+        let count = corners.len();
+        for (index, side) in self.orthoframe_mut(own).base.iter_mut().enumerate() {
+            (side.start, side.end) = (corners[index], corners[(index + 1) % count]);
         }
-        self.put_sides(own, sides, step.span());
+        self.tell_sides(own, count, step.span());
         self.keep_coordinates(area, step.span());
         self.relink(area);
         Ok(())
     }
 
-    /// Whether an item is the one that gives its Area the coordinates.
-    fn is_base(&self, area: Handle, item: &str) -> bool {
-        let items = self.tree.get(area).and_then(|n| n.entry("items"));
-        let base = base_of(items.map_or(&[][..], |e| e.node.elements()));
-        base.and_then(|n| n.entry("id")).and_then(|e| e.node.text()) == Some(item)
-    }
-
-    /// An item that stands with its own origin at that of its Area, and along its axes.
-    fn stand_at_origin(&mut self, area: Handle, item: &str) {
-        let items = self.change(area).entry_mut("items").map(|e| &mut e.node.value);
-        let Some(Value::List(items)) = items else { return };
-        let is_it = |n: &&mut Node| n.entry("id").and_then(|e| e.node.text()) == Some(item);
-        items.iter_mut().filter(is_it).for_each(|n| {
-            n.drop_entry("at");
-            n.drop_entry("angle");
-        });
-    }
-
-    /// The Orthoframe of an Area's item, made its own where others have it too, and the item's name. Without a name it is the
-    /// only item.
+    /// The Orthoframe of an Area's item, made its own where others have it too, and which item that is. Without a name it is
+    /// the only one.
     fn own_base(
         &mut self,
-        area: Handle,
+        area: AreaId,
         item: Option<&str>,
         step: &Step<'_>,
-    ) -> Outcome<(Handle, String)> {
-        let id_of = |n: &Node| n.entry("id").and_then(|e| e.node.text()).map(str::to_owned);
-        let items = self.tree.get(area).and_then(|n| n.entry("items"));
-        let items = items.map_or(&[][..], |e| e.node.elements());
-        let standing = || items.iter().filter(|n| n.value != Value::Nothing);
+    ) -> Outcome<(OrFrId, usize)> {
+        let items = &self.world.areas[&area].items;
         let found = match item {
-            Some(name) => standing().find(|n| id_of(n).as_deref() == Some(name)),
-            None if standing().count() == 1 => standing().next(),
+            Some(name) => items.iter().position(|own| own.id == name),
+            None if items.len() == 1 => Some(0),
             None => None,
         };
-        let frame = found.and_then(|n| n.entry("orthoframe")).and_then(|e| e.node.text());
-        let (Some(found), Some(frame)) = (found, frame) else {
+        let Some(no) = found else {
             let (what, nearest) = (("Часть помещения", "Item of the area").into(), None);
             let name = shortened(item.unwrap_or("?"));
             return Err(misprint(MapError::UnknownReference { what, name, nearest }, step.span()));
         };
-        let (name, key) = (id_of(found).unwrap_or_default(), frame.to_owned());
-        let base = self.tree.find(&key, &[Kind::Orthoframe]).into_iter();
-        let Some(base) = base.into_iter().find(|h| self.tree.key(*h) == key) else {
-            let (what, nearest) = (Kind::Orthoframe.title().into(), None);
-            return Err(misprint(
-                MapError::UnknownReference { what, name: key, nearest },
-                step.span(),
-            ));
-        };
-        let is_it = |n: &&Node| {
-            n.value != Value::Nothing
-                && n.entry("orthoframe").and_then(|e| e.node.text()) == Some(key.as_str())
-        };
-        let groups = GROUPS.iter().flat_map(|kind| self.tree.all(*kind));
-        let uses: usize = groups
-            .filter_map(|group| self.tree.get(group)?.entry("items"))
-            .map(|items| items.node.elements().iter().filter(is_it).count())
-            .sum();
+        let base = items[no].orthoframe;
+        let areas = self.world.areas_made_of(|id| id == base).map(|a| &a.items);
+        let objects = self.world.objects_made_of(|id| id == base).map(|o| &o.items);
+        let uses = areas.chain(objects).flatten().filter(|i| i.orthoframe == base).count();
         if uses < 2 {
-            return Ok((base, name));
+            return Ok((base, no));
         }
-        let mut copy = self.tree.get(base).expect("it was found").clone();
-        let own_key = format!("{}-{}", self.tree.key(area), name);
-        let own_key = (1..)
-            .map(|n| if n == 1 { own_key.clone() } else { format!("{own_key}-{n}") })
-            .find(|key| self.tree.find(key, &[Kind::Orthoframe]).is_empty())
+        let key = format!("{}-{}", self.world.areas[&area].key, items[no].id);
+        let key = (1..)
+            .map(|n| if n == 1 { key.clone() } else { format!("{key}-{n}") })
+            .find(|key| self.bearers(key, Kind::Orthoframe).is_empty())
             .expect("some number is free");
-        ["id", "name", "name_en"].iter().for_each(|field| copy.drop_entry(field));
-        copy.put(self.fresh_id(Kind::Orthoframe, step.span()));
-        let record = Entry { key: own_key.clone(), key_span: step.span().clone(), node: copy };
-        let own = self.tree.add(Kind::Orthoframe, record).expect("the section is a table");
-        let items = self.change(area).entry_mut("items").map(|e| &mut e.node.value);
-        if let Some(Value::List(items)) = items {
-            for item in items.iter_mut().filter(|n| id_of(n).as_deref() == Some(name.as_str())) {
-                item.put(entry("orthoframe", step.span(), Value::Text(own_key.clone())));
-            }
-        }
-        Ok((own, name))
+        let own = OrFrId(self.fresh_id(Kind::Orthoframe));
+        let (name, name_en) = (key.clone(), String::new());
+        let copy = self.world.orthoframes[&base].clone();
+        let record = Record::Orthoframe(own);
+        self.note(&key, record);
+        self.world.orthoframes.insert(own, Orthoframe { id: own, key, name, name_en, ..copy });
+        self.said.new_record(record, step.span(), table(step.span(), Vec::new()));
+        self.area_mut(area).items[no].orthoframe = own;
+        let told = self.said.of(Record::Area(area)).element_at("items", no);
+        told.put(entry("orthoframe", step.span(), Value::Nothing));
+        Ok((own, no))
     }
-}
 
-/// «A.B» as item and side; a side alone is that of the only item.
-fn split(side: &str) -> (Option<&str>, &str) {
-    match side.split_once('.') {
-        Some((item, side)) => (Some(item), side),
-        None => (None, side),
+    /// A Map whose coordinates an Area gave keeps them as its own when that one leaves their origin: what was seen there, and
+    /// the robot, are told in them.
+    pub(super) fn keep_coordinates(&mut self, area: AreaId, at: &Span) {
+        let leaves = |map: &&crate::Map| {
+            let base = map.items.iter().find(|item| item.is_base).or_else(|| map.items.first());
+            let base = base.filter(|item| item.area == area);
+            map.frame.is_empty() && base.is_some_and(|base| !self.is_at_origin(base))
+        };
+        let left: Vec<_> = self.world.maps.values().filter(leaves).map(|map| map.id).collect();
+        for map in left {
+            let frame = self.world.maps[&map].key.clone();
+            self.map_mut(map).frame = frame;
+            self.said.of(Record::Map(map)).put(entry("frame", at, Value::Nothing));
+        }
+    }
+
+    /// Whether the base item of an Area that stands so on a Map has a corner, or its own origin, at that of the Map. What cannot
+    /// be measured is told by the checks.
+    fn is_at_origin(&self, on_map: &MapItem) -> bool {
+        let items = self.world.areas.get(&on_map.area).map_or(&[][..], |area| &area.items);
+        let Some(base) = base_item(items) else { return true };
+        let Some(part) = self.world.orthoframes.get(&base.orthoframe) else { return true };
+        let corners = part.base.iter().map(|side| base.frame.apply(side.start));
+        let mut all = corners.chain([base.frame.origin()]);
+        all.any(|p| is_origin(on_map.frame.apply(p)))
     }
 }

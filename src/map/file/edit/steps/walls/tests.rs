@@ -1,6 +1,6 @@
 //! Walls cut, and corners put elsewhere, on maps of ours and on made ones.
 
-use crate::file::edit::{NextIds, edit};
+use crate::file::edit::{Edits, NextIds, edit};
 use crate::units::{AreaId, Point, Source};
 use crate::{Format, NameIndex, Naming, Permeability, World};
 
@@ -12,7 +12,7 @@ fn rb2() -> World {
 fn edited(world: &World, text: &str) -> Result<World, String> {
     let source = Source::new("edits.toml", text);
     let naming = Naming { exact: &NameIndex::of(world), in_other_words: &|_| Vec::new() };
-    let done = edit(world, &source, Format::Toml, &NextIds::after(world), naming);
+    let done = edit(world, &Edits::read(&source, Format::Toml), &NextIds::after(world), naming);
     let faults = || done.faults.faults.iter().map(|f| f.error.to_string()).collect::<Vec<_>>();
     done.world.ok_or_else(|| faults().join("; "))
 }
