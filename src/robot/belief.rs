@@ -558,6 +558,13 @@ impl Belief {
         self.no_return.clear();
     }
 
+    /// A thing is where nobody knows.
+    pub(super) fn lose(&mut self, thing: ReplicaId) {
+        if self.world.replicas.remove(&thing).is_some() {
+            self.rebuild(&[thing]);
+        }
+    }
+
     pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {
         let Some(before) = self.world.doors.get(&door).map(|d| d.state) else { return false };
         if before == state {

@@ -8,6 +8,7 @@ use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, MapId, Point, Pose, Stop};
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use miette::Diagnostic;
@@ -15,9 +16,13 @@ use thiserror::Error;
 
 mod acts;
 mod aside;
+mod barred;
 mod names;
 
+pub use barred::{Answer, Barred};
 pub(super) use names::before_passage;
+
+use barred::MOST_CALLS;
 
 use super::belief::Belief;
 use super::directive::{Deed, Directive};
@@ -84,6 +89,8 @@ pub enum Event<'a> {
         surprise: &'a Surprise,
         belief: &'a Belief,
     },
+    /// Something bars the only way, and nothing of it may be pushed: who is told may have it cleared, and say so.
+    Barred { barred: &'a Barred, answer: &'a Cell<Answer> },
 }
 
 /// The way driven for one directive. `seconds` are the drive's.
@@ -283,19 +290,30 @@ impl<'r> Mission<'r> {
         }
     }
 
-    /// Where unknown things alone bar the way it looks again after a while: they may have been people.
+    /// Where unknown things alone bar the way it looks again after a while: they may have been people. What still bars it
+    /// somebody is asked to clear.
     fn pursue(&mut self, goal: &[GoalFact], reins: &mut Reins<'_>) -> Result<Ending, MissionError> {
-        let mut looks = 0;
+        let (mut looks, mut calls) = (0, 0);
         loop {
             let ending = self.attempt(goal, reins)?;
             match ending {
-                Ending::NoPlan(_) | Ending::Stuck(_) if looks < MOST_LOOKS => {
-                    looks += 1;
-                    if self.looked_again(reins) {
-                        continue;
+                Ending::NoPlan(_) | Ending::Stuck(_) => {
+                    if looks < MOST_LOOKS {
+                        looks += 1;
+                        if self.looked_again(reins) {
+                            continue;
+                        }
+                    }
+                    if calls < MOST_CALLS {
+                        calls += 1;
+                        match self.had_cleared(goal, &ending, reins) {
+                            Ok(true) => continue,
+                            Ok(false) => {}
+                            Err(ended) => return Ok(ended),
+                        }
                     }
                 }
-                Ending::AlreadyTrue if looks > 0 => return Ok(Ending::Done),
+                Ending::AlreadyTrue if looks + calls > 0 => return Ok(Ending::Done),
                 _ => {}
             }
             return Ok(match ending {
