@@ -107,8 +107,10 @@ impl Advice {
                 (open, change)
             }
             Remedy::Remove { replicas, open } => {
-                let things: Vec<String> =
-                    replicas.iter().map(|r| thing_in_words(world, *r, Case::Accusative, language)).collect();
+                let things: Vec<String> = replicas
+                    .iter()
+                    .map(|r| thing_in_words(world, *r, Case::Accusative, language))
+                    .collect();
                 let change =
                     format!("{} {}", pick("уберите", "take away"), enumerate(&things, language));
                 (open, change)

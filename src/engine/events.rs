@@ -26,7 +26,8 @@ use crate::units::{Point, Pose, ReplicaId};
 
 use super::assumed::assumptions_in_russian;
 use super::{
-    Progress, Report, barred_in_words, deeds_in_words, directive_in_words, name_in, surprise_in_words,
+    Progress, Report, barred_in_words, deeds_in_words, directive_in_words, name_in,
+    surprise_in_words,
 };
 
 /// One thing that happened on the way.

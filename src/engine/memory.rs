@@ -317,16 +317,10 @@ impl After {
         for id in before.replicas.keys().filter(|id| carried.contains_key(id)) {
             moved.insert(*id, None);
         }
-        // What somebody took out of the way, and who knows where to.
-        let is_lost = |id: &&ReplicaId| {
-            !is_obstacle(**id)
-                && !carried.contains_key(*id)
-                && !belief.world.replicas.contains_key(*id)
-        };
-        moved.extend(before.replicas.keys().filter(is_lost).map(|id| (*id, None)));
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
         let holding = holding.chain(belief.aboard.iter().map(|(thing, _)| thing));
-        let all: Vec<&Replica> = belief.world.replicas.values().chain(holding).collect();
+        let elsewhere = holding.chain(belief.lost());
+        let all: Vec<&Replica> = belief.world.replicas.values().chain(elsewhere).collect();
         let is_open = |one: &Replica| Some(stands(surveyed, one)? == DoorStatus::Open);
         let opened = all
             .iter()

@@ -107,7 +107,9 @@ pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
-pub use events::{BarredView, DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents};
+pub use events::{
+    BarredView, DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents,
+};
 pub use forms::uncertain_names;
 pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;

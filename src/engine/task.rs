@@ -9,9 +9,9 @@ use crate::language::command::Command;
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Answer, Barred, Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission, MissionError,
-    Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station, Surprise, Vehicle,
-    facts_of_map, height_of_laser, protocol,
+    Answer, Barred, Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission,
+    MissionError, Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station,
+    Surprise, Vehicle, facts_of_map, height_of_laser, protocol,
 };
 use crate::semantics::{Followed, Relations, predicate};
 use crate::strips::Domain;

@@ -8,37 +8,7 @@ use serde_json::Value;
 use super::Place;
 
 /// Two rooms with a narrow passage between them, and a cupboard before it that nobody may push.
-const FLAT: &str = r#"
-format = 1
-[domain]
-key = "flat"
-name = "Квартира"
-[robot]
-radius = 22
-height = 110
-clearance = 3
-start = "Пост"
-[orthoframe]
-one = { name = "Форма-1", height = 270, points = [[0, 0], [400, 0], [400, 110], [400, 190], [400, 300], [0, 300]], side.C = { permeability = "permeable" } }
-two = { name = "Форма-2", height = 270, points = [[0, 0], [400, 0], [400, 300], [0, 300], [0, 190], [0, 110]], side.E = { permeability = "permeable" } }
-box = { name = "Ящик", rect = [50, 50], height = 90 }
-[object]
-box = { name = "Шкаф", items = [{ id = "A", orthoframe = "box" }] }
-[area.hall]
-name = "Прихожая"
-name_en = "Hall"
-items = [{ id = "A", orthoframe = "one" }]
-places = [{ name = "Пост", at = [100, 150] }]
-replicas = [{ name = "Шкаф-1", name_en = "Cupboard 1", object = "box", at = [345, 125] }]
-[area.room]
-name = "Кабинет"
-name_en = "Study"
-items = [{ id = "A", orthoframe = "two" }]
-[map.flat]
-name = "Этаж"
-items = [{ area = "hall" }, { area = "room", at = [400, 0] }]
-links = [{ from = "hall.C", to = "room.E" }]
-"#;
+const FLAT: &str = include_str!("barred.toml");
 
 /// Somebody took it away, and nobody told the robot.
 const AWAY: &str = "[[edit]]\nmove = \"Шкаф-1\"\nto = [20, 20]\n";

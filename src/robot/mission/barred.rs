@@ -3,6 +3,7 @@
 //! **Invariant**: what somebody says is gone is looked for; what is seen to stand there stands there, whatever was said.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
 
 use crate::geometry::{Method, NoRoute, Remedy};
 use crate::obstacle::is_obstacle;
@@ -71,13 +72,7 @@ impl Mission<'_> {
             return Ok(false);
         }
         for &thing in &barred.things {
-            match reins.look_at(Obstruction::Replica(thing)).map_err(Ending::Failed)? {
-                Some(seen) => {
-                    self.belief.learn(seen);
-                }
-                None if self.is_wanted(goal, thing) => {}
-                None => self.belief.lose(thing),
-            }
+            self.look_for(thing, goal, reins)?;
         }
         for thing in barred.unknown {
             self.belief.lose(thing);
@@ -86,6 +81,50 @@ impl Mission<'_> {
         self.take_notice(reins);
         self.belief.forget_unknown();
         Ok(true)
+    }
+
+    /// What is believed to bar the only way, and has not been seen there by this mission, may be gone: whether it is
+    /// elsewhere, or out of view, so that the robot goes and sees. Each thing is `doubted` once.
+    ///
+    /// # Errors
+    /// The robot failed.
+    pub(super) fn may_be_gone(
+        &mut self,
+        goal: &[GoalFact],
+        ending: &Ending,
+        doubted: &mut BTreeSet<ReplicaId>,
+        reins: &mut Reins<'_>,
+    ) -> Result<bool, Ending> {
+        // What it ran into is there.
+        if matches!(ending, Ending::Stuck(Surprise::Blocked { .. })) {
+            return Ok(false);
+        }
+        let Some(barred) = self.barred(ending) else { return Ok(false) };
+        let mut is_news = false;
+        for thing in barred.things.into_iter().filter(|thing| doubted.insert(*thing)) {
+            is_news |= self.look_for(thing, goal, reins)?;
+        }
+        if is_news {
+            self.belief.reopen_ways();
+        }
+        Ok(is_news)
+    }
+
+    /// Looks for a thing where it is believed to be; out of view, it may be gone. Whether anything is believed otherwise now.
+    fn look_for(
+        &mut self,
+        thing: ReplicaId,
+        goal: &[GoalFact],
+        reins: &mut Reins<'_>,
+    ) -> Result<bool, Ending> {
+        Ok(match reins.look_at(Obstruction::Replica(thing)).map_err(Ending::Failed)? {
+            Some(seen) => self.belief.learn(seen),
+            None if self.is_wanted(goal, thing) => false,
+            None => {
+                self.belief.lose(thing);
+                true
+            }
+        })
     }
 
     /// Whether a goal speaks of a thing, which therefore must be somewhere.
@@ -149,7 +188,8 @@ impl Mission<'_> {
     /// What would open the way to a door or place that is out of reach from within an Area.
     pub(super) fn remedy_for(&self, to: &str, from: AreaId) -> Option<Remedy> {
         let (floor, world) = (self.belief.floor(), &self.belief.world);
-        let start = if from == self.belief.area { self.belief.pose.at } else { floor.rest_in(from)? };
+        let start =
+            if from == self.belief.area { self.belief.pose.at } else { floor.rest_in(from)? };
         match self.place_target(to) {
             Ok(target) => {
                 let no: Option<NoRoute> = floor.route(world, start, target, Method::Shortest).err();

@@ -147,9 +147,10 @@ impl Pilot<'_, '_> {
     fn recognise_thing(&mut self, met: &[Point], watch: &mut Watch<'_>) -> Option<Obstruction> {
         for look in self.inspector.differences().things.iter().filter(|look| look.sure >= SURE) {
             let ThingSeen::Moved(frame) = look.seen else { continue };
-            let is_told = self.told.get(&look.thing).is_some_and(|told| {
-                (told.origin() - frame.origin()).norm() <= UNKNOWN
-            });
+            let is_told = self
+                .told
+                .get(&look.thing)
+                .is_some_and(|told| (told.origin() - frame.origin()).norm() <= UNKNOWN);
             let placed = PlacedReplica::new(self.ground.world, look.thing, frame);
             if !is_told
                 && is_of(met, placed.prisms.iter().map(|prism| &prism.polygon))
