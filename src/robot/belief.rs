@@ -552,6 +552,12 @@ impl Belief {
         self.no_way_to(name)
     }
 
+    /// The middles of unknown things that it met, as far as they were seen.
+    pub(super) fn unknown_places(&self) -> Vec<Point> {
+        let placed = self.unknown.iter().filter_map(|id| self.scene().replicas.get(id));
+        placed.map(|one| nalgebra::center(&one.bounds.min, &one.bounds.max)).collect()
+    }
+
     pub(super) fn has_met_unknown(&self) -> bool {
         !self.unknown.is_empty() || self.is_barred
     }

@@ -4,15 +4,19 @@
 
 use std::collections::BTreeSet;
 
+use crate::geometry::{Method, Target};
 use crate::reins::Reins;
+use crate::units::Point;
 use crate::vehicle::Unfinished;
 
 use super::barred::MOST_CALLS;
-use super::{Ending, Event, GoalFact, Mission, MissionError, look_round};
+use super::{Ending, Event, GoalFact, Leg, Mission, MissionError, look_round};
 
 /// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
-const MOST_LOOKS: usize = 2;
+const MOST_LOOKS: usize = 3;
 const LOOKS_OF_A_WAIT: usize = 8;
+/// Who may be waiting for the robot to pass is left so much room, cm.
+const ROOM: f64 = 150.0;
 
 impl Mission<'_> {
     /// Where unknown things alone bar the way it looks again after a while: they may have been people. What still bars it
@@ -38,7 +42,7 @@ impl Mission<'_> {
                     }
                     if looks < MOST_LOOKS {
                         looks += 1;
-                        match self.looked_again(reins) {
+                        match self.looked_again(looks > 1, reins) {
                             Ok(true) => continue,
                             Ok(false) => {}
                             Err(ended) => return Ok(ended),
@@ -68,13 +72,16 @@ impl Mission<'_> {
         }
     }
 
-    /// Waits, and forgets the unknown things that it met; whether there were any.
+    /// Waits, where it stands or out of the way, and forgets the unknown things that it met; whether there were any.
     ///
     /// # Errors
     /// The robot was told to stop, or failed.
-    fn looked_again(&mut self, reins: &mut Reins<'_>) -> Result<bool, Ending> {
+    fn looked_again(&mut self, gives_way: bool, reins: &mut Reins<'_>) -> Result<bool, Ending> {
         if !self.belief.has_met_unknown() {
             return Ok(false);
+        }
+        if gives_way {
+            self.give_way(reins)?;
         }
         for _ in 0..LOOKS_OF_A_WAIT {
             match look_round(reins) {
@@ -87,5 +94,32 @@ impl Mission<'_> {
         self.take_notice(reins);
         self.belief.forget_unknown();
         Ok(true)
+    }
+
+    /// Goes out of the way of who may be waiting for it to pass: two that wait for one another wait for ever. Where the room
+    /// has no such place it stays.
+    fn give_way(&mut self, reins: &mut Reins<'_>) -> Result<(), Ending> {
+        let (belief, floor) = (&self.belief, self.belief.floor());
+        let (here, area) = (belief.pose.at, belief.area);
+        let mut met = belief.unknown_places();
+        if met.is_empty() {
+            met.push(here);
+        }
+        let is_clear = |at: &Point| met.iter().all(|one| (one - at).norm() >= ROOM);
+        let middles = floor.passframes(area).iter().map(|cell| cell.polygon.centroid());
+        let far = |at: Point| {
+            let (world, target) = (&belief.world, Target::Point(at));
+            let way = floor.route_within(world, here, target, Method::Shortest, Some(&[area]));
+            Some((way.ok()?.length, at))
+        };
+        let nearest = middles.filter(is_clear).filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, at)) = nearest else { return Ok(()) };
+        match self.go("", Target::Point(at), &[area], reins, &mut Leg::default()) {
+            Ok(()) | Err(Unfinished::Met(_)) => {}
+            Err(Unfinished::Stopped) => return Err(Ending::Stopped),
+            Err(Unfinished::Failed(failure)) => return Err(Ending::Failed(failure)),
+        }
+        self.name_this_point();
+        Ok(())
     }
 }
