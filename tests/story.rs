@@ -98,7 +98,10 @@ fn carry_out(how: &str, engine: &Engine, task: &str, truth: World) -> (TaskAnswe
                 }
             }
             Progress::Started { .. } => told.started += 1,
-            Progress::Sent { .. } | Progress::Moved(_) | Progress::Scanned(_) => {}
+            Progress::Sent { .. }
+            | Progress::Moved(_)
+            | Progress::Scanned(_)
+            | Progress::Barred { .. } => {}
             Progress::Surprised { surprise, .. } => told.surprises.push((*surprise).clone()),
             Progress::Finished(report) => {
                 assert!(report.position.is_some(), "{how}: {} ends nowhere", report.directive);

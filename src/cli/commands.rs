@@ -18,6 +18,7 @@ use crate::strips::Scenario;
 
 use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
+use super::teller::Teller;
 use super::{Answer, came_to, heeded, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
@@ -307,9 +308,9 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
                     None => Box::new(engine.simulator(truth)?),
                 },
             };
-        let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
+        let teller = teller(common, args, &engine)?;
         let answer =
-            super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot, onlookers)?;
+            super::demo::perform_scenario(common, &mut engine, scenario, &mut *robot, teller)?;
         if let Some(path) = &args.draw {
             super::draw::put_driven(common, &engine, &answer, path)?;
         }
@@ -330,14 +331,19 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
         (_, true) => super::demo::Order::Later(task),
         _ => super::demo::Order::Now(task),
     };
-    let onlookers = args.record.begin(&engine)?.writing(args.tree.as_deref());
-    let heard = super::demo::perform(common, &mut engine, &order, dialogue, onlookers)?;
+    let teller = teller(common, args, &engine)?;
+    let heard = super::demo::perform(common, &mut engine, &order, dialogue, teller)?;
     if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
         super::draw::put_driven(common, &engine, answer, path)?;
     }
     let is_task = |reply: &&Reply| matches!(reply.outcome, Outcome::Task(_));
     let last = heard.replies.iter().rfind(is_task).or(heard.replies.last());
     Ok(last.map_or(Answer::Yes, |reply| heeded(&reply.outcome)))
+}
+
+fn teller(common: &Common, args: &DoArgs, engine: &Engine) -> Result<Teller, Failure> {
+    let onlookers = args.record.begin(engine)?.writing(args.tree.as_deref());
+    Ok(Teller::of_task(common, onlookers).attended(args.attended))
 }
 
 /// The world of `--truth`; what stayed behind in it is told beside.

@@ -49,7 +49,8 @@ pub(super) fn run(
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
     let dialogue = Dialogue::new(common.lang.language());
-    let heard = perform(common, &mut engine, &Order::Now(task), dialogue, Onlookers::default())?;
+    let teller = Teller::of_task(common, Onlookers::default());
+    let heard = perform(common, &mut engine, &Order::Now(task), dialogue, teller)?;
     let Some(answer) = heard.tasks().last() else { return Ok(Answer::Yes) };
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, answer, &drawing)? {
@@ -74,13 +75,12 @@ pub(super) fn perform(
     engine: &mut Engine,
     order: &Order<'_>,
     mut dialogue: Dialogue,
-    onlookers: Onlookers,
+    mut teller: Teller,
 ) -> Result<Heard, Failure> {
     dialogue.stopped_by(stopped_by_signals());
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();
     }
-    let mut teller = Teller::of_task(common, onlookers);
     let mut tell = |engine: &Engine, event: &Event<'_>| teller.tell(engine, event);
     let mut heard = match order {
         Order::Now(task) => dialogue.order(engine, task, &mut tell)?,
@@ -103,10 +103,9 @@ pub(super) fn perform_scenario(
     engine: &mut Engine,
     scenario: &Scenario,
     vehicle: &mut dyn Vehicle,
-    onlookers: Onlookers,
+    mut teller: Teller,
 ) -> Result<TaskAnswer, Failure> {
     let language = common.lang.language();
-    let mut teller = Teller::of_task(common, onlookers);
     let (asked, world) = (&*engine, engine.world()?);
     let mut tell = |progress: &Progress<'_>| {
         teller.tell(asked, &Event::Progress { progress, world, language });

@@ -31,9 +31,11 @@ pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failur
     if !waiting.tasks.is_empty() && !common.json {
         say(&queue_in_words(&waiting, common.lang.language()))?;
     }
-    let teller = Teller::of_dialogue(common, record.begin(&engine)?);
+    // Of a pipe the next line is the next order, and no answer.
+    let is_attended = std::io::stdin().is_terminal();
+    let teller = Teller::of_dialogue(common, record.begin(&engine)?).attended(is_attended);
     let mut talk = Talk { engine, dialogue, teller };
-    if std::io::stdin().is_terminal() {
+    if is_attended {
         let answer = on_terminal(common, &mut talk)?;
         return talk.teller.close().map(|()| answer);
     }

@@ -1,6 +1,7 @@
 //! What a dialogue replies and does, as it happens: on standard output, with a bar on the terminal; and to who looks on, a
 //! recording or a file of the plan.
 
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,6 +11,8 @@ use serde_json::json;
 use crate::engine::{
     Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_told, json,
 };
+use crate::language::question::{Aside, aside};
+use crate::robot::Answer;
 use crate::units::write_file;
 
 use super::args::{Common, Lang, RecordArgs};
@@ -25,6 +28,8 @@ pub(super) struct Teller {
     is_task: bool,
     /// Rule and proof are shown below each answer.
     pub(super) explains: bool,
+    /// Somebody answers on standard input where something bars the way.
+    is_attended: bool,
     bar: ProgressBar,
     events: TaskEvents,
     onlookers: Onlookers,
@@ -44,7 +49,22 @@ impl Teller {
     fn new(common: &Common, is_task: bool, onlookers: Onlookers) -> Self {
         let (json, lang) = (common.json, common.lang);
         let (bar, events) = (ProgressBar::hidden(), TaskEvents::default());
-        Self { json, lang, is_task, explains: false, bar, events, onlookers, failure: None }
+        Self {
+            json,
+            lang,
+            is_task,
+            explains: false,
+            is_attended: false,
+            bar,
+            events,
+            onlookers,
+            failure: None,
+        }
+    }
+
+    /// The same where somebody answers on standard input, or nobody does.
+    pub(super) fn attended(self, is_attended: bool) -> Self {
+        Self { is_attended, ..self }
     }
 
     /// # Errors
@@ -68,11 +88,36 @@ impl Teller {
         {
             self.failure = Some(failure);
         }
+        if let Event::Progress { progress: Progress::Barred { answer, .. }, .. } = event
+            && self.is_attended
+        {
+            self.bar.suspend(|| answer.set(self.asked()));
+        }
+    }
+
+    /// What whoever sits at the terminal says to a way that is barred: a line that means yes, or any other.
+    fn asked(&self) -> Answer {
+        if !self.json {
+            let question =
+                self.lang.pick("     Путь свободен? (да/нет)", "     Is the way clear? (yes/no)");
+            drop(say(question));
+        }
+        let mut line = Vec::new();
+        let read = std::io::stdin().lock().read_until(b'\n', &mut line);
+        match read {
+            Ok(0) | Err(_) => Answer::Silence,
+            Ok(_) if aside(String::from_utf8_lossy(&line).trim()) == Some(Aside::Yes) => {
+                Answer::Clear
+            }
+            Ok(_) => Answer::GiveUp,
+        }
     }
 
     fn told(&mut self, engine: &Engine, event: &Event<'_>) -> Result<(), Failure> {
         match event {
-            Event::Progress { progress, world, .. } if self.json && self.is_task => {
+            Event::Progress { progress, world, .. }
+                if self.json && (self.is_task || matches!(progress, Progress::Barred { .. })) =>
+            {
                 if let Some(event) = self.events.of(world, progress) {
                     // A closed pipe is noticed by the command's last words.
                     drop(say(&json!(event).to_string()));
@@ -110,7 +155,8 @@ impl Teller {
                     Progress::Sent { .. }
                     | Progress::Moved(_)
                     | Progress::Scanned(_)
-                    | Progress::Surprised { .. } => {}
+                    | Progress::Surprised { .. }
+                    | Progress::Barred { .. } => {}
                 }
                 Ok(())
             }

@@ -9,6 +9,7 @@ use crate::map::{DoorStatus, Entity, World};
 use crate::semantics::{Relations, Thresholds};
 use crate::units::{DoorId, Point, ReplicaId, Vector};
 
+use super::barriers::thing_in_words;
 use super::lexicon::named;
 
 /// A change that is known to open a way.
@@ -83,7 +84,7 @@ impl Advice {
         let (open, change) = match &self.remedy {
             Remedy::Open(doors) => return opening(doors),
             Remedy::Move { replica, by, open } => {
-                let thing = of(Entity::Replica(*replica), Case::Accusative);
+                let thing = thing_in_words(world, *replica, Case::Accusative, language);
                 let distance = by.norm();
                 let push = if russian {
                     format!("подвиньте {thing} на {distance:.0} см")
@@ -106,8 +107,10 @@ impl Advice {
                 (open, change)
             }
             Remedy::Remove { replicas, open } => {
-                let things: Vec<String> =
-                    replicas.iter().map(|&r| of(Entity::Replica(r), Case::Accusative)).collect();
+                let things: Vec<String> = replicas
+                    .iter()
+                    .map(|r| thing_in_words(world, *r, Case::Accusative, language))
+                    .collect();
                 let change =
                     format!("{} {}", pick("уберите", "take away"), enumerate(&things, language));
                 (open, change)

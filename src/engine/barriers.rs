@@ -45,6 +45,24 @@ pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> Strin
     }
 }
 
+/// What was seen and is on no map.
+pub(super) fn unknown_thing(language: Language) -> &'static str {
+    language.pick("что-то, чего нет на карте", "something that is not on the map")
+}
+
+/// A thing that stands in a way. What the robot met and nobody surveyed has no name.
+pub(super) fn thing_in_words(
+    world: &World,
+    thing: ReplicaId,
+    case: Case,
+    language: Language,
+) -> String {
+    match world.replicas.contains_key(&thing) {
+        true => named(world, Entity::Replica(thing)).form(case, language),
+        false => unknown_thing(language).to_owned(),
+    }
+}
+
 /// What leads to a storey from others.
 enum By {
     /// A lift, whether or not from where the robot is.
@@ -93,7 +111,7 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         };
         let name = |b: &Blocker| match (b, russian) {
             (Blocker::Replica { replica, item }, _) => {
-                let name = form(&of(Entity::Replica(*replica)), Case::Nominative);
+                let name = thing_in_words(world, *replica, Case::Nominative, language);
                 match overhang(world, *replica, *item) {
                     Some((low, tall)) if russian => {
                         format!("{name} (низ на высоте {}, робот высотой {})", cm(low), cm(tall))

@@ -20,12 +20,15 @@ use serde::Serialize;
 
 use crate::graphplan::Outcome;
 use crate::language::Language;
-use crate::map::World;
-use crate::robot::{Deed, Directive, Planned, Refusal, Surprise};
-use crate::units::{Point, Pose};
+use crate::map::{Entity, World};
+use crate::robot::{Barred, Deed, Directive, Planned, Refusal, Surprise};
+use crate::units::{Point, Pose, ReplicaId};
 
 use super::assumed::assumptions_in_russian;
-use super::{Progress, Report, deeds_in_words, directive_in_words, name_in, surprise_in_words};
+use super::{
+    Progress, Report, barred_in_words, deeds_in_words, directive_in_words, name_in,
+    surprise_in_words,
+};
 
 /// One thing that happened on the way.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -59,6 +62,23 @@ pub enum TaskEvent {
         #[serde(flatten)]
         directive: DirectiveView,
     },
+    /// Something bars the only way, and the operator is asked to clear it.
+    Barred(BarredView),
+}
+
+/// What bars a way, and where.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BarredView {
+    /// Things of the map; none where what stands there is on no map.
+    pub things: Vec<String>,
+    pub area: String,
+    pub map: String,
+    pub x: f64,
+    pub y: f64,
+    /// The door or place to which it bars the way.
+    pub to: Option<String>,
+    pub explanation: String,
+    pub explanation_en: String,
 }
 
 /// A directive in names and in words.
@@ -156,6 +176,10 @@ impl TaskEvents {
                     false => TaskEvent::Done(view),
                 }
             }
+            Progress::Barred { barred, .. } => {
+                self.surprised = true;
+                TaskEvent::Barred(BarredView::of(world, barred))
+            }
             Progress::Surprised { directive, surprise } => {
                 self.surprised = true;
                 let told = |language| surprise_in_words(world, surprise, language);
@@ -171,6 +195,23 @@ impl TaskEvents {
     }
 }
 
+impl BarredView {
+    fn of(world: &World, barred: &Barred) -> Self {
+        let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
+        let round = |value: f64| (value * 10.0).round() / 10.0;
+        Self {
+            things: barred.things.iter().filter_map(name).collect(),
+            area: world.name(Entity::Area(barred.area)).to_owned(),
+            map: world.name(Entity::Map(barred.map)).to_owned(),
+            x: round(barred.at.x),
+            y: round(barred.at.y),
+            to: barred.to.clone(),
+            explanation: barred_in_words(world, barred, Language::Russian),
+            explanation_en: barred_in_words(world, barred, Language::English),
+        }
+    }
+}
+
 /// What a surprise is about, by its name on the map; what the map does not have has none.
 fn thing(world: &World, surprise: &Surprise) -> Option<String> {
     let what = match surprise {
@@ -181,7 +222,7 @@ fn thing(world: &World, surprise: &Surprise) -> Option<String> {
         Surprise::NoWay { to: name, .. }
         | Surprise::Unknown { name }
         | Surprise::NotSeen { thing: name, .. } => return Some(name.clone()),
-        Surprise::NoReturn { door, .. } => Some(crate::map::Entity::Door(*door)),
+        Surprise::NoReturn { door, .. } => Some(Entity::Door(*door)),
     };
     let known = world.names().find(|(entity, _)| Some(*entity) == what);
     known.map(|(_, name)| name.to_owned())

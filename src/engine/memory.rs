@@ -319,7 +319,8 @@ impl After {
         }
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
         let holding = holding.chain(belief.aboard.iter().map(|(thing, _)| thing));
-        let all: Vec<&Replica> = belief.world.replicas.values().chain(holding).collect();
+        let elsewhere = holding.chain(belief.lost());
+        let all: Vec<&Replica> = belief.world.replicas.values().chain(elsewhere).collect();
         let is_open = |one: &Replica| Some(stands(surveyed, one)? == DoorStatus::Open);
         let opened = all
             .iter()

@@ -12,7 +12,7 @@ use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
 
 use super::directive_words::{deeds_in_words, directive_in_words, name_in};
-use super::surprises::surprise_in_words;
+use super::surprises::{barred_in_words, surprise_in_words};
 use super::task::{Progress, TaskAnswer, TaskEnding};
 use super::{Error, State};
 
@@ -174,6 +174,15 @@ pub fn progress_in_words(
             lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
             lines
         }
+        Progress::Barred { barred, .. } => vec![
+            format!("   ? {}", barred_in_words(world, barred, language)),
+            language
+                .pick(
+                    "     Не обойти и не сдвинуть: зову оператора.",
+                    "     No way leads round it, and it is not to be pushed: I call the operator.",
+                )
+                .to_owned(),
+        ],
         Progress::Surprised { directive, surprise } => {
             let what = surprise_in_words(world, surprise, language);
             vec![

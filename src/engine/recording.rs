@@ -151,13 +151,13 @@ impl Recording {
                 messages.extend(self.progress(state, progress));
                 if let Some(told) = self.events.of(world, progress) {
                     let topic = match told {
-                        TaskEvent::Surprised { .. } => "/surprises",
+                        TaskEvent::Surprised { .. } | TaskEvent::Barred(_) => "/surprises",
                         _ => "/directives",
                     };
                     messages.push(self.scribe.event(topic, &json!(told)));
                 }
                 let level = match progress {
-                    Progress::Surprised { .. } => Level::Warning,
+                    Progress::Surprised { .. } | Progress::Barred { .. } => Level::Warning,
                     _ => Level::Info,
                 };
                 messages.extend(self.words(level, event));
@@ -198,7 +198,9 @@ impl Recording {
 
     fn progress(&mut self, state: &State, progress: &Progress<'_>) -> Vec<Message> {
         match progress {
-            Progress::Planned(_) | Progress::Surprised { .. } => Vec::new(),
+            Progress::Planned(_) | Progress::Surprised { .. } | Progress::Barred { .. } => {
+                Vec::new()
+            }
             Progress::Started { .. } => {
                 self.begun = self.scribe.now();
                 Vec::new()

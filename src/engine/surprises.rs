@@ -1,12 +1,12 @@
 //! What went otherwise than believed, in words.
 
 use crate::geometry::Remedy;
-use crate::language::Language;
+use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, World};
-use crate::robot::{Obstruction, Refusal, Sighting, Surprise};
+use crate::robot::{Barred, Obstruction, Refusal, Sighting, Surprise};
 
 use super::advice::Advice;
-use super::barriers::no_way_in_words;
+use super::barriers::{no_way_in_words, thing_in_words, unknown_thing};
 use super::directive_words::place_in_words;
 use super::lexicon::named;
 
@@ -148,5 +148,34 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
                 Obstruction::Replica(id),
             ),
         },
+    }
+}
+
+/// What bars the only way, and where: «В Коридоре путь к «Дверь-1» преграждает Стул-2 (345; 125)».
+#[must_use]
+pub fn barred_in_words(world: &World, barred: &Barred, language: Language) -> String {
+    let known =
+        barred.things.iter().map(|id| thing_in_words(world, *id, Case::Nominative, language));
+    let mut things: Vec<String> = known.collect();
+    if things.is_empty() || !barred.unknown.is_empty() {
+        things.push(unknown_thing(language).to_owned());
+    }
+    let is_one = things.len() == 1;
+    let things = enumerate(&things, language);
+    let room = named(world, Entity::Area(barred.area));
+    let to = barred.to.as_ref().map(|to| place_in_words(world, to, language));
+    let at = format!("({:.0}; {:.0})", barred.at.x, barred.at.y);
+    match language {
+        Language::Russian => {
+            let room = crate::language::russian::where_at(room.phrase());
+            let to = to.map_or_else(String::new, |to| format!(" к «{to}»"));
+            let bars = if is_one { "преграждает" } else { "преграждают" };
+            format!("{room} путь{to} {bars} {things} {at}")
+        }
+        Language::English => {
+            let to = to.map_or_else(String::new, |to| format!(" to \"{to}\""));
+            let bars = if is_one { "bars" } else { "bar" };
+            format!("in {} {things} {bars} the way{to} {at}", room.english())
+        }
     }
 }

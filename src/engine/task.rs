@@ -1,6 +1,6 @@
 //! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
@@ -9,9 +9,9 @@ use crate::language::command::Command;
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission, MissionError,
-    Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station, Surprise, Vehicle,
-    facts_of_map, height_of_laser, protocol,
+    Answer, Barred, Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission,
+    MissionError, Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station,
+    Surprise, Vehicle, facts_of_map, height_of_laser, protocol,
 };
 use crate::semantics::{Followed, Relations, predicate};
 use crate::strips::Domain;
@@ -55,6 +55,11 @@ pub enum Progress<'a> {
     Surprised {
         directive: &'a Directive,
         surprise: &'a Surprise,
+    },
+    /// Something bars the only way: who is told may have it cleared, and say so.
+    Barred {
+        barred: &'a Barred,
+        answer: &'a Cell<Answer>,
     },
 }
 
@@ -480,6 +485,7 @@ impl State {
                 surprised.replace(Some(Surprise::clone(surprise)));
                 tell(&Progress::Surprised { directive, surprise });
             }
+            Event::Barred { barred, answer } => tell(&Progress::Barred { barred, answer }),
         };
         let mut ending = TaskEnding::AlreadyTrue;
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();

@@ -10,6 +10,10 @@ use crate::semantics::{
 };
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector, name_key};
 
+mod lost;
+
+use lost::Lost;
+
 use super::obstacle::{is_obstacle, stand_obstacle};
 use super::vehicle::{Outlines, Sighting};
 
@@ -86,6 +90,8 @@ pub struct Belief {
     /// Unknown things that were met, and whether one whose outline was not seen bars one of these ways.
     unknown: Vec<ReplicaId>,
     is_barred: bool,
+    /// Things that may be gone.
+    lost: BTreeMap<ReplicaId, Lost>,
     /// Doors that could not be opened again from within an Area once they are shut.
     pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
@@ -149,6 +155,7 @@ impl Belief {
             stays: BTreeSet::new(),
             unknown: Vec::new(),
             is_barred: false,
+            lost: BTreeMap::new(),
             no_return: Vec::new(),
             sought: BTreeMap::new(),
             adrift: BTreeSet::new(),
@@ -484,7 +491,9 @@ impl Belief {
                 self.set_door(door, state) || left
             }
             Sighting::Replica { replica, area, frame } => {
-                let Some(believed) = self.world.replicas.get_mut(&replica) else { return false };
+                let Some(believed) = self.world.replicas.get_mut(&replica) else {
+                    return self.regain(replica, area, frame);
+                };
                 if (believed.area, believed.frame) == (area, frame) {
                     return false;
                 }
@@ -543,6 +552,12 @@ impl Belief {
         self.no_way_to(name)
     }
 
+    /// The middles of unknown things that it met, as far as they were seen.
+    pub(super) fn unknown_places(&self) -> Vec<Point> {
+        let placed = self.unknown.iter().filter_map(|id| self.scene().replicas.get(id));
+        placed.map(|one| nalgebra::center(&one.bounds.min, &one.bounds.max)).collect()
+    }
+
     pub(super) fn has_met_unknown(&self) -> bool {
         !self.unknown.is_empty() || self.is_barred
     }
@@ -552,7 +567,11 @@ impl Belief {
         let gone = std::mem::take(&mut self.unknown);
         self.world.replicas.retain(|id, _| !gone.contains(id));
         self.rebuild(&gone);
-        // What it barred is not known; a rehearsal finds again what is barred all the same.
+        self.reopen_ways();
+    }
+
+    /// What bars which way is not known any more; a rehearsal finds again what is barred all the same.
+    pub(super) fn reopen_ways(&mut self) {
         self.is_barred = false;
         self.unreachable.clear();
         self.no_return.clear();

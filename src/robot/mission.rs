@@ -8,6 +8,7 @@ use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts
 use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, MapId, Point, Pose, Stop};
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use miette::Diagnostic;
@@ -15,8 +16,11 @@ use thiserror::Error;
 
 mod acts;
 mod aside;
+mod barred;
 mod names;
+mod pursuit;
 
+pub use barred::{Answer, Barred};
 pub(super) use names::before_passage;
 
 use super::belief::Belief;
@@ -84,6 +88,11 @@ pub enum Event<'a> {
         surprise: &'a Surprise,
         belief: &'a Belief,
     },
+    /// Something bars the only way, and nothing of it may be pushed: who is told may have it cleared, and say so.
+    Barred {
+        barred: &'a Barred,
+        answer: &'a Cell<Answer>,
+    },
 }
 
 /// The way driven for one directive. `seconds` are the drive's.
@@ -135,9 +144,6 @@ pub enum Ending {
     Failed(Failure),
 }
 
-/// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
-const MOST_LOOKS: usize = 2;
-const LOOKS_OF_A_WAIT: usize = 8;
 /// So often what is seen of one thing may change the belief in one mission.
 const MOST_CHANGES: usize = 20;
 
@@ -281,45 +287,6 @@ impl<'r> Mission<'r> {
             }
             Err(failure) => Ok(Ending::Failed(failure)),
         }
-    }
-
-    /// Where unknown things alone bar the way it looks again after a while: they may have been people.
-    fn pursue(&mut self, goal: &[GoalFact], reins: &mut Reins<'_>) -> Result<Ending, MissionError> {
-        let mut looks = 0;
-        loop {
-            let ending = self.attempt(goal, reins)?;
-            match ending {
-                Ending::NoPlan(_) | Ending::Stuck(_) if looks < MOST_LOOKS => {
-                    looks += 1;
-                    if self.looked_again(reins) {
-                        continue;
-                    }
-                }
-                Ending::AlreadyTrue if looks > 0 => return Ok(Ending::Done),
-                _ => {}
-            }
-            return Ok(match ending {
-                Ending::NoPlan(planned) => {
-                    (reins.tell)(&Event::Planned(&planned));
-                    // Who is told may stop: another way that the task has is not tried then.
-                    if reins.stop.is_raised() { Ending::Stopped } else { Ending::NoPlan(planned) }
-                }
-                Ending::Stuck(surprise) => Ending::Stuck(self.with_remedy(surprise)),
-                other => other,
-            });
-        }
-    }
-
-    /// Waits, and forgets the unknown things that it met; whether there were any, and it could.
-    fn looked_again(&mut self, reins: &mut Reins<'_>) -> bool {
-        if !self.belief.has_met_unknown() {
-            return false;
-        }
-        let waited = (0..LOOKS_OF_A_WAIT).all(|_| look_round(reins).is_ok());
-        self.belief.pose = reins.pose().1;
-        self.take_notice(reins);
-        self.belief.forget_unknown();
-        waited
     }
 
     fn attempt(
@@ -499,6 +466,19 @@ impl<'r> Mission<'r> {
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
         match surprise {
+            // It was not gone.
+            Surprise::Blocked { bump, .. }
+                if self.is_new(surprise) && self.belief.find_again(Some(bump.at.at)) =>
+            {
+                self.name_this_point();
+                true
+            }
+            Surprise::Refused { refusal: Refusal::DoorJammed { by: None, .. }, .. }
+                if self.belief.find_again(None) =>
+            {
+                self.name_this_point();
+                true
+            }
             // What was seen of it stands there from now on, and a way may lead past it.
             Surprise::Blocked { outlines, .. }
                 if self.is_new(surprise) && self.belief.stand(outlines) =>

@@ -45,7 +45,8 @@ mod wishes;
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
 pub use mission::{
-    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
+    Answer, Barred, Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise,
+    starting_pose, state,
 };
 pub use obstacle::{is_obstacle, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};

@@ -94,6 +94,8 @@ pub struct Pilot<'g, 'v> {
     has_jumped: bool,
     /// Returns for which it stopped last.
     met: Vec<Point>,
+    /// Things that it told to stand elsewhere than mapped, and where.
+    told: BTreeMap<ReplicaId, Frame>,
 }
 
 /// What was heard on the way.
@@ -155,6 +157,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
             news: Vec::new(),
             has_jumped: false,
             met: Vec::new(),
+            told: BTreeMap::new(),
         };
         let watch = &mut Watch::none();
         let looked: Done = pilot.ask(watch, |body, watch| body.look_round(watch));

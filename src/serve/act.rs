@@ -31,6 +31,12 @@ pub(super) struct Order {
     before: Option<u64>,
 }
 
+/// Of a way that is barred.
+#[derive(Debug, Deserialize)]
+pub(super) struct Cleared {
+    is_clear: bool,
+}
+
 /// One of the tasks that wait; all, where it names none.
 #[derive(Debug, Deserialize)]
 pub(super) struct Which {
@@ -156,6 +162,16 @@ pub(super) async fn cancel(
     let of = Arc::clone(&house);
     let is_known = apart(move || Ok(of.tasks.cancel(&session, id))).await?;
     if is_known { Ok(Json(house.tasks.view())) } else { Err(unknown()) }
+}
+
+/// Says whether the way is clear before which a task waits, or is given up.
+pub(super) async fn cleared(
+    Of(house): Of<Arc<House>>,
+    Path(id): Path<u64>,
+    Json(said): Json<Cleared>,
+) -> Answer {
+    house.tasks.answer_barred(id, said.is_clear)?;
+    Ok(Json(house.tasks.view()))
 }
 
 /// Puts a queued task elsewhere in the queue.

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::engine::{Dialogue, Queue, QueuedTask, State};
+use crate::robot::Answer;
 use crate::store::Timestamp;
 use crate::units::Stop;
 
@@ -84,6 +85,8 @@ pub(super) struct Running {
     pub(super) noted: Option<QueuedTask>,
     /// It is not to be gone on with.
     pub(super) is_dropped: bool,
+    /// What was said of what bars its way; `barred` in its view is the question.
+    pub(super) answer: Option<Answer>,
 }
 
 #[derive(Debug, Clone)]

@@ -303,8 +303,9 @@ impl Tasks {
                     noted.is_begun = true;
                 }
                 let (id, view, noted) = (task.id, task.view("running"), task.noted.clone());
-                let (stop, why, is_dropped) = (Stop::new(), None, false);
-                book.running = Some(Running { id, view, stop, why, noted, is_dropped });
+                let (stop, why, answer) = (Stop::new(), None, None);
+                let is_dropped = false;
+                book.running = Some(Running { id, view, stop, why, noted, is_dropped, answer });
                 return Some(task);
             }
             book = self.wake.wait(book).unwrap_or_else(PoisonError::into_inner);
@@ -459,7 +460,7 @@ impl Tasks {
     }
 
     /// Whether who has the robot driven is still there.
-    fn is_leased(&self) -> bool {
+    pub(super) fn is_leased(&self) -> bool {
         let mut book = self.book();
         let is_leased = book.is_leased();
         if !is_leased && let Some(running) = &mut book.running {
@@ -527,6 +528,9 @@ impl<'t> Drive<'t> {
                     }
                     view["task"] = json!(self.id);
                     self.tasks.events.tell("directive", &view);
+                    if let Progress::Barred { answer, .. } = progress {
+                        answer.set(self.tasks.ask_to_clear(self.id, &self.stop, &view));
+                    }
                 }
             }
             Event::Replied(Reply { outcome: Outcome::Task(task), .. }) => {

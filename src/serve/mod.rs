@@ -14,6 +14,7 @@ mod act;
 mod assist;
 mod book;
 mod centre;
+mod clearing;
 mod desk;
 mod drawing;
 mod drive;

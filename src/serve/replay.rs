@@ -86,10 +86,11 @@ impl Tasks {
                 let mut view = Task::kept(id, noted).view("running");
                 view["plan"] = as_it_went(then);
                 view["is_replayed"] = json!(true);
-                let (stop, why, is_dropped) = (stop.clone(), None, false);
-                let noted = None;
+                let (stop, is_dropped) = (stop.clone(), false);
+                let (why, noted, answer) = (None, None, None);
+                let shown = view.clone();
                 book.running =
-                    Some(Running { id, view: view.clone(), stop, why, noted, is_dropped });
+                    Some(Running { id, view: shown, stop, why, noted, is_dropped, answer });
                 drop(book);
                 self.events.tell("task", &view);
             }

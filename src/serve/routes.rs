@@ -61,6 +61,7 @@ pub(super) const ROUTES: &[Route] = &[
     ("post", "/api/reset", Role::Drive, || post(act::reset)),
     ("post", "/api/tasks/{id}/confirm", Role::Drive, || post(act::confirm)),
     ("post", "/api/tasks/{id}/cancel", Role::Drive, || post(act::cancel)),
+    ("post", "/api/tasks/{id}/cleared", Role::Drive, || post(act::cleared)),
     ("post", "/api/tasks/{id}/move", Role::Drive, || post(act::reorder)),
     ("get", "/api/edits", Role::Look, || get(act::proposed)),
     ("post", "/api/edits/{id}", Role::Edit, || post(act::judge)),

@@ -41,7 +41,7 @@ impl Mission<'_> {
     }
 
     /// What opens the way through a door from an Area, and in which of the Areas at it the way is barred.
-    fn opened_by(&self, door: &str, from: AreaId) -> Option<(AreaId, Remedy)> {
+    pub(super) fn opened_by(&self, door: &str, from: AreaId) -> Option<(AreaId, Remedy)> {
         let belief = &self.belief;
         let (floor, world) = (belief.floor(), &belief.world);
         let start = if belief.area == from { belief.pose.at } else { floor.rest_in(from)? };
@@ -110,15 +110,7 @@ impl Mission<'_> {
     /// The surprise for which a mission ends, with what would open the way.
     pub(super) fn with_remedy(&self, surprise: Surprise) -> Surprise {
         let Surprise::NoWay { to, why, remedy: None } = surprise else { return surprise };
-        let from: Point = self.belief.pose.at;
-        let (floor, world) = (self.belief.floor(), &self.belief.world);
-        let remedy = match self.place_target(&to) {
-            Ok(target) => {
-                let no = floor.route(world, from, target, Method::Shortest).err();
-                no.and_then(|no| floor.remedy(world, from, target, &no))
-            }
-            Err(_) => self.opened_by(&to, self.belief.area).map(|(_, remedy)| remedy),
-        };
+        let remedy = self.remedy_for(&to, self.belief.area);
         Surprise::NoWay { to, why, remedy: remedy.map(Box::new) }
     }
 }

@@ -24,6 +24,10 @@ const STAYS: usize = 3;
 const STILL: f64 = 8.0;
 /// What is farther is not what stands in the way, cm.
 const NEAR: f64 = 200.0;
+/// What a way comes nearer to by no more is not met on it, cm.
+const NEARER: f64 = 1.0;
+/// A turn by more goes astray by so much that the robot looks where it faces before it drives on, degrees.
+const TURN: f64 = 30.0;
 /// How thick something is at least of which single returns tell, cm to each side.
 const THICK: f64 = 3.0;
 /// Contacts on one stretch of a way after which something unseen stands there.
@@ -50,8 +54,9 @@ impl Pilot<'_, '_> {
         let wide = robot.passing_width() / 2.0 - robot.clearance.get() - 1.0;
         let leaves = self.leaves();
         let chart = self.chart();
-        let is_near = |p: Point| {
-            way.windows(2).any(|leg| (nearest_on_segment(p, leg[0], leg[1]) - p).norm() < wide)
+        let off = |p: Point| {
+            let legs = way.windows(2).map(|leg| (nearest_on_segment(p, leg[0], leg[1]) - p).norm());
+            legs.fold(f64::INFINITY, f64::min)
         };
         let is_known = |p: Point| {
             chart.nearest(p).is_some_and(|(_, foot)| (foot - p).norm() <= UNKNOWN)
@@ -60,7 +65,15 @@ impl Pilot<'_, '_> {
         let ends = ranges.iter().zip(sensor.directions());
         let ends = ends.filter(|(range, _)| sensor.returned(**range));
         let ends = ends.map(|(range, u)| from * Point::from(u * *range));
-        let met: Vec<Point> = ends.filter(|p| is_near(*p) && !is_known(*p)).collect();
+        // No way leads through what is known: a return that deep in it is of something, whatever the map has there. What
+        // stands beside the robot or behind is passed already.
+        let here = way[0];
+        let bars = |p: Point| {
+            let off = off(p);
+            let is_ahead = off < (p - here).norm() - NEARER;
+            is_ahead && (off < wide - UNKNOWN || off < wide && !is_known(p))
+        };
+        let met: Vec<Point> = ends.filter(|p| bars(*p)).collect();
         // One by itself is noise.
         if met.len() < 2 { Vec::new() } else { met }
     }
@@ -79,7 +92,7 @@ impl Pilot<'_, '_> {
             if met.is_empty() {
                 return Ok(());
             }
-            if let Some(against) = self.recognise(&met, watch) {
+            if let Some(against) = self.recognise_door(&met, watch) {
                 return Err(Bump { at: Pose::from(self.pose), against }.into());
             }
             let middle = middle_of(&met);
@@ -98,17 +111,19 @@ impl Pilot<'_, '_> {
             })?;
             self.settle(watch)?;
         }
-        if self.in_the_way(path).is_empty() {
+        let met = self.in_the_way(path);
+        if met.is_empty() {
             return Ok(());
         }
-        Err(Bump { at: Pose::from(self.pose), against: Obstruction::Something }.into())
+        // Who walks may look like a thing that was moved, until they walk on.
+        let against = self.recognise_thing(&met, watch).unwrap_or(Obstruction::Something);
+        Err(Bump { at: Pose::from(self.pose), against }.into())
     }
 
-    /// What of the Map stands here, where it is not mapped; it is told.
-    fn recognise(&mut self, met: &[Point], watch: &mut Watch<'_>) -> Option<Obstruction> {
-        let differences = self.inspector.differences();
+    /// The door whose leaf is here, where it is not believed to be; it is told.
+    fn recognise_door(&mut self, met: &[Point], watch: &mut Watch<'_>) -> Option<Obstruction> {
         let floor = &self.ground.floors[&self.map];
-        for (&id, seen) in &differences.doors {
+        for (id, seen) in self.inspector.differences().doors {
             let Some(door) = self.ground.world.doors.get(&id) else { continue };
             let Some(state) = seen.state(self.doors[&id]).filter(|_| seen.sure >= SURE) else {
                 continue;
@@ -117,26 +132,31 @@ impl Pilot<'_, '_> {
                 continue;
             }
             let leaves = floor.doorways_of(id).flat_map(|way| way.leaves(door).obstacles(state));
-            let is_it = leaves.into_iter().any(|leaf| {
-                met.iter()
-                    .any(|p| leaf.contains(*p, 0.0) || leaf.border_distance(*p) <= 2.0 * UNKNOWN)
-            });
-            if is_it {
+            let leaves: Vec<Polygon> = leaves.collect();
+            if is_of(met, leaves.iter()) {
                 self.doors.insert(id, state);
                 watch.notice(&Notice::Saw(Sighting::Door { door: id, state }));
                 return Some(Obstruction::Door(id));
             }
         }
-        for look in differences.things.iter().filter(|look| look.sure >= SURE) {
+        None
+    }
+
+    /// The thing that stands here, and is mapped elsewhere; it is told, unless it was told to stand here and something is in
+    /// the way all the same.
+    fn recognise_thing(&mut self, met: &[Point], watch: &mut Watch<'_>) -> Option<Obstruction> {
+        for look in self.inspector.differences().things.iter().filter(|look| look.sure >= SURE) {
             let ThingSeen::Moved(frame) = look.seen else { continue };
+            let is_told = self
+                .told
+                .get(&look.thing)
+                .is_some_and(|told| (told.origin() - frame.origin()).norm() <= UNKNOWN);
             let placed = PlacedReplica::new(self.ground.world, look.thing, frame);
-            let is_it = placed.prisms.iter().any(|prism| {
-                met.iter().any(|p| {
-                    prism.polygon.contains(*p, 0.0)
-                        || prism.polygon.border_distance(*p) <= 2.0 * UNKNOWN
-                })
-            });
-            if is_it && let Some(seen) = self.in_area(look.thing, frame) {
+            if !is_told
+                && is_of(met, placed.prisms.iter().map(|prism| &prism.polygon))
+                && let Some(seen) = self.in_area(look.thing, frame)
+            {
+                self.told.insert(look.thing, frame);
                 watch.notice(&Notice::Saw(seen));
                 return Some(Obstruction::Replica(look.thing));
             }
@@ -192,7 +212,7 @@ impl Pilot<'_, '_> {
     ) -> Result<(), Unfinished<Bump>> {
         let (from, goal) = leg;
         let close = if rest.len() > 1 { AT_CORNER } else { AT_END };
-        let mut contacts = 0;
+        let (mut contacts, mut is_turned) = (0, false);
         loop {
             watch.check()?;
             let way = goal - self.at();
@@ -205,6 +225,13 @@ impl Pilot<'_, '_> {
                 self.wait_for_way(rest, watch)?;
                 continue;
             }
+            let course = Deg::from_radians(way.y.atan2(way.x));
+            if (course - Pose::from(self.pose).heading).signed().abs() > TURN && !is_turned {
+                is_turned = true;
+                self.face(course, watch)?;
+                continue;
+            }
+            is_turned = false;
             let target = self.to_odometry(self.at() + way * (PIECE.min(left) / left));
             match self.ask(watch, |body, watch| body.follow(&[target], None, watch)) {
                 Ok(()) => {}
@@ -270,6 +297,15 @@ impl Pilot<'_, '_> {
         }
         Outlines { things, top: self.ground.height + 1.0 }
     }
+}
+
+/// Whether most of what was met is of these outlines.
+fn is_of<'o>(met: &[Point], outlines: impl Iterator<Item = &'o Polygon> + Clone) -> bool {
+    let is_on = |p: &&Point| {
+        let mut outlines = outlines.clone();
+        outlines.any(|one| one.contains(**p, 0.0) || one.border_distance(**p) <= 2.0 * UNKNOWN)
+    };
+    2 * met.iter().filter(is_on).count() > met.len()
 }
 
 fn middle_of(points: &[Point]) -> Point {

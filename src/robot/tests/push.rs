@@ -79,17 +79,27 @@ struct Came {
     bumps: usize,
     area: AreaId,
     chair: Frame,
+    asked: Vec<Barred>,
 }
 
 /// Sends the robot into the other room of a house that it takes for `believed`.
 fn send(believed: World, truth: World) -> Came {
+    send_asking(believed, truth, &[])
+}
+
+/// The same where somebody gives these answers, one after another, when asked to clear a way.
+fn send_asking(believed: World, truth: World, answers: &[Answer]) -> Came {
     let setting = Setting::of(believed);
     let mut mission = setting.mission(setting.belief().unwrap());
     let mut robot = Simulator::new(truth, setting.map, setting.pose);
-    let (mut done, mut bumps) = (Vec::new(), 0);
+    let (mut done, mut bumps, mut asked) = (Vec::new(), 0, Vec::new());
     let mut tell = |event: &Event<'_>| match event {
         Event::Finished { directive, .. } => done.push(directive.action.to_string()),
         Event::Surprised { surprise: Surprise::Blocked { .. }, .. } => bumps += 1,
+        Event::Barred { barred, answer } => {
+            answer.set(answers.get(asked.len()).copied().unwrap_or_default());
+            asked.push((*barred).clone());
+        }
         _ => {}
     };
     let goal = [fact("РОБОТ-НАХОДИТСЯ-В", "Two")];
@@ -99,7 +109,7 @@ fn send(believed: World, truth: World) -> Came {
     let floor = super::setting::floors(&truth).remove(&setting.map).unwrap();
     let area = floor.locate(pose.at).expect("it stands in a room").0;
     let chair = id(&truth, "Chair 1").1.unwrap();
-    Came { ending, done, bumps, area, chair: truth.replicas[&chair].frame }
+    Came { ending, done, bumps, area, chair: truth.replicas[&chair].frame, asked }
 }
 
 #[test]
@@ -144,4 +154,32 @@ fn what_may_not_be_pushed_stays_and_what_would_help_is_told() {
     assert!(is_told, "{:?}", came.ending);
     assert!(came.done.is_empty(), "{:?}", came.done);
     assert_eq!(came.chair, world.replicas[&chair].frame);
+}
+
+/// What bars the way and where is told, and who says that it is clear is taken at their word as far as the eye goes.
+#[test]
+fn who_is_asked_to_clear_the_way_may_do_so_or_give_up() {
+    let world = home(false, false, IN_THE_WAY);
+    let chair = id(&world, "Chair 1").1.unwrap();
+    let (one, two) = (id(&world, "One").0.unwrap(), id(&world, "Two").0.unwrap());
+    let cleared = home(false, false, ASIDE);
+    // It was taken away meanwhile.
+    let came = send_asking(world.clone(), cleared, &[Answer::Clear]);
+    assert!(matches!(came.ending, Ending::Done), "{:?} {:?}", came.done, came.ending);
+    assert_eq!((came.area, came.asked.len()), (two, 1));
+    let asked = &came.asked[0];
+    assert_eq!((&asked.things[..], asked.area), (&[chair][..], one));
+    assert!((asked.at.x - 370.0).abs() < 1.0 && (asked.at.y - 150.0).abs() < 1.0, "{asked:?}");
+    // It stands there still, whatever is said; nobody answers; it is given up.
+    for (answers, questions) in
+        [(&[Answer::Clear; 9][..], 3), (&[][..], 1), (&[Answer::GiveUp][..], 1)]
+    {
+        let came = send_asking(world.clone(), world.clone(), answers);
+        assert!(matches!(came.ending, Ending::Stuck(_)), "{:?} {:?}", came.done, came.ending);
+        assert_eq!((came.asked.len(), came.area, came.bumps), (questions, one, 0));
+    }
+    // Met on the way, and not known to be there.
+    let came = send_asking(home(false, false, ASIDE), world, &[Answer::GiveUp]);
+    assert!(matches!(came.ending, Ending::Stuck(_)), "{:?} {:?}", came.done, came.ending);
+    assert_eq!((&came.asked[0].things[..], came.area), (&[chair][..], one));
 }

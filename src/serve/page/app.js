@@ -201,6 +201,7 @@ const acts = {
     S.plan = null; render();
     if (await attempt(() => api('/api/later', { text: plan.text }))) note({ q: plan.text, cls: 'order', lines: [L('Отложено: ждёт в очереди.', 'Put off: it waits in the queue.')] });
   },
+  cleared: (isClear) => { const { task } = S.task; return attempt(() => api(`/api/tasks/${task}/cleared`, { is_clear: isClear })); },
   pause: () => attempt(() => api('/api/pause', {})),
   resume: (task = null) => { S.stoppedBy = null; render(); return attempt(() => api('/api/resume', { task })); },
   shortest: () => attempt(() => api('/api/shortest', {})),
@@ -287,6 +288,12 @@ const heard = {
     if (event.event === 'started') { S.step = Math.max(0, event.number - 1); announce(L(event.do_ru, event.do_en)); }
     else if (event.event === 'arrived' || event.event === 'done') { S.step = event.number; if (event.pose) S.robot = { map: event.map, pose: event.pose, ru: event.ru ?? S.robot?.ru, en: event.en ?? S.robot?.en }; }
     else if (event.event === 'surprised') note({ q: L('Замечено в пути', 'Noticed on the way'), cls: 'seen', lines: [L(event.explanation, event.explanation_en)] });
+    else if (event.event === 'barred' && S.task) {
+      if (!S.task.is_replayed) S.task = { ...S.task, barred: event };
+      note({ q: L('Путь преграждён', 'The way is barred'), cls: 'seen', lines: [L(event.explanation, event.explanation_en)] });
+      announce(L(event.explanation, event.explanation_en), true);
+    }
+    else if (event.event === 'answered' && S.task) S.task = { ...S.task, barred: null };
     else if (event.event === 'replanned' && S.task) {
       // The ways of the new plan are told as they are driven.
       const fresh = event.steps.flat().map((step, i) => ({ ...step, number: i + 1, map: null, points: [], length_cm: 0, seconds: 0 }));

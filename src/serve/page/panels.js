@@ -27,6 +27,8 @@ export function card(act) {
     return one('', 'task', [el('b', null, L('План', 'Plan')), el('span', null, `${length(plan.length_cm)} · ${seconds(plan.seconds)}`)], S.plan.text, planInWords(plan),
       [button('pri', [L('Ехать', 'Drive'), ' ', el('kbd', null, 'Enter')], act.confirm, { id: 'confirm' }), button('', [L('Не надо', 'Decline'), ' ', el('kbd', null, 'Esc')], act.decline), may('drive') ? button('', L('Позже', 'Later'), act.later) : null]);
   }
+  if (S.task?.barred) return one('stopd', 'warn', el('b', null, L('Путь преграждён', 'The way is barred')), L(S.task.barred.explanation, S.task.barred.explanation_en), L('Не обойти и не сдвинуть. Уберите и скажите, что свободно.', 'No way leads round it, and it is not to be pushed. Take it away, and say that it is clear.'),
+    may('drive') ? [button('pri', L('Свободно', 'It is clear'), () => act.cleared(true), { id: 'cleared' }), button('', L('Отказаться', 'Give up'), () => act.cleared(false))] : null);
   if (S.task) {
     const all = directives(), step = all[S.step];
     return one(S.stopping ? 'stopd' : '', S.stopping ? 'stop' : icon(step), [el('b', null, L(`Шаг ${Math.min(S.step + 1, all.length)} из ${all.length}`, `Step ${Math.min(S.step + 1, all.length)} of ${all.length}`)), step ? el('span', null, `${length(step.length_cm)} · ${seconds(step.seconds)}`) : null], step ? words(step) : S.task.text, place());

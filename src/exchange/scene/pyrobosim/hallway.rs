@@ -11,7 +11,7 @@ use crate::units::{Point, Vector};
 
 use super::record::{centroid, pair};
 
-/// A door in a hallway that can be shut.
+/// A door in a hallway that can be shut. Nothing swings there: what shuts it takes no floor when it is open.
 pub(super) fn door(record: &Value) -> OpeningKind {
     let flag =
         |field: &str, usual: bool| record.get(field).and_then(Value::as_bool).unwrap_or(usual);
@@ -22,7 +22,7 @@ pub(super) fn door(record: &Value) -> OpeningKind {
         (false, false) => DoorStatus::Closed,
     };
     let opening = if open { 100.0 } else { 0.0 };
-    OpeningKind::Door { kind: DoorKind::Hinged, leaves: Vec::new(), opens: None, status, opening }
+    OpeningKind::Door { kind: DoorKind::Sliding, leaves: Vec::new(), opens: None, status, opening }
 }
 
 /// The middle line of a hallway, by its `conn_method`.
