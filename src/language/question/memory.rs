@@ -5,6 +5,7 @@
 use super::outlive::{Departed, Stamp};
 use super::query::{Noun, Query, Thing};
 use super::{Answer, Doubt, Fact, resolution};
+use crate::map::Entity;
 use crate::units::Bilingual;
 use crate::words::Language;
 
@@ -42,6 +43,8 @@ pub struct Memory {
     pub(super) waiting: Option<resolution::Waiting>,
     /// The command that was understood last, for «А теперь другую».
     pub(super) ordered: Option<resolution::Ordered>,
+    /// Where the person has said to be.
+    pub(super) person: Option<Entity>,
     /// Where the robot was before it was last sent away.
     pub(super) left: Option<Thing>,
     /// The same, where it left the map since.
