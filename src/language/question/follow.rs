@@ -113,7 +113,8 @@ impl Asker<'_> {
         let counts = sentence.items().contains(&Item::Mark(Mark::HowMany));
         // «А мыло там?» tells its place itself.
         let placed = matches!(last, Query::Where(_) | Query::RoomOf(_) | Query::Holds { .. });
-        if !placed && noun.restrictions.iter().any(|r| r.rel == Rel::There) {
+        let names = noun.head != Head::default();
+        if names && !placed && noun.restrictions.iter().any(|r| r.rel == Rel::There) {
             return None;
         }
         // «А сколько из них белых?» tells by itself of what.

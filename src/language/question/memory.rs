@@ -155,6 +155,13 @@ impl Memory {
         }
     }
 
+    /// Notes that one of several things was meant, and which was not told.
+    pub(super) fn waver(&mut self, things: &[Thing]) {
+        self.last.clear();
+        self.listed.clear();
+        self.follow(Exchange::list(things));
+    }
+
     /// What "them" means in a command, the one that "it" means at the end.
     #[must_use]
     pub fn last_things(&self) -> Vec<Thing> {

@@ -321,9 +321,14 @@ impl Asker<'_> {
             memory.mention(&named);
             memory.is_plural = nouns.iter().any(|noun| noun.plural);
         } else if several.len() > 1 {
-            // None of them is "it"; all of them may be "they".
-            memory.list(&several);
-            memory.is_plural = true;
+            // None of them is "it", and of one that was meant there are no others; several may be "they".
+            match nouns.iter().any(|noun| noun.plural) {
+                true => {
+                    memory.list(&several);
+                    memory.is_plural = true;
+                }
+                false => memory.waver(&several),
+            }
         }
         if let [place] = placed[..] {
             memory.told_place = Some(place);

@@ -42,6 +42,9 @@ impl Knowledge<'_> {
         if let Some(text) = self.keys_for(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
+        if let Some(draft) = self.storeys_of_lift(noun) {
+            return Ok(draft);
+        }
         if let Some(text) = self.neighbours(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
@@ -160,6 +163,28 @@ impl Knowledge<'_> {
             false if several => format!("{list} open {}", self.name(door)),
             false => format!("{} opens {}", self.name(key), self.name(door)),
         })
+    }
+
+    /// "Is there a lift? Which floors does it go to?": where it stops.
+    fn storeys_of_lift(&self, noun: &Noun) -> Option<Draft> {
+        let storeys = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
+        let [place] = &noun.restrictions[..] else { return None };
+        if place.negated || !noun.head.kinds.iter().any(storeys) {
+            return None;
+        }
+        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
+        let area = cabin.area()?;
+        let lifts = &self.world.domain.lifts;
+        let (_, stops) = lifts.iter().find(|(_, stops)| stops.iter().any(|s| s.area == area))?;
+        let on = |area| self.world.placement(area).map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let mut maps: Vec<Thing> = stops.iter().filter_map(|stop| on(stop.area)).collect();
+        maps.dedup();
+        let (name, list) = (self.name(cabin), self.list(&maps));
+        let text = match self.is_russian() {
+            true => format!("{name} останавливается здесь: {list}"),
+            false => format!("{name} stops at {list}"),
+        };
+        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
     }
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
