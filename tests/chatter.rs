@@ -28,7 +28,8 @@ fn golden(case: &str) -> Vec<String> {
 }
 
 /// What people say around a question: before it, and behind it.
-const RUSSIAN: [(&str, &str); 12] = [
+const RUSSIAN: [(&str, &str); 13] = [
+    ("Я всё перепутал: ", ""),
     ("слушай, ", ""),
     ("Муж опять ворчит, ", ""),
     ("скажи честно, ", ""),
@@ -43,7 +44,8 @@ const RUSSIAN: [(&str, &str); 12] = [
     ("Дай-ка подумать... ", ""),
 ];
 
-const ENGLISH: [(&str, &str); 10] = [
+const ENGLISH: [(&str, &str); 11] = [
+    ("By the way, ", ""),
     ("listen, ", ""),
     ("My wife keeps nagging me, ", ""),
     ("ok weird question: ", ""),
@@ -100,6 +102,8 @@ fn a_claim_of_others_is_asked_after() {
         "somebody told me {}, can you check?",
         "the boss wants to know if {}",
         "They claim that {}. Is that right?",
+        "My wife says {}, is she right?",
+        "Someone told me that {}, isn't that so?",
     ];
     for (claim, question) in claims {
         let plain = answered(&rb2, question, &mut Memory::default()).expect("a plain question");
@@ -109,6 +113,38 @@ fn a_claim_of_others_is_asked_after() {
             assert_eq!(told.as_deref(), Some(&*plain), "{line}");
         }
     }
+}
+
+/// The same in Russian, whoever claims it and whichever words ask whether it is so.
+#[test]
+fn a_claim_of_others_is_asked_after_in_russian() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let claims = [
+        ("входная дверь заперта", "Входная дверь заперта?"),
+        ("Лампа-1 включена", "Лампа-1 включена?"),
+        ("лекарство в Комнате-Y", "Лекарство в Комнате-Y?"),
+        ("красная чашка на столе в гостиной", "Красная чашка на столе в гостиной?"),
+        ("чайник лежит на полу", "Чайник лежит на полу?"),
+    ];
+    let frames = [
+        "Жена говорит, что {}, это правда?",
+        "Сын утверждает, что {}. Это так?",
+        "Сосед уверяет, что {}, он прав?",
+        "Мне сказали, что {}, так ли это?",
+        "Говорят, {}. Верно?",
+    ];
+    let (mut asked, mut same) = (0, 0);
+    for (claim, question) in claims {
+        let plain = rb2.ask(question, &mut Memory::default()).unwrap().expect("a plain question");
+        for frame in frames {
+            let line = frame.replace("{}", claim);
+            asked += 1;
+            let Ok(told) = rb2.ask(&line, &mut Memory::default()).unwrap() else { continue };
+            assert_eq!(told.said, plain.said, "{line}\n  {}\n  {}", told.text, plain.text);
+            same += 1;
+        }
+    }
+    assert!(same * 4 >= asked * 3, "{same} of {asked}");
 }
 
 /// Dialogues of which the last line goes on from those before it, and the whole question that it stands for.

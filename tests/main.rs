@@ -29,6 +29,7 @@ mod formats;
 mod frames;
 mod furniture;
 mod generated_worlds;
+mod going_on;
 mod guides;
 mod hostile;
 mod ifc;

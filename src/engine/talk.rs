@@ -200,6 +200,16 @@ impl State {
         Ok((!asks && is_command(text)) || (is_order(text) && !asker.asks_to_tell(text)))
     }
 
+    /// Whether a text asks behind what a person tells of itself, and is understood so: "I need the battery, where is it?"
+    ///
+    /// # Errors
+    /// As [`State::ask`].
+    pub fn asks_behind_what_is_told(&self, text: &str, memory: &Memory) -> Result<bool, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.asks_behind_what_is_told(text)
+            && self.ask(text, &mut memory.clone())?.is_ok())
+    }
+
     /// Whether a text begins as a question does.
     ///
     /// # Errors

@@ -365,7 +365,7 @@ impl Hearing<'_, '_> {
         // "I need to read something. Where are the books?" asks, whatever is said before.
         let asks = match &sentences(line)[..] {
             [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
-            _ => false,
+            _ => self.engine.asks_behind_what_is_told(line, &self.dialogue.memory)?,
         };
         // "Two spoons to the table, please" asks nothing, though a question may begin so.
         let begs =

@@ -225,6 +225,12 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         let arguments: Vec<&Argument<'_, T>> =
             clause.before.iter().chain(&clause.after).copied().collect();
         let mut roles = self.roles(verb, &arguments)?;
+        // «Положи её к ним»: what "they" are was not said, where it is the thing itself.
+        if let Some(to) = &roles.to
+            && roles.objects.contains(&to.anchor)
+        {
+            return Err(self.incomplete(&roles.said.to, ("о чём речь", "what you mean")));
+        }
         roles.on_floor = clause.on_floor;
         let locks = matches!(verb, Verb::Lock | Verb::Unlock | Verb::Open);
         roles.with_key = clause.with_key && !locks;

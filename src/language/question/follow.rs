@@ -1,5 +1,6 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
+use super::another_place::{another_placed, near_another};
 use super::bare::{by_how_much, room_alone, where_such};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
@@ -65,6 +66,7 @@ impl Asker<'_> {
             && last
                 .sought()
                 .is_some_and(|old| query.sought().is_some_and(|noun| noun.head == old.head))
+            && last.sought().is_some_and(|old| !old.head.anything)
         {
             return Some(match query {
                 Query::Count(noun) | Query::Find(noun) if !noun.head.anything => {
@@ -89,6 +91,9 @@ impl Asker<'_> {
         if let Some(query) = self.placed_there(text, last, memory) {
             return Some(query);
         }
+        if let Some(query) = self.anything_such(text, last, memory) {
+            return Some(query);
+        }
         let of_those = self.asks_of_those(text);
         if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
             return None;
@@ -106,6 +111,12 @@ impl Asker<'_> {
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let mut noun = self.fragment(&sentence, memory)?;
         let counts = sentence.items().contains(&Item::Mark(Mark::HowMany));
+        // «А мыло там?» tells its place itself.
+        let placed = matches!(last, Query::Where(_) | Query::RoomOf(_) | Query::Holds { .. });
+        let names = noun.head != Head::default();
+        if names && !placed && noun.restrictions.iter().any(|r| r.rel == Rel::There) {
+            return None;
+        }
         // «А сколько из них белых?» tells by itself of what.
         let of_told = |r: &super::Restriction| matches!(r.rel, Rel::From | Rel::Of);
         if counts && noun.restrictions.iter().any(of_told) {
@@ -143,6 +154,9 @@ impl Asker<'_> {
         if let Some(query) = self.in_another_room(last, &noun).filter(|_| !counts) {
             return Some(query);
         }
+        if let Some(query) = near_another(last, &noun).filter(|_| !counts) {
+            return Some(query);
+        }
         if noun.head == Head::default() {
             let query = self.elsewhere(query, noun)?;
             return match (counts, query.sought()) {
@@ -167,13 +181,29 @@ impl Asker<'_> {
         if counts {
             return None;
         }
+        // "How far is it from the charger? And the toolbox?": from there.
+        if let Query::Way { to, .. }
+        | Query::CanReach { to, .. }
+        | Query::Duration { to, .. }
+        | Query::Distance { to, .. } = &mut query
+        {
+            *to = noun;
+            return Some(query);
+        }
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
         let mut rooms = false;
         query.each_noun(&mut |old| rooms |= self.is_room(old));
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
-        let stays = query.sought().is_some() && noun.restrictions.is_empty();
+        // "What colour is the floor in the kitchen? And the walls?": those of the kitchen.
+        let surface = |noun: &Noun| {
+            let knowledge = self.knowledge(sentence.language, memory);
+            knowledge.is_floor(noun) || knowledge.is_walls(noun)
+        };
+        let of_room = |old: &Noun| surface(&noun) && surface(old);
+        let sought = query.sought().is_some();
+        let keeps = |old: &Noun| (sought || of_room(old)) && noun.restrictions.is_empty();
         query.each_noun(&mut |old| {
             let fits = match &replaced {
                 Some(first) => is_room && rooms && old == first,
@@ -183,8 +213,10 @@ impl Asker<'_> {
             if fits {
                 replaced.get_or_insert_with(|| old.clone());
                 // «Сколько на кухне лопаток? А вилок?» stays in the kitchen, «Сколько в ней окон? А картин?» in it.
-                let place = old.restrictions.iter().filter(|r| stays && is_place(r));
-                let place: Vec<Restriction> = place.cloned().collect();
+                let (stays, own) = (keeps(old), of_room(old));
+                let placed = |r: &&Restriction| stays && (is_place(r) || own && r.rel == Rel::Of);
+                let place: Vec<Restriction> =
+                    old.restrictions.iter().filter(placed).cloned().collect();
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
                 old.restrictions.extend(place);
             }
@@ -276,69 +308,6 @@ impl Asker<'_> {
         let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
         let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
         Some(Query::Exists { what, either: false, negated: false })
-    }
-
-    /// «Сколько ламп в гостиной? – … – В спальне?», «Шторы в спальне закрыты? – … – В гостиной тоже?»: the same there.
-    fn placed_too(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        if !text.trim_end().ends_with('?') {
-            return None;
-        }
-        let keys = word_keys(text);
-        let too = keys.iter().any(|key| matches!(key.as_str(), "тоже" | "также" | "too" | "well"));
-        let asked = match last {
-            Query::Count(_) | Query::Exists { .. } | Query::Find(_) => true,
-            Query::Holds { .. } => too,
-            _ => false,
-        };
-        let restrictions = self.bare_place(text, memory).filter(|_| asked)?;
-        let noun = Noun { restrictions, ..Noun::default() };
-        self.in_another_room(last, &noun).or_else(|| match last {
-            Query::Holds { .. } => None,
-            _ => self.elsewhere(last.clone(), noun),
-        })
-    }
-
-    /// A place and no more: «в спальне».
-    fn bare_place(&self, text: &str, memory: &Memory) -> Option<Vec<Restriction>> {
-        let plain = self.plain(text);
-        let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        let place = |item: &Item| match item {
-            Item::Place { nouns, .. } => {
-                nouns.iter().all(|phrase| phrase.pronoun.is_none() && phrase.person.is_none())
-            }
-            _ => false,
-        };
-        if !matches!(&sentence.items()[..], [item] if place(item)) {
-            return None;
-        }
-        Some(self.fragment(&sentence, memory)?.restrictions).filter(|all| !all.is_empty())
-    }
-
-    /// «Где бита? – … – Рядом с подушкой?»: whether it is at a place that is named alone.
-    fn placed_there(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        let asked = matches!(
-            last,
-            Query::Where(_) | Query::RoomOf(_) | Query::Anchor { .. } | Query::Holds { .. }
-        );
-        let only = memory.exchanges.first().filter(|_| asked)?.topic()?;
-        let plain = self.plain(text);
-        let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        let place = |item: &Item| match item {
-            Item::Place { nouns, .. } => nouns.iter().all(|phrase| phrase.pronoun.is_none()),
-            _ => false,
-        };
-        // «На чём стоит лампа? А на полу?» asks what is there.
-        let goes_on = ["а", "и", "and"].contains(&word_keys(text).first()?.as_str());
-        if goes_on
-            || !text.trim_end().ends_with('?')
-            || !matches!(&sentence.items()[..], [item] if place(item))
-        {
-            return None;
-        }
-        let noun = self.fragment(&sentence, memory)?;
-        let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
-        let subject = Noun::of(vec![only]);
-        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
     }
 
     /// A description by itself: "the spoons in the kitchen".
@@ -465,125 +434,8 @@ impl Asker<'_> {
         Some(Noun { plural: rest.len() > 1, ..Noun::of(rest) })
     }
 
-    /// «Что на столе в гостиной? А в спальне?»: on the table there, where only the table's room was told.
-    fn in_another_room(&self, last: &Query, noun: &Noun) -> Option<Query> {
-        let [there] = &noun.restrictions[..] else { return None };
-        let is_bare =
-            noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
-        let within = |r: &Restriction| {
-            let room = r.anchors.iter().all(|anchor| self.is_room(anchor));
-            matches!(r.rel, Rel::In | Rel::On) && !r.negated && room
-        };
-        if !is_bare || !within(there) {
-            return None;
-        }
-        let mut query = last.clone();
-        // The room may narrow the table as well as what is on it.
-        let mut replaced: Option<Vec<Noun>> = None;
-        query.each_noun(&mut |old| {
-            for room in old.restrictions.iter_mut().filter(|r| within(r)) {
-                if replaced.as_ref().is_none_or(|first| *first == room.anchors) {
-                    replaced.get_or_insert_with(|| room.anchors.clone());
-                    room.clone_from(there);
-                }
-            }
-        });
-        replaced.map(|_| query)
-    }
-
-    /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
-    fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
-        // «Горит ли лампа в спальне? А на столе?»: the lamp there.
-        if let Query::Holds { subject, claims, .. } = &mut query
-            && !noun.restrictions.is_empty()
-            && noun.filters.is_empty()
-            && claims.iter().all(|claim| matches!(claim, Claim::Value(_)))
-            && self.has_kind(subject)
-        {
-            subject.restrictions = noun.restrictions;
-            return Some(query);
-        }
-        let asked = match &mut query {
-            Query::Find(asked)
-            | Query::Count(asked)
-            | Query::Where(asked)
-            | Query::Serving { of: asked, .. } => asked,
-            Query::Exists { what, .. } => what.first_mut()?,
-            Query::Place { within, .. } if !noun.restrictions.is_empty() => {
-                *within = noun.restrictions;
-                return Some(query);
-            }
-            // «Книга на столе? А на полу?»
-            // «Ноутбук включён? А открыт?»
-            Query::Holds { claims, negated, .. } if !noun.filters.is_empty() => {
-                *claims = noun.filters.into_iter().map(Claim::Value).collect();
-                *negated = false;
-                return Some(query);
-            }
-            Query::Choice { subject, .. } if !noun.filters.is_empty() => {
-                let claims = noun.filters.into_iter().map(Claim::Value).collect();
-                return Some(Query::Holds { subject: subject.clone(), claims, negated: false });
-            }
-            Query::Holds { claims, .. } if !noun.restrictions.is_empty() => {
-                *claims = noun.restrictions.into_iter().map(Claim::Related).collect();
-                return Some(query);
-            }
-            // «На чём стоит лампа? А на полу?» asks what is there.
-            _ if !noun.restrictions.is_empty() => {
-                let head = Head { anything: true, ..Head::default() };
-                return Some(Query::Find(Noun { head, plural: true, ..noun }));
-            }
-            // "Which room has the biggest area? And the smallest?"
-            _ if noun.best.is_some() => {
-                let mut replaced = false;
-                query.each_noun(&mut |old| {
-                    if old.best.is_some() && !replaced {
-                        (old.best, old.rank) = (noun.best.clone(), noun.rank);
-                        replaced = true;
-                    }
-                });
-                return replaced.then_some(query);
-            }
-            _ => return None,
-        };
-        // "Where is the nearest chair? And the farthest?", «Сколько комнат? Какая самая большая?»
-        if noun.best.is_some() {
-            if !noun.restrictions.is_empty() {
-                asked.restrictions = noun.restrictions;
-            }
-            asked.best = noun.best;
-            asked.rank = noun.rank;
-            asked.plural = false;
-            asked.count = None;
-            asked.indefinite = true;
-            let asked = asked.clone();
-            return Some(match query {
-                Query::Where(_) => Query::Where(asked),
-                _ => Query::Find(asked),
-            });
-        }
-        if noun.restrictions.is_empty() && noun.filters.is_empty() {
-            return None;
-        }
-        if !noun.restrictions.is_empty() {
-            // «Что на столе в кухне? А на полу?» stays in the kitchen.
-            let names_room =
-                noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a)));
-            let room =
-                asked.restrictions.iter().find(|r| r.anchors.iter().any(|a| self.is_room(a)));
-            // "And on the other side table?" may be in another room.
-            let other = noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| a.other));
-            let room = room.filter(|_| !names_room && !other).cloned();
-            asked.restrictions = noun.restrictions;
-            asked.restrictions.extend(room);
-        } else {
-            asked.filters = noun.filters;
-        }
-        Some(query)
-    }
-
     /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.
-    fn has_kind(&self, noun: &mut Noun) -> bool {
+    pub(super) fn has_kind(&self, noun: &mut Noun) -> bool {
         if noun.head.kinds.is_empty()
             && let Some(things) = noun.head.things.as_deref()
             && let Some(kind) = self.knowledge(Language::English, &Memory::default()).alike(things)
@@ -652,22 +504,4 @@ fn keys_compare(keys: &[String]) -> bool {
 fn is_place(place: &Restriction) -> bool {
     let other = [Rel::Has, Rel::Bears, Rel::Of, Rel::From, Rel::Opens, Rel::Through, Rel::To];
     !other.contains(&place.rel)
-}
-
-/// A question about one thing, put of another of its kind that is elsewhere.
-fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
-    let mut query = last.clone();
-    let mut first = true;
-    let mut placed = false;
-    query.each_noun(&mut |old| {
-        if std::mem::take(&mut first) && !old.head.anything && old.head.things.is_none() {
-            old.restrictions.clone_from(&noun.restrictions);
-            old.filters.extend(noun.filters.iter().cloned());
-            if !old.head.kinds.is_empty() {
-                old.head.named.clear();
-            }
-            placed = true;
-        }
-    });
-    placed.then_some(query)
 }

@@ -5,6 +5,7 @@
 use super::outlive::{Departed, Stamp};
 use super::query::{Noun, Query, Thing};
 use super::{Answer, Doubt, Fact, resolution};
+use crate::map::Entity;
 use crate::units::Bilingual;
 use crate::words::Language;
 
@@ -42,6 +43,8 @@ pub struct Memory {
     pub(super) waiting: Option<resolution::Waiting>,
     /// The command that was understood last, for «А теперь другую».
     pub(super) ordered: Option<resolution::Ordered>,
+    /// Where the person has said to be.
+    pub(super) person: Option<Entity>,
     /// Where the robot was before it was last sent away.
     pub(super) left: Option<Thing>,
     /// The same, where it left the map since.
@@ -150,6 +153,13 @@ impl Memory {
                 self.listed = things.to_vec();
             }
         }
+    }
+
+    /// Notes that one of several things was meant, and which was not told.
+    pub(super) fn waver(&mut self, things: &[Thing]) {
+        self.last.clear();
+        self.listed.clear();
+        self.follow(Exchange::list(things));
     }
 
     /// What "them" means in a command, the one that "it" means at the end.

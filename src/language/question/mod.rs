@@ -7,10 +7,12 @@
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
 //! three different [`Doubt`]s. No text makes it panic.
 
+mod another_place;
 mod answer;
 mod asides;
 mod assemble;
 mod bare;
+mod beside;
 mod compared;
 mod constructions;
 mod courtesy;
@@ -75,7 +77,7 @@ use crate::map::{DoorState, World};
 use crate::report::Detail;
 use crate::semantics::Relations;
 use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId};
-use crate::words::{Language, everyday as everyday_words, phrase_at, word_keys};
+use crate::words::{Language, everyday as everyday_words, is_first_person, phrase_at, word_keys};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
@@ -338,6 +340,9 @@ impl Asker<'_> {
             memory.miss(&Doubt::TooLong { length }, false);
             return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
         }
+        if let Some(answer) = self.told_where(text, language, memory) {
+            return Ok(answer);
+        }
         // A fact in the notation of the rules is one, whatever its commas.
         let is_noted = self.noted(text).is_some();
         let parts = match is_noted {
@@ -399,7 +404,8 @@ impl Asker<'_> {
                 if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {
                     self.hear_of(text, memory);
                 }
-                let names_nothing = memory.exchanges == before && !self.has_pronoun(text);
+                let is_deaf = memory.exchanges == before && !self.has_pronoun(text);
+                let names_nothing = is_deaf && self.introduces(text);
                 memory.miss(&doubt, names_nothing);
                 // «Это Часы-1 или Часы-2? – Где вторые?»
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
@@ -448,6 +454,21 @@ impl Asker<'_> {
         everyday_words::is_a_thing(&key)
             || everyday_words::is_in_list(&key)
             || purposes::is_a_word(&key)
+    }
+
+    /// Whether a text has words for anything at all, known or not, that it may speak of: «А что внутри?» has none.
+    fn introduces(&self, text: &str) -> bool {
+        let text = self.plain(text);
+        let idle = |item: &Item| match item {
+            // «второй», "the other one" may be what was not understood.
+            Item::Mark(mark) => {
+                !matches!(mark, Mark::Rank(_) | Mark::One | Mark::Other | Mark::Best(_))
+            }
+            Item::Link(_) | Item::Property(_) => true,
+            _ => false,
+        };
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        items.is_empty() || !items.iter().all(idle)
     }
 
     fn has_pronoun(&self, text: &str) -> bool {
@@ -604,6 +625,26 @@ impl Asker<'_> {
             || told.is_some_and(|(_, asked)| opening::begins_question(&word_keys(asked)))
     }
 
+    /// "I need the battery, where is it?": whether a text asks behind what the person tells of itself, and orders nothing.
+    #[must_use]
+    pub fn asks_behind_what_is_told(&self, text: &str) -> bool {
+        let Some((told, asked)) = text.trim_end().rsplit_once([',', ';', '–', '—']) else {
+            return false;
+        };
+        let of_me = told.split([',', ';', '.', '!']).any(|part| {
+            const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
+            let first = word_keys(part).into_iter().next();
+            first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
+        });
+        let orders = |part: &str| crate::command::is_order(part) && !self.asks_to_tell(part);
+        asked.ends_with('?')
+            && of_me
+            && word_keys(asked).len() > 2
+            && !crate::command::is_command(asked)
+            && !orders(asked.trim_end_matches('?'))
+            && !orders(told)
+    }
+
     /// Whether a text asks to be told something, in the words of an order: "Give me directions …".
     #[must_use]
     pub fn asks_to_tell(&self, text: &str) -> bool {
@@ -622,7 +663,9 @@ impl Asker<'_> {
     }
 
     fn answer(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
-        self.answer_at(None, text, language, memory)
+        let place = self.person_at(text, memory);
+        let storey = self.with_storey(text, memory);
+        self.answer_at(place.as_ref(), storey.as_deref().unwrap_or(text), language, memory)
     }
 
     /// The answer to a question that is asked at a place, the robot's where none was told.
@@ -642,7 +685,7 @@ impl Asker<'_> {
             let knowledge = self.knowledge(language, memory);
             return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
-        let continued = || self.continued(text, memory);
+        let continued = || self.continued(text, memory).or_else(|| self.on_a_side(text, memory));
         let mut query = match self.noted(text).or_else(continued) {
             Some(query) => query,
             None => match self.read(text, memory) {

@@ -48,12 +48,15 @@ impl Asker<'_> {
             things.len() > 1 && things.iter().any(fits)
         };
         let mut named = vec![memory.last.clone()];
+        if of_two {
+            named.extend(knowledge.last_pair());
+            named.extend(knowledge.last_places());
+        }
         memory.query.clone()?.each_noun(&mut |noun| {
             named.extend(knowledge.find(noun, true).ok());
         });
         named.extend(self.alike_spoken_of(memory));
         if of_two {
-            named.extend(knowledge.last_pair());
             named.retain(|things| things.len() == 2);
         }
         let things = named.into_iter().find(|things| agree(things))?;
@@ -82,17 +85,27 @@ impl Asker<'_> {
     pub(super) fn how_many_told(&self, text: &str, memory: &Memory) -> Option<Query> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        let mut counts = false;
+        let (mut counts, mut bare) = (false, !sentence.points());
         for item in sentence.items() {
             match item {
                 Item::Mark(Mark::HowMany) => counts = true,
                 Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Filler) => {}
-                Item::Noun(phrase) if self.is_bare_thing(&phrase.noun) => {}
+                Item::Mark(Mark::Exists) if bare => {}
+                Item::Noun(phrase) if self.is_bare_thing(&phrase.noun) => bare = false,
                 _ => return None,
             }
         }
         let told = &memory.last;
-        (counts && sentence.points() && told.len() > 1)
+        // "Is there a mug in the kitchen? – Yes. – How many are there?": of the kind, where it was asked for.
+        if let (true, true, Some(Query::Exists { what, .. })) = (counts, bare, &memory.query)
+            && let [noun] = &what[..]
+            && !noun.head.anything
+            && noun.best.is_none()
+        {
+            let noun = Noun { indefinite: false, count: None, plural: true, ..noun.clone() };
+            return Some(Query::Count(noun));
+        }
+        (counts && (bare || sentence.points()) && told.len() > 1)
             .then(|| Query::Count(Noun { plural: true, ..Noun::of(told.clone()) }))
     }
 

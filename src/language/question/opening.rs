@@ -111,5 +111,6 @@ fn asks_way(words: &[String]) -> bool {
     let you = longest(words).filter(|(_, mark)| *mark == Mark::You).map_or(0, |(taken, _)| taken);
     let Some((taken, Mark::Move)) = longest(&words[you..]) else { return false };
     let next = longest(&words[you + taken..]).map(|(_, mark)| mark);
-    next == Some(Mark::Link(Rel::From))
+    // "Can you drive through it?" asks of a door.
+    matches!(next, Some(Mark::Link(Rel::From | Rel::Through)))
 }

@@ -74,6 +74,7 @@ impl Memory {
                 told.clear();
             }
         }
+        self.person = self.person.filter(|place| !is_gone(&Thing::Entity(*place)));
         if let Some(departed) = self.left.and_then(gone) {
             (self.left, self.left_departed) = (None, Some(departed));
         }

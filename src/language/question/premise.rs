@@ -5,8 +5,8 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
-use super::{Asker, Memory, Noun, Query, Rel, Restriction};
-use crate::words::{is_first_person, word_keys, word_ranges};
+use super::{Answer, Asker, Courtesy, Head, Memory, Noun, Query, Rel, Restriction, Said, Thing};
+use crate::words::{Language, is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
 const SMALL: [&str; 14] = [
@@ -75,12 +75,48 @@ impl Asker<'_> {
         place.filter(|_| me)
     }
 
-    /// Notes where the person is, for "there" and "here".
+    /// Notes where the person is, for "there" and "here", and for what is asked next.
     pub(super) fn hear_of_place(&self, place: &Noun, memory: &mut Memory) {
         let found = self.knowledge(memory.language, memory).find(place, true).unwrap_or_default();
         if let [only] = found[..] {
             memory.mention(&[only]);
+            if let Thing::Entity(place) = only {
+                memory.person = Some(place);
+            }
         }
+    }
+
+    /// «Я сейчас на кухне.»: a line of no more than where the person is.
+    pub(super) fn told_where(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Answer> {
+        let place = self.premise(text).filter(|_| !text.contains('?'))?;
+        let found = self.knowledge(language, memory).find(&place, true).ok()?;
+        let [only] = found[..] else { return None };
+        self.hear_of_place(&place, memory);
+        let name = self.knowledge(language, memory).name(only);
+        let told = language.pick("Понял, где вы:", "I see where you are:");
+        let query = Query::Courtesy(Courtesy::Assent);
+        Some(Answer::ran(query, language, Said::Found, text, format!("{told} {name}.")))
+    }
+
+    /// Where the person was last said to be, where a question may count from there: what is asked of the robot counts from
+    /// the robot.
+    pub(super) fn person_at(&self, text: &str, memory: &Memory) -> Option<Noun> {
+        let place = memory.person?;
+        let plain = self.plain(text);
+        let to_robot = |item: &Item| match item {
+            Item::Mark(Mark::You) => true,
+            Item::Noun(phrase) => phrase.person == Some(Mark::You),
+            Item::Place { nouns, .. } => nouns.iter().any(|p| p.person == Some(Mark::You)),
+            _ => false,
+        };
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let head = Head { named: vec![place], ..Head::default() };
+        (!items.iter().any(to_robot)).then(|| Noun { head, ..Noun::default() })
     }
 }
 

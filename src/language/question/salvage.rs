@@ -6,7 +6,7 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
-    Asker, Doubt, Memory, Noun, Outcome, Said, Thing, opening, premise, several, vocabulary,
+    Asker, Doubt, Memory, Noun, Outcome, Query, Said, Thing, opening, premise, several, vocabulary,
 };
 use crate::command::is_order;
 use crate::words::{Language, word_keys, word_ranges};
@@ -77,11 +77,15 @@ impl Asker<'_> {
             }
             // What asks begins with the span, or at a word of it that asks.
             let (words, keys) = (word_ranges(span), word_keys(span));
+            let led = is_reported(&word_keys(&text[..start]));
             let at_once = |n: usize| {
-                let reported = is_reported(&keys[..n]);
+                let reported = is_reported(&keys[..n]) || n == 0 && led;
                 let joint = reported && JOINTS.contains(&keys[n].as_str());
-                n == 0
-                    || !joint && (reported || keys[n] != "ли" && opening::asks_at_once(&keys[n..]))
+                // «Собираюсь заваривать чай, а где чайник?»: a deed by itself does not ask, and "what's" is one word.
+                let deed = matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Deed(_))));
+                let cuts = span[..words[n].start].ends_with(['\'', '’']);
+                let asks = keys[n] != "ли" && !deed && opening::asks_at_once(&keys[n..]);
+                !joint && !cuts && (n == 0 || reported || asks)
             };
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));
             for begin in begins.map(|n| words[n].start) {
@@ -89,10 +93,13 @@ impl Asker<'_> {
                 if begin > 0 && goes_on(&text[..start + begin], asked) {
                     continue;
                 }
-                let before = word_keys(&span[..begin]);
+                let before = word_keys(&text[..start + begin]);
                 let reported = is_reported(&before);
                 let lead = &text[..start + begin];
-                let lead = if reported { without_joint(lead) } else { lead };
+                let (lead, within) = match reported {
+                    true => (without_joint(lead), without_joint(&span[..begin])),
+                    false => (lead, &span[..begin]),
+                };
                 let aside = [lead, &text[end..]];
                 // Whether a claim is true is asked where somebody makes it, or where it is begged to be told.
                 let begs = |text: &&str| parts_of(text).any(|part| only_begs(&word_keys(part)));
@@ -103,7 +110,7 @@ impl Asker<'_> {
                 }
                 let Some(told) = self.told_aside(&aside, memory) else { break };
                 // "Is there a mug anywhere else?" without its "is" is another question.
-                if self.says_something(&span[..begin]) || !self.asks_of_something(asked) {
+                if self.says_something(within) || !self.asks_of_something(asked) {
                     continue;
                 }
                 // «Сижу в гостиной, скучно, что тут …?»: "here" is where the person is, or nowhere.
@@ -111,7 +118,12 @@ impl Asker<'_> {
                 if premise::says_here(asked) && !placed {
                     continue;
                 }
-                let pronouns = self.pronouns(asked);
+                let asks_it = several::without_tag(asked);
+                let mut pronouns = self.pronouns(asks_it);
+                // "it is" is read as nothing by itself.
+                if pronouns.is_empty() && word_keys(asks_it).iter().any(|key| key == "it") {
+                    pronouns.push(Pronoun::Any);
+                }
                 if !told.named.may_be_meant(&pronouns) {
                     // «Телефон потерялся, где он?» of two: which one is asked back.
                     if doubted.is_none()
@@ -127,7 +139,10 @@ impl Asker<'_> {
                     self.hear_of_place(place, &mut heard);
                 }
                 match self.answer_at(told.place.as_ref(), asked, language, &heard) {
-                    Ok(answer) if answer.said == Said::Unknown => {}
+                    // What was never seen is no doubt of the words.
+                    Ok(answer)
+                        if answer.said == Said::Unknown
+                            && !matches!(answer.query, Query::LastSeen(_)) => {}
                     // A claim that somebody makes is true or not.
                     Ok(answer)
                         if claimed
@@ -257,17 +272,24 @@ impl Asker<'_> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let items = sentence.items();
-        (0..items.len()).any(|n| match &items[n] {
-            Item::Noun(phrase) if phrase.person.is_none() => {
-                !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
-            }
-            Item::Place { .. } => n > 0,
-            Item::Unknown(words) => self.is_word(sentence.said(words)),
-            Item::Mark(mark) => {
-                matches!(mark, Mark::Deed(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
-            }
-            _ => false,
-        })
+        // "… any idea where it is?"
+        let is_it = |n: usize| {
+            let said = vocabulary::longest(&sentence.keys[n..=n]);
+            matches!(said, Some((_, Mark::Pronoun(_))))
+        };
+        let points = !items.is_empty() && (0..sentence.keys.len()).any(is_it);
+        points
+            || (0..items.len()).any(|n| match &items[n] {
+                Item::Noun(phrase) if phrase.person.is_none() => {
+                    !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
+                }
+                Item::Place { .. } => n > 0,
+                Item::Unknown(words) => self.is_word(sentence.said(words)),
+                Item::Mark(mark) => {
+                    matches!(mark, Mark::Deed(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
+                }
+                _ => false,
+            })
     }
 
     /// Whether words before a question belong to it: anything but small and unknown ones, and those that beg to be told.
@@ -335,20 +357,30 @@ impl Asker<'_> {
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
         let wishes = keys.iter().any(|key| key == "бы" || key == "б");
         let begs = only_begs(&keys);
-        let tells = tells_there_is(text, &keys) || is_own_clause(&keys);
+        let seeks = several::seeks(text);
+        let tells = tells_there_is(text, &keys) || is_own_clause(&keys) || seeks;
         if several::asks_outright(text) && !wishes && !begs && !tells {
             return None;
         }
         // «Ту, что в комоде, достань» orders.
-        if is_order(text) && !begs {
+        if is_order(text) && !begs && !seeks {
             return None;
         }
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         let mut named = Named::default();
-        for item in sentence.items() {
+        let items = sentence.items();
+        // «Я всё перепутал», "I forgot it all": of the person, and of no thing.
+        let names = items.iter().any(|item| match item {
+            Item::Noun(phrase) => phrase.person.is_none() && phrase.pronoun.is_none(),
+            Item::Place { .. } => true,
+            _ => false,
+        });
+        let of_me = !names && opening::is_of_me(&keys);
+        for item in items {
             let (phrases, is_place) = match item {
+                Item::Mark(Mark::All) if of_me => (Vec::new(), false),
                 Item::Mark(Mark::Other | Mark::All | Mark::Detail(_)) => return None,
                 Item::Noun(phrase) => (vec![phrase], false),
                 Item::Place { nouns, .. } => (nouns, true),

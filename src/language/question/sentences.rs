@@ -59,6 +59,10 @@ impl Asker<'_> {
                     }
                 },
             };
+            // A part of small words asks nothing by itself.
+            if matches!(answer.query, Query::Help) {
+                return None;
+            }
             after.learn(&answer);
             answers.push(answer);
         }
@@ -196,6 +200,10 @@ impl Asker<'_> {
             return Some(Ok(answer));
         }
         let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
+        // «Говорят, дверь заперта. Верно?» asks of what stands before.
+        if several::is_tag(&word_keys(last).join(" ")) {
+            return None;
+        }
         let mut after = memory.clone();
         let mut answers = Vec::new();
         let mut place = None;
@@ -215,6 +223,7 @@ impl Asker<'_> {
         if let Some(place) = &place
             && let Ok(answer) = self.answer_at(Some(place), last, language, &after)
         {
+            self.hear_of_place(place, &mut after);
             after.learn(&answer);
             *memory = after;
             answers.push(answer);
@@ -295,17 +304,31 @@ impl Asker<'_> {
                 _ => {}
             }
         }
-        let (named, placed) = {
+        let (named, placed, several) = {
             let knowledge = self.knowledge(sentence.language, memory);
-            let one =
-                |noun: &Noun| knowledge.find(noun, true).ok().filter(|found| found.len() == 1);
+            let found = |noun: &Noun| knowledge.find(noun, true).ok();
+            let one = |noun: &Noun| found(noun).filter(|found| found.len() == 1);
             let named: Vec<Thing> = nouns.iter().filter_map(one).flatten().collect();
             let placed: Vec<Thing> = places.iter().filter_map(one).flatten().collect();
-            (named, placed)
+            let of_kind = |noun: &&Noun| !noun.head.anything && noun.head.things.is_none();
+            let several = match &nouns[..] {
+                [only] => Some(only).filter(of_kind).and_then(found).unwrap_or_default(),
+                _ => Vec::new(),
+            };
+            (named, placed, several)
         };
         if !named.is_empty() {
             memory.mention(&named);
             memory.is_plural = nouns.iter().any(|noun| noun.plural);
+        } else if several.len() > 1 {
+            // None of them is "it", and of one that was meant there are no others; several may be "they".
+            match nouns.iter().any(|noun| noun.plural) {
+                true => {
+                    memory.list(&several);
+                    memory.is_plural = true;
+                }
+                false => memory.waver(&several),
+            }
         }
         if let [place] = placed[..] {
             memory.told_place = Some(place);

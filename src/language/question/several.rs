@@ -82,6 +82,18 @@ pub(super) fn asks_outright(text: &str) -> bool {
     })
 }
 
+/// Whether words tell that something is looked for, and ask only by that: "I can't find the kettle", «ищу свой зонт».
+pub(super) fn seeks(text: &str) -> bool {
+    const ASKING: [&str; 4] = ["where", "whereabouts", "где", "куда"];
+    let keys = word_keys(text);
+    if text.trim_end().ends_with('?') || keys.iter().any(|key| ASKING.contains(&key.as_str())) {
+        return false;
+    }
+    let marks = || (0..keys.len()).filter_map(|n| vocabulary::longest(&keys[n..]).map(|(_, m)| m));
+    marks().any(|mark| mark == Mark::Where)
+        && marks().all(|mark| mark == Mark::Where || !is_asking(mark))
+}
+
 /// The sentences of a line: a mark that ends one, a blank, and a capital.
 #[must_use]
 pub fn sentences(line: &str) -> Vec<&str> {
@@ -175,9 +187,10 @@ fn begins(words: &[String]) -> bool {
     }
 }
 
-/// A question without the "isn't it?" at its end.
-pub(super) fn without_tag(text: &str) -> &str {
-    const TAGS: [&str; 42] = [
+/// Whether words hung on a question ask only whether what stands before is so, or beg: "isn't it", "is she right", «не так
+/// ли», «она права», "could you".
+pub(super) fn is_tag(tag: &str) -> bool {
+    const BEGGING: [&str; 9] = [
         "won t you",
         "will you",
         "would you",
@@ -186,41 +199,45 @@ pub(super) fn without_tag(text: &str) -> &str {
         "do you know",
         "please",
         "не подскажешь",
-        "is it",
-        "isn t it",
-        "isnt it",
-        "are they",
-        "aren t they",
-        "does it",
-        "doesn t it",
-        "is he",
-        "is she",
-        "was it",
-        "wasn t it",
+        "нет",
+    ];
+    const TRUE: [&str; 14] = [
         "right",
         "correct",
-        "is there",
-        "isn t there",
-        "that true",
-        "is that true",
-        "is that right",
-        "is that so",
+        "true",
+        "so",
         "yes",
         "yeah",
-        "это правда",
-        "это верно",
-        "это так",
-        "так ли это",
-        "верно ли это",
-        "правда ли это",
-        "не так ли",
-        "верно",
         "правда",
+        "верно",
         "так",
         "да",
-        "нет",
         "правильно",
+        "прав",
+        "права",
+        "правы",
     ];
+    const BEING: [&str; 14] = [
+        "is", "isn", "isnt", "are", "aren", "was", "wasn", "does", "doesn", "am", "ain", "did",
+        "didn", "do",
+    ];
+    const WHO: [&str; 17] = [
+        "it", "that", "this", "he", "she", "they", "i", "there", "это", "он", "она", "они", "я",
+        "ли", "не", "t", "ну",
+    ];
+    let words: Vec<&str> = tag.split(' ').collect();
+    let of = |sets: &[&[&str]]| words.iter().all(|word| sets.iter().any(|set| set.contains(word)));
+    let says = words.iter().any(|word| TRUE.contains(word)) && of(&[&TRUE, &BEING, &WHO]);
+    // "…, is there?" alone: "…, is it there?" asks of a place.
+    let echoes = BEING.contains(&words[0])
+        && of(&[&BEING, &WHO])
+        && words.len() > 1
+        && (!words.contains(&"there") || words.iter().all(|word| *word != "it"));
+    BEGGING.contains(&tag) || says || echoes
+}
+
+/// A question without the "isn't it?" at its end.
+pub(super) fn without_tag(text: &str) -> &str {
     // «Не могу найти часы, где они?» asks once.
     const WHERE: [&str; 8] = [
         "где они",
@@ -236,8 +253,8 @@ pub(super) fn without_tag(text: &str) -> &str {
     let Some((before, tag)) = text.rsplit_once([',', '–', '—', '.', ';']) else { return text };
     let tag = word_keys(tag).join(" ");
     let asked = WHERE.contains(&tag.as_str());
-    let is_tag = TAGS.contains(&tag.as_str())
-        || (asked && has_mark(&word_keys(before), |mark| mark == Mark::Where));
+    let is_tag =
+        is_tag(&tag) || (asked && has_mark(&word_keys(before), |mark| mark == Mark::Where));
     if is_tag && word_ranges(before).len() > 1 { before } else { text }
 }
 

@@ -128,6 +128,11 @@ impl Knowledge<'_> {
     /// A preposition with names: «на Столе-1», "between Bed 1 and Wardrobe 2".
     pub(super) fn place(&self, rel: Rel, anchors: &[Thing]) -> String {
         let Some(&anchor) = anchors.first() else { return String::new() };
+        let has = |rel| anchor.replica().is_some() && !self.related(rel, anchor).is_empty();
+        // On it and in it.
+        if rel == Rel::There && has(Rel::On) && has(Rel::In) {
+            return self.pick("там", "there").to_owned();
+        }
         let rel = if rel == Rel::There { self.there(anchor) } else { rel };
         let is_area = matches!(anchor, Thing::Entity(Entity::Area(_) | Entity::Map(_)));
         let storeys: Option<Vec<String>> = anchors.iter().map(|a| self.bare_storey(*a)).collect();

@@ -6,10 +6,31 @@ use std::collections::HashSet;
 
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
-use super::mark::Pronoun;
+use super::mark::{Mark, Pronoun};
 use super::memory::Exchange;
 use super::query::{Extreme, Head, Noun, Query, Rel, Restriction, Thing};
-use crate::words::Number;
+use super::{Asker, Memory, vocabulary};
+use crate::map::Entity;
+use crate::words::{Language, Number, word_keys, word_ranges};
+
+impl Asker<'_> {
+    /// «Сколько этажей? – Первый и Второй. – Что на втором?»: a number without its noun, after storeys that were told.
+    pub(super) fn with_storey(&self, text: &str, memory: &Memory) -> Option<String> {
+        let storey = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
+        let told = |e: &Exchange| e.members().len() > 1 && e.members().iter().all(storey);
+        memory.exchanges.iter().find(|e| told(e))?;
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let at = (1..keys.len()).find(|&n| {
+            let ranks = matches!(vocabulary::longest(&keys[n..]), Some((1, Mark::Rank(_))));
+            let placed = ["на", "on", "the"].contains(&keys[n - 1].as_str());
+            let ends = keys.get(n + 1).is_none_or(|next| next == "one" && n + 2 == keys.len());
+            ranks && placed && ends
+        })?;
+        let end = words.last()?.end;
+        let noun = Language::of(text).pick("этаже", "floor");
+        Some(format!("{} {noun}{}", &text[..words[at].end], &text[end..]))
+    }
+}
 
 impl Knowledge<'_> {
     /// Those of some things that an answer has told one after the other, in its order.
@@ -55,8 +76,11 @@ impl Knowledge<'_> {
             return Some(rest);
         }
         let others = |thing: &Thing| {
-            let kind = self.kind_of(*thing)?;
-            let all = self.members(&self.lexicon().kind(kind).extension);
+            let all = match (self.kind_of(*thing), thing) {
+                (Some(kind), _) => self.members(&self.lexicon().kind(kind).extension),
+                (None, Thing::Entity(Entity::Door(_))) => self.members(&Extension::Doors),
+                (None, _) => return None,
+            };
             let rest: Vec<Thing> = all.into_iter().filter(|t| t != thing).collect();
             (!rest.is_empty()).then_some(rest)
         };
@@ -132,6 +156,16 @@ impl Knowledge<'_> {
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
         (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
+    }
+
+    /// "What's in the lab? And in the office? Which of the two is bigger?": the rooms or storeys of the last two exchanges.
+    pub(super) fn last_places(&self) -> Option<Vec<Thing>> {
+        let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
+        let place = |e: &Exchange| {
+            e.topic().filter(|t| matches!(t, Thing::Entity(Entity::Area(_) | Entity::Map(_))))
+        };
+        let pair = vec![place(earlier)?, place(later)?];
+        (pair[0] != pair[1]).then_some(pair)
     }
 
     /// The latest list of things of which some are.

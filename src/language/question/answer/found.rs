@@ -42,6 +42,9 @@ impl Knowledge<'_> {
         if let Some(text) = self.keys_for(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
+        if let Some(draft) = self.storeys_of_lift(noun) {
+            return Ok(draft);
+        }
         if let Some(text) = self.neighbours(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
@@ -105,7 +108,12 @@ impl Knowledge<'_> {
         };
         let said = if found.is_empty() { Said::Nothing } else { Said::Found };
         let text = format!("{text}{}", self.also(noun, &found));
-        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&anchors))
+        let beside = match found.is_empty() {
+            true => self.nearest_beside(noun).map(|(_, thing)| thing),
+            false => None,
+        };
+        let topic: Vec<Thing> = anchors.into_iter().chain(beside).collect();
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&topic))
     }
 
     /// Whether what was found is one of several that differ by a value, or by what they have.
@@ -155,6 +163,28 @@ impl Knowledge<'_> {
             false if several => format!("{list} open {}", self.name(door)),
             false => format!("{} opens {}", self.name(key), self.name(door)),
         })
+    }
+
+    /// "Is there a lift? Which floors does it go to?": where it stops.
+    fn storeys_of_lift(&self, noun: &Noun) -> Option<Draft> {
+        let storeys = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
+        let [place] = &noun.restrictions[..] else { return None };
+        if place.negated || !noun.head.kinds.iter().any(storeys) {
+            return None;
+        }
+        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
+        let area = cabin.area()?;
+        let lifts = &self.world.domain.lifts;
+        let (_, stops) = lifts.iter().find(|(_, stops)| stops.iter().any(|s| s.area == area))?;
+        let on = |area| self.world.placement(area).map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let mut maps: Vec<Thing> = stops.iter().filter_map(|stop| on(stop.area)).collect();
+        maps.dedup();
+        let (name, list) = (self.name(cabin), self.list(&maps));
+        let text = match self.is_russian() {
+            true => format!("{name} останавливается здесь: {list}"),
+            false => format!("{name} stops at {list}"),
+        };
+        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
     }
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
@@ -329,12 +359,22 @@ impl Knowledge<'_> {
 
     /// Where nothing is right beside a thing, what stands nearest to it in its room.
     fn nearest_instead(&self, noun: &Noun) -> String {
+        let Some((away, thing)) = self.nearest_beside(noun) else { return String::new() };
+        let (name, away) = (self.name(thing), length(away, self.language));
+        match self.is_russian() {
+            true => format!(", ближе всего {name} ({away})"),
+            false => format!("; the nearest is {name} ({away})"),
+        }
+    }
+
+    fn nearest_beside(&self, noun: &Noun) -> Option<(f64, Thing)> {
         /// What is nearer touches the thing: it lies on it or carries it.
         const APART: f64 = 1.0;
-        let [place] = &noun.restrictions[..] else { return String::new() };
-        let [anchor] = self.anchor_things(noun)[..] else { return String::new() };
-        if place.rel != Rel::NextTo || place.negated {
-            return String::new();
+        let [place] = &noun.restrictions[..] else { return None };
+        let [anchor] = self.anchor_things(noun)[..] else { return None };
+        let general = noun.head.anything && noun.filters.is_empty() && !noun.other;
+        if place.rel != Rel::NextTo || place.negated || !general {
+            return None;
         }
         let near = self.related(Rel::Near, anchor).into_iter();
         let near = near.filter(|t| self.area_of(*t) == self.area_of(anchor));
@@ -342,15 +382,7 @@ impl Knowledge<'_> {
         // A picture hangs over what stands under it, rather than beside it.
         let hangs = |t: Thing| self.held_by_room(t) == Some(Held::OnWall);
         let nearest = near.filter(|(away, t)| *away >= APART && (!hangs(*t) || hangs(anchor)));
-        let Some((away, thing)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-        else {
-            return String::new();
-        };
-        let (name, away) = (self.name(thing), length(away, self.language));
-        match self.is_russian() {
-            true => format!(", ближе всего {name} ({away})"),
-            false => format!("; the nearest is {name} ({away})"),
-        }
+        nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
     /// A lift has an Area on every floor where it stops; people count it once. Rooms in general are counted as such.

@@ -145,6 +145,8 @@ impl Knowledge<'_> {
         let english = names.map_or("", |sort| &*sort.english[0]);
         let plain = of.filters.is_empty() && of.head.named.is_empty();
         let text = match (self.is_russian(), plain) {
+            (true, _) if of.other => format!("{place} больше ничего для этого нет"),
+            (false, _) if of.other => format!("there is nothing else for that {place}"),
             (true, true) if let Some(rest) = russian.strip_prefix("вещь ") => {
                 format!("{place} нет ничего {rest}")
             }

@@ -9,6 +9,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::question::values::{Property, ValueId};
 use crate::report::Detail;
+use crate::words::Language;
 
 impl Frame<'_, '_> {
     pub(super) fn of_robot(&self) -> Option<Query> {
@@ -130,6 +131,16 @@ impl Frame<'_, '_> {
             let noun =
                 Noun { head, plural: true, indefinite: true, restrictions, ..Noun::default() };
             return Some(Query::Find(noun));
+        }
+        // «Где ключ? – … – От чего он?»
+        if let ([only], true) = (&self.nouns[..], self.has(Mark::Opens))
+            && only.noun.head.things.as_ref().is_some_and(|things| things.len() == 1)
+            && self.spots.is_empty()
+            && self.sentence.language == Language::Russian
+            && self.sentence.keys.iter().any(|key| key == "от")
+        {
+            let of = only.noun.clone();
+            return Some(Query::Anchor { rel: Rel::Opens, of, what: None });
         }
         let key = self.nouns.iter().find(|s| self.is_key(&s.noun))?;
         let from = self.links.iter().any(|(rel, _)| matches!(rel, Rel::From | Rel::To));

@@ -302,7 +302,7 @@ impl Frame<'_, '_> {
             _ => false,
         };
         goes_on
-            && (matches!(query, Query::Find(_) | Query::Exists { .. }) || about && placed(query))
+            && (matches!(query, Query::Find(_) | Query::Exists { .. }) || placed(query))
             && !self.marks.iter().any(asks)
     }
 }

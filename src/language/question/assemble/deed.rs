@@ -93,6 +93,8 @@ impl Frame<'_, '_> {
         // «вытереть пыль с полки»: what it is done to as well.
         let apart: Vec<usize> = self.beside_deed().map(|s| s.at).collect();
         let noun = Noun { plural: true, indefinite: true, ..self.with_rest(noun, &apart) };
+        // "What else is there to eat?"
+        let noun = Noun { other: noun.other || self.has(Mark::Other), ..noun };
         let where_asked = self.has(Mark::Where) || self.has(Mark::Whither);
         let plain = role == Role::Theme || noun.best.is_some();
         let asked = match () {

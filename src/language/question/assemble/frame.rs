@@ -273,6 +273,7 @@ impl<'s, 't> Frame<'s, 't> {
         }
         // "What else is there?"
         let bare = frame.nouns.is_empty() && frame.spots.is_empty() && frame.there.is_none();
+        let bare = bare && !frame.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
         if bare && frame.asks() && frame.has(Mark::Other) && frame.has(Mark::Exists) {
             let meant = referent(Pronoun::There, None);
             frame.there = (!meant.is_empty()).then(|| things(meant, "there"));

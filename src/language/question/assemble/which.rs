@@ -25,10 +25,21 @@ impl Frame<'_, '_> {
         if self.links.iter().any(|(rel, _)| *rel == Rel::Through) {
             return None;
         }
+        let of = self.spot(&[Rel::Of, Rel::From]);
+        let told = of.filter(|s| s.nouns[0].head.things.is_some());
+        // «Какие есть комнаты? – У скольких из них есть окно?»: of the rooms that were told, those that have it.
+        if let (Some(of), Some(had)) = (told, counted)
+            && self.is_area(&of.nouns[0])
+            && !self.is_area(&had.noun)
+        {
+            let mut rooms = of.nouns[0].clone();
+            self.relate(&mut rooms, had);
+            return Some(Query::Count(self.with_rest(rooms, &[of.at])));
+        }
         let Some(counted) = counted else {
             // «Сколько в комнате чёрных?», "how many are on the table"
             let mut noun = Noun { plural: true, ..Noun::default() };
-            let of = self.spot(&[Rel::Of, Rel::From]).filter(|s| !self.is_area(&s.nouns[0]));
+            let of = of.filter(|s| told.is_some() || !self.is_area(&s.nouns[0]));
             if let Some(of) = of {
                 return Some(Query::Count(self.with_rest(of.nouns[0].clone(), &[of.at])));
             }

@@ -4,7 +4,7 @@ use super::{Found, Sentence, Tok, Token};
 use crate::map::Entity;
 use crate::question::compared::quantity;
 use crate::question::lexicon::{Extension, Lexicon, Meaning};
-use crate::question::mark::Mark;
+use crate::question::mark::{Mark, Pronoun};
 use crate::question::query::{Extreme, Quantity, Rel};
 use crate::question::small_words;
 use crate::question::uses;
@@ -67,6 +67,10 @@ impl<'t> Sentence<'t> {
         // "Which is the tallest?" asks; "the book which is on the table" tells.
         let mark = match mark {
             Some((_, Mark::Filler)) if at == 0 && keys[0] == "which" => Some((1, Mark::Which)),
+            // "… any idea where it is?"
+            Some((2, Mark::Filler)) if at > 0 && keys == ["it", "is"] => {
+                Some((1, Mark::Pronoun(Pronoun::Any)))
+            }
             mark => mark,
         };
         // "for cutting bread", but "a cutting board"

@@ -86,6 +86,14 @@ impl Knowledge<'_> {
                 found
             }
             (Rel::Middle, _) => self.in_middle(anchor),
+            (Rel::There, Thing::Entity(Entity::Replica(_))) => {
+                // A chest has things in it and on it.
+                let mut found = self.by_relation(Rel::In, anchor);
+                found.extend(self.by_relation(Rel::On, anchor));
+                found.sort_unstable();
+                found.dedup();
+                found
+            }
             (Rel::There, _) => self.related(self.there(anchor), anchor),
             (Rel::Has, _) => self.holders(anchor),
             (Rel::Opens, _) => self.keys_of(anchor),

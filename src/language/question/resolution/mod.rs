@@ -96,6 +96,7 @@ impl Asker<'_> {
         }
         let said = word_keys(&gathered);
         let text = self.with_kind(self.plain(&gathered), memory);
+        let text = self.with_one_of_those(text, memory);
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_deed(text, language).map_err(misread)?;

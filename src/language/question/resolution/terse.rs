@@ -274,6 +274,51 @@ impl Asker<'_> {
         })
     }
 
+    /// «Есть ли яблоки в спальне? – Яблоко-1 и Яблоко-2. – Принеси одно»: the nearest of those that were told.
+    pub(super) fn with_one_of_those(&self, mut text: String, memory: &Memory) -> String {
+        const ONE: [&str; 7] = ["один", "одну", "одно", "одного", "одной", "one", "any"];
+        const SMALL: [&str; 11] = [
+            "me",
+            "мне",
+            "please",
+            "пожалуйста",
+            "of",
+            "из",
+            "them",
+            "those",
+            "these",
+            "них",
+            "тогда",
+        ];
+        let described = command::without_verbs(&text);
+        let keys = word_keys(&described);
+        let is_one = |key: &&String| ONE.contains(&key.as_str());
+        let bare = keys.iter().all(|key| is_one(&key) || SMALL.contains(&key.as_str()));
+        let of_one_kind = self.knowledge(Language::of(&text), memory).alike(&memory.last).is_some();
+        if !bare || keys.iter().filter(is_one).count() != 1 || memory.last.len() < 2 || !of_one_kind
+        {
+            return text;
+        }
+        let Some((_, sort)) = command::clauses(&text).first().copied() else { return text };
+        let language = Language::of(&text);
+        let knowledge = self.knowledge(language, memory);
+        let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
+        let fit = memory.last.iter().filter(|t| knowledge.can(sort, **t));
+        let Some(nearest) = fit.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b))) else {
+            return text;
+        };
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
+        let is_one = |key: &String| ONE.contains(&key.as_str());
+        let Some(at) = keys.iter().position(is_one) else { return text };
+        let of_those = |n: usize| ["of", "из"].contains(&keys[n].as_str());
+        let end = match keys.len() > at + 2 && of_those(at + 1) {
+            true => words[at + 2].end,
+            false => words[at].end,
+        };
+        text.replace_range(words[at].start..end, &knowledge.form(*nearest, Case::Accusative));
+        text
+    }
+
     /// An adjective without its noun: «вторую» counts what was told, «красную» is of the kind of what was spoken of.
     pub(super) fn with_noun(&self, mut text: String, memory: &Memory) -> String {
         const ENDINGS: [&str; 7] = ["ую", "юю", "ый", "ий", "ой", "ое", "ее"];
@@ -328,14 +373,18 @@ impl Asker<'_> {
         }
         let sort = command::clauses(text).first().map_or(Sort::Other, |(_, sort)| *sort);
         let knowledge = self.knowledge(Language::of(text), memory);
-        let fits = |t: &Thing| knowledge.can(sort, *t);
-        if last.iter().any(fits)
-            || matches!(sort, Sort::Go | Sort::Find | Sort::Leave | Sort::Other)
-        {
+        // «Поставь её сюда» is no kettle, which is «он».
+        let pronouns = self.pronouns(text);
+        let agrees = |t: &Thing| pronouns.iter().all(|p| knowledge.agrees(*p, *t));
+        let free = matches!(sort, Sort::Go | Sort::Find | Sort::Leave | Sort::Other);
+        let fits = |t: &Thing| (free || knowledge.can(sort, *t)) && agrees(t);
+        if last.iter().any(fits) || free && pronouns.is_empty() {
             return last;
         }
-        let earlier = memory.spoken.iter().find(|t| fits(t)).copied();
-        earlier.map_or(last, |thing| vec![thing])
+        match memory.spoken.iter().find(|t| fits(t)) {
+            Some(earlier) => vec![*earlier],
+            None => last.into_iter().filter(agrees).collect(),
+        }
     }
 
     /// «И в гостиной тоже включи»: what was switched last, where this says.

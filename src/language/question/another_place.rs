@@ -1,0 +1,256 @@
+//! The last question about another place: «А на полу?», «В спальне тоже?», "And to the window?", "Anything made of metal?"
+
+use super::grammar::{Item, Sentence};
+use super::mark::Mark;
+use super::{Asker, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction};
+use crate::words::word_keys;
+
+impl Asker<'_> {
+    /// «Сколько ламп в гостиной? – … – В спальне?», «Шторы в спальне закрыты? – … – В гостиной тоже?»: the same there.
+    pub(super) fn placed_too(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        if !text.trim_end().ends_with('?') {
+            return None;
+        }
+        let keys = word_keys(text);
+        let too = keys.iter().any(|key| matches!(key.as_str(), "тоже" | "также" | "too" | "well"));
+        let asked = match last {
+            Query::Count(_) | Query::Exists { .. } | Query::Find(_) => true,
+            Query::Holds { .. } => too,
+            _ => false,
+        };
+        let restrictions = self.bare_place(text, memory).filter(|_| asked)?;
+        let noun = Noun { restrictions, ..Noun::default() };
+        let another = self.in_another_room(last, &noun);
+        another.or_else(|| near_another(last, &noun)).or_else(|| match last {
+            Query::Holds { .. } => None,
+            _ => self.elsewhere(last.clone(), noun),
+        })
+    }
+
+    /// A place and no more: «в спальне».
+    pub(super) fn bare_place(&self, text: &str, memory: &Memory) -> Option<Vec<Restriction>> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let place = |item: &Item| match item {
+            Item::Place { nouns, .. } => {
+                nouns.iter().all(|phrase| phrase.pronoun.is_none() && phrase.person.is_none())
+            }
+            _ => false,
+        };
+        if !matches!(&sentence.items()[..], [item] if place(item)) {
+            return None;
+        }
+        Some(self.fragment(&sentence, memory)?.restrictions).filter(|all| !all.is_empty())
+    }
+
+    /// «Где бита? – … – Рядом с подушкой?»: whether it is at a place that is named alone.
+    pub(super) fn placed_there(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        let asked = matches!(
+            last,
+            Query::Where(_) | Query::RoomOf(_) | Query::Anchor { .. } | Query::Holds { .. }
+        );
+        let only = memory.exchanges.first().filter(|_| asked)?.topic()?;
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let place = |item: &Item| match item {
+            Item::Place { nouns, .. } => nouns.iter().all(|phrase| phrase.pronoun.is_none()),
+            _ => false,
+        };
+        // «На чём стоит лампа? А на полу?» asks what is there.
+        let goes_on = ["а", "и", "and"].contains(&word_keys(text).first()?.as_str());
+        if goes_on
+            || !text.trim_end().ends_with('?')
+            || !matches!(&sentence.items()[..], [item] if place(item))
+        {
+            return None;
+        }
+        let noun = self.fragment(&sentence, memory)?;
+        let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
+        let subject = Noun::of(vec![only]);
+        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
+    }
+
+    /// "What is on the counter? – … – Anything made of metal?": of what is there.
+    pub(super) fn anything_such(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let small = |item: &Item| {
+            matches!(
+                item,
+                Item::Mark(Mark::Anything | Mark::MadeOf | Mark::And | Mark::Filler)
+                    | Item::Value(_)
+                    | Item::Property(_)
+            )
+        };
+        let asked = last.sought().filter(|noun| noun.head.anything)?;
+        let terse = items.contains(&Item::Mark(Mark::Anything)) && items.iter().all(small);
+        let read = self.read(text, memory).ok().filter(|_| terse)?;
+        let filters = read.sought().map(|noun| noun.filters.clone())?;
+        if filters.is_empty() || asked.restrictions.is_empty() {
+            return None;
+        }
+        let what = vec![Noun { filters, other: false, ..asked.clone() }];
+        Some(Query::Exists { what, either: false, negated: false })
+    }
+
+    /// «Что на столе в гостиной? А в спальне?»: on the table there, where only the table's room was told.
+    pub(super) fn in_another_room(&self, last: &Query, noun: &Noun) -> Option<Query> {
+        let [there] = &noun.restrictions[..] else { return None };
+        let is_bare =
+            noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
+        let within = |r: &Restriction| {
+            let room = r.anchors.iter().all(|anchor| self.is_room(anchor));
+            matches!(r.rel, Rel::In | Rel::On) && !r.negated && room
+        };
+        if !is_bare || !within(there) {
+            return None;
+        }
+        let mut query = last.clone();
+        // The room may narrow the table as well as what is on it.
+        let mut replaced: Option<Vec<Noun>> = None;
+        query.each_noun(&mut |old| {
+            for room in old.restrictions.iter_mut().filter(|r| within(r)) {
+                if replaced.as_ref().is_none_or(|first| *first == room.anchors) {
+                    replaced.get_or_insert_with(|| room.anchors.clone());
+                    room.clone_from(there);
+                }
+            }
+        });
+        replaced.map(|_| query)
+    }
+
+    /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
+    pub(super) fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
+        // «Горит ли лампа в спальне? А на столе?»: the lamp there.
+        if let Query::Holds { subject, claims, .. } = &mut query
+            && !noun.restrictions.is_empty()
+            && noun.filters.is_empty()
+            && claims.iter().all(|claim| matches!(claim, Claim::Value(_)))
+            && self.has_kind(subject)
+        {
+            subject.restrictions = noun.restrictions;
+            return Some(query);
+        }
+        let asked = match &mut query {
+            Query::Find(asked)
+            | Query::Count(asked)
+            | Query::Where(asked)
+            | Query::Serving { of: asked, .. } => asked,
+            Query::Exists { what, .. } => what.first_mut()?,
+            Query::Place { within, .. } if !noun.restrictions.is_empty() => {
+                *within = noun.restrictions;
+                return Some(query);
+            }
+            // «Книга на столе? А на полу?»
+            // «Ноутбук включён? А открыт?»
+            Query::Holds { claims, negated, .. } if !noun.filters.is_empty() => {
+                *claims = noun.filters.into_iter().map(Claim::Value).collect();
+                *negated = false;
+                return Some(query);
+            }
+            Query::Choice { subject, .. } if !noun.filters.is_empty() => {
+                let claims = noun.filters.into_iter().map(Claim::Value).collect();
+                return Some(Query::Holds { subject: subject.clone(), claims, negated: false });
+            }
+            Query::Holds { claims, .. } if !noun.restrictions.is_empty() => {
+                *claims = noun.restrictions.into_iter().map(Claim::Related).collect();
+                return Some(query);
+            }
+            // «На чём стоит лампа? А на полу?» asks what is there.
+            _ if !noun.restrictions.is_empty() => {
+                let head = Head { anything: true, ..Head::default() };
+                return Some(Query::Find(Noun { head, plural: true, ..noun }));
+            }
+            // "Which room has the biggest area? And the smallest?"
+            _ if noun.best.is_some() => {
+                let mut replaced = false;
+                query.each_noun(&mut |old| {
+                    if old.best.is_some() && !replaced {
+                        (old.best, old.rank) = (noun.best.clone(), noun.rank);
+                        replaced = true;
+                    }
+                });
+                return replaced.then_some(query);
+            }
+            _ => return None,
+        };
+        // "Where is the nearest chair? And the farthest?", «Сколько комнат? Какая самая большая?»
+        if noun.best.is_some() {
+            if !noun.restrictions.is_empty() {
+                asked.restrictions = noun.restrictions;
+            }
+            asked.best = noun.best;
+            asked.rank = noun.rank;
+            asked.plural = false;
+            asked.count = None;
+            asked.indefinite = true;
+            let asked = asked.clone();
+            return Some(match query {
+                Query::Where(_) => Query::Where(asked),
+                _ => Query::Find(asked),
+            });
+        }
+        if noun.restrictions.is_empty() && noun.filters.is_empty() {
+            return None;
+        }
+        if !noun.restrictions.is_empty() {
+            // «Что на столе в кухне? А на полу?» stays in the kitchen.
+            let names_room =
+                noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a)));
+            let room =
+                asked.restrictions.iter().find(|r| r.anchors.iter().any(|a| self.is_room(a)));
+            // "And on the other side table?" may be in another room.
+            let other = noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| a.other));
+            let room = room.filter(|_| !names_room && !other).cloned();
+            asked.restrictions = noun.restrictions;
+            asked.restrictions.extend(room);
+        } else {
+            asked.filters = noun.filters;
+        }
+        Some(query)
+    }
+}
+
+/// "Which chair is nearest to the fridge? And to the window?": the same, by that.
+pub(super) fn near_another(last: &Query, noun: &Noun) -> Option<Query> {
+    let [place] = &noun.restrictions[..] else { return None };
+    let [anchor] = &place.anchors[..] else { return None };
+    let bare = noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
+    if !bare || place.negated || !matches!(place.rel, Rel::To | Rel::From) {
+        return None;
+    }
+    let mut query = last.clone();
+    if let Query::WhichMore { to: Some(to), .. } = &mut query {
+        to.clone_from(anchor);
+        return Some(query);
+    }
+    let mut replaced = false;
+    query.each_noun(&mut |old| {
+        if let Some(best) = &mut old.best
+            && matches!(best.extreme, Extreme::Nearest | Extreme::Farthest)
+            && let Some(near) = &mut best.anchor
+            && !std::mem::replace(&mut replaced, true)
+        {
+            **near = anchor.clone();
+        }
+    });
+    replaced.then_some(query)
+}
+
+/// A question about one thing, put of another of its kind that is elsewhere.
+pub(super) fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
+    let mut query = last.clone();
+    let mut first = true;
+    let mut placed = false;
+    query.each_noun(&mut |old| {
+        if std::mem::take(&mut first) && !old.head.anything && old.head.things.is_none() {
+            old.restrictions.clone_from(&noun.restrictions);
+            old.filters.extend(noun.filters.iter().cloned());
+            if !old.head.kinds.is_empty() {
+                old.head.named.clear();
+            }
+            placed = true;
+        }
+    });
+    placed.then_some(query)
+}

@@ -1,0 +1,340 @@
+//! Lines of a dialogue that mean something only by what was said before: each is answered as the whole question is that it
+//! stands for, or not at all; and most of a family are understood.
+
+use std::collections::BTreeSet;
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_language::Language;
+use orthoframe_language::question::{Answer, Said};
+
+use crate::talk::engine;
+
+fn rb2() -> Engine {
+    engine("maps/rb2.toml").expect("part of the crate")
+}
+
+fn ask(engine: &Engine, line: &str, memory: &mut Memory) -> Option<Answer> {
+    engine.ask(line, memory).expect("there is a map").ok()
+}
+
+/// What a whole question comes to by itself.
+fn whole(engine: &Engine, question: &str) -> Option<Answer> {
+    ask(engine, question, &mut Memory::default())
+}
+
+/// How many dialogues were understood; each of which says what its whole question says.
+#[derive(Default)]
+struct Family {
+    asked: usize,
+    understood: usize,
+}
+
+impl Family {
+    /// `same` tells what of two answers must agree.
+    fn hear<T: PartialEq + std::fmt::Debug>(
+        &mut self,
+        engine: &Engine,
+        lines: &[&str],
+        question: &str,
+        same: impl Fn(&Answer) -> T,
+    ) {
+        let Some(plain) = whole(engine, question) else { return };
+        let mut memory = Memory::default();
+        let (last, before) = lines.split_last().expect("a dialogue");
+        for line in before {
+            ask(engine, line, &mut memory);
+        }
+        self.asked += 1;
+        let Some(told) = ask(engine, last, &mut memory) else { return };
+        assert_eq!(
+            same(&told),
+            same(&plain),
+            "{lines:?}\n  {}\n{question}\n  {}",
+            told.text,
+            plain.text
+        );
+        self.understood += 1;
+    }
+
+    fn mostly_understood(&self) {
+        let Self { asked, understood } = self;
+        assert!(understood * 4 >= asked * 3 && *asked > 4, "{understood} of {asked}");
+    }
+}
+
+const ROOMS: [&str; 4] = ["Room V", "Room Z", "Room Y", "the corridor"];
+const KINDS: [&str; 5] = ["chairs", "books", "lamps", "cups", "wardrobes"];
+
+/// "I'm in the kitchen." – "How do I get to the bedroom?": from where the person said to be, on whichever line; what is asked
+/// of the robot counts from the robot.
+#[test]
+fn the_person_stays_where_it_said_to_be() {
+    let rb2 = rb2();
+    let mut ways = Family::default();
+    for from in ROOMS {
+        for to in ROOMS.iter().filter(|to| **to != from) {
+            let told = format!("I'm in {from}.");
+            let way = format!("How do I get from {from} to {to}?");
+            let asked = format!("How do I get to {to}?");
+            ways.hear(&rb2, &[&told, &asked], &way, |answer| answer.number.map(f64::round));
+            let between = "What colour is the sofa?";
+            ways.hear(&rb2, &[&told, between, &asked], &way, |a| a.number.map(f64::round));
+            let robots = format!("How far are you from {to}?");
+            ways.hear(&rb2, &[&told, &robots], &robots, |answer| answer.number.map(f64::round));
+        }
+    }
+    ways.mostly_understood();
+}
+
+/// «А что внутри?», "What's inside that?", "What's on top?" of whatever was spoken of: what is in it or on it.
+#[test]
+fn a_side_alone_is_of_what_was_spoken_of() {
+    let rb2 = rb2();
+    let world = rb2.world().unwrap();
+    let (mut inside, mut on_top) = (Family::default(), Family::default());
+    let things = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    for replica in world.replicas.values() {
+        let (russian, english) = (&replica.name, &replica.name_en);
+        let shown = format!("Where is {english}?");
+        let bears = |trait_: &str| world.has_trait(replica.id, trait_);
+        if bears("container") {
+            let asked = format!("What is in {english}?");
+            for last in ["What's inside that?", "What is inside?", "And what's inside it?"] {
+                inside.hear(&rb2, &[&shown, last], &asked, things);
+            }
+            let shown = format!("В какой комнате {russian}?");
+            inside.hear(&rb2, &[&shown, "А что внутри?"], &asked, things);
+        }
+        if bears("support") {
+            on_top.hear(
+                &rb2,
+                &[&shown, "What's on top?"],
+                &format!("What is on {english}?"),
+                things,
+            );
+        }
+    }
+    inside.mostly_understood();
+    on_top.mostly_understood();
+}
+
+/// "Are there any chairs in the kitchen?" – "How many are there?"
+#[test]
+fn how_many_alone_counts_what_was_asked_for() {
+    let rb2 = rb2();
+    let mut counts = Family::default();
+    for room in ROOMS {
+        for kind in KINDS {
+            let whether = format!("Are there any {kind} in {room}?");
+            let count = format!("How many {kind} are in {room}?");
+            for last in ["How many are there?", "How many?", "And how many?"] {
+                counts.hear(&rb2, &[&whether, last], &count, |answer| answer.number);
+            }
+        }
+    }
+    counts.mostly_understood();
+}
+
+/// "How far is A from B? And C?" – from B; "Which chair is nearest to A? And to B?"; "What is in the lab? And in the office?
+/// Which of the two is bigger?"
+#[test]
+fn what_is_measured_goes_on_by_its_own_end() {
+    let rb2 = rb2();
+    let things = ["the fridge", "the sofa", "the stove", "the dresser", "the desk"];
+    let round = |answer: &Answer| answer.number.map(f64::round);
+    let found = |answer: &Answer| answer.things.clone();
+    let (mut far, mut near, mut big) = (Family::default(), Family::default(), Family::default());
+    for (a, b) in things.iter().zip(things.iter().cycle().skip(1)) {
+        for c in things.iter().filter(|c| *c != a && *c != b) {
+            let lines = [format!("How far is {a} from {b}?"), format!("And {c}?")];
+            let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+            far.hear(&rb2, &lines, &format!("How far is {c} from {b}?"), round);
+        }
+        let lines = [format!("Which chair is nearest to {a}?"), format!("And to {b}?")];
+        let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+        near.hear(&rb2, &lines, &format!("Which chair is nearest to {b}?"), found);
+    }
+    for (a, b) in ROOMS.iter().zip(ROOMS.iter().cycle().skip(1)) {
+        let lines = [format!("What is in {a}?"), format!("And in {b}?")];
+        let question = format!("Which is bigger, {a} or {b}?");
+        big.hear(&rb2, &[&lines[0], &lines[1], "Which of the two is bigger?"], &question, found);
+    }
+    far.mostly_understood();
+    near.mostly_understood();
+    assert!(big.understood > 2, "{} of {}", big.understood, big.asked);
+}
+
+/// "What colour is the floor in the kitchen? And the walls?": the kitchen's.
+#[test]
+fn walls_are_of_the_room_whose_floor_was_asked_of() {
+    let Some(house) = engine("../shared/data/procthor/house_1.json") else { return };
+    let mut walls = Family::default();
+    for room in ["kitchen", "bedroom", "bathroom", "living room"] {
+        for (first, second) in [("floor", "walls"), ("walls", "floor")] {
+            let asked = |what: &str| {
+                let is = if what == "walls" { "are" } else { "is" };
+                format!("What colour {is} the {what} in the {room}?")
+            };
+            let last = format!("And the {second}?");
+            walls.hear(&house, &[&asked(first), &last], &asked(second), |a| a.text.clone());
+        }
+    }
+    walls.mostly_understood();
+}
+
+/// «А мыло там есть?» of whatever lies in or on what was asked of: yes, on whichever side it lies.
+#[test]
+fn there_is_on_it_as_well_as_in_it() {
+    let rb2 = rb2();
+    let (world, relations) = (rb2.world().unwrap(), rb2.relations().unwrap());
+    let mut shown = 0;
+    for replica in world.replicas.values() {
+        let Some(support) = relations.support_of(replica.id) else { continue };
+        let support = &world.replicas[&support].name;
+        let mut memory = Memory::default();
+        ask(&rb2, &format!("В какой комнате {support}?"), &mut memory);
+        let Some(told) = ask(&rb2, &format!("А {} там есть?", replica.name), &mut memory)
+        else {
+            continue;
+        };
+        // «там» may be the room.
+        assert_eq!(told.said, Said::Yes, "{support}, {}: {}", replica.name, told.text);
+        shown += 1;
+    }
+    assert!(shown > 8, "{shown}");
+}
+
+/// Of things of two genders that were spoken of one after the other, «его» and «её» in an order mean the one of that gender, or
+/// nothing.
+#[test]
+fn a_pronoun_of_an_order_agrees_with_its_thing() {
+    let rb2 = rb2();
+    let world = rb2.world().unwrap();
+    let portable: Vec<_> =
+        world.replicas.values().filter(|r| world.has_trait(r.id, "portable")).collect();
+    let order = |text: &str, memory: &mut Memory| {
+        let commands = rb2.understand_in(text, memory).ok()?;
+        Some(format!("{commands:?}"))
+    };
+    let bring = |name: &str| order(&format!("Принеси {name}"), &mut Memory::default());
+    let is_feminine = |name: &str| {
+        ["Книга", "Чашка", "Тарелка", "Ваза", "Коробка"].iter().any(|kind| name.starts_with(kind))
+    };
+    let mut understood = 0;
+    for first in &portable {
+        let second = portable.iter().find(|r| is_feminine(&r.name) != is_feminine(&first.name));
+        let second = second.expect("there are things of both genders");
+        for (pronoun, feminine) in [("её", true), ("его", false)] {
+            let mut memory = Memory::default();
+            for name in [&first.name, &second.name] {
+                ask(&rb2, &format!("Где {name}?"), &mut memory);
+            }
+            let Some(meant) = order(&format!("Принеси {pronoun}"), &mut memory) else {
+                continue;
+            };
+            let brought: Vec<&str> = portable
+                .iter()
+                .map(|r| r.name.as_str())
+                .filter(|name| bring(name).is_some_and(|command| command == meant))
+                .collect();
+            assert!(
+                brought.iter().all(|name| is_feminine(name) == feminine),
+                "{}, {}, {pronoun}: {brought:?}",
+                first.name,
+                second.name
+            );
+            understood += 1;
+        }
+    }
+    assert!(understood > 8, "{understood}");
+}
+
+/// «Положи её к ним» puts nothing to itself, and "one" of several that were told is one of these.
+#[test]
+fn one_of_those_that_were_told_is_meant() {
+    let rb2 = rb2();
+    let mut memory = Memory::default();
+    ask(&rb2, "Где Чашка-1?", &mut memory);
+    let put = rb2.understand_in("Поставь её рядом с ней", &mut memory);
+    assert!(put.is_err(), "{put:?}");
+    let order = |text: &str, memory: &mut Memory| {
+        let commands = rb2.understand_in(text, memory).ok()?;
+        Some(format!("{commands:?}"))
+    };
+    for (listed, line) in [
+        ("Какие книги есть в Комнате-В?", "Принеси одну"),
+        ("Which books are in Room V?", "Bring me one of them"),
+        ("Какие тарелки есть в Комнате-Z?", "Принеси мне одну, пожалуйста"),
+    ] {
+        let mut memory = Memory::default();
+        let told = ask(&rb2, listed, &mut memory).expect("a plain question").symbols;
+        let meant = order(line, &mut memory).unwrap_or_else(|| panic!("{listed} {line}"));
+        let russian = line.starts_with("При");
+        let named = |name: &String| {
+            let text = if russian {
+                format!("Принеси мне {name}")
+            } else {
+                format!("Bring me {name}")
+            };
+            order(&text, &mut Memory::default()).is_some_and(|command| command == meant)
+        };
+        assert_eq!(told.iter().filter(|name| named(name)).count(), 1, "{listed} {line}: {meant}");
+    }
+}
+
+/// "I need the battery, where is it?" asks, "I can't find the cup, is it on the desk?" asks after the cup, and «есть что-нибудь из
+/// еды?» of the class.
+#[test]
+fn what_a_person_tells_of_itself_is_what_is_asked_of() {
+    let rb2 = rb2();
+    let said = |answer: &Answer| (answer.said, answer.things.clone());
+    let mut told = Family::default();
+    for thing in ["umbrella", "medicine", "kettle", "vase", "dresser"] {
+        let place = format!("Where is the {thing}?");
+        for lead in ["I need the", "I can't find the", "I'm looking for the", "I lost the"] {
+            let line = format!("{lead} {thing}, where is it?");
+            told.hear(&rb2, &[&line], &place, said);
+            let idea = format!("{lead} {thing}, any idea where it is?");
+            told.hear(&rb2, &[&idea], &place, said);
+            for room in ROOMS {
+                let line = format!("Listen, {lead} {thing}, is it still in {room}?");
+                let whether = format!("Is the {thing} in {room}?");
+                told.hear(&rb2, &[&line], &whether, |answer| answer.said);
+            }
+        }
+    }
+    told.mostly_understood();
+    let Some(house) = engine("../shared/data/procthor/house_8.json") else { return };
+    let mut classes = Family::default();
+    for (of, kind) in [("еды", "еда"), ("мебели", "мебель"), ("посуды", "посуда")]
+    {
+        for room in ["кухне", "спальне", "ванной", "гостиной"] {
+            let inside = if room == "кухне" { "на" } else { "в" };
+            let line = format!("Есть ли {inside} {room} что-нибудь из {of}?");
+            let plain = format!("Есть ли {inside} {room} {kind}?");
+            classes.hear(&house, &[&line], &plain, |answer| answer.said);
+        }
+    }
+    assert!(classes.understood > 3, "{} of {}", classes.understood, classes.asked);
+}
+
+/// A line that names nothing takes nothing away from what was spoken of, though it is not understood; one that has words for
+/// something does.
+#[test]
+fn what_names_nothing_leaves_what_was_spoken_of() {
+    let rb2 = rb2();
+    for (line, russian) in [("А на чём?", true), ("Why there?", false)] {
+        let mut memory = Memory::speaking(Language::of(line));
+        ask(&rb2, "Where is the vase?", &mut memory);
+        let refused = ask(&rb2, line, &mut memory).is_none();
+        let asked = if russian { "Какого она цвета?" } else { "What colour is it?" };
+        let told = ask(&rb2, asked, &mut memory);
+        let plain = whole(&rb2, "What colour is the vase?").expect("a plain question");
+        assert!(!refused || told.is_none_or(|told| told.things == plain.things), "{line}");
+    }
+    let mut memory = Memory::default();
+    ask(&rb2, "Where is the vase?", &mut memory);
+    assert!(ask(&rb2, "Is the gramophone zorbled?", &mut memory).is_none());
+    assert!(ask(&rb2, "What colour is it?", &mut memory).is_none());
+}
