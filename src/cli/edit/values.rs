@@ -111,14 +111,14 @@ fn side(told: &str) -> Told<(String, SideTraitsFile)> {
 }
 
 /// `HINGE[=SHARE]`.
-fn leaf(told: &String) -> Told<LeafFile> {
-    let (hinge, share) = told.split_once('=').map_or((told.as_str(), None), |(h, s)| (h, Some(s)));
+fn leaf(told: &str) -> Told<LeafFile> {
+    let (hinge, share) = told.split_once('=').map_or((told, None), |(h, s)| (h, Some(s)));
     let share = share.map(str::parse).transpose()?;
     Ok(LeafFile { hinge: hinge.parse()?, share, thickness: None, max_open: None })
 }
 
 /// `AREA@X,Y[,Z[,DEG]]`.
-fn plan_item(told: &String) -> Told<PlanItemFile> {
+fn plan_item(told: &str) -> Told<PlanItemFile> {
     let (area, at, angle) = placed(told)?;
     Ok(PlanItemFile { area, at, angle, base: false })
 }
@@ -167,7 +167,7 @@ impl Step {
                     name: names.name(),
                     name_en: names.name_en(),
                     r#type: names.kind_of.clone(),
-                    leaves: leaves.iter().map(leaf).collect::<Told<_>>()?,
+                    leaves: leaves.iter().map(|told| leaf(told)).collect::<Told<_>>()?,
                     state: word(state.as_ref())?.unwrap_or_default(),
                     opening: None,
                     properties: pairs(&names.properties),
@@ -214,7 +214,7 @@ impl Step {
                     PlanLinkFile { from, to, rel: At::default(), angle: None }
                 };
                 let file = PlanFile {
-                    items: areas.iter().map(plan_item).collect::<Told<_>>()?,
+                    items: areas.iter().map(|told| plan_item(told)).collect::<Told<_>>()?,
                     links: links.iter().map(link).collect(),
                     name: names.name.clone().unwrap_or_default(),
                     name_en: names.name_en.clone().unwrap_or_default(),
