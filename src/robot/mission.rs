@@ -16,13 +16,13 @@ use thiserror::Error;
 
 mod acts;
 mod aside;
-mod barred;
+mod clearing;
 mod names;
 mod pursuit;
 
-pub use barred::{Answer, Barred};
 pub(super) use names::before_passage;
 
+use super::barred::{Answer, Barred};
 use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::idle::without_idle;

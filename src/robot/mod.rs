@@ -24,6 +24,7 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
+mod barred;
 mod belief;
 mod directive;
 mod eye;
@@ -42,11 +43,11 @@ mod timing;
 mod vehicle;
 mod wishes;
 
+pub use barred::{Answer, Barred};
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
 pub use mission::{
-    Answer, Barred, Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise,
-    starting_pose, state,
+    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
 pub use obstacle::{is_obstacle, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};

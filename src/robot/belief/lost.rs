@@ -2,22 +2,14 @@
 //!
 //! **Invariant**: what is lost is in neither the world nor the hand, and comes back as it was, or as it is seen.
 
-use crate::geometry::Bounds;
 use crate::map::Replica;
 use crate::obstacle::is_obstacle;
 use crate::units::{AreaId, Frame, Point, ReplicaId};
 
-use super::Belief;
+use super::{Belief, Lost};
 
 /// What the robot met so near to where a lost thing stood is that thing, cm.
 const NEAR: f64 = 60.0;
-
-/// A thing that may be gone, and where it was held to stand.
-#[derive(Debug, Clone)]
-pub(super) struct Lost {
-    thing: Replica,
-    stood: Option<Bounds>,
-}
 
 impl Belief {
     /// A thing stands no more where it was believed to, as far as anybody knows.

@@ -9,12 +9,13 @@ use crate::reins::Reins;
 use crate::units::Point;
 use crate::vehicle::Unfinished;
 
-use super::barred::MOST_CALLS;
 use super::{Ending, Event, GoalFact, Leg, Mission, MissionError, look_round};
 
 /// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
 const MOST_LOOKS: usize = 3;
 const LOOKS_OF_A_WAIT: usize = 8;
+/// So often in one mission somebody is asked to clear a way.
+const MOST_CALLS: usize = 3;
 /// Who may be waiting for the robot to pass is left so much room, cm.
 const ROOM: f64 = 150.0;
 

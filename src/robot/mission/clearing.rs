@@ -5,43 +5,14 @@
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
+use crate::barred::{Answer, Barred};
 use crate::geometry::{Method, NoRoute, Remedy};
 use crate::obstacle::is_obstacle;
 use crate::reins::Reins;
-use crate::units::{AreaId, MapId, Point, ReplicaId};
+use crate::units::{AreaId, ReplicaId};
 use crate::vehicle::{Obstruction, Refusal, Unfinished};
 
 use super::{Ending, Event, GoalFact, Mission, Surprise};
-
-/// So often in one mission somebody is asked to clear a way.
-pub(super) const MOST_CALLS: usize = 3;
-
-/// What stands in the only way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Barred {
-    /// Things of the Map; none where only what is on no map stands there.
-    pub things: Vec<ReplicaId>,
-    /// What was seen there and is on no map, as far as it was believed to stand there.
-    pub unknown: Vec<ReplicaId>,
-    /// Where it stands, as far as that is known: cm on the Map.
-    pub map: MapId,
-    pub area: AreaId,
-    pub at: Point,
-    /// The door or place to which it bars the way, where that has a name.
-    pub to: Option<String>,
-}
-
-/// What is said to who asks for a way to be cleared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Answer {
-    /// Nobody answers.
-    #[default]
-    Silence,
-    /// The way is clear.
-    Clear,
-    /// It will not be.
-    GiveUp,
-}
 
 impl Mission<'_> {
     /// Has whoever is told clear what a mission ends for; whether it may be tried again.
