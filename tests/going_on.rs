@@ -338,3 +338,58 @@ fn what_names_nothing_leaves_what_was_spoken_of() {
     assert!(ask(&rb2, "Is the gramophone zorbled?", &mut memory).is_none());
     assert!(ask(&rb2, "What colour is it?", &mut memory).is_none());
 }
+
+/// «Где зонт? А ваза? Принеси их»: both, or nothing; and of a table and a cup «её» is what can be carried.
+#[test]
+fn what_is_carried_is_all_that_was_meant_and_can_be() {
+    let rb2 = rb2();
+    let world = rb2.world().unwrap();
+    let names: Vec<&str> = world
+        .replicas
+        .values()
+        .filter(|r| world.has_trait(r.id, "portable"))
+        .map(|r| r.name.as_str())
+        .collect();
+    let order = |text: &str, memory: &mut Memory| rb2.understand_in(text, memory).ok();
+    let mut both = 0;
+    for (first, second) in names.iter().zip(names.iter().cycle().skip(1)) {
+        let mut memory = Memory::default();
+        ask(&rb2, &format!("Где {first}?"), &mut memory);
+        ask(&rb2, &format!("А {second}?"), &mut memory);
+        let Some(commands) = order("Принеси их", &mut memory) else { continue };
+        assert_eq!(commands.len(), 2, "{first}, {second}: {commands:?}");
+        both += 1;
+    }
+    assert!(both > 5, "{both}");
+    let two_storeys = engine("maps/two-storeys.toml").expect("part of the crate");
+    let mut memory = Memory::default();
+    ask(&two_storeys, "Что находится на складе?", &mut memory);
+    let brought = two_storeys.understand_in("Принеси её", &mut memory).expect("the cup is meant");
+    let cup = two_storeys.understand("Принеси Чашку-1").expect("a plain order");
+    assert_eq!(format!("{brought:?}"), format!("{cup:?}"));
+}
+
+/// What goes on from a question about one thing, or about rooms that were told, is no list of all there is elsewhere.
+#[test]
+fn another_room_has_none_of_what_was_told_by_name() {
+    let rb2 = rb2();
+    for dialogue in [
+        ["Is there a cup in Room Z?", "What colour is it?", "And in Room V?"],
+        ["Which rooms have chairs?", "How many?", "And in Room Y?"],
+        ["What is on the dresser?", "How big is it?", "And in Room Z?"],
+    ] {
+        let mut memory = Memory::default();
+        let told: Vec<_> = dialogue.iter().map(|line| ask(&rb2, line, &mut memory)).collect();
+        let last = told.last().expect("three lines");
+        assert!(
+            last.as_ref().is_none_or(|answer| answer.things.len() < 4),
+            "{dialogue:?} {last:?}"
+        );
+    }
+    for line in ["Is its door locked?", "Is its door made of glass?"] {
+        let mut memory = Memory::default();
+        ask(&rb2, "Where is Room Z?", &mut memory);
+        let told = ask(&rb2, line, &mut memory);
+        assert!(told.is_none_or(|answer| !answer.text.contains("is not a door")), "{line}");
+    }
+}

@@ -156,6 +156,12 @@ impl Asker<'_> {
                 *claims = noun.restrictions.into_iter().map(Claim::Related).collect();
                 return Some(query);
             }
+            // "What colour is it? And in the living room?": of what there, is not said.
+            Query::Property { .. } | Query::Size { .. }
+                if noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a))) =>
+            {
+                return None;
+            }
             // «На чём стоит лампа? А на полу?» asks what is there.
             _ if !noun.restrictions.is_empty() => {
                 let head = Head { anything: true, ..Head::default() };
@@ -174,6 +180,11 @@ impl Asker<'_> {
             }
             _ => return None,
         };
+        // "Which rooms have chairs? How many? And upstairs?": those that were told are nowhere else.
+        let told = asked.head.things.is_some() && asked.restrictions.is_empty();
+        if told && noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a))) {
+            return None;
+        }
         // "Where is the nearest chair? And the farthest?", «Сколько комнат? Какая самая большая?»
         if noun.best.is_some() {
             if !noun.restrictions.is_empty() {

@@ -59,6 +59,22 @@ impl Asker<'_> {
         if let Some(query) = self.another_asked(&key, last, memory) {
             return Some(query);
         }
+        // «Где лежат часы? А в гостиной есть?»: others of the kind, there.
+        if let (Query::Where(of), Some(placed)) =
+            (last, text.trim_end_matches(['?', ' ']).strip_suffix(" есть"))
+            && begins.iter().any(|b| key.starts_with(b))
+            && let Some(place) = self.bare_place(placed, memory)
+        {
+            let things = of.head.things.clone().unwrap_or_default();
+            let kind = self.knowledge(sentence.language, memory).alike(&things);
+            let kinds = kind.map_or_else(|| of.head.kinds.clone(), |kind| vec![kind]);
+            if kinds.is_empty() {
+                return None;
+            }
+            let head = Head { kinds, ..Head::default() };
+            let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
+            return Some(Query::Exists { what, either: false, negated: false });
+        }
         // «Сколько телевизоров? А на кухне есть?»
         if let Some(placed) = text.trim_end_matches(['?', ' ']).strip_suffix(" есть")
             && begins.iter().any(|b| key.starts_with(b))

@@ -105,7 +105,9 @@ impl Asker<'_> {
             let noun = Noun { indefinite: false, count: None, plural: true, ..noun.clone() };
             return Some(Query::Count(noun));
         }
-        (counts && (bare || sentence.points()) && told.len() > 1)
+        // "Which of them has chairs? How many?": rooms or chairs, nothing says.
+        let alike = || self.knowledge(sentence.language, memory).alike(told).is_some();
+        (counts && (sentence.points() || bare && alike()) && told.len() > 1)
             .then(|| Query::Count(Noun { plural: true, ..Noun::of(told.clone()) }))
     }
 

@@ -318,8 +318,9 @@ impl Asker<'_> {
             (named, placed, several)
         };
         if !named.is_empty() {
-            memory.mention(&named);
-            memory.is_plural = nouns.iter().any(|noun| noun.plural);
+            // Of two that were named neither is "it".
+            memory.list(&named);
+            memory.is_plural = named.len() > 1 || nouns.iter().any(|noun| noun.plural);
         } else if several.len() > 1 {
             // None of them is "it", and of one that was meant there are no others; several may be "they".
             match nouns.iter().any(|noun| noun.plural) {

@@ -133,6 +133,10 @@ impl Frame<'_, '_> {
             && !(self.spots.is_empty() && self.nouns.is_empty());
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
+        // "Is its door locked?": of the door, and not whether the room is one.
+        let kind = |claim: &Claim| matches!(claim, Claim::Kind(_));
+        let its = self.sentence.keys.iter().any(|key| key == "its")
+            && matches!(query, Query::Holds { claims, .. } if claims.iter().any(kind));
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
@@ -143,6 +147,7 @@ impl Frame<'_, '_> {
             || here
             || supposes
             || has_more
+            || its
             || fewest
             || self.marks.iter().any(asks)
             || self.points(&told, query)

@@ -4,7 +4,7 @@
 use super::{Ordered, Settler};
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
-use crate::question::mark::Mark;
+use crate::question::mark::{Mark, Pronoun};
 use crate::question::vocabulary;
 use crate::question::{Asker, Memory, Thing};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
@@ -378,6 +378,21 @@ impl Asker<'_> {
         let agrees = |t: &Thing| pronouns.iter().all(|p| knowledge.agrees(*p, *t));
         let free = matches!(sort, Sort::Go | Sort::Find | Sort::Leave | Sort::Other);
         let fits = |t: &Thing| (free || knowledge.can(sort, *t)) && agrees(t);
+        let several = |p: &Pronoun| matches!(p, Pronoun::They | Pronoun::There);
+        // «Есть ли яблоки? – Одно. – А яйцо? – … – Принеси их»: both.
+        if pronouns.contains(&Pronoun::They)
+            && last.len() == 1
+            && let Some(pair) = knowledge.last_pair().filter(|pair| pair.iter().all(fits))
+        {
+            return pair;
+        }
+        // «На складе стол и чашка. – Принеси её»: what can be carried, and is «она».
+        if !pronouns.is_empty()
+            && !pronouns.iter().any(several)
+            && let [only] = last.iter().filter(|t| fits(t)).collect::<Vec<_>>()[..]
+        {
+            return vec![*only];
+        }
         if last.iter().any(fits) || free && pronouns.is_empty() {
             return last;
         }
