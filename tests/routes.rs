@@ -314,6 +314,70 @@ fn one_stands_in_front_of_a_thing_and_faces_it() {
 }
 
 #[test]
+fn a_door_behind_what_fills_its_room_from_wall_to_wall_is_not_reached() {
+    let to_door = |x: f64, depth: f64| {
+        let (mut b, one, _, door) = two_rooms(10.0, DoorKind::Hinged, DoorState::CLOSED);
+        let rack = b.put(one, x, 0.0, 40.0, depth, 0.0, 200.0);
+        let before = Target::Door { door, area: one };
+        (plan(&b).route(&b.world, p(50.0, 150.0), before, Method::Shortest), rack)
+    };
+    for x in [120.0, 200.0, 300.0] {
+        let (barred, rack) = to_door(x, 300.0);
+        let barred = barred.unwrap_err();
+        let by_rack = Blocker::Replica { replica: rack, item: 0 };
+        let names_it =
+            |b: &Barrier| matches!(b, Barrier::Enclosed { by, .. } if by.contains(&by_rack));
+        assert!(barred.barriers().iter().any(names_it), "{x}: {barred:?}");
+        // With a way round it one stands behind it.
+        let way = to_door(x, 200.0).0;
+        let way = way.unwrap_or_else(|e| panic!("{x}: {e}"));
+        assert!(way.points.last().unwrap().x > x + 40.0, "{x}: {way:?}");
+    }
+    // No robot fits between this one and the door.
+    assert!(to_door(355.0, 300.0).0.is_err());
+}
+
+/// A chest close to a door on the far side of its wall, with its front to the wall; the room before and behind it.
+fn a_chest_behind_a_door(y: f64, state: DoorState) -> (Builder, [AreaId; 2], DoorId, ReplicaId) {
+    let (mut b, one, two, door) = two_rooms(0.0, DoorKind::Hinged, state);
+    let chest = b.put(two, 10.0, y, 30.0, 60.0, 0.0, 60.0);
+    let object = b.world.replicas[&chest].object;
+    b.world.objects.get_mut(&object).unwrap().front =
+        Some(SideRef { item: "I0".into(), side: "S3".into() });
+    (b, [one, two], door, chest)
+}
+
+#[test]
+fn through_a_shut_door_one_stands_before_nothing() {
+    for y in [50.0, 100.0, 130.0, 180.0] {
+        for state in [DoorState::CLOSED, DoorState::LOCKED] {
+            let (b, _, door, chest) = a_chest_behind_a_door(y, state);
+            let way =
+                plan(&b).route(&b.world, p(50.0, 150.0), Target::Replica(chest), Method::Shortest);
+            let barred = way.expect_err("a shut leaf is a wall");
+            let is_it = |b: &Barrier| matches!(b, Barrier::Door { door: own, .. } if *own == door);
+            assert!(barred.barriers().iter().any(is_it), "{y}: {barred:?}");
+        }
+    }
+}
+
+#[test]
+fn one_goes_round_to_another_side_of_a_thing_that_only_a_doorway_has_its_front_before() {
+    for y in [50.0, 180.0] {
+        let (b, [_, two], _, chest) = a_chest_behind_a_door(y, DoorState::OPEN);
+        let plan = plan(&b);
+        let to_chest = Target::Replica(chest);
+        for (from, within) in [(50.0, None), (600.0, None), (600.0, Some(&[two][..]))] {
+            let from = p(from, 150.0);
+            let way = plan.route_within(&b.world, from, to_chest, Method::Shortest, within);
+            let way = way.unwrap_or_else(|e| panic!("{y}: {e}"));
+            check_route(&plan, &b.world, &way);
+            assert!(way.points.last().unwrap().x > 400.0, "{y}: {way:?}");
+        }
+    }
+}
+
+#[test]
 fn items_of_one_area_make_one_floor() {
     let mut b = Builder::new();
     let inner: &[(usize, Opening)] = &[(1, Opening::Passage)];

@@ -367,7 +367,11 @@ impl Known {
             Entity::Door(door) => {
                 let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
                 let (map, _) = world.placement(area).ok_or_else(nowhere)?;
-                let at = self.floor(map)?.stand_before(world, door, area).ok_or_else(nowhere)?.at;
+                let floor = self.floor(map)?;
+                let stand = floor.stand_before(world, door, area).map(|stand| stand.at);
+                // Where there is no place before it, it is where its doorway is.
+                let middle = || floor.doorways_of(door).next().map(|way| way.middle());
+                let at = stand.or_else(middle).ok_or_else(nowhere)?;
                 located(map, at, Target::Door { door, area })
             }
         }

@@ -1,15 +1,21 @@
 //! Where a robot may stand that is sent to a place, a thing, a door or a room, and which way it faces there.
 //!
-//! **Invariant**: every goal lies in the centre space.
+//! **Invariants**: every goal lies in the centre space. Between a goal and the door that it is before stands nothing, and
+//! between a goal and the face of a thing that it is before no wall and no leaf of a door, shut or open.
 
 use crate::map::{DoorKind, World};
 use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
 
+use super::Bounds;
 use super::anchor::Anchor;
 use super::blocked::NoRoute;
+use super::blocker::{Blocker, Obstacle};
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::Target;
+
+/// Whoever stands farther before a door than clear of it by this, in cm, stands before it no more.
+const BEFORE_DOOR: f64 = 205.0;
 
 /// A goal with the way to face there.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,12 +32,14 @@ impl FloorPlan {
         stands.first().map(|g| Pose { at: g.anchor.at, heading: g.heading.unwrap_or_default() })
     }
 
-    /// The goals that serve a target, all as good as each other.
+    /// The goals that serve a target, all as good as each other; those for a thing lie `within` the Fragments named, where
+    /// some are.
     pub(super) fn goals(
         &self,
         world: &World,
         start: &Anchor,
         target: Target,
+        within: Option<&[u32]>,
     ) -> Result<Vec<Goal>, NoRoute> {
         let region = Some(self.region(start.cell));
         let is_shut = |p: Point| self.zones.iter().any(|z| z.kind.is_shut() && z.contains(p, 0.0));
@@ -56,8 +64,13 @@ impl FloorPlan {
                     place.heading.map(|h| h + frame.angle),
                 )
             }
-            Target::Replica(id) => self.replica_goals(world, start, id)?,
-            Target::Door { door, area } => self.door_goals(world, region, door, area),
+            Target::Replica(id) => self.replica_goals(world, start, id, within)?,
+            Target::Door { door, area } => {
+                let reached = self.door_goals(world, region, door, area);
+                // What bars the way is looked for up to where it would stand.
+                let is_barred = reached.is_empty();
+                if is_barred { self.door_goals(world, None, door, area) } else { reached }
+            }
             Target::Area(area) => self.area_goals(world, start, area)?,
         };
         if found.is_empty() { Err(NoRoute::NoFloor) } else { Ok(found) }
@@ -93,7 +106,7 @@ impl FloorPlan {
         outer.and_then(|o| self.stand(world, region, o, 0)).into_iter().collect()
     }
 
-    /// A place before a doorway: straight before its middle, clear of the leaves' way.
+    /// A place before a doorway from which its door is at hand: straight before its middle, clear of the leaves' way.
     fn stand(
         &self,
         world: &World,
@@ -114,25 +127,61 @@ impl FloorPlan {
             swept.iter().all(|s| !s.contains(p, 0.0) && s.border_distance(p) >= reach - 1e-6)
         };
         let admits = |cell: u32| region.is_none_or(|r| self.region((number, cell)) == r);
+        let solid = self.solid_before(number, doorway);
+        let is_at_hand = |p: Point| {
+            // Some part of it, for a leaf is worked at one of its ends.
+            let face = [0.5, 0.1, 0.9].map(|share| doorway.on_face(side, share));
+            face.into_iter().any(|at| is_open_between(p, at, &solid))
+        };
         let try_at = |p: Point| {
             let cell = cells.locate(p, 1e-6).filter(|&c| admits(c))?;
-            is_clear(p).then_some((p, cell))
+            (is_clear(p) && is_at_hand(p)).then_some((p, cell))
         };
         let along = (doorway.line().1 - doorway.line().0) / doorway.width().max(1e-9);
-        let steps = (0..=40).map(|k| reach + 5.0 + 5.0 * f64::from(k));
+        let steps = (1..).map(|k| 5.0 * f64::from(k)).take_while(|back| *back <= BEFORE_DOOR);
         let shifts: [f64; 9] = [0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 75.0, -75.0];
         let mut spots: Vec<(f64, f64)> = steps
-            .flat_map(|d| shifts.map(|s| (d, s)))
+            .flat_map(|back| shifts.map(|s| (reach + back, s)))
             .filter(|(d, s)| s.abs() <= 2.0 * d)
             .collect();
         // The nearer the better; a step aside costs a little more than one back.
         spots.sort_by(|a, b| (a.0 + 1.2 * a.1.abs()).total_cmp(&(b.0 + 1.2 * b.1.abs())));
-        let (at, cell) = spots
-            .into_iter()
-            .find_map(|(d, s)| try_at(doorway.before(side, d) + along * s))
-            .or_else(|| cells.nearest(doorway.before(side, reach + 5.0), admits))?;
+        let straight =
+            spots.into_iter().find_map(|(d, s)| try_at(doorway.before(side, d) + along * s));
+        if let Some((at, cell)) = straight {
+            let heading = facing(at, doorway.middle());
+            return Some(Goal { anchor: Anchor::at(at, (number, cell)), heading });
+        }
+        let middle = doorway.on_face(side, 0.5);
+        self.nearest_before(region, doorway, side).filter(|goal| {
+            (goal.anchor.at - middle).norm() <= reach + BEFORE_DOOR && is_at_hand(goal.anchor.at)
+        })
+    }
+
+    /// The place in the Area on one side of a doorway that is nearest to it, however far.
+    fn nearest_before(&self, region: Option<u32>, doorway: &Opening, side: usize) -> Option<Goal> {
+        let number = self.number(doorway.areas[side])? as u32;
+        let admits = |cell: u32| region.is_none_or(|r| self.region((number, cell)) == r);
+        let straight = doorway.before(side, self.reach() + 5.0);
+        let (at, cell) = self.floor(number).cells.nearest(straight, admits)?;
         let heading = facing(at, doorway.middle());
-        Some(Goal { anchor: Anchor { at, cell: (number, cell), moved: None }, heading })
+        Some(Goal { anchor: Anchor::at(at, (number, cell)), heading })
+    }
+
+    /// What may stand between the robot in a Fragment and a doorway: walls, things, leaves but its own.
+    fn solid_before(&self, number: u32, doorway: &Opening) -> Vec<(Point, Point)> {
+        let floor = self.floor(number);
+        let is_solid = |obstacle: &&Obstacle| match obstacle.blocker {
+            Blocker::DoorLeaf { door, .. } => doorway.door != Some(door),
+            Blocker::Replica { .. } | Blocker::ReplicaLeaf { .. } | Blocker::Wall { .. } => true,
+            // One reaches over what one only may not, or cannot, drive on.
+            Blocker::Floor { .. } | Blocker::Zone { .. } => false,
+        };
+        let things = floor.obstacles().iter().filter(is_solid);
+        let edges = floor.walls.iter().copied().chain(things.flat_map(|o| o.polygon.edges()));
+        let (a, b) = doorway.line();
+        let near = Bounds::of([a, b]).grown(self.reach() + BEFORE_DOOR + doorway.gap);
+        edges.filter(|&(u, v)| Bounds::of([u, v]).meets(&near)).collect()
     }
 
     /// Inside an Area: just behind each of its doorways that can be reached. Every goal lies in the Area.
@@ -155,7 +204,9 @@ impl FloorPlan {
             .iter()
             .filter_map(|d| Some((d, d.index_of(area)?)))
             .filter_map(|(d, side)| {
-                let mut goal = self.stand(world, Some(region), d, side)?;
+                let stand = self.stand(world, Some(region), d, side);
+                // In the Area is in the Area, whatever stands before the doorway.
+                let mut goal = stand.or_else(|| self.nearest_before(Some(region), d, side))?;
                 // One enters looking ahead.
                 goal.heading = goal.heading.map(|h| h + Deg::of(180.0));
                 Some(goal)
@@ -177,6 +228,7 @@ impl FloorPlan {
         world: &World,
         start: &Anchor,
         id: ReplicaId,
+        within: Option<&[u32]>,
     ) -> Result<Vec<Goal>, NoRoute> {
         let Some(placed) = self.scene().replicas.get(&id) else {
             let area = world.replicas.get(&id).map(|r| r.area).ok_or(NoRoute::NoFloor)?;
@@ -189,24 +241,24 @@ impl FloorPlan {
             let (side, _) = world.orthoframe_of(&object.items[item]).side(&f.side)?;
             placed.prisms.get(item)?.polygon.edges().nth(side)
         });
-        let before = |(a, b): (Point, Point)| self.before_face(region, a, b);
-        if let Some(goals) = front.map(before).filter(|g| !g.is_empty()) {
-            return Ok(goals);
-        }
-        let sides: Vec<Goal> = placed
-            .prisms
-            .iter()
-            .flat_map(|p| p.polygon.edges().collect::<Vec<_>>())
-            .flat_map(before)
-            .collect();
-        if !sides.is_empty() {
-            return Ok(sides);
+        let edges = placed.prisms.iter().flat_map(|p| p.polygon.edges());
+        let sides: Vec<(Point, Point)> = edges.collect();
+        // Through a door one stands before a thing only where one can from nowhere else: it may be shut again.
+        for is_through in [false, true] {
+            let before = |(a, b)| self.before_face(region, within, is_through, (a, b));
+            if let Some(goal) = front.and_then(before) {
+                return Ok(vec![goal]);
+            }
+            let goals: Vec<Goal> = sides.iter().copied().filter_map(before).collect();
+            if !goals.is_empty() {
+                return Ok(goals);
+            }
         }
         let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
         if self.zones.iter().any(|zone| zone.kind.is_shut() && zone.contains(middle, 0.0)) {
             return Err(NoRoute::NoFloor);
         }
-        let anchor = self.anchor(middle, Some(region), None).filter(|a| {
+        let anchor = self.anchor(middle, Some(region), within).filter(|a| {
             self.floor(a.cell.0).area == placed.area
                 && (a.at - middle).norm() < 150.0 + self.reach()
         });
@@ -217,39 +269,68 @@ impl FloorPlan {
             .collect())
     }
 
-    /// The best place to stand before a face, facing it: at its middle, close.
-    fn before_face(&self, region: u32, a: Point, b: Point) -> Vec<Goal> {
-        let Some(along) = (b - a).try_normalize(1e-6) else { return Vec::new() };
+    /// The best place to stand before a face, facing it: at its middle, close; and whether it may be through an open door.
+    fn before_face(
+        &self,
+        region: u32,
+        within: Option<&[u32]>,
+        is_through: bool,
+        (a, b): (Point, Point),
+    ) -> Option<Goal> {
+        let along = (b - a).try_normalize(1e-6)?;
         let out = Vector::new(along.y, -along.x);
         let length = (b - a).norm();
+        let admits = |number: u32| within.is_none_or(|w| w.contains(&number));
+        let mut solid = None;
         for back in [3.0, 8.0, 15.0, 25.0, 40.0] {
             for share in [0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95] {
                 let face = a + along * (length * share);
                 let at = face + out * (self.reach() + back);
-                for &number in self.fragments_at(at) {
+                for &number in self.fragments_at(at).iter().filter(|n| admits(**n)) {
                     let Some(cell) = self.floor(number).cells.locate(at, 1e-6) else { continue };
-                    if self.region((number, cell)) == region && self.is_open_between(at, face) {
-                        let anchor = Anchor { at, cell: (number, cell), moved: None };
-                        return vec![Goal {
-                            anchor,
-                            heading: Some(Deg::from_radians((-out.y).atan2(-out.x))),
-                        }];
+                    if self.region((number, cell)) != region {
+                        continue;
+                    }
+                    let solid = solid.get_or_insert_with(|| self.shutting_off(is_through, a, b));
+                    if is_open_between(at, face, solid) {
+                        let heading = Deg::from_radians((-out.y).atan2(-out.x));
+                        let anchor = Anchor::at(at, (number, cell));
+                        return Some(Goal { anchor, heading: Some(heading) });
                     }
                 }
             }
         }
-        Vec::new()
+        None
     }
 
-    /// No wall stands between two points.
-    fn is_open_between(&self, a: Point, b: Point) -> bool {
-        let reach = super::Bounds::of([a, b]);
-        let stop = b + (a - b) * 0.02;
-        self.fragments_near(&reach)
-            .flat_map(|f| f.walls.iter().copied())
-            .filter(|&(u, v)| super::Bounds::of([u, v]).meets(&reach))
-            .all(|(u, v)| super::apart::segment_distance(a, stop, u, v) > 0.0)
+    /// What shuts off a face of a thing from whoever is before it: walls, the leaves of doors as they stand, and
+    /// their whole doorways where they are shut or it may not be through them.
+    fn shutting_off(&self, is_through: bool, a: Point, b: Point) -> Vec<(Point, Point)> {
+        let near = Bounds::of([a, b]).grown(self.reach() + 40.0);
+        let is_leaf = |o: &&Obstacle| matches!(o.blocker, Blocker::DoorLeaf { .. });
+        let mut solid = Vec::new();
+        for floor in self.fragments_near(&near) {
+            let leaves = floor.obstacles().iter().filter(is_leaf);
+            solid.extend(floor.walls.iter().copied());
+            solid.extend(leaves.flat_map(|leaf| leaf.polygon.edges()));
+            let doorways = self.doorways.by_area.get(&floor.area).into_iter().flatten();
+            let doors = doorways.filter(|(number, _)| self.doorways()[*number].door.is_some());
+            let shut = doors.filter(|(number, _)| !is_through || !self.admits(*number));
+            solid.extend(shut.map(|(number, _)| self.doorways()[*number].line()));
+        }
+        solid.retain(|&(u, v)| Bounds::of([u, v]).meets(&near));
+        solid
     }
+}
+
+/// No edge of what is solid lies between two points, the second of which may itself lie on one.
+fn is_open_between(a: Point, b: Point, solid: &[(Point, Point)]) -> bool {
+    let reach = Bounds::of([a, b]);
+    let stop = b + (a - b) * 0.02;
+    solid
+        .iter()
+        .filter(|&&(u, v)| Bounds::of([u, v]).meets(&reach))
+        .all(|&(u, v)| super::apart::segment_distance(a, stop, u, v) > 0.0)
 }
 
 fn facing(from: Point, to: Point) -> Option<Deg> {

@@ -302,6 +302,12 @@ impl Opening {
         )
     }
 
+    /// A point of the opening in the face of the wall on the side of an Area (0 or 1), by its share of the width.
+    pub(super) fn on_face(&self, side: usize, share: f64) -> Point {
+        let t = self.span.0 + self.width() * share;
+        self.at(t, if side == 0 { 0.0 } else { self.gap })
+    }
+
     /// The rectangle between the jambs from `s = from` to `s = to`, widened by `by` on both sides.
     pub(super) fn rectangle(&self, from: f64, to: f64, by: f64) -> Polygon {
         let (t0, t1) = (self.span.0 - by, self.span.1 + by);

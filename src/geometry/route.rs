@@ -95,7 +95,7 @@ impl FloorPlan {
     /// Whether [`Self::route`] would find a way; what stands in it if not is not asked.
     pub(super) fn leads(&self, world: &World, from: Point, target: Target) -> bool {
         let Some(start) = self.anchor(from, None, None) else { return false };
-        let goals = self.goals(world, &start, target).unwrap_or_default();
+        let goals = self.goals(world, &start, target, None).unwrap_or_default();
         let region = self.region(start.cell);
         goals.iter().any(|goal| self.region(goal.anchor.cell) == region)
     }
@@ -103,7 +103,7 @@ impl FloorPlan {
     /// What stands between two places with nothing else before or behind it, what lacks least first.
     pub(super) fn between(&self, world: &World, from: Point, target: Target) -> Vec<Barrier> {
         let Some(start) = self.anchor(from, None, None) else { return Vec::new() };
-        let goals = self.goals(world, &start, target).unwrap_or_default();
+        let goals = self.goals(world, &start, target, None).unwrap_or_default();
         let ends: Vec<CellKey> = goals.iter().map(|goal| goal.anchor.cell).collect();
         single(self, world, start.cell, &ends)
     }
@@ -328,7 +328,7 @@ impl FloorPlan {
         method: Method,
         within: Option<&[u32]>,
     ) -> Result<Route, NoRoute> {
-        let goals = self.goals(world, start, target)?;
+        let goals = self.goals(world, start, target, within)?;
         let rules = Rules::of(&self.zones, self.robot().speed);
         let mut best: Option<(f64, Route)> = None;
         let mut against: Option<Vec<Point>> = None;
