@@ -544,3 +544,56 @@ fn what_is_in_shut_furniture_is_fetched_by_who_opens_it() {
     let shut = orthoframe_map::stands(&truth, &truth.replicas[&wardrobe]);
     assert_eq!(shut, Some(orthoframe_map::DoorStatus::Closed));
 }
+
+/// Carries out an order in a truth; what surprised the robot, and what it did.
+fn in_truth(engine: &mut Engine, text: &str, truth: &mut World) -> (TaskAnswer, Vec<String>) {
+    let world = engine.world_now().unwrap().clone();
+    let commands = engine.understand(text).unwrap();
+    let mut told = Vec::new();
+    let answer = engine.carry_out_in(&commands, truth, &mut |progress| {
+        if let Progress::Surprised { surprise, .. } = progress {
+            told.push(surprise_in_words(&world, surprise, Language::English));
+        }
+    });
+    let answer = answer.unwrap_or_else(|e| panic!("{text}: {e}"));
+    engine.remember(&answer, now()).unwrap();
+    (answer, told)
+}
+
+/// Nobody tells the robot where a thing is that it does not see: it looks for it, and remembers what it found out.
+#[test]
+fn what_is_not_in_its_place_is_sought_and_what_is_nowhere_is_remembered_to_be_gone() {
+    for is_gone in [false, true] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = home(&dir, HOME);
+        let mut truth = engine.world().unwrap().clone();
+        let ball = truth.find("Ball 1")[0];
+        let Entity::Replica(ball) = ball else { panic!("{ball:?}") };
+        let table = truth.replicas.values().find(|r| r.name == "Hall table").unwrap().clone();
+        if is_gone {
+            truth.replicas.remove(&ball);
+        } else {
+            let moved = truth.replicas.get_mut(&ball).unwrap();
+            moved.area = table.area;
+            moved.frame = Frame::new(210.0, 40.0, 75.0, Deg::ZERO);
+        }
+        let (answer, told) = in_truth(&mut engine, "Bring Ball 1", &mut truth);
+        assert_eq!(
+            told.first().map(String::as_str),
+            Some("Ball 1 is not in its place"),
+            "{told:?}"
+        );
+        if is_gone {
+            let TaskEnding::Stuck(why) = &answer.ending else { panic!("{:?}", answer.ending) };
+            let why = surprise_in_words(engine.world().unwrap(), why, Language::English);
+            assert_eq!(why, "Ball 1 is not in its place");
+            let (said, text) = ask(&engine, "Where is Ball 1?");
+            assert_eq!(said, Said::Unknown, "{text}");
+        } else {
+            assert!(matches!(answer.ending, TaskEnding::Done), "{:?} {told:?}", answer.ending);
+            let looked =
+                |r: &orthoframe::engine::Report| r.directive.brings_about("ПРЕДМЕТ-НАЙДЕН");
+            assert!(answer.reports.iter().any(looked), "it went to where it had not looked");
+        }
+    }
+}
