@@ -545,6 +545,22 @@ fn what_is_in_shut_furniture_is_fetched_by_who_opens_it() {
     assert_eq!(shut, Some(orthoframe_map::DoorStatus::Closed));
 }
 
+/// A tray is for things to be put on, wherever it stands itself.
+#[test]
+fn what_lies_on_the_tray_is_on_it_for_a_plan_too() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, HOME);
+    let answer = order(&mut engine, "Put Cup 1 on Tray 1").unwrap();
+    assert!(matches!(answer.ending, TaskEnding::AlreadyTrue), "{:?}", answer.ending);
+    let room = HOME.replace("at = [75, 345, 77]", "at = [95, 330, 75]");
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, &room);
+    done(&mut engine, "Put Cup 2 on Tray 1");
+    assert_eq!(told(&engine, "What is Cup 2 on?"), "Cup 2 is on Tray 1.");
+    done(&mut engine, "Put Cup 1 on the hall table");
+    assert_eq!(told(&engine, "What is Cup 1 on?"), "Cup 1 is on the hall table.");
+}
+
 /// Carries out an order in a truth; what surprised the robot, and what it did.
 fn in_truth(engine: &mut Engine, text: &str, truth: &mut World) -> (TaskAnswer, Vec<String>) {
     let world = engine.world_now().unwrap().clone();
