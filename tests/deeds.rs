@@ -561,6 +561,53 @@ fn what_lies_on_the_tray_is_on_it_for_a_plan_too() {
     assert_eq!(told(&engine, "What is Cup 1 on?"), "Cup 1 is on the hall table.");
 }
 
+/// Rooms in a row, each behind the door of the one before.
+fn row_of_rooms(count: usize) -> String {
+    let (mut doors, mut rooms, mut items, mut links) = Default::default();
+    let add = |to: &mut String, text: String| to.push_str(&text);
+    for n in 0..count {
+        let mut own = Vec::new();
+        if n + 1 < count {
+            add(
+                &mut doors,
+                format!(
+                    "[door.d{n}]\nname = \"Door {n}\"\nkind = \"hinged\"\nwidth = 100\nheight = 210\nleaves = [{{ hinge = \"left\", share = 1, thickness = 4, max_open = 90 }}]\nstate = \"open\"\n"
+                ),
+            );
+            add(&mut links, format!("{{ from = \"r{n}.C\", to = \"r{}.G\" }}, ", n + 1));
+            own.push(format!("{{ side = \"C\", door = \"d{n}\", opens = \"outside\" }}"));
+        }
+        if n > 0 {
+            own.push(format!("{{ side = \"G\", door = \"d{}\", opens = \"inside\" }}", n - 1));
+        }
+        let post = if n == 0 { "places = [{ name = \"Post\", at = [100, 150] }]\n" } else { "" };
+        add(
+            &mut rooms,
+            format!(
+                "[area.r{n}]\nname = \"Room {n}\"\nitems = [{{ id = \"A\", orthoframe = \"floor\" }}]\ndoors = [{}]\n{post}",
+                own.join(", ")
+            ),
+        );
+        add(&mut items, format!("{{ area = \"r{n}\", at = [{}, 0] }}, ", n * 400));
+    }
+    format!(
+        "format = 1\n[domain]\nkey = \"row\"\nname = \"Row\"\n[robot]\nradius = 20\nheight = 110\nclearance = 3\nspeed = 50\nstart = \"Post\"\n[orthoframe]\nfloor = {{ name = \"Floor\", height = 270, points = [[0, 0], [400, 0], [400, 100], [400, 200], [400, 300], [0, 300], [0, 200], [0, 100]], side.C = {{ permeability = \"conditional\" }}, side.G = {{ permeability = \"conditional\" }} }}\n{doors}{rooms}[map.row]\nname = \"Row\"\nitems = [{items}]\nlinks = [{links}]\n"
+    )
+}
+
+/// The last doors are behind the first ones, which must be opened again on the way.
+#[test]
+fn of_many_doors_that_are_closed_none_is_left_open() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, &row_of_rooms(6));
+    let answer = done(&mut engine, "Close all doors");
+    assert_eq!(answer.goal.len(), 10, "each door is told of once, from both sides");
+    let world = engine.world_now().unwrap();
+    for door in world.doors.values() {
+        assert_eq!(door.state, orthoframe_map::DoorState::CLOSED, "{}", door.name);
+    }
+}
+
 /// Carries out an order in a truth; what surprised the robot, and what it did.
 fn in_truth(engine: &mut Engine, text: &str, truth: &mut World) -> (TaskAnswer, Vec<String>) {
     let world = engine.world_now().unwrap().clone();
