@@ -544,3 +544,119 @@ fn what_is_in_shut_furniture_is_fetched_by_who_opens_it() {
     let shut = orthoframe_map::stands(&truth, &truth.replicas[&wardrobe]);
     assert_eq!(shut, Some(orthoframe_map::DoorStatus::Closed));
 }
+
+/// A tray is for things to be put on, wherever it stands itself.
+#[test]
+fn what_lies_on_the_tray_is_on_it_for_a_plan_too() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, HOME);
+    let answer = order(&mut engine, "Put Cup 1 on Tray 1").unwrap();
+    assert!(matches!(answer.ending, TaskEnding::AlreadyTrue), "{:?}", answer.ending);
+    let room = HOME.replace("at = [75, 345, 77]", "at = [95, 330, 75]");
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, &room);
+    done(&mut engine, "Put Cup 2 on Tray 1");
+    assert_eq!(told(&engine, "What is Cup 2 on?"), "Cup 2 is on Tray 1.");
+    done(&mut engine, "Put Cup 1 on the hall table");
+    assert_eq!(told(&engine, "What is Cup 1 on?"), "Cup 1 is on the hall table.");
+}
+
+/// Rooms in a row, each behind the door of the one before.
+fn row_of_rooms(count: usize) -> String {
+    let (mut doors, mut rooms, mut items, mut links) = Default::default();
+    let add = |to: &mut String, text: String| to.push_str(&text);
+    for n in 0..count {
+        let mut own = Vec::new();
+        if n + 1 < count {
+            add(
+                &mut doors,
+                format!(
+                    "[door.d{n}]\nname = \"Door {n}\"\nkind = \"hinged\"\nwidth = 100\nheight = 210\nleaves = [{{ hinge = \"left\", share = 1, thickness = 4, max_open = 90 }}]\nstate = \"open\"\n"
+                ),
+            );
+            add(&mut links, format!("{{ from = \"r{n}.C\", to = \"r{}.G\" }}, ", n + 1));
+            own.push(format!("{{ side = \"C\", door = \"d{n}\", opens = \"outside\" }}"));
+        }
+        if n > 0 {
+            own.push(format!("{{ side = \"G\", door = \"d{}\", opens = \"inside\" }}", n - 1));
+        }
+        let post = if n == 0 { "places = [{ name = \"Post\", at = [100, 150] }]\n" } else { "" };
+        add(
+            &mut rooms,
+            format!(
+                "[area.r{n}]\nname = \"Room {n}\"\nitems = [{{ id = \"A\", orthoframe = \"floor\" }}]\ndoors = [{}]\n{post}",
+                own.join(", ")
+            ),
+        );
+        add(&mut items, format!("{{ area = \"r{n}\", at = [{}, 0] }}, ", n * 400));
+    }
+    format!(
+        "format = 1\n[domain]\nkey = \"row\"\nname = \"Row\"\n[robot]\nradius = 20\nheight = 110\nclearance = 3\nspeed = 50\nstart = \"Post\"\n[orthoframe]\nfloor = {{ name = \"Floor\", height = 270, points = [[0, 0], [400, 0], [400, 100], [400, 200], [400, 300], [0, 300], [0, 200], [0, 100]], side.C = {{ permeability = \"conditional\" }}, side.G = {{ permeability = \"conditional\" }} }}\n{doors}{rooms}[map.row]\nname = \"Row\"\nitems = [{items}]\nlinks = [{links}]\n"
+    )
+}
+
+/// The last doors are behind the first ones, which must be opened again on the way.
+#[test]
+fn of_many_doors_that_are_closed_none_is_left_open() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = home(&dir, &row_of_rooms(6));
+    let answer = done(&mut engine, "Close all doors");
+    assert_eq!(answer.goal.len(), 10, "each door is told of once, from both sides");
+    let world = engine.world_now().unwrap();
+    for door in world.doors.values() {
+        assert_eq!(door.state, orthoframe_map::DoorState::CLOSED, "{}", door.name);
+    }
+}
+
+/// Carries out an order in a truth; what surprised the robot, and what it did.
+fn in_truth(engine: &mut Engine, text: &str, truth: &mut World) -> (TaskAnswer, Vec<String>) {
+    let world = engine.world_now().unwrap().clone();
+    let commands = engine.understand(text).unwrap();
+    let mut told = Vec::new();
+    let answer = engine.carry_out_in(&commands, truth, &mut |progress| {
+        if let Progress::Surprised { surprise, .. } = progress {
+            told.push(surprise_in_words(&world, surprise, Language::English));
+        }
+    });
+    let answer = answer.unwrap_or_else(|e| panic!("{text}: {e}"));
+    engine.remember(&answer, now()).unwrap();
+    (answer, told)
+}
+
+/// Nobody tells the robot where a thing is that it does not see: it looks for it, and remembers what it found out.
+#[test]
+fn what_is_not_in_its_place_is_sought_and_what_is_nowhere_is_remembered_to_be_gone() {
+    for is_gone in [false, true] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = home(&dir, HOME);
+        let mut truth = engine.world().unwrap().clone();
+        let ball = truth.find("Ball 1")[0];
+        let Entity::Replica(ball) = ball else { panic!("{ball:?}") };
+        let table = truth.replicas.values().find(|r| r.name == "Hall table").unwrap().clone();
+        if is_gone {
+            truth.replicas.remove(&ball);
+        } else {
+            let moved = truth.replicas.get_mut(&ball).unwrap();
+            moved.area = table.area;
+            moved.frame = Frame::new(210.0, 40.0, 75.0, Deg::ZERO);
+        }
+        let (answer, told) = in_truth(&mut engine, "Bring Ball 1", &mut truth);
+        assert_eq!(
+            told.first().map(String::as_str),
+            Some("Ball 1 is not in its place"),
+            "{told:?}"
+        );
+        if is_gone {
+            let TaskEnding::Stuck(why) = &answer.ending else { panic!("{:?}", answer.ending) };
+            let why = surprise_in_words(engine.world().unwrap(), why, Language::English);
+            assert_eq!(why, "Ball 1 is not in its place");
+            let (said, text) = ask(&engine, "Where is Ball 1?");
+            assert_eq!(said, Said::Unknown, "{text}");
+        } else {
+            assert!(matches!(answer.ending, TaskEnding::Done), "{:?} {told:?}", answer.ending);
+            let looked =
+                |r: &orthoframe::engine::Report| r.directive.brings_about("ПРЕДМЕТ-НАЙДЕН");
+            assert!(answer.reports.iter().any(looked), "it went to where it had not looked");
+        }
+    }
+}

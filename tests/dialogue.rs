@@ -375,3 +375,15 @@ fn a_dialogue_outlives_edits() {
     }
     assert!(answered > 5 && told_gone > 2, "{answered} answered, {told_gone} told to be gone");
 }
+
+/// An order for which there is no plan changes nothing: what was told of it is the reason.
+#[test]
+fn after_an_order_that_has_no_plan_why_tells_the_reason() {
+    let mut engine = flat();
+    let mut dialogue = Dialogue::default();
+    let told = hear(&mut dialogue, &mut engine, "Запри Дверь-ZY");
+    assert!(told.replies[0].outcome.has_failed(), "{:?}", words(&told));
+    let why = hear(&mut dialogue, &mut engine, "Почему?");
+    let text = &why.replies[0].text;
+    assert!(text.starts_with("Вот причина: ") && text.contains("ключ"), "{text}");
+}

@@ -12,8 +12,8 @@ use super::directive_words::floor_place;
 use super::task::{OPERATOR, thing_of};
 use super::{Error, RequestError, State};
 
-/// Commands of one kind that are planned together, at most: «Закрой все двери». More are done one by one, since the
-/// best order of many is not worth the wait.
+/// Commands of one kind that are planned together, at most: «Закрой все двери». More are done so many after so many, since
+/// the best order of many is not worth the wait; what was done before is to hold still.
 const TOGETHER: usize = 3;
 
 impl State {
@@ -61,12 +61,15 @@ impl State {
                 continue;
             }
             let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
-            match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
-                (true, [facts]) => {
-                    if let Some(goal) = goals.last_mut() {
-                        goal.extend(facts.iter().cloned());
-                    }
+            match (is_alike, goals.last_mut(), &wanted[..]) {
+                (true, Some(goal), [facts]) if joined.len() < TOGETHER => {
+                    goal.extend(facts.iter().cloned());
                     joined.push(command);
+                }
+                (true, Some(before), [facts]) => {
+                    let goal = before.iter().chain(facts).cloned().collect();
+                    goals.push(goal);
+                    joined = vec![command];
                 }
                 _ => {
                     joined = vec![command];

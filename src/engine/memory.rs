@@ -317,6 +317,7 @@ impl After {
         for id in before.replicas.keys().filter(|id| carried.contains_key(id)) {
             moved.insert(*id, None);
         }
+        moved.extend(belief.missing().iter().map(|id| (*id, None)));
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
         let holding = holding.chain(belief.aboard.iter().map(|(thing, _)| thing));
         let elsewhere = holding.chain(belief.lost());

@@ -530,7 +530,7 @@ impl State {
             ending = left.remove(0).1;
         }
         Ok(TaskAnswer {
-            goal: goals.concat(),
+            goal: each_once(&goals),
             map,
             start,
             end: mission.belief.pose,
@@ -548,6 +548,17 @@ impl State {
             unsure: Vec::new(),
         })
     }
+}
+
+/// The facts of goals of which some repeat the one before, and add to it.
+fn each_once(goals: &[Vec<GoalFact>]) -> Vec<GoalFact> {
+    let mut before: &[GoalFact] = &[];
+    let mut all = Vec::new();
+    for goal in goals {
+        all.extend_from_slice(goal.strip_prefix(before).unwrap_or(goal));
+        before = goal;
+    }
+    all
 }
 
 fn report_of(

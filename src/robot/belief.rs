@@ -103,6 +103,8 @@ pub struct Belief {
     wide: BTreeSet<String>,
     /// What is or was in view since the mission began, or known to be in a hand.
     pub found: BTreeSet<String>,
+    /// What was not where it is believed to be, and was not seen since.
+    missing: BTreeSet<ReplicaId>,
     /// Where things belong: by the names of a thing and of its support.
     pub homes: Vec<(String, String)>,
     /// What proved to have no place on something: the names of both.
@@ -161,6 +163,7 @@ impl Belief {
             adrift: BTreeSet::new(),
             wide: BTreeSet::new(),
             found: BTreeSet::new(),
+            missing: BTreeSet::new(),
             homes: Vec::new(),
             no_room: BTreeSet::new(),
             bins: BTreeSet::new(),
@@ -427,7 +430,25 @@ impl Belief {
 
     /// Notes that a thing is not in an Area; whether it was news.
     pub(super) fn searched(&mut self, thing: &str, area: AreaId) -> bool {
+        let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+        let believed = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
+        if let Some(id) = believed.filter(|one| one.area == area).map(|one| one.id) {
+            self.miss(id);
+        }
         self.sought.entry(thing.to_owned()).or_default().insert(area)
+    }
+
+    /// Notes that a thing is not where it is believed to be, and that nobody knows where it is; whether it was news.
+    pub(super) fn miss(&mut self, thing: ReplicaId) -> bool {
+        let Some(replica) = self.world.replicas.get(&thing) else { return false };
+        self.found.remove(&replica.name);
+        self.missing.insert(thing)
+    }
+
+    /// What was not where it is believed to be, and was not seen since.
+    #[must_use]
+    pub fn missing(&self) -> &BTreeSet<ReplicaId> {
+        &self.missing
     }
 
     /// Notes that from within this Area no way leads to a place or through a door; whether it was news.
@@ -491,6 +512,7 @@ impl Belief {
                 self.set_door(door, state) || left
             }
             Sighting::Replica { replica, area, frame } => {
+                self.missing.remove(&replica);
                 let Some(believed) = self.world.replicas.get_mut(&replica) else {
                     return self.regain(replica, area, frame);
                 };

@@ -17,6 +17,7 @@ use thiserror::Error;
 mod acts;
 mod aside;
 mod clearing;
+mod missed;
 mod names;
 mod pursuit;
 
@@ -367,6 +368,15 @@ impl<'r> Mission<'r> {
                 return Ok(Ending::Failed(Failure::Restless { times }));
             }
             let has_noticed = self.take_notice(reins).is_some();
+            if let Some(looked) = self.look_for_missed(&surprise, reins)? {
+                match looked {
+                    Ending::Done | Ending::AlreadyTrue => {}
+                    Ending::NoPlan(_) | Ending::Stuck(_) => return Ok(Ending::Stuck(surprise)),
+                    Ending::Stopped | Ending::Failed(_) => return Ok(looked),
+                }
+                (given_up, learned) = (None, None);
+                continue;
+            }
             // What was noticed at the end of the last directive hindered none.
             if !self.learn(&surprise, directives[done.min(directives.len() - 1)]) && !has_noticed {
                 return Ok(Ending::Stuck(surprise));

@@ -569,18 +569,7 @@ impl Vehicle for Simulator {
 
     fn sees(&mut self, thing: ReplicaId) -> Result<Option<Sighting>, Failure> {
         let scene = Scene::of(&self.truth, self.map);
-        let Some(placed) = scene.replicas.get(&thing) else { return Ok(None) };
-        let eye = (self.pose.at, self.profile.height.get());
-        let is_wall = |e: &&Edge| !matches!(e.of, Obstruction::Replica(_));
-        let walls = self.edges.iter().filter(is_wall).map(|e| (e.a, e.b)).collect();
-        let others = scene.replicas.values().filter(|r| r.id != thing);
-        let view = View { walls, bodies: others.flat_map(|r| &r.prisms).collect() };
-        let in_view = placed.prisms.iter().any(|p| {
-            let at = p.polygon.centroid();
-            (at - eye.0).norm() <= SIGHT_RANGE
-                && [(p.bottom + p.top) / 2.0, p.top].iter().any(|&z| view.is_clear(eye, (at, z)))
-        });
-        if in_view { self.look_at(Obstruction::Replica(thing)) } else { Ok(None) }
+        Ok(self.sighting(thing).filter(|_| self.is_in_view(thing, &scene)))
     }
 
     fn look_at(&mut self, what: Obstruction) -> Result<Option<Sighting>, Failure> {
@@ -589,11 +578,40 @@ impl Vehicle for Simulator {
             Obstruction::Door(door) => {
                 self.truth.doors.get(&door).map(|d| Sighting::Door { door, state: d.state })
             }
-            Obstruction::Replica(replica) => self
-                .truth
-                .replicas
-                .get(&replica)
-                .map(|r| Sighting::Replica { replica, area: r.area, frame: r.frame }),
+            Obstruction::Replica(thing) => {
+                self.sighting(thing).filter(|_| self.is_before_eyes(thing))
+            }
+        })
+    }
+}
+
+impl Simulator {
+    fn sighting(&self, replica: ReplicaId) -> Option<Sighting> {
+        let there = self.truth.replicas.get(&replica)?;
+        Some(Sighting::Replica { replica, area: there.area, frame: there.frame })
+    }
+
+    /// Whether there is anything to see of a thing from here: it is in the same Area, touched by the arm, or in view of
+    /// another one.
+    fn is_before_eyes(&self, thing: ReplicaId) -> bool {
+        let scene = Scene::of(&self.truth, self.map);
+        let area = self.truth.replicas.get(&thing).map(|replica| replica.area);
+        area.is_some() && area == scene.area_at(self.pose.at)
+            || self.reaches(thing) == Ok(true)
+            || self.is_in_view(thing, &scene)
+    }
+
+    fn is_in_view(&self, thing: ReplicaId, scene: &Scene) -> bool {
+        let Some(placed) = scene.replicas.get(&thing) else { return false };
+        let eye = (self.pose.at, self.profile.height.get());
+        let is_wall = |e: &&Edge| !matches!(e.of, Obstruction::Replica(_));
+        let walls = self.edges.iter().filter(is_wall).map(|e| (e.a, e.b)).collect();
+        let others = scene.replicas.values().filter(|r| r.id != thing);
+        let view = View { walls, bodies: others.flat_map(|r| &r.prisms).collect() };
+        placed.prisms.iter().any(|p| {
+            let at = p.polygon.centroid();
+            (at - eye.0).norm() <= SIGHT_RANGE
+                && [(p.bottom + p.top) / 2.0, p.top].iter().any(|&z| view.is_clear(eye, (at, z)))
         })
     }
 }

@@ -274,7 +274,7 @@ impl Writer<'_> {
                 }
             } else if self.world.has_trait(id, "portable") {
                 self.portable(id, &name, &chain, root, area);
-                if self.is_container(id) {
+                if self.is_bearer(id) {
                     for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area))
                     {
                         self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, ITEM)]);
@@ -325,10 +325,10 @@ impl Writer<'_> {
             }
             return;
         }
-        // On a plate on the table is on the table: the plate itself may be carried away. In a box is in the box; what is
-        // in it or on it goes with it.
+        // In a box is in the box, and on a tray is on the tray: what is in it or on it goes with it. On a pile of books
+        // on the table is on the table.
         let bears =
-            |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_container(**s);
+            |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_bearer(**s);
         match chain.iter().find(bears) {
             Some(&support) => {
                 let on = self.relations.symbols().replica(support).to_string();
@@ -350,8 +350,9 @@ impl Writer<'_> {
         }
     }
 
-    fn is_container(&self, id: ReplicaId) -> bool {
-        self.world.has_trait(id, "container")
+    /// Whether it is made to have things in or on it, which go with it where it is carried.
+    fn is_bearer(&self, id: ReplicaId) -> bool {
+        ["container", "support"].iter().any(|made| self.world.has_trait(id, made))
     }
 
     /// What a thing stands on or lies in, from below it down to what stands on the floor or hangs by itself.
@@ -360,7 +361,7 @@ impl Writer<'_> {
         let mut at = id;
         while let Some(next) = self.relations.support_of(at)
             // The bottom of a box on the floor is nearly the floor.
-            && (!self.on_floor(at) || self.is_container(next))
+            && (!self.on_floor(at) || self.is_bearer(next))
             && next != id
             && !chain.contains(&next)
         {

@@ -533,6 +533,9 @@ impl Hearing<'_, '_> {
             Some(text) => text.to_owned(),
             None => self.engine.ending_in_words(&task, language)?,
         };
+        if !task.ending.is_done() {
+            self.dialogue.refusal = Some(ending.clone());
+        }
         self.dialogue.memory.did(task_in_words(self.engine.world()?, line, &task));
         self.put(Outcome::Task(Box::new(task)), &ending, language)?;
         let done = self.heard.replies.last().map(|reply| &reply.outcome);

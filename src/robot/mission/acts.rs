@@ -133,9 +133,16 @@ impl Mission<'_> {
         if let Unfinished::Met(Refusal::OutOfReach(_)) = refusal {
             let name = self.belief.world.name(Entity::Replica(thing)).to_owned();
             match self.go(&name, Target::Replica(thing), &[self.belief.area], reins, leg) {
-                Ok(()) => return reins.act(&act).map_err(|r| refused(r, reins)),
+                Ok(()) => match reins.act(&act) {
+                    Err(Unfinished::Met(Refusal::OutOfReach(_))) => {}
+                    done => return done.map_err(|r| refused(r, reins)),
+                },
                 Err(Unfinished::Met(_)) => {}
                 Err(unfinished) => return Err(unfinished),
+            }
+            // No arm is too short for what is not there.
+            if self.is_elsewhere(thing, reins)? {
+                return Err(refused(Refusal::NotThere(thing).into(), reins));
             }
         }
         Err(refused(refusal, reins))
