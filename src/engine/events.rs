@@ -25,10 +25,8 @@ use crate::robot::{Barred, Deed, Directive, Planned, Refusal, Surprise};
 use crate::units::{Point, Pose, ReplicaId};
 
 use super::assumed::assumptions_in_russian;
-use super::{
-    Progress, Report, barred_in_words, deeds_in_words, directive_in_words, name_in,
-    surprise_in_words,
-};
+use super::surprises::barred_in_words;
+use super::{Progress, Report, deeds_in_words, directive_in_words, name_in, surprise_in_words};
 
 /// One thing that happened on the way.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -63,22 +61,19 @@ pub enum TaskEvent {
         directive: DirectiveView,
     },
     /// Something bars the only way, and the operator is asked to clear it.
-    Barred(BarredView),
-}
-
-/// What bars a way, and where.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BarredView {
-    /// Things of the map; none where what stands there is on no map.
-    pub things: Vec<String>,
-    pub area: String,
-    pub map: String,
-    pub x: f64,
-    pub y: f64,
-    /// The door or place to which it bars the way.
-    pub to: Option<String>,
-    pub explanation: String,
-    pub explanation_en: String,
+    Barred {
+        /// Things of the map; none where what stands there is on no map.
+        things: Vec<String>,
+        area: String,
+        map: String,
+        /// Where it stands, cm.
+        x: f64,
+        y: f64,
+        /// The door or place to which it bars the way.
+        to: Option<String>,
+        explanation: String,
+        explanation_en: String,
+    },
 }
 
 /// A directive in names and in words.
@@ -178,7 +173,7 @@ impl TaskEvents {
             }
             Progress::Barred { barred, .. } => {
                 self.surprised = true;
-                TaskEvent::Barred(BarredView::of(world, barred))
+                barred_event(world, barred)
             }
             Progress::Surprised { directive, surprise } => {
                 self.surprised = true;
@@ -195,20 +190,18 @@ impl TaskEvents {
     }
 }
 
-impl BarredView {
-    fn of(world: &World, barred: &Barred) -> Self {
-        let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
-        let round = |value: f64| (value * 10.0).round() / 10.0;
-        Self {
-            things: barred.things.iter().filter_map(name).collect(),
-            area: world.name(Entity::Area(barred.area)).to_owned(),
-            map: world.name(Entity::Map(barred.map)).to_owned(),
-            x: round(barred.at.x),
-            y: round(barred.at.y),
-            to: barred.to.clone(),
-            explanation: barred_in_words(world, barred, Language::Russian),
-            explanation_en: barred_in_words(world, barred, Language::English),
-        }
+fn barred_event(world: &World, barred: &Barred) -> TaskEvent {
+    let name = |id: &ReplicaId| world.replicas.get(id).map(|thing| thing.name.clone());
+    let round = |value: f64| (value * 10.0).round() / 10.0;
+    TaskEvent::Barred {
+        things: barred.things.iter().filter_map(name).collect(),
+        area: world.name(Entity::Area(barred.area)).to_owned(),
+        map: world.name(Entity::Map(barred.map)).to_owned(),
+        x: round(barred.at.x),
+        y: round(barred.at.y),
+        to: barred.to.clone(),
+        explanation: barred_in_words(world, barred, Language::Russian),
+        explanation_en: barred_in_words(world, barred, Language::English),
     }
 }
 

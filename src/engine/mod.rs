@@ -107,9 +107,7 @@ pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
-pub use events::{
-    BarredView, DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents,
-};
+pub use events::{DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents};
 pub use forms::uncertain_names;
 pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;
@@ -134,7 +132,7 @@ pub use rules::Rules;
 pub use seeing::{Changes, Sighted, Things, View};
 pub use sight::face_in_words;
 pub use state::State;
-pub use surprises::{barred_in_words, surprise_in_words};
+pub use surprises::surprise_in_words;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use truth::Truth;
 pub use upkeep::{check_store, restore_store};

@@ -151,7 +151,7 @@ impl Recording {
                 messages.extend(self.progress(state, progress));
                 if let Some(told) = self.events.of(world, progress) {
                     let topic = match told {
-                        TaskEvent::Surprised { .. } | TaskEvent::Barred(_) => "/surprises",
+                        TaskEvent::Surprised { .. } | TaskEvent::Barred { .. } => "/surprises",
                         _ => "/directives",
                     };
                     messages.push(self.scribe.event(topic, &json!(told)));

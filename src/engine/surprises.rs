@@ -153,7 +153,7 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
 
 /// What bars the only way, and where: «В Коридоре путь к «Дверь-1» преграждает Стул-2 (345; 125)».
 #[must_use]
-pub fn barred_in_words(world: &World, barred: &Barred, language: Language) -> String {
+pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language) -> String {
     let known =
         barred.things.iter().map(|id| thing_in_words(world, *id, Case::Nominative, language));
     let mut things: Vec<String> = known.collect();

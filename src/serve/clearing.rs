@@ -57,6 +57,8 @@ impl Tasks {
         });
         let running = waits.ok_or(Declined::Unknown)?;
         running.answer = Some(if is_clear { Answer::Clear } else { Answer::GiveUp });
+        // A question is answered once; the next one is told anew.
+        running.view["barred"] = Value::Null;
         Ok(())
     }
 }
