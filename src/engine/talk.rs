@@ -204,7 +204,11 @@ impl State {
     ///
     /// # Errors
     /// As [`State::ask`].
-    pub fn asks_behind_what_is_told(&self, text: &str, memory: &Memory) -> Result<bool, Error> {
+    pub(super) fn asks_behind_what_is_told(
+        &self,
+        text: &str,
+        memory: &Memory,
+    ) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.asks_behind_what_is_told(text)
             && self.ask(text, &mut memory.clone())?.is_ok())

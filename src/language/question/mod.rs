@@ -77,7 +77,7 @@ use crate::map::{DoorState, World};
 use crate::report::Detail;
 use crate::semantics::Relations;
 use crate::units::{AreaId, DoorId, MapId, Pose, ReplicaId};
-use crate::words::{Language, everyday as everyday_words, is_first_person, phrase_at, word_keys};
+use crate::words::{Language, everyday as everyday_words, phrase_at, word_keys};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
@@ -623,26 +623,6 @@ impl Asker<'_> {
         opening::begins_question(&word_keys(text))
             || opening::begs_to_tell(text)
             || told.is_some_and(|(_, asked)| opening::begins_question(&word_keys(asked)))
-    }
-
-    /// "I need the battery, where is it?": whether a text asks behind what the person tells of itself, and orders nothing.
-    #[must_use]
-    pub fn asks_behind_what_is_told(&self, text: &str) -> bool {
-        let Some((told, asked)) = text.trim_end().rsplit_once([',', ';', '–', '—']) else {
-            return false;
-        };
-        let of_me = told.split([',', ';', '.', '!']).any(|part| {
-            const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
-            let first = word_keys(part).into_iter().next();
-            first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
-        });
-        let orders = |part: &str| crate::command::is_order(part) && !self.asks_to_tell(part);
-        asked.ends_with('?')
-            && of_me
-            && word_keys(asked).len() > 2
-            && !crate::command::is_command(asked)
-            && !orders(asked.trim_end_matches('?'))
-            && !orders(told)
     }
 
     /// Whether a text asks to be told something, in the words of an order: "Give me directions …".

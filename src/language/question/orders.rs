@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Asker;
 use super::several::sentences;
 use crate::command::{self, is_command, is_order};
-use crate::words::{Language, phrase_at, word_keys, word_ranges};
+use crate::words::{Language, is_first_person, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
 const MARKS: [char; 8] = [',', ';', '.', '!', ':', '–', '—', '?'];
@@ -58,6 +58,25 @@ impl Asker<'_> {
             (self.begins_as_question(question) && !self.orders(question))
                 .then_some((question, order))
         })
+    }
+
+    /// "I need the battery, where is it?": whether a text asks behind what the person tells of itself, and orders nothing.
+    #[must_use]
+    pub fn asks_behind_what_is_told(&self, text: &str) -> bool {
+        let Some((told, asked)) = text.trim_end().rsplit_once([',', ';', '–', '—']) else {
+            return false;
+        };
+        let of_me = told.split([',', ';', '.', '!']).any(|part| {
+            const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
+            let first = word_keys(part).into_iter().next();
+            first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
+        });
+        asked.ends_with('?')
+            && of_me
+            && word_keys(asked).len() > 2
+            && !is_command(asked)
+            && !self.orders(asked.trim_end_matches('?'))
+            && !self.orders(told)
     }
 
     /// Whether a text begins with a verb that orders, and not to be told something.

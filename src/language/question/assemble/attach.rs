@@ -45,16 +45,15 @@ impl Frame<'_, '_> {
             let sorts = |e: &Extension| matches!(e, Extension::Sort(_) | Extension::Furniture);
             class.head.named.is_empty() && class.head.things.is_none() && self.is_kind(class, sorts)
         };
-        if spot.rel == Rel::From && !spot.negated && noun.head.anything {
-            if let [of] = &spot.nouns[..]
-                && class(of)
-            {
-                noun.head.anything = false;
-                noun.head.kinds.clone_from(&of.head.kinds);
-                noun.text.clone_from(&of.text);
-                noun.other |= self.has(Mark::Other);
-                return;
-            }
+        if let ([of], Rel::From, false) = (&spot.nouns[..], spot.rel, spot.negated)
+            && noun.head.anything
+            && class(of)
+        {
+            noun.head.anything = false;
+            noun.head.kinds.clone_from(&of.head.kinds);
+            noun.text.clone_from(&of.text);
+            noun.other |= self.has(Mark::Other);
+            return;
         }
         // «двери у кухни»: its own.
         let windows = self.is_kind(noun, |e| *e == Extension::Windows);
