@@ -563,36 +563,38 @@ fn what_lies_on_the_tray_is_on_it_for_a_plan_too() {
 
 /// Rooms in a row, each behind the door of the one before.
 fn row_of_rooms(count: usize) -> String {
-    let (mut doors, mut rooms, mut items, mut links) = Default::default();
-    let add = |to: &mut String, text: String| to.push_str(&text);
+    const POINTS: &str =
+        "[[0, 0], [400, 0], [400, 100], [400, 200], [400, 300], [0, 300], [0, 200], [0, 100]]";
+    const LEAF: &str = "{ hinge = \"left\", share = 1, thickness = 4, max_open = 90 }";
+    let mut floors = String::from("[orthoframe]\n");
+    let (mut doors, mut rooms) = (String::new(), String::new());
+    let (mut items, mut links) = (Vec::new(), Vec::new());
     for n in 0..count {
-        let mut own = Vec::new();
+        let (mut sides, mut hung) = (Vec::new(), Vec::new());
         if n + 1 < count {
-            add(
-                &mut doors,
-                format!(
-                    "[door.d{n}]\nname = \"Door {n}\"\nkind = \"hinged\"\nwidth = 100\nheight = 210\nleaves = [{{ hinge = \"left\", share = 1, thickness = 4, max_open = 90 }}]\nstate = \"open\"\n"
-                ),
-            );
-            add(&mut links, format!("{{ from = \"r{n}.C\", to = \"r{}.G\" }}, ", n + 1));
-            own.push(format!("{{ side = \"C\", door = \"d{n}\", opens = \"outside\" }}"));
+            sides.push("side.C = { permeability = \"conditional\" }".to_owned());
+            hung.push(format!("{{ side = \"C\", door = \"d{n}\", opens = \"outside\" }}"));
+            links.push(format!("{{ from = \"r{n}.C\", to = \"r{}.G\" }}", n + 1));
+            doors += &format!("[door.d{n}]\nname = \"Door {n}\"\nkind = \"hinged\"\nwidth = 100\n");
+            doors += &format!("height = 210\nleaves = [{LEAF}]\nstate = \"open\"\n");
         }
-        if n > 0 {
-            own.push(format!("{{ side = \"G\", door = \"d{}\", opens = \"inside\" }}", n - 1));
+        if let Some(before) = n.checked_sub(1) {
+            sides.push("side.G = { permeability = \"conditional\" }".to_owned());
+            hung.push(format!("{{ side = \"G\", door = \"d{before}\", opens = \"inside\" }}"));
         }
-        let post = if n == 0 { "places = [{ name = \"Post\", at = [100, 150] }]\n" } else { "" };
-        add(
-            &mut rooms,
-            format!(
-                "[area.r{n}]\nname = \"Room {n}\"\nitems = [{{ id = \"A\", orthoframe = \"floor\" }}]\ndoors = [{}]\n{post}",
-                own.join(", ")
-            ),
-        );
-        add(&mut items, format!("{{ area = \"r{n}\", at = [{}, 0] }}, ", n * 400));
+        let (sides, hung) = (sides.join(", "), hung.join(", "));
+        floors += &format!("f{n} = {{ name = \"Floor {n}\", height = 270, points = {POINTS}, ");
+        floors += &format!("{sides} }}\n");
+        rooms += &format!("[area.r{n}]\nname = \"Room {n}\"\ndoors = [{hung}]\n");
+        rooms += &format!("items = [{{ id = \"A\", orthoframe = \"f{n}\" }}]\n");
+        rooms += if n == 0 { "places = [{ name = \"Post\", at = [100, 150] }]\n" } else { "" };
+        items.push(format!("{{ area = \"r{n}\", at = [{}, 0] }}", n * 400));
     }
-    format!(
-        "format = 1\n[domain]\nkey = \"row\"\nname = \"Row\"\n[robot]\nradius = 20\nheight = 110\nclearance = 3\nspeed = 50\nstart = \"Post\"\n[orthoframe]\nfloor = {{ name = \"Floor\", height = 270, points = [[0, 0], [400, 0], [400, 100], [400, 200], [400, 300], [0, 300], [0, 200], [0, 100]], side.C = {{ permeability = \"conditional\" }}, side.G = {{ permeability = \"conditional\" }} }}\n{doors}{rooms}[map.row]\nname = \"Row\"\nitems = [{items}]\nlinks = [{links}]\n"
-    )
+    let (items, links) = (items.join(", "), links.join(", "));
+    let head = "format = 1\n[domain]\nkey = \"row\"\nname = \"Row\"\n[robot]\nradius = 20\n\
+                height = 110\nclearance = 3\nspeed = 50\nstart = \"Post\"\n";
+    let map = format!("[map.row]\nname = \"Row map\"\nitems = [{items}]\nlinks = [{links}]\n");
+    [head, &floors, &doors, &rooms, &map].concat()
 }
 
 /// The last doors are behind the first ones, which must be opened again on the way.

@@ -327,8 +327,7 @@ impl Writer<'_> {
         }
         // In a box is in the box, and on a tray is on the tray: what is in it or on it goes with it. On a pile of books
         // on the table is on the table.
-        let bears =
-            |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_bearer(**s);
+        let bears = |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_bearer(**s);
         match chain.iter().find(bears) {
             Some(&support) => {
                 let on = self.relations.symbols().replica(support).to_string();
