@@ -245,7 +245,8 @@ impl FloorPlan {
         let sides: Vec<(Point, Point)> = edges.collect();
         // Through a door one stands before a thing only where one can from nowhere else: it may be shut again.
         for is_through in [false, true] {
-            let before = |(a, b)| self.before_face(region, within, is_through, (a, b));
+            let doors = self.doors_of(world, placed.area, is_through);
+            let before = |face| self.before_face(region, within, &doors, face);
             if let Some(goal) = front.and_then(before) {
                 return Ok(vec![goal]);
             }
@@ -269,12 +270,12 @@ impl FloorPlan {
             .collect())
     }
 
-    /// The best place to stand before a face, facing it: at its middle, close; and whether it may be through an open door.
+    /// The best place to stand before a face, facing it: at its middle, close; not through `doors`.
     fn before_face(
         &self,
         region: u32,
         within: Option<&[u32]>,
-        is_through: bool,
+        doors: &[(Point, Point)],
         (a, b): (Point, Point),
     ) -> Option<Goal> {
         let along = (b - a).try_normalize(1e-6)?;
@@ -291,7 +292,7 @@ impl FloorPlan {
                     if self.region((number, cell)) != region {
                         continue;
                     }
-                    let solid = solid.get_or_insert_with(|| self.shutting_off(is_through, a, b));
+                    let solid = solid.get_or_insert_with(|| self.shutting_off(doors, a, b));
                     if is_open_between(at, face, solid) {
                         let heading = Deg::from_radians((-out.y).atan2(-out.x));
                         let anchor = Anchor::at(at, (number, cell));
@@ -303,20 +304,29 @@ impl FloorPlan {
         None
     }
 
-    /// What shuts off a face of a thing from whoever is before it: walls, the leaves of doors as they stand, and
-    /// their whole doorways where they are shut or it may not be through them.
-    fn shutting_off(&self, is_through: bool, a: Point, b: Point) -> Vec<(Point, Point)> {
+    /// The doorways of an Area's doors: those that are shut, and the others too unless it may be through them.
+    fn doors_of(&self, world: &World, area: AreaId, is_through: bool) -> Vec<(Point, Point)> {
+        let has_leaf = |doorway: &Opening| {
+            let door = doorway.door.and_then(|door| world.doors.get(&door));
+            door.is_some_and(|door| door.kind != DoorKind::Passage)
+        };
+        let own = self.doorways.by_area.get(&area).into_iter().flatten().map(|own| own.0);
+        own.filter(|&number| !is_through || !self.admits(number))
+            .map(|number| &self.doorways()[number])
+            .filter(|doorway| has_leaf(doorway))
+            .map(|doorway| doorway.line())
+            .collect()
+    }
+
+    /// What shuts off a face of a thing from whoever is before it: walls, the leaves of doors as they stand, and `doors`.
+    fn shutting_off(&self, doors: &[(Point, Point)], a: Point, b: Point) -> Vec<(Point, Point)> {
         let near = Bounds::of([a, b]).grown(self.reach() + 40.0);
         let is_leaf = |o: &&Obstacle| matches!(o.blocker, Blocker::DoorLeaf { .. });
-        let mut solid = Vec::new();
+        let mut solid = doors.to_vec();
         for floor in self.fragments_near(&near) {
             let leaves = floor.obstacles().iter().filter(is_leaf);
             solid.extend(floor.walls.iter().copied());
             solid.extend(leaves.flat_map(|leaf| leaf.polygon.edges()));
-            let doorways = self.doorways.by_area.get(&floor.area).into_iter().flatten();
-            let doors = doorways.filter(|(number, _)| self.doorways()[*number].door.is_some());
-            let shut = doors.filter(|(number, _)| !is_through || !self.admits(*number));
-            solid.extend(shut.map(|(number, _)| self.doorways()[*number].line()));
         }
         solid.retain(|&(u, v)| Bounds::of([u, v]).meets(&near));
         solid
