@@ -526,12 +526,6 @@ fn parse_cell(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number as angles, lengths and speeds are given.
-pub(super) fn finite(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| "a number is wanted, such as 90 or -12.5".to_owned())
-}
-
 fn parse_height(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(height) if (0.0..=10_000.0).contains(&height) => Ok(height),

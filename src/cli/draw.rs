@@ -13,7 +13,7 @@ use crate::language::Language;
 use crate::robot::Directive;
 use crate::units::{MapId, Point, write_file};
 
-use super::args::{Common, CorridorArgs, Lang, LogOnMap, finite};
+use super::args::{Common, CorridorArgs, Lang, LogOnMap};
 use super::commands::{note, open};
 use super::fault::Failure;
 use super::{Answer, json, say};
@@ -90,13 +90,13 @@ struct ViewArgs {
     #[arg(long, value_name = "X,Y,HEADING", allow_hyphen_values = true)]
     at: String,
     /// Of the eye above the floor, cm; the robot's height when absent
-    #[arg(long, value_name = "CM", value_parser = finite)]
+    #[arg(long, value_name = "CM")]
     height: Option<f64>,
     /// Angle of view from side to side
-    #[arg(long, value_name = "DEGREES", default_value_t = 90.0, value_parser = finite)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 90.0)]
     field: f64,
     /// How far the eye sees, cm
-    #[arg(long, value_name = "CM", default_value_t = 1200.0, value_parser = finite)]
+    #[arg(long, value_name = "CM", default_value_t = 1200.0)]
     range: f64,
     /// From above, what is in view marked on the plan
     #[arg(long)]

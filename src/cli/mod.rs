@@ -22,6 +22,7 @@ mod lengths;
 mod locate;
 mod manual;
 mod map_from;
+mod number;
 mod observe;
 mod plan;
 mod query;

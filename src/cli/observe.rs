@@ -7,10 +7,11 @@ use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
 use crate::units::{Deg, Frame};
 
-use super::args::{Common, Lang, finite, moment};
+use super::args::{Common, Lang, moment};
 use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
+use super::number::finite;
 use super::{Answer, json as views, say};
 
 #[derive(Debug, Subcommand)]

@@ -3,9 +3,8 @@
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Subcommand};
 
+use crate::cli::number::finite;
 use crate::map;
-
-use crate::cli::args::finite;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Step {

@@ -101,7 +101,9 @@ fn the_robot_never_stands_where_a_leaf_sweeps_that_it_opens() {
                     opened += 1;
                 }
             }
-            // It was rehearsed: in a world that is as believed nothing surprises it.
+            // What bars the only way and is out of sight may be gone: it is gone to, and seen to be there after all.
+            Event::Surprised { belief, .. } if belief.lost().next().is_some() => {}
+            // It was rehearsed: in a world that is as believed nothing else surprises it.
             Event::Surprised { surprise, .. } => panic!("seed {seed} to {to}: {surprise:?}"),
             _ => {}
         };
