@@ -137,9 +137,7 @@ impl<'a> Clock<'a> {
             }
             Deed::SetDoor { .. } | Deed::SetOpen { .. } => DOOR_TIME,
             Deed::CallLift { door, .. } => LIFT_WAIT + self.opens(door),
-            Deed::Ride { lift, to, door } => {
-                self.ride(directive, lift, to)? + self.opens(door)
-            }
+            Deed::Ride { lift, to, door } => self.ride(directive, lift, to)? + self.opens(door),
             Deed::Push(_) => PUSH_TIME,
             Deed::Take(_) | Deed::Put { .. } | Deed::HandOver { .. } => GRASP_TIME,
             Deed::Switch { .. } => SWITCH_TIME,

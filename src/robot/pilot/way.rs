@@ -133,7 +133,7 @@ impl Pilot<'_, '_> {
             }
             let leaves = floor.doorways_of(id).flat_map(|way| way.leaves(door).obstacles(state));
             let leaves: Vec<Polygon> = leaves.collect();
-            if is_of(met, leaves.iter()) {
+            if is_of(met, &leaves.iter()) {
                 self.doors.insert(id, state);
                 watch.notice(&Notice::Saw(Sighting::Door { door: id, state }));
                 return Some(Obstruction::Door(id));
@@ -153,7 +153,7 @@ impl Pilot<'_, '_> {
                 .is_some_and(|told| (told.origin() - frame.origin()).norm() <= UNKNOWN);
             let placed = PlacedReplica::new(self.ground.world, look.thing, frame);
             if !is_told
-                && is_of(met, placed.prisms.iter().map(|prism| &prism.polygon))
+                && is_of(met, &placed.prisms.iter().map(|prism| &prism.polygon))
                 && let Some(seen) = self.in_area(look.thing, frame)
             {
                 self.told.insert(look.thing, frame);
@@ -300,7 +300,7 @@ impl Pilot<'_, '_> {
 }
 
 /// Whether most of what was met is of these outlines.
-fn is_of<'o>(met: &[Point], outlines: impl Iterator<Item = &'o Polygon> + Clone) -> bool {
+fn is_of<'o>(met: &[Point], outlines: &(impl Iterator<Item = &'o Polygon> + Clone)) -> bool {
     let is_on = |p: &&Point| {
         let mut outlines = outlines.clone();
         outlines.any(|one| one.contains(**p, 0.0) || one.border_distance(**p) <= 2.0 * UNKNOWN)
