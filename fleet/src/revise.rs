@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 use crate::error::{FleetError, Result};
 use crate::ingest::put_centre;
-use crate::map::{self, EditReading, Edits, Format, MapErrors, NameIndex, Naming, NextIds, World};
+use crate::map::{self, EditReading, Format, MapErrors, NameIndex, Naming, NextIds, World};
 use crate::rows::{place, quoted};
 use crate::semantics::{RelationRules, derive, load};
 use crate::sheets::{revision, sheet};
@@ -98,8 +98,12 @@ fn work_in(old: &Sheet, ids: &[LastIds], edit: &Edit) -> Result<(Revised, Sheet)
     let exact = NameIndex::of(&before);
     let naming = Naming { exact: &exact, in_other_words: &|_| Vec::new() };
     let source = Source::new("правка", edit.text.clone());
-    let EditReading { world, faults: mut found, carriers, .. } =
-        map::edit(&before, &Edits::read(&source, edit.format), &free_ids(&before, ids), naming);
+    let EditReading { world, faults: mut found, carriers, .. } = map::edit(
+        &before,
+        &map::Edits::read(&source, edit.format),
+        &free_ids(&before, ids),
+        naming,
+    );
     let wrong = |found: &MapErrors| FleetError::content(faults(found).join("\n"));
     let mut after = world.ok_or_else(|| wrong(&found))?;
     let mut left_behind = Vec::new();
