@@ -63,7 +63,7 @@ impl Checker<'_> {
     }
 
     fn has_no_name(&mut self, entity: Entity) {
-        let at = Spot::of(record(entity)).field("name");
+        let at = Spot::of(entity.into()).field("name");
         self.fault(MapError::NoName { what: kind(entity).into() }, at);
     }
 
@@ -112,14 +112,16 @@ impl Checker<'_> {
     }
 }
 
-fn record(entity: Entity) -> Record {
-    match entity {
-        Entity::Map(id) => Record::Map(id),
-        Entity::Area(id) => Record::Area(id),
-        Entity::Door(id) => Record::Door(id),
-        Entity::Replica(id) => Record::Replica(id),
-        Entity::Place(id) => Record::Place(id),
-        Entity::Zone(id) => Record::Zone(id),
+impl From<Entity> for Record {
+    fn from(entity: Entity) -> Self {
+        match entity {
+            Entity::Map(id) => Self::Map(id),
+            Entity::Area(id) => Self::Area(id),
+            Entity::Door(id) => Self::Door(id),
+            Entity::Replica(id) => Self::Replica(id),
+            Entity::Place(id) => Self::Place(id),
+            Entity::Zone(id) => Self::Zone(id),
+        }
     }
 }
 
@@ -141,5 +143,5 @@ fn title(world: &World, entity: Entity) -> Bilingual {
 /// The field that holds the name.
 fn spot(entity: Entity, world: &World, name: &str) -> Spot {
     let field = if world.name(entity) == name { "name" } else { "name_en" };
-    Spot::of(record(entity)).field(field)
+    Spot::of(entity.into()).field(field)
 }

@@ -8,7 +8,7 @@ use super::{Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::decode::{likely, shortened};
 use crate::file::read::{Behind, Names};
 use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
-use crate::{Entity, TypeKind, World};
+use crate::{TypeKind, World};
 
 /// Keys of the map as names are compared, each kind when it is first asked for. Of what [`crate::NameIndex`] does not know,
 /// the names as well.
@@ -96,7 +96,7 @@ impl Steps<'_> {
             return vec![exact];
         }
         let key = name_key(name);
-        let by_name = self.naming.exact.find(self.start, name).into_iter().map(record_of);
+        let by_name = self.naming.exact.find(self.start, name).into_iter().map(Record::from);
         let by_key = self.keys.find(self.start, &key, kind).iter().copied();
         let given = self.given.get(&key).into_iter().flatten().copied();
         let of_kind = |record: &Record| Kind::of(*record) == Some(kind);
@@ -126,7 +126,7 @@ impl Steps<'_> {
     pub(super) fn find(&self, name: &str, at: &Span, kinds: &[Kind]) -> Outcome<Record> {
         let mut found = self.all_named(name, kinds);
         if found.is_empty() {
-            let in_other_words = (self.naming.in_other_words)(name).into_iter().map(record_of);
+            let in_other_words = (self.naming.in_other_words)(name).into_iter().map(Record::from);
             let is_meant = |record: &Record| {
                 Kind::of(*record).is_some_and(|kind| kinds.contains(&kind))
                     && self.names_of(*record).is_some()
@@ -220,16 +220,5 @@ impl Steps<'_> {
         };
         let find = |name: &str| list.named(name).map(|entry| entry.id);
         Behind { find: Box::new(find), nearest: Box::new(nearest), only: None }
-    }
-}
-
-fn record_of(entity: Entity) -> Record {
-    match entity {
-        Entity::Map(id) => Record::Map(id),
-        Entity::Area(id) => Record::Area(id),
-        Entity::Door(id) => Record::Door(id),
-        Entity::Replica(id) => Record::Replica(id),
-        Entity::Place(id) => Record::Place(id),
-        Entity::Zone(id) => Record::Zone(id),
     }
 }
