@@ -67,7 +67,7 @@ pub use device::{is_dark, is_on, is_open, set_open, stands, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{
-    Edit, EditReading, Edits, Format, Naming, NewRecord, NextIds, Reading, Truth, edit,
+    Edit, EditReading, Edits, Format, Naming, NewRecord, NextIds, Reading, RobotSaid, Truth, edit,
     json_schema, kinds, locate, read, read_file, read_truth, schema,
 };
 pub use marks::Mark;

@@ -27,7 +27,7 @@ use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::{Bilingual, FileFault, Source};
 
-pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, edit, kinds};
+pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, RobotSaid, edit, kinds};
 pub use schema::json_schema;
 pub use truth::{Truth, read_truth};
 

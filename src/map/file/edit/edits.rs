@@ -6,10 +6,10 @@ use serde::Deserialize;
 
 use super::super::decode::{NUMBER, TABLE, decode};
 use super::super::node::{self, Entry, Misprint, Node, Span, Value};
-use super::super::schema::{FORMAT, Number};
+use super::super::schema::FORMAT;
 use super::super::{Format, LIMIT};
 use super::kind::Kind;
-use super::verbs::{self, Edit, NewRecord};
+use super::verbs::{self, Edit, NewRecord, RobotSaid};
 use super::word::{Done, Slips, misprint, text_of, unknown_field, wrong_kind};
 use crate::TypeKind;
 use crate::fault::MapError;
@@ -169,7 +169,7 @@ impl Told {
                 let node = section.node.elements().first().expect("the list of steps has one");
                 (node.entry(verb).expect("a step has its verb").key_span.clone(), node)
             }
-            (Edit::Robot { .. }, _) => (section.key_span.clone(), &section.node),
+            (Edit::Robot(_), _) => (section.key_span.clone(), &section.node),
             (Edit::New(new), _) => {
                 let record = section.node.entries().first().expect("a section has its record");
                 match **new {
@@ -309,41 +309,11 @@ impl Reading<'_> {
     }
 
     fn robot(&mut self, entry: &Entry) -> Done {
-        /// As [`super::super::schema::RobotFile`], where no corners are something else than none told.
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields, default)]
-        #[derive(Default)]
-        struct RobotSaid {
-            radius: Option<Number>,
-            footprint: Option<Vec<[Number; 2]>>,
-            height: Option<Number>,
-            step: Option<Number>,
-            clearance: Option<Number>,
-            speed: Option<Number>,
-            turn_rate: Option<Number>,
-            start: Option<String>,
-            opens: Option<bool>,
-        }
         if !matches!(entry.node.value, Value::Table(_)) {
             return Err(wrong_kind(&entry.node, TABLE));
         }
-        let (said, is_broken) = self.decode(&entry.node, &entry.key_span);
-        let edit = said.map(|said: RobotSaid| {
-            let RobotSaid { radius, footprint, height, step, clearance, .. } = said;
-            let RobotSaid { speed, turn_rate, start, opens, .. } = said;
-            Edit::Robot {
-                radius,
-                footprint,
-                height,
-                step,
-                clearance,
-                speed,
-                turn_rate,
-                start,
-                opens,
-            }
-        });
-        self.tell(edit, &entry.key_span, &entry.node, is_broken);
+        let (said, is_broken) = self.decode::<RobotSaid>(&entry.node, &entry.key_span);
+        self.tell(said.map(Edit::Robot), &entry.key_span, &entry.node, is_broken);
         Ok(())
     }
 }

@@ -38,7 +38,7 @@ use crate::{Entity, MapErrors, NameIndex, TypeKind, World, check};
 
 pub use edits::Edits;
 pub use kind::kinds;
-pub use verbs::{Edit, NewRecord};
+pub use verbs::{Edit, NewRecord, RobotSaid};
 
 use kind::Kind;
 use steps::Steps;

@@ -45,6 +45,41 @@ impl NewRecord {
     }
 }
 
+/// As [`RobotFile`](super::super::schema::RobotFile), where no corners are something else than none told.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RobotSaid {
+    pub radius: Option<Number>,
+    pub footprint: Option<Vec<[Number; 2]>>,
+    pub height: Option<Number>,
+    pub step: Option<Number>,
+    pub clearance: Option<Number>,
+    pub speed: Option<Number>,
+    pub turn_rate: Option<Number>,
+    /// The place where it stands when nothing else is known.
+    pub start: Option<String>,
+    pub opens: Option<bool>,
+}
+
+impl RobotSaid {
+    /// The section of an edit file for it.
+    fn text(&self) -> String {
+        [
+            "[robot]\n".to_owned(),
+            told("radius", &self.radius),
+            told("footprint", &self.footprint),
+            told("height", &self.height),
+            told("step", &self.step),
+            told("clearance", &self.clearance),
+            told("speed", &self.speed),
+            told("turn_rate", &self.turn_rate),
+            told("start", &self.start),
+            told("opens", &self.opens),
+        ]
+        .concat()
+    }
+}
+
 /// A step begins with its verb and what that is done to.
 fn verb_line(verb: &str, name: &String) -> String {
     format!("[[edit]]\n{}", name.told(verb))
@@ -67,18 +102,7 @@ macro_rules! verbs {
             /// A record that was not there. All that edits bring is there before the first step is done.
             New(Box<NewRecord>),
             /// What is said of the robot; the rest of it stays.
-            Robot {
-                radius: Option<Number>,
-                footprint: Option<Vec<[Number; 2]>>,
-                height: Option<Number>,
-                step: Option<Number>,
-                clearance: Option<Number>,
-                speed: Option<Number>,
-                turn_rate: Option<Number>,
-                /// The place where it stands when nothing else is known.
-                start: Option<String>,
-                opens: Option<bool>,
-            },
+            Robot(RobotSaid),
             $(
                 $(#[$doc])*
                 $variant {
@@ -128,7 +152,7 @@ macro_rules! verbs {
             /// The word by which a step is told; none for what is told in a section of its own.
             pub(super) fn verb(&self) -> Option<&'static str> {
                 match self {
-                    Self::New(_) | Self::Robot { .. } => None,
+                    Self::New(_) | Self::Robot(_) => None,
                     $( Self::$variant { .. } => Some($verb), )+
                 }
             }
@@ -137,29 +161,7 @@ macro_rules! verbs {
             pub(super) fn text(&self) -> String {
                 match self {
                     Self::New(record) => record.text(),
-                    Self::Robot {
-                        radius,
-                        footprint,
-                        height,
-                        step,
-                        clearance,
-                        speed,
-                        turn_rate,
-                        start,
-                        opens,
-                    } => [
-                        "[robot]\n".to_owned(),
-                        told("radius", radius),
-                        told("footprint", footprint),
-                        told("height", height),
-                        told("step", step),
-                        told("clearance", clearance),
-                        told("speed", speed),
-                        told("turn_rate", turn_rate),
-                        told("start", start),
-                        told("opens", opens),
-                    ]
-                    .concat(),
+                    Self::Robot(said) => said.text(),
                     $(
                         Self::$variant { name, $( $req, )* $( $opt, )* } => [
                             verb_line($verb, name),

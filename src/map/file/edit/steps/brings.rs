@@ -41,8 +41,8 @@ impl Steps<'_> {
         for told in all {
             let done = match &told.edit {
                 Edit::New(new) => self.number(new, told, &mut brought),
-                Edit::Robot { .. } => {
-                    self.late.robot.push(told.edit.clone());
+                Edit::Robot(said) => {
+                    self.late.robot.push(said.clone());
                     self.said.new_record(Record::Robot, &told.key_span, told.node.clone());
                     Ok(())
                 }

@@ -160,7 +160,7 @@ impl<'a> Steps<'a> {
         }
         let step = &Step { node: &told.node, verb };
         match &told.edit {
-            Edit::New(_) | Edit::Robot { .. } => Ok(()),
+            Edit::New(_) | Edit::Robot(_) => Ok(()),
             Edit::Place { .. } => self.place(step, &told.edit, told.is_broken),
             Edit::Point { .. } => self.point(step, &told.edit, told.is_broken),
             Edit::Move { name, to, by, area, carry } => {

@@ -1,6 +1,6 @@
 //! What is read when all steps are done: zones, what the robot is, and references to what a step may have made or taken away.
 
-use super::super::verbs::Edit;
+use super::super::verbs::RobotSaid;
 use super::{Fault, Kind, MapError, Record, Span, Steps};
 use crate::file::decode::shortened;
 use crate::file::read::Raw;
@@ -10,7 +10,7 @@ use crate::units::{Cm, PlaceId, Point};
 #[derive(Default)]
 pub(super) struct Late {
     /// What is said of the robot.
-    pub(super) robot: Vec<Edit>,
+    pub(super) robot: Vec<RobotSaid>,
     /// What is served from places that were brought.
     pub(super) serves: Vec<(PlaceId, String)>,
     /// What was taken out, by which name, and where that is told.
@@ -49,37 +49,23 @@ impl Steps<'_> {
     }
 
     /// What is said of the robot; the rest of it stays.
-    fn robot(&mut self, said: &Edit) {
-        let Edit::Robot {
-            radius,
-            footprint,
-            height,
-            step,
-            clearance,
-            speed,
-            turn_rate,
-            start,
-            opens,
-        } = said
-        else {
-            unreachable!("nothing else is kept of it")
-        };
+    fn robot(&mut self, said: &RobotSaid) {
         let robot = &mut self.world.robot;
         for (length, told) in [
-            (&mut robot.radius, radius),
-            (&mut robot.height, height),
-            (&mut robot.step, step),
-            (&mut robot.clearance, clearance),
+            (&mut robot.radius, said.radius),
+            (&mut robot.height, said.height),
+            (&mut robot.step, said.step),
+            (&mut robot.clearance, said.clearance),
         ] {
             *length = told.map_or(*length, |n| Cm::of(n.get()));
         }
-        if let Some(corners) = footprint {
+        if let Some(corners) = &said.footprint {
             robot.footprint = corners.iter().map(|[x, y]| Point::new(x.get(), y.get())).collect();
         }
-        robot.speed = speed.map_or(robot.speed, |n| n.get());
-        robot.turn_rate = turn_rate.map_or(robot.turn_rate, |n| n.get());
-        robot.opens = opens.unwrap_or(robot.opens);
-        if let Some(start) = start {
+        robot.speed = said.speed.map_or(robot.speed, |n| n.get());
+        robot.turn_rate = said.turn_rate.map_or(robot.turn_rate, |n| n.get());
+        robot.opens = said.opens.unwrap_or(robot.opens);
+        if let Some(start) = &said.start {
             self.world.robot.start = self.reading(|reader| reader.start(start));
         }
     }
