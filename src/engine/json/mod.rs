@@ -2,11 +2,14 @@
 
 mod faults;
 mod known;
+mod numbers;
 mod proofs;
+mod segments;
 
 pub use faults::faults;
 pub use known::{believed, changed, differences, edited, facts, revision, story};
 pub use proofs::{query, why};
+pub use segments::{ends, log_faults};
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -26,9 +29,11 @@ use crate::map::{DoorStatus, Entity};
 use crate::robot::Shortness;
 use crate::semantics::Spot;
 use crate::strips::{Preference, Replayed, Said, Wording};
-use crate::units::{AreaId, InEnglish as _, Point, Pose, ReplicaId};
-use crate::vectors::read::{LogError, LogFault};
-use crate::vectors::{Cut, End, Segment, Truth};
+use crate::units::{AreaId, ReplicaId};
+use crate::vectors::Segment;
+
+use numbers::{point, pose, round};
+use segments::segment;
 
 #[derive(Debug, Serialize)]
 struct StepView {
@@ -638,65 +643,6 @@ pub fn changes(changes: &Changes) -> Value {
         "appeared": found.appeared,
         "comparisons": found.counters.comparisons(),
     })
-}
-
-/// What was wrong with lines of a log.
-pub fn log_faults(error: Option<&LogError>) -> Vec<Value> {
-    let told = |error: &LogError| -> Vec<Value> {
-        let fault = |fault: &LogFault| {
-            let (line, column) = error.source_text.position(fault.offset());
-            let code = miette::Diagnostic::code(fault).map(|code| code.to_string());
-            json!({
-                "code": code, "message": fault.to_string(), "message_en": fault.english(),
-                "line": line, "column": column,
-            })
-        };
-        error.faults.iter().map(fault).collect()
-    };
-    error.map(told).unwrap_or_default()
-}
-
-/// `deviation`: of the two ends across and along, the greatest.
-fn segment(segment: &Segment<2>) -> Value {
-    json!({
-        "from": point(segment.start.into()),
-        "to": point(segment.end.into()),
-        "length": round(segment.length()),
-        "ends": ends(segment),
-        "deviation": round(segment.covariance.deviation()),
-    })
-}
-
-/// Words for what the ends of a segment are.
-#[must_use]
-pub fn ends(segment: &Segment<2>) -> [&'static str; 2] {
-    segment.ends.map(end)
-}
-
-const fn end(end: End) -> &'static str {
-    match end {
-        End::True(Truth::Corner) => "corner",
-        End::True(Truth::Free) => "free",
-        End::True(Truth::Given) => "given",
-        End::Cut(Cut::Occluded) => "occluded",
-        End::Cut(Cut::Range) => "range",
-        End::Cut(Cut::Field) => "field",
-        End::Cut(Cut::Unclear) => "unclear",
-    }
-}
-
-fn point(p: Point) -> [f64; 2] {
-    [round(p.x), round(p.y)]
-}
-
-fn pose(pose: Pose) -> Value {
-    json!({"x": round(pose.at.x), "y": round(pose.at.y), "heading_deg": round(pose.heading.get())})
-}
-
-/// Hundredths: a tenth of a millimetre, a hundredth of a degree.
-fn round(value: f64) -> f64 {
-    // (Nothing added up is minus zero.)
-    (value * 100.0).round() / 100.0 + 0.0
 }
 
 fn merge(view: &mut Value, more: Value) {

@@ -5,7 +5,8 @@
 use super::grammar::{Item, Phrase, Sentence};
 use super::lexicon::Extension;
 use super::mark::{Mark, Pronoun};
-use super::{Asker, Detail, Dimension, Noun, Passing, Query, Rel, Thing};
+use super::{Asker, Dimension, Noun, Passing, Query, Rel, Thing};
+use crate::report::Detail;
 use crate::words::{Case, Number, word_keys};
 
 /// What is asked of a way that was told.

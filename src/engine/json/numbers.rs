@@ -1,0 +1,19 @@
+//! Numbers and points as data.
+
+use serde_json::{Value, json};
+
+use crate::units::{Point, Pose};
+
+pub(super) fn point(p: Point) -> [f64; 2] {
+    [round(p.x), round(p.y)]
+}
+
+pub(super) fn pose(pose: Pose) -> Value {
+    json!({"x": round(pose.at.x), "y": round(pose.at.y), "heading_deg": round(pose.heading.get())})
+}
+
+/// Hundredths: a tenth of a millimetre, a hundredth of a degree.
+pub(super) fn round(value: f64) -> f64 {
+    // (Nothing added up is minus zero.)
+    (value * 100.0).round() / 100.0 + 0.0
+}
