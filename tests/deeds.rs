@@ -562,7 +562,7 @@ fn what_lies_on_the_tray_is_on_it_for_a_plan_too() {
 }
 
 /// Rooms in a row, each behind the door of the one before.
-fn row_of_rooms(count: usize) -> String {
+pub(crate) fn row_of_rooms(count: usize) -> String {
     const POINTS: &str =
         "[[0, 0], [400, 0], [400, 100], [400, 200], [400, 300], [0, 300], [0, 200], [0, 100]]";
     const LEAF: &str = "{ hinge = \"left\", share = 1, thickness = 4, max_open = 90 }";

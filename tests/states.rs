@@ -5,10 +5,11 @@ use std::sync::mpsc;
 use std::sync::{Arc, Mutex};
 
 use orthoframe::engine::{Engine, Memory, Method, Mode, State, change_now};
-use orthoframe_map::{DoorState, Edits, Entity, Format, Replica};
+use orthoframe_map::{DoorState, Edits, Entity, Format, Permeability, Replica, World};
 use orthoframe_store::Change;
 use orthoframe_units::{ReplicaId, Source};
 
+use crate::deeds::row_of_rooms;
 use crate::generated_worlds::Dice;
 use crate::worlds::rb2;
 
@@ -228,5 +229,64 @@ fn what_follows_edits_is_what_would_be_derived() {
         for (state, said) in &held {
             assert_eq!(all(state), *said, "step {step}: a state that is held");
         }
+    }
+}
+
+/// A spare floor leads through the openings that it was left with, whatever rooms came and went while nobody asked.
+#[test]
+fn a_spare_floor_of_other_rooms_follows_them() {
+    let mut engine = {
+        let text = row_of_rooms(4);
+        let world = World::parse(&Source::new("row.toml", text), Format::Toml).unwrap();
+        Engine::in_memory(world, None).unwrap()
+    };
+    let change = change_now("test", "");
+    let turn = |world: &mut World| {
+        let door = world.doors.values_mut().next().unwrap();
+        door.state = match door.state == DoorState::CLOSED {
+            true => DoorState::OPEN,
+            false => DoorState::CLOSED,
+        };
+    };
+    let take_last_away = |world: &mut World| {
+        let id = *world.areas.keys().next_back().unwrap();
+        let area = world.areas.remove(&id).unwrap();
+        let hung: Vec<_> = area.doors.iter().map(|mount| mount.door).collect();
+        for door in &hung {
+            world.doors.remove(door);
+        }
+        for room in world.areas.values_mut() {
+            let frame = world.orthoframes.get_mut(&room.items[0].orthoframe).unwrap();
+            for mount in room.doors.extract_if(.., |mount| hung.contains(&mount.door)) {
+                let side = frame.base.iter_mut().find(|side| side.id == mount.side).unwrap();
+                side.permeability = Permeability::Impermeable;
+            }
+        }
+        let map = world.maps.values_mut().next().unwrap();
+        map.items.retain(|item| item.area != id);
+        map.links.retain(|link| link.area != id && link.to_area != id);
+    };
+    let led = |state: &State| -> Vec<_> {
+        let floors = state.floors().unwrap();
+        let ways = floors.values().flat_map(|floor| floor.doorways().iter());
+        let mut ways: Vec<_> = ways.map(|way| (way.door, way.areas)).collect();
+        ways.sort();
+        ways
+    };
+    let _ = (engine.relations().unwrap(), engine.floors().unwrap());
+    let edits: [(bool, &dyn Fn(&mut World)); 6] = [
+        (true, &turn),
+        (false, &take_last_away),
+        (false, &turn),
+        (true, &turn),
+        (false, &take_last_away),
+        (true, &turn),
+    ];
+    for (step, (is_held, alter)) in edits.into_iter().enumerate() {
+        let held = is_held.then(|| engine.state().unwrap());
+        engine.edit_world(&change, Mode::Commit, alter).unwrap();
+        drop(held);
+        let alone = Engine::in_memory(engine.world().unwrap().clone(), None).unwrap();
+        assert_eq!(led(&engine), led(&alone), "step {step}");
     }
 }

@@ -194,7 +194,7 @@ impl Engine {
 pub(super) struct Spares {
     relations: Option<Spare<Relations>>,
     floors: Option<Spare<Floors>>,
-    /// Through which the floors lead.
+    /// Through which the spare floors lead.
     openings: Option<Arc<Openings>>,
 }
 
@@ -305,8 +305,13 @@ impl Known {
         if !before.maps.keys().eq(after.maps.keys()) {
             return false;
         }
-        let was_led = std::mem::replace(&mut spares.openings, led.clone());
+        let is_shared = Arc::get_mut(floors).is_none();
         let of = Spare::own(&mut spares.floors, floors, before, after);
+        // What the spare floors lead through changes hands when they do.
+        let was_led = match is_shared {
+            true => std::mem::replace(&mut spares.openings, led.clone()),
+            false => None,
+        };
         let through = if Arc::ptr_eq(&of, before) { led } else { was_led };
         let now = self.relations.get().map(|relations| relations.openings());
         let mut floors =

@@ -158,11 +158,8 @@ impl FloorPlan {
             .collect()
     }
 
-    /// Builds anew what tells of these Areas; an opening may still name one that was taken away.
     pub(crate) fn renew(&mut self, world: &World, stale: &[AreaId]) {
-        let is_there = |area: &AreaId| self.scene.areas.contains_key(area);
-        let stale: Vec<AreaId> = stale.iter().copied().filter(is_there).collect();
-        let fresh: Vec<_> = self.with_site(world, |site| build_all(site, &stale));
+        let fresh: Vec<_> = self.with_site(world, |site| build_all(site, stale));
         for floor in fresh {
             if let Some(number) = self.number(floor.area) {
                 self.fragments[number] = floor;
