@@ -48,13 +48,13 @@ pub(super) struct Common {
     /// Print the value behind the words as JSON (see docs/cli.md)
     #[arg(long, global = true)]
     pub json: bool,
-    /// Language of all that is told; that of the locale when left out, Russian where it names neither
+    /// Language of all that is told; that of the locale when left out, then that of the order or question, then Russian
     #[arg(
         long,
         global = true,
         value_enum,
         env = "ORTHO_LANG",
-        default_value_t = Lang::of_locale(),
+        default_value_t = Lang::of_locale().unwrap_or(Lang::Ru),
         hide_default_value = true
     )]
     pub lang: Lang,
@@ -128,17 +128,14 @@ pub(super) enum Lang {
 }
 
 impl Lang {
-    /// By the first of `LC_ALL`, `LC_MESSAGES` and `LANG` that is set, as POSIX has it. `C` names no language.
-    fn of_locale() -> Self {
+    /// By the first of `LC_ALL`, `LC_MESSAGES` and `LANG` that is set, as POSIX has it; `C` names no language.
+    pub(super) fn of_locale() -> Option<Self> {
         let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
-        let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set);
-        Self::of(locale.as_deref().unwrap_or_default())
-    }
-
-    fn of(locale: &str) -> Self {
+        let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set)?;
         match locale.split(['_', '.', '@', '-']).next() {
-            Some("en") => Self::En,
-            _ => Self::Ru,
+            Some("en") => Some(Self::En),
+            Some("ru") => Some(Self::Ru),
+            _ => None,
         }
     }
 }
@@ -323,6 +320,15 @@ pub(super) enum Command {
 }
 
 impl Command {
+    /// What a person said to the robot with this command.
+    pub(super) fn words(&self) -> Option<&str> {
+        match self {
+            Self::Ask(args) => Some(&args.question),
+            Self::Do(args) => args.task.as_deref(),
+            _ => None,
+        }
+    }
+
     /// It speaks only when it is done, which may take a while.
     pub(super) fn may_be_silent(&self) -> bool {
         #[cfg(feature = "serve")]

@@ -4,12 +4,13 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use serde::Deserialize;
 
-use crate::units::Source;
+use crate::units::{Language, Source};
 
-use super::args::Arguments;
+use super::args::{Arguments, Lang};
 use super::config_error::ConfigError;
 use super::lengths::{Lengths, in_centimetres};
 
@@ -41,6 +42,15 @@ enum Word {
     En,
 }
 
+impl From<Word> for Lang {
+    fn from(word: Word) -> Self {
+        match word {
+            Word::Ru => Self::Ru,
+            Word::En => Self::En,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Color {
@@ -69,12 +79,15 @@ const NAME: &str = "ortho.toml";
 /// The arguments of this call, with what the settings say where they say nothing; and why a file of settings that was
 /// named, or found, cannot be used.
 pub(super) fn arguments() -> (Arguments, Option<Box<ConfigError>>) {
-    let given = Arguments::parse_whole(&Arguments::command());
+    let usual = Lang::of_locale();
+    let given = Arguments::parse_whole(&Arguments::command(), usual);
     let found = given.common.config.clone().map_or_else(found, Some);
     let Some(path) = found else { return (given, None) };
     match Config::read(&path) {
         Ok(config) => {
-            (Arguments::parse_whole(&config.laid_under(Arguments::command(), &path)), None)
+            let usual = config.language.map(Lang::from).or(usual);
+            let command = config.laid_under(Arguments::command(), &path);
+            (Arguments::parse_whole(&command, usual), None)
         }
         Err(error) => (given, Some(Box::new(error))),
     }
@@ -91,11 +104,18 @@ fn found() -> Option<PathBuf> {
 }
 
 impl Arguments {
-    fn parse_whole(command: &clap::Command) -> Self {
+    /// Where neither they nor what is usual tell the language, it is that of what was said with the command.
+    fn parse_whole(command: &clap::Command, usual: Option<Lang>) -> Self {
         let read = |unit| {
             let words = in_centimetres(command, std::env::args_os(), unit);
             let matches: ArgMatches = command.clone().get_matches_from(words);
-            Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+            let mut read =
+                Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+            let is_told = matches.value_source("lang") != Some(ValueSource::DefaultValue);
+            if let (false, None, Some(said)) = (is_told, usual, read.command.words()) {
+                read.common.lang = Language::of(said).pick(Lang::Ru, Lang::En);
+            }
+            read
         };
         // In which unit the lengths are is itself an argument.
         let read_in_cm = read(Lengths::Cm);
@@ -126,10 +146,7 @@ impl Config {
     fn laid_under(self, command: clap::Command, file: &Path) -> clap::Command {
         let here = file.parent().unwrap_or(Path::new(""));
         let path = |path: PathBuf| here.join(path).into_os_string().into_string().ok();
-        let language = self.language.map(|word| match word {
-            Word::Ru => "ru".to_owned(),
-            Word::En => "en".to_owned(),
-        });
+        let language = self.language.map(|word| Lang::from(word).pick("ru", "en").to_owned());
         let color = self.color.map(|color| match color {
             Color::Auto => "auto".to_owned(),
             Color::Always => "always".to_owned(),

@@ -244,7 +244,7 @@ fn nothing_is_english_in_russian() {
 }
 
 #[test]
-fn the_language_is_that_of_the_arguments_then_of_the_environment_then_of_the_locale() {
+fn the_language_is_that_of_the_arguments_then_of_the_environment_then_of_the_locale_then_of_the_words() {
     let place = Place::empty();
     let told = |args: &[&str], set: &[(&str, &str)]| {
         let mut command = place.command(args);
@@ -261,4 +261,12 @@ fn the_language_is_that_of_the_arguments_then_of_the_environment_then_of_the_loc
     assert!(!told(&ask, &[("LANG", "en_US.UTF-8"), ("LC_ALL", "ru_RU.UTF-8")]));
     assert!(told(&ask, &[("LC_ALL", "ru_RU.UTF-8"), ("ORTHO_LANG", "en")]));
     assert!(!told(&["fsck", "--lang", "ru"], &[("ORTHO_LANG", "en"), ("LANG", "en_US")]));
+    for command in ["ask", "do"] {
+        assert!(told(&[command, "Bring the cup"], &[("LANG", "C.UTF-8")]));
+        assert!(!told(&[command, "Bring the cup"], &[("LANG", "ru_RU.UTF-8")]));
+        assert!(!told(&[command, "Принеси чашку"], &[]));
+        place.write("ortho.toml", "language = \"ru\"\n");
+        assert!(!told(&[command, "Bring the cup"], &[]));
+        std::fs::remove_file(place.path("ortho.toml")).unwrap();
+    }
 }
