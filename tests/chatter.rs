@@ -398,3 +398,17 @@ fn what_goes_on_moves_to_another() {
         }
     }
 }
+
+/// A name that is asked for is no request for a list.
+#[test]
+fn whose_name_is_asked_is_told_no_list() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let answer = |line: &str| answered(&rb2, line, &mut Memory::default());
+    let everything = answer("List everything").expect("a list of all things");
+    for asked in ["what is", "What's", "So what is", "Tell me, what is", "And what would be"] {
+        for whose in ["my", "your wife's", "the robot's", "the", "its", "everybody's"] {
+            let line = format!("{asked} {whose} name?");
+            assert_ne!(answer(&line).as_deref(), Some(everything.as_str()), "{line}");
+        }
+    }
+}

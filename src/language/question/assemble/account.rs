@@ -137,6 +137,10 @@ impl Frame<'_, '_> {
         let kind = |claim: &Claim| matches!(claim, Claim::Kind(_));
         let its = self.sentence.keys.iter().any(|key| key == "its")
             && matches!(query, Query::Holds { claims, .. } if claims.iter().any(kind));
+        // "What is the robot's name?" asks for a name, and for no list.
+        let named = self.has(Mark::What)
+            && self.has(Mark::List)
+            && self.sentence.keys.iter().any(|key| key == "name");
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
@@ -146,6 +150,7 @@ impl Frame<'_, '_> {
             || why
             || here
             || supposes
+            || named
             || has_more
             || its
             || fewest
