@@ -156,6 +156,7 @@ fn least_push(b: &Builder, from: Point, to: Point, most: f64) -> Option<(Replica
     let mut trial = Builder::new();
     trial.world = b.world.clone();
     let mut plan = build(&b.world);
+    let mut stopped = std::collections::BTreeSet::new();
     for step in 1..=(most as usize) {
         for (&id, replica) in &b.world.replicas {
             if replica.move_prob == 0 {
@@ -167,7 +168,9 @@ fn least_push(b: &Builder, from: Point, to: Point, most: f64) -> Option<(Replica
                 let home = replica.frame;
                 trial.world.replicas.get_mut(&id).unwrap().frame =
                     Frame::new(home.x.get() + by.x, home.y.get() + by.y, 0.0, home.angle);
-                if has_room(&trial, id) {
+                if !has_room(&trial, id) {
+                    stopped.insert((id, turn));
+                } else if !stopped.contains(&(id, turn)) {
                     plan.rebuild(&trial.world, &[id]);
                     if plan.are_joined(from, to) {
                         return Some((id, by));

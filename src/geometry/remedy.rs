@@ -2,7 +2,7 @@
 //! how much, things to take away.
 //!
 //! Changes are tried on a copy of the plan, so that what is answered is known to work. What takes the least effort
-//! comes first.
+//! comes first. A push leads over the floor: not through a wall, nor through another thing.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -16,7 +16,7 @@ use super::blocker::Blocker;
 use super::leaf::{Strike, opening_of};
 use super::plan::FloorPlan;
 use super::route::Target;
-use super::scene::Prism;
+use super::scene::{PlacedReplica, Prism};
 use super::site::DoorStates;
 
 /// What would have to change.
@@ -316,18 +316,27 @@ impl FloorPlan {
         let (mut trial, mut plan) = (world.clone(), self.clone());
         // The thing that the plan has elsewhere than the world.
         let mut pushed_last: Option<ReplicaId> = None;
+        // Where a thing was stopped nothing pushes it further.
+        let mut stopped: BTreeSet<(ReplicaId, u8)> = BTreeSet::new();
         let steps = (FURTHEST / STEP) as usize;
         for (step, &id) in (1..=steps).flat_map(|step| things.iter().map(move |id| (step, id))) {
             let Some(own) = world.replicas.get(&id) else { continue };
             let Some(home) = self.scene().areas.get(&own.area).map(|area| area.frame) else {
                 continue;
             };
-            for turn in 0..16 {
+            // What it stands in from the first does not stop it on its way out.
+            let within = self.met_by(world, id, own.area);
+            for turn in (0..16).filter(|turn| !stopped.contains(&(id, *turn))).collect::<Vec<_>>() {
                 let angle = home.angle.radians() + f64::from(turn) * PI / 8.0;
                 let by = Vector::new(angle.cos(), angle.sin()) * (STEP * step as f64);
                 trial.replicas.get_mut(&id)?.frame = pushed(&own.frame, &home, by);
-                if !self.has_room(&trial, id, own.area) {
-                    continue;
+                match self.met_by(&trial, id, own.area) {
+                    Some(met) if met.is_empty() => {}
+                    Some(met) if within.as_ref().is_some_and(|own| met.is_subset(own)) => continue,
+                    _ => {
+                        stopped.insert((id, turn));
+                        continue;
+                    }
                 }
                 let changed: Vec<ReplicaId> =
                     pushed_last.replace(id).into_iter().chain([id]).collect();
@@ -346,24 +355,30 @@ impl FloorPlan {
         None
     }
 
-    /// Whether a thing, as it stands in `trial`, is on its Area's floor and in nothing else.
-    fn has_room(&self, trial: &World, replica: ReplicaId, area: AreaId) -> bool {
-        let Some(home) = self.scene().areas.get(&area) else { return false };
+    /// The things that one stands in, as it stands in `trial`; none where it is not on its Area's floor.
+    fn met_by(
+        &self,
+        trial: &World,
+        replica: ReplicaId,
+        area: AreaId,
+    ) -> Option<BTreeSet<ReplicaId>> {
+        let home = self.scene().areas.get(&area)?;
         let frame = home.frame.compose(&trial.replicas[&replica].frame);
         let placed = super::PlacedReplica::new(trial, replica, frame);
-        let corners = placed.prisms.iter().flat_map(|p| p.polygon.corners.iter());
+        let mut corners = placed.prisms.iter().flat_map(|p| p.polygon.corners.iter());
         let on_floor =
-            corners.clone().all(|&c| home.prisms.iter().any(|base| base.polygon.contains(c, 1e-6)));
-        on_floor
-            && self.scene().replicas_in(area).filter(|r| r.id != replica).all(|other| {
-                !other.bounds.meets(&placed.bounds)
-                    || other.prisms.iter().all(|q| {
-                        placed.prisms.iter().all(|p| {
-                            let aside = p.bottom >= q.top || q.bottom >= p.top;
-                            aside || super::apart::distance(&p.polygon, &q.polygon) > 0.0
-                        })
+            corners.all(|&c| home.prisms.iter().any(|base| base.polygon.contains(c, 1e-6)));
+        let is_met = |other: &&PlacedReplica| {
+            other.bounds.meets(&placed.bounds)
+                && other.prisms.iter().any(|q| {
+                    placed.prisms.iter().any(|p| {
+                        let aside = p.bottom >= q.top || q.bottom >= p.top;
+                        !aside && super::apart::distance(&p.polygon, &q.polygon) <= 0.0
                     })
-            })
+                })
+        };
+        let others = self.scene().replicas_in(area).filter(|other| other.id != replica);
+        on_floor.then(|| others.filter(is_met).map(|other| other.id).collect())
     }
 }
 
@@ -388,7 +403,8 @@ fn blockers_of(barrier: &Barrier) -> impl Iterator<Item = Blocker> + '_ {
     named.iter().copied()
 }
 
-/// The things among what stands in the way that may be moved at all.
+/// The things among what stands in the way that may be moved at all: that wander, and are of a kind that is pushed or
+/// carried, where the map says of what kind they are.
 fn may_move<'a>(
     world: &'a World,
     blockers: impl Iterator<Item = Blocker> + 'a,
@@ -397,7 +413,14 @@ fn may_move<'a>(
         Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => Some(replica),
         _ => None,
     });
-    things.filter(|id| world.replicas.get(id).is_some_and(|r| r.move_prob > 0))
+    things.filter(|id| {
+        let Some(thing) = world.replicas.get(id).filter(|thing| thing.move_prob > 0) else {
+            return false;
+        };
+        let is_of_a_kind =
+            world.objects.get(&thing.object).is_some_and(|object| object.object_type.is_some());
+        !is_of_a_kind || ["movable", "portable"].iter().any(|made| world.has_trait(*id, made))
+    })
 }
 
 fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
