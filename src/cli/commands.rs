@@ -132,8 +132,8 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
     }
     note(
         match lang {
-            Lang::Ru => drawn(warnings),
-            Lang::En => drawn(&EnglishMapErrors::from(warnings)),
+            Lang::Ru => drawn(warnings, Lang::Ru),
+            Lang::En => drawn(&EnglishMapErrors::from(warnings), Lang::En),
         }
         .trim_end(),
     );
@@ -143,8 +143,8 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
 pub(super) fn warn_of_lines(log: &Sighted, lang: Lang) {
     let Some(faults) = log.faults() else { return };
     let told = match lang {
-        Lang::Ru => drawn(faults),
-        Lang::En => drawn(&faults.in_english()),
+        Lang::Ru => drawn(faults, Lang::Ru),
+        Lang::En => drawn(&faults.in_english(), Lang::En),
     };
     note(told.trim_end());
 }
@@ -480,8 +480,8 @@ pub(super) fn datalog(
     for warning in &report.warnings {
         note(
             match common.lang {
-                Lang::Ru => drawn(warning),
-                Lang::En => drawn(&warning.in_english()),
+                Lang::Ru => drawn(warning, Lang::Ru),
+                Lang::En => drawn(&warning.in_english(), Lang::En),
             }
             .trim_end(),
         );

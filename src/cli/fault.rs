@@ -6,13 +6,13 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 
 use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceCode,
-    SourceSpan, SpanContents,
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError,
+    MietteSpanContents, SourceCode, SourceSpan, SpanContents,
 };
 
 use crate::engine::{Error, RequestError, json};
 
-use crate::units::English;
+use crate::units::{English, Language, OwnText};
 
 use super::args::{Color, Lang};
 use super::config_error::ConfigError;
@@ -77,13 +77,13 @@ impl Failure {
                 ExitCode::from(3)
             }
             Self::Config(error) => match lang {
-                Lang::Ru => told(&**error, as_json, 2),
-                Lang::En => told(&English(&**error), as_json, 2),
+                Lang::Ru => told(&**error, as_json, 2, lang),
+                Lang::En => told(&English(&**error), as_json, 2, lang),
             },
             Self::Engine(error) => {
                 let english = (lang == Lang::En).then(|| error.in_english());
                 let shown: &dyn Diagnostic = english.as_deref().unwrap_or(error.as_ref());
-                told(shown, as_json, if error.is_input() { 2 } else { 3 })
+                told(shown, as_json, if error.is_input() { 2 } else { 3 }, lang)
             }
         }
     }
@@ -91,13 +91,13 @@ impl Failure {
 
 /// Tells faults, and with which code to end.
 #[expect(clippy::print_stderr, reason = "this is where faults are printed")]
-fn told(shown: &dyn Diagnostic, as_json: bool, code: u8) -> ExitCode {
+fn told(shown: &dyn Diagnostic, as_json: bool, code: u8, lang: Lang) -> ExitCode {
     if as_json {
         let view = serde_json::json!({ "outcome": "error", "errors": json::faults(shown) });
         // Who reads no further has read enough.
         let _ = writeln!(std::io::stdout(), "{view}");
     } else {
-        eprint!("{}", drawn(shown));
+        eprint!("{}", drawn(shown, lang));
     }
     ExitCode::from(code)
 }
@@ -105,12 +105,12 @@ fn told(shown: &dyn Diagnostic, as_json: bool, code: u8) -> ExitCode {
 /// Faults with the lines that they stand in; plain signs when the output is no terminal.
 ///
 /// Of a tree of faults the root is told in a line, where it holds several, and then each leaf.
-pub(super) fn drawn(error: &dyn Diagnostic) -> String {
+pub(super) fn drawn(error: &dyn Diagnostic, lang: Lang) -> String {
     let colored = is_coloured(std::io::IsTerminal::is_terminal(&std::io::stderr()));
     let theme = if colored { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1).with_links(false);
     let mut leaves = Vec::new();
-    gather(error, None, &mut leaves);
+    gather(error, None, lang, &mut leaves);
     let mut text = String::new();
     if leaves.len() > 1 {
         text.push_str(&format!("  × {error}\n\n"));
@@ -134,7 +134,7 @@ struct Leaf<'e> {
 /// A text of which no more is shown than stands beside each place. Places near each other share an excerpt; what lies
 /// between two that are far apart helps nobody.
 #[derive(Clone, Copy)]
-struct Excerpts<'e>(&'e dyn SourceCode);
+struct Excerpts<'e>(&'e dyn SourceCode, Lang);
 
 /// A place that takes more lines, or bytes, is shown by its first line, or its beginning.
 const MOST_LINES: usize = 6;
@@ -157,7 +157,13 @@ impl SourceCode for Excerpts<'_> {
         if span.len() > 2 * MOST_BYTES {
             return Err(MietteError::OutOfBounds);
         }
-        self.0.read_span(span, lines_before, lines_after)
+        let contents = self.0.read_span(span, lines_before, lines_after)?;
+        // What is no file is called by a word, which each language has its own of.
+        let Some(own) = contents.name().and_then(OwnText::named) else { return Ok(contents) };
+        let (data, at, lines) = (contents.data(), *contents.span(), contents.line_count());
+        let name = self.1.pick(own.name(Language::Russian), own.name(Language::English));
+        let (line, column) = (contents.line(), contents.column());
+        Ok(Box::new(MietteSpanContents::new_named(name.into(), data, at, line, column, lines)))
     }
 }
 
@@ -232,15 +238,16 @@ impl Diagnostic for Leaf<'_> {
 fn gather<'e>(
     error: &'e dyn Diagnostic,
     source: Option<&'e dyn SourceCode>,
+    lang: Lang,
     into: &mut Vec<Leaf<'e>>,
 ) {
     let source = error.source_code().or(source);
     let before = into.len();
     for inner in error.related().into_iter().flatten() {
-        gather(inner, source, into);
+        gather(inner, source, lang, into);
     }
     if into.len() == before {
-        into.push(Leaf { fault: error, source: source.map(Excerpts) });
+        into.push(Leaf { fault: error, source: source.map(|text| Excerpts(text, lang)) });
     }
 }
 
@@ -258,7 +265,7 @@ mod tests {
             "Предикаты:{line_end}ТОТ-ЖЕ_(объект){line_end}{others}ТОТ-ЖЕ_(объект){line_end}Факты: ТОТ-ЖЕ_(Стол) Цель: ТОТ-ЖЕ_(Стол)"
         );
         let faults = Scenario::parse(&Source::new("правила", text)).unwrap_err();
-        drawn(&faults)
+        drawn(&faults, Lang::Ru)
     }
 
     #[test]
@@ -285,7 +292,7 @@ mod tests {
             format!("(define (problem q) (:domain d) (:objects o)\n (:goal (preference\n{goal})))");
         let faults = Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem))
             .unwrap_err();
-        let told = drawn(&faults);
+        let told = drawn(&faults, Lang::Ru);
         assert!(told.contains("(preference") && told.lines().count() < 20, "{told}");
     }
 

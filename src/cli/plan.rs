@@ -281,8 +281,8 @@ pub(super) fn warn(warnings: &[RuleFault], lang: Lang) {
     for warning in warnings {
         note(
             match lang {
-                Lang::Ru => drawn(warning),
-                Lang::En => drawn(&English(warning)),
+                Lang::Ru => drawn(warning, Lang::Ru),
+                Lang::En => drawn(&English(warning), Lang::En),
             }
             .trim_end(),
         );

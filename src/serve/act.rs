@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now, json as views};
 use crate::map::Edits;
-use crate::units::{Language, Source};
+use crate::units::{Language, OwnText, Source};
 
 use super::drive::Declined;
 use super::fault::Fault;
@@ -349,7 +349,7 @@ pub(super) async fn edited(
     mode: Mode,
 ) -> Result<Value, Fault> {
     let written = write(house, on, move |engine| {
-        let edits = Edits::read(&Source::new("правка", text), Format::Json);
+        let edits = Edits::read(&Source::own(OwnText::Edit, text), Format::Json);
         let edited = engine.edit(&edits, &change, mode)?;
         let warnings: Vec<Value> = edited
             .warnings

@@ -12,7 +12,7 @@ use super::fault::{RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Amount, Atom, Condition, Declaration, Document, Name};
-use crate::units::{Source, name_key};
+use crate::units::{OwnText, Source, name_key};
 
 /// How a fact is known (SPEC P2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -111,7 +111,7 @@ impl Problem {
         domain: &Domain,
         text: &str,
     ) -> Result<Vec<Said>, RuleFaults> {
-        let source = Source::new("предположение", text);
+        let source = Source::own(OwnText::Assumption, text);
         let mut faults = Vec::new();
         let mut withdrawn = Vec::new();
         for condition in conditions(&source)? {
@@ -246,6 +246,23 @@ impl Problem {
         problem.goal_formulas.extend(wanted);
         problem.goal_is_empty |= !problem.has_goal();
         problem
+    }
+
+    /// The problem in which of all goals one is left; none where that is not stated as it stands.
+    #[must_use]
+    pub fn for_goal(&self, goal: &Said) -> Option<Self> {
+        let is_it = |stated: &&Statement| {
+            let said = goal.args.iter().map(|argument| match argument {
+                SaidArgument::Object(name) => name_key(name),
+                SaidArgument::Any(_) => String::new(),
+            });
+            stated.negated == goal.negated
+                && name_key(&stated.predicate) == name_key(&goal.name)
+                && stated.args.iter().map(|arg| name_key(arg)).eq(said)
+        };
+        let goal = vec![self.goal.iter().find(is_it)?.clone()];
+        let (goal_formulas, preferences) = (Vec::new(), Vec::new());
+        Some(Self { goal, goal_formulas, preferences, ..self.clone() })
     }
 
     /// What a text wants to hold in the end, comparisons left aside.

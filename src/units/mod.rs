@@ -38,6 +38,6 @@ pub use id::{
 pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};
-pub use source::Source;
+pub use source::{OwnText, Source};
 pub use stop::Stop;
 pub use time::{Timestamp, TimestampError};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
+use super::Language;
 use super::file::{FileFault, read_text};
 
 /// A text that was read, with the name that a person knows it by. Cheap to clone.
@@ -16,7 +17,48 @@ pub struct Source {
     text: Arc<str>,
 }
 
+/// A text that is no file, but what a person said or the program has built in: it is called by a word of each language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OwnText {
+    Order,
+    Edit,
+    Assumption,
+    Measurements,
+    Relations,
+}
+
+impl OwnText {
+    const ALL: [Self; 5] =
+        [Self::Order, Self::Edit, Self::Assumption, Self::Measurements, Self::Relations];
+
+    #[must_use]
+    pub fn name(self, language: Language) -> &'static str {
+        let (russian, english) = match self {
+            Self::Order => ("задание", "order"),
+            Self::Edit => ("правка", "edit"),
+            Self::Assumption => ("предположение", "assumption"),
+            Self::Measurements => ("измерения (встроенные)", "measurements (built in)"),
+            Self::Relations => {
+                ("rules/relations.dl (встроенный)", "rules/relations.dl (built in)")
+            }
+        };
+        language.pick(russian, english)
+    }
+
+    /// The text of this name, in Russian, by which its faults know it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|own| own.name(Language::Russian) == name)
+    }
+}
+
 impl Source {
+    /// A text that is no file.
+    #[must_use]
+    pub fn own(what: OwnText, text: impl AsRef<str>) -> Self {
+        Self::new(what.name(Language::Russian), text)
+    }
+
     #[must_use]
     pub fn new(name: impl AsRef<str>, text: impl AsRef<str>) -> Self {
         Self { name: name.as_ref().into(), text: text.as_ref().into() }

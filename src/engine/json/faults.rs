@@ -4,6 +4,8 @@ use miette::{Diagnostic, LabeledSpan, SourceCode};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::units::OwnText;
+
 /// One fault.
 #[derive(Debug, Serialize)]
 struct FaultView {
@@ -50,7 +52,8 @@ fn view(fault: &dyn Diagnostic, source: Option<&dyn SourceCode>) -> FaultView {
         let contents = source?.read_span(label.inner(), 0, 0).ok()?;
         Some(PlaceView {
             label: label.label().map(str::to_owned),
-            file: contents.name().map(str::to_owned),
+            // What a person said is no file.
+            file: contents.name().filter(|n| OwnText::named(n).is_none()).map(str::to_owned),
             line: contents.line() + 1,
             column: contents.column() + 1,
         })

@@ -8,7 +8,7 @@ use super::Misheard;
 use super::assemble::{Clause, Reader};
 use super::grammar::{Argument, Reference};
 use super::vocabulary::verbs;
-use crate::units::{Source, nearest_name};
+use crate::units::{OwnText, Source, nearest_name};
 use crate::words::{Language, word_keys};
 
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
@@ -69,7 +69,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     }
 
     pub(super) fn source(&self) -> Source {
-        Source::new("задание", self.sentence.text)
+        Source::own(OwnText::Order, self.sentence.text)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::vocabulary::{Meaning, Verb, longest};
 use super::{Listener, Misheard, spoken, time, verbs};
-use crate::units::Source;
+use crate::units::{OwnText, Source};
 use crate::words::{phrase_at, word_keys, word_ranges};
 
 /// Whether a text is longer than anything that is said to a robot in one breath. The readers look at each word beside
@@ -54,7 +54,7 @@ pub fn without_clock(text: &str) -> Result<(), Misheard> {
     let bytes = said.bytes(&words);
     Err(Misheard::Timed {
         word: text[bytes.clone()].to_owned(),
-        text: Source::new("задание", text),
+        text: Source::own(OwnText::Order, text),
         at: (bytes.start, bytes.len()).into(),
     })
 }

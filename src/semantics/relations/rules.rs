@@ -9,7 +9,7 @@ use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
 use crate::measure::Reach;
 use crate::measured::{MEASURED, Measured, Order};
 use crate::thresholds::{self, ThresholdFault};
-use crate::units::{Bilingual, FileFault, Source};
+use crate::units::{Bilingual, FileFault, OwnText, Source};
 
 /// The rule text that the crate brings along.
 pub const STANDARD: &str = include_str!("../../../rules/relations.dl");
@@ -210,7 +210,7 @@ fn declared(texts: &[Source]) -> Result<(Vec<Source>, Program), Faults> {
     if declarations.is_empty() {
         return Err(faults);
     }
-    let more = Source::new("измерения (встроенные)", declarations);
+    let more = Source::own(OwnText::Measurements, declarations);
     let texts: Vec<Source> = texts.iter().cloned().chain([more]).collect();
     let program = Program::parse_all(&texts)?;
     Ok((texts, program))
@@ -229,7 +229,7 @@ fn completed(texts: &[Source], program: Program) -> Program {
         return program;
     }
     let of_standard = format!("{lacking}{}", section.unwrap_or_default());
-    let own = Source::new("rules/relations.dl (встроенный)", of_standard);
+    let own = Source::own(OwnText::Relations, of_standard);
     let texts: Vec<Source> = texts.iter().cloned().chain([own]).collect();
     Program::parse_all(&texts).unwrap_or(program)
 }
