@@ -100,3 +100,75 @@ fn broken_scenarios_are_told_their_true_reasons() {
     assert_eq!(count, 81);
     assert!(std::env::var_os("UPDATE_EXPECT").is_some() || wrong.is_empty(), "{wrong}");
 }
+
+/// Rooms, keys and water: who takes a key, or unlocks with it, wets the floor, and nobody drives through water.
+const WET: &str = "(define (domain wet) (:requirements :typing :negative-preconditions) (:types room key)
+ (:predicates (at ?r - room) (next ?a ?b - room) (wet ?r - room) (open ?r - room) (has ?k - key)
+   (fits ?k - key ?r - room) (lies ?k - key ?r - room))
+ (:action go :parameters (?a ?b - room)
+   :precondition (and (at ?a) (next ?a ?b) (not (wet ?b)) (open ?b)) :effect (and (at ?b) (not (at ?a))))
+ (:action take :parameters (?k - key ?r - room)
+   :precondition (and (at ?r) (lies ?k ?r)) :effect (and (has ?k) (not (lies ?k ?r)) (wet ?r)))
+ (:action unlock :parameters (?k - key ?a ?b - room)
+   :precondition (and (at ?a) (next ?a ?b) (has ?k) (fits ?k ?b)) :effect (and (open ?b) (wet ?b))))";
+
+/// Boxes that are taken with an alarm, which bars the way to whoever holds none.
+const ALARM: &str = "(define (domain alarm) (:requirements :adl) (:types room box) (:constants c - room)
+ (:predicates (at ?r - room) (next ?a ?b - room) (heavy ?x - box) (in ?x - box ?r - room)
+   (held ?x - box) (alarm) (done))
+ (:action go :parameters (?a ?b - room)
+   :precondition (and (at ?a) (next ?a ?b) (or (not (alarm)) (exists (?x - box) (held ?x))))
+   :effect (and (at ?b) (not (at ?a))))
+ (:action take :parameters (?x - box ?r - room)
+   :precondition (and (at ?r) (in ?x ?r) (not (heavy ?x)) (forall (?y - box) (not (held ?y))))
+   :effect (and (held ?x) (not (in ?x ?r)) (alarm)))
+ (:action finish :parameters () :precondition (forall (?x - box) (in ?x c)) :effect (done)))";
+
+/// Of negative preconditions and conditions beyond literals: where the fact that is lacking would not be enough, nothing is
+/// said to help; where it would, it is.
+#[test]
+fn only_what_brings_a_plan_is_said_to_help() {
+    let rooms = "(:objects a b c - room k - key)";
+    let boxes = "(:objects a b - room x y - box)";
+    let cases = [
+        // Dry or not, who unlocks the last room has wet it.
+        (
+            WET,
+            rooms,
+            "(next a b) (next b a) (next b c) (open b) (wet b) (lies k b) (fits k c)",
+            "(at c)",
+            &[][..],
+        ),
+        (WET, rooms, "(next a b) (open b) (lies k b) (fits k c)", "(at c)", &[]),
+        (WET, rooms, "(next a b) (next b c) (open b) (open c) (wet b)", "(at c)", &["НЕ wet(b)"]),
+        (
+            ALARM,
+            boxes,
+            "(next a b) (next b c) (in x a) (in y c) (alarm) (heavy x)",
+            "(at c)",
+            &["НЕ alarm()"],
+        ),
+        (ALARM, boxes, "(next a b) (in x a) (in y c) (heavy x)", "(done)", &["in(x, c)"]),
+    ];
+    for (domain, objects, init, goal, expected) in cases {
+        let problem = format!(
+            "(define (problem p) (:domain {}) {objects} (:init (at a) {init}) (:goal (and {goal})))",
+            if domain == WET { "wet" } else { "alarm" }
+        );
+        let texts = [Source::new("domain", domain), Source::new("problem", &problem)];
+        let parsed = Scenario::parse_pddl(&texts[0], &texts[1])
+            .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+        let limits = Limits::default();
+        let solved = solve(&parsed.domain, &parsed.problem, &limits, Wanted::Shortest).unwrap();
+        let Some(Reason::Unreachable(obstacles)) = &solved.reason else {
+            panic!("{init}: {:?}", solved.reason)
+        };
+        let help: Vec<String> = obstacles
+            .iter()
+            .flat_map(|obstacle| &obstacle.help)
+            .map(|facts| facts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
+            .map(|facts| facts.replace('_', ""))
+            .collect();
+        assert_eq!(help, expected, "{init}");
+    }
+}

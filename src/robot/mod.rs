@@ -28,6 +28,7 @@ mod barred;
 mod belief;
 mod directive;
 mod eye;
+mod helping;
 mod idle;
 mod mission;
 mod obstacle;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::directive::Directive;
+use super::helping::keep_what_helps;
 use super::timing::{Clock, Takes};
 use super::wishes::{self, Wishes};
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
@@ -414,7 +415,7 @@ pub fn solve_without(
 }
 
 /// The task, or the limit that grounding ran into.
-fn grounded(
+pub(super) fn grounded(
     domain: &Domain,
     problem: &Problem,
     limits: &Limits,
@@ -507,6 +508,7 @@ fn explain(
                     obstacle.clash = clash(task, goal, limits, MOST_ACTIONS_BETWEEN);
                 }
             }
+            keep_what_helps(domain, problem, &mut obstacles, limits);
             Reason::Unreachable(obstacles)
         }
         Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {

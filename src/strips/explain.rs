@@ -27,9 +27,10 @@ pub struct Obstacle {
     pub missing: Vec<Missing>,
     /// Other ways to what stands before the last, that need it themselves.
     pub circles: Vec<Missing>,
-    /// Sets of facts of which each would do; the first is what the last of `missing` comes to. None where the
-    /// missing facts only need each other.
+    /// Sets of facts of which each would do; the first is what the last of `missing` comes to.
     pub help: Vec<Vec<Said>>,
+    /// Whether nothing stated would do, since the missing facts only need each other.
+    pub turns_in_a_circle: bool,
     /// Whether every single need of the goal could be met, if not together with the others.
     pub is_met_singly: bool,
     /// Then the needs that do not go together, where that was found out.
@@ -108,7 +109,7 @@ impl Obstacle {
         for (number, missing) in self.missing.iter().enumerate() {
             text += &missing.in_words(wording);
             if number + 1 == self.missing.len() {
-                text += &missing.end_in_words(wording, self.help.is_empty());
+                text += &missing.end_in_words(wording, self.turns_in_a_circle);
             }
         }
         for Missing { fact, action, .. } in &self.circles {
@@ -219,6 +220,7 @@ pub fn explain_unreachable<'a>(
             missing: Vec::new(),
             circles: Vec::new(),
             help: Vec::new(),
+            turns_in_a_circle: false,
             is_met_singly: false,
             clash: None,
             is_unexplained,
@@ -229,10 +231,12 @@ pub fn explain_unreachable<'a>(
         }
         let lacks = Lacks::new(domain, &resolved, &reached, &attainable, wanted);
         let chain = Chain::of(&lacks);
+        let help = chain.help(&lacks);
         Obstacle {
             missing: chain.missing(&lacks),
             circles: chain.circles(&lacks),
-            help: chain.help(&lacks),
+            turns_in_a_circle: help.is_empty(),
+            help,
             ..none
         }
     };
