@@ -61,6 +61,20 @@ impl Kind {
         }
     }
 
+    /// The kind within a sentence.
+    pub(super) fn noun(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Replica => ("экземпляр", "replica"),
+            Self::Area => ("помещение", "area"),
+            Self::Door => ("дверь", "door"),
+            Self::Place => ("место", "place"),
+            Self::Map => ("карта", "map"),
+            Self::Zone => ("зона", "zone"),
+            Self::Object => ("объект", "object"),
+            Self::Orthoframe => ("ортофрейм", "Orthoframe"),
+        }
+    }
+
     /// Whether a file writes the records as lines of an Area: they have names and no keys.
     pub(super) fn is_line(self) -> bool {
         matches!(self, Self::Replica | Self::Place)

@@ -7,7 +7,7 @@ use super::super::kind::names_of;
 use super::{Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::decode::{likely, shortened};
 use crate::file::read::{Behind, Names};
-use crate::units::{AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
+use crate::units::{AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
 use crate::{TypeKind, World};
 
 /// Keys of the map as names are compared, each kind when it is first asked for. Of what [`crate::NameIndex`] does not know,
@@ -136,6 +136,9 @@ impl Steps<'_> {
         match found[..] {
             [only] => Ok(only),
             [] => {
+                if let Some(error) = self.of_another_kind(name, kinds) {
+                    return Err(misprint(error, at));
+                }
                 let what = if let [kind] = kinds { kind.title() } else { ("Имя", "Name") };
                 let (what, nearest) = (what.into(), self.nearest(name, kinds));
                 let error = MapError::UnknownReference { what, name: shortened(name), nearest };
@@ -148,6 +151,18 @@ impl Steps<'_> {
                 Err(misprint(MapError::AmbiguousName { name, candidates }, at))
             }
         }
+    }
+
+    /// What bears a name is there, and is nothing of which this can be said.
+    fn of_another_kind(&self, name: &str, kinds: &[Kind]) -> Option<MapError> {
+        let other = Kind::ALL.into_iter().find(|kind| !self.bearers(name, *kind).is_empty())?;
+        let found = Bilingual::named(other.noun(), &shortened(name));
+        let wanted: Vec<Bilingual> = kinds.iter().map(|kind| kind.noun().into()).collect();
+        let either = |language| {
+            let all: Vec<&str> = wanted.iter().map(|one| one.say(language)).collect();
+            all.join(language.pick(" или ", " or "))
+        };
+        Some(MapError::WrongKind { found, expected: Bilingual::both(either) })
     }
 
     /// The likeliest name among some kinds.

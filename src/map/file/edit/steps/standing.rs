@@ -1,9 +1,11 @@
 //! Where the large things stand: Areas on a Map, Maps in the Domain, lifts between them.
 
 use super::super::said::{entry, table};
-use super::{Coordinates, Done, Kind, Number, Outcome, Record, Step, Steps, frame_of};
+use super::things::EITHER;
+use super::{Coordinates, Done, Kind, MapError, Number, Outcome, Record, Step, Steps};
+use super::{cm, frame_of, misprint};
 use crate::file::node::Value;
-use crate::units::{Cm, Deg, Frame, MapId};
+use crate::units::{AreaId, Cm, Deg, Frame, MapId};
 use crate::{DomainMap, LiftStop, MapItem};
 
 /// Where a step says that something stands, and whether that is the base.
@@ -84,6 +86,49 @@ impl Steps<'_> {
             self.keep_coordinates(area, step.span());
             self.relink(area);
         }
+        Ok(())
+    }
+
+    /// An Area put elsewhere on the Map on which it stands, with all that is in it; its links say where it lies now.
+    pub(super) fn shift_area(
+        &mut self,
+        area: AreaId,
+        step: &Step<'_>,
+        (to, by): (Option<&Coordinates>, Option<&Coordinates>),
+    ) -> Done {
+        if let Some(field) = ["area", "carry"].into_iter().find(|f| step.entry(f).is_some()) {
+            let message = ("у помещения такого нет", "an area has no such thing");
+            return Err(step.bad(field, message));
+        }
+        let (field, told, is_offset) = match (to, by) {
+            (Some(to), None) => ("to", to, false),
+            (None, Some(by)) => ("by", by, true),
+            (None, None) => return Err(step.missing("to")),
+            (Some(_), Some(_)) => return Err(step.bad("by", EITHER)),
+        };
+        let on = |map: &crate::Map| map.items.iter().position(|item| item.area == area);
+        let placed = self.world.maps.values().find_map(|map| Some((map.id, on(map)?)));
+        let Some((map, no)) = placed else {
+            let message = (
+                "помещение не стоит ни на одной карте: поставьте его шагом stand",
+                "the area stands on no map: put it on one by stand",
+            );
+            return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
+        };
+        let at = step.at(field);
+        let was = self.world.maps[&map].items[no].frame;
+        let from = |was: Cm| if is_offset { was.get() } else { 0.0 };
+        let x = cm(from(was.x) + told.x.get(), at)?;
+        let y = cm(from(was.y) + told.y.get(), at)?;
+        let z = told.z.map(|z| cm(from(was.z) + z.get(), at)).transpose()?;
+        self.map_mut(map).items[no].frame = Frame { x, y, z: z.unwrap_or(was.z), ..was };
+        let nodes = step.entry(field).map_or(&[][..], |e| e.node.elements()).to_vec();
+        let list = if is_offset { Vec::new() } else { nodes };
+        let line = self.said.of(Record::Map(map)).element_at("items", no);
+        line.span = step.whole();
+        line.put(entry("at", at, Value::List(list)));
+        self.keep_coordinates(area, step.span());
+        self.relink(area);
         Ok(())
     }
 

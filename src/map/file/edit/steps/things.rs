@@ -9,7 +9,7 @@ use crate::file::node::{Entry, Node, Value};
 use crate::file::schema::{At, Coordinates, Number, PlaceFile, ReplicaFile};
 use crate::units::{AreaId, PlaceId, Point, ReplicaId};
 
-const EITHER: (&str, &str) = ("дайте либо to, либо by", "give either to or by");
+pub(super) const EITHER: (&str, &str) = ("дайте либо to, либо by", "give either to or by");
 
 /// Where something is told to stand.
 struct Spot {
@@ -179,10 +179,12 @@ impl Steps<'_> {
         area: Option<&str>,
         carry: bool,
     ) -> Done {
-        let kinds = [Kind::Replica, Kind::Place, Kind::Zone];
+        let kinds = [Kind::Replica, Kind::Area, Kind::Place, Kind::Zone];
         let record = self.find(name, step.span(), &kinds)?;
-        if let Record::Zone(id) = record {
-            return self.shift_zone(id, step, (to, by));
+        match record {
+            Record::Zone(id) => return self.shift_zone(id, step, (to, by)),
+            Record::Area(id) => return self.shift_area(id, step, (to, by)),
+            _ => {}
         }
         self.note_carrier(record, step, carry)?;
         let (field, told) = match (to, by) {
