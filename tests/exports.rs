@@ -54,8 +54,11 @@ fn geojson_of_a_floor_reads_back_as_the_same_rooms_and_doors() {
         assert!((width - door.width.get()).abs() < 0.01, "{}", door.name);
     }
     assert_eq!(level.spots.len(), world.places.len());
+    // A thing of several parts is one, with all of them.
+    assert_eq!(level.things.len(), scene.replicas.len());
     let parts: usize = scene.replicas.values().map(|r| r.prisms.len()).sum();
-    assert_eq!(level.things.len(), parts);
+    let read = level.things.iter().map(|thing| survey.kinds[thing.kind].parts.len());
+    assert_eq!(read.sum::<usize>(), parts);
 }
 
 #[test]

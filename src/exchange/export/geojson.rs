@@ -221,7 +221,7 @@ impl<'a> Floor<'a> {
         feature(id, "opening", json!({ "type": "LineString", "coordinates": line }), properties)
     }
 
-    /// The bases of a thing's Orthoframes, each with its height.
+    /// The bases of a thing's Orthoframes, each with its height, and of which thing each is, where they are several.
     fn fixtures(&self, scene: &Scene, id: crate::units::ReplicaId) -> Vec<Value> {
         let replica = &self.world.replicas[&id];
         let object = &self.world.objects[&replica.object];
@@ -239,6 +239,9 @@ impl<'a> Floor<'a> {
                 "area": format!("area-{}", replica.area.0),
                 "move_prob": replica.move_prob,
             });
+            if several {
+                properties["part_of"] = json!(format!("replica-{}", id.0));
+            }
             extend(&mut properties, &replica.properties);
             let id = if several {
                 format!("replica-{}/{}", id.0, no + 1)

@@ -5,7 +5,7 @@
 //! and is no larger than a town, else by the size of a room.
 
 use crate::outline;
-use crate::units::Point;
+use crate::units::{Bilingual, Point, bilingual};
 
 use super::feature::{Position, Surroundings};
 
@@ -33,7 +33,7 @@ impl Ground {
         is_imdf: bool,
         all: impl Iterator<Item = Position>,
         mut sizes: Vec<f64>,
-    ) -> (Self, String) {
+    ) -> (Self, Bilingual) {
         let usable = all.filter(|[x, y]| x.abs() < 1e12 && y.abs() < 1e12);
         let mut points: Vec<Point> = usable.map(|[x, y]| Point::new(x, y)).collect();
         let in_range = points.iter().all(|p| p.x.abs() <= 180.0 && p.y.abs() <= 90.0);
@@ -42,22 +42,26 @@ impl Ground {
             points.iter_mut().filter(|p| p.x < 0.0).for_each(|p| p.x += 360.0);
         }
         if points.is_empty() {
-            return (Self::Plane { scale: 100.0, origin: [0.0, 0.0] }, "координат нет".to_owned());
+            return (Self::Plane { scale: 100.0, origin: [0.0, 0.0] }, ("координат нет", "there are no coordinates").into());
         }
         let (low, high) = outline::bounds(&points);
         let span = (high - low).amax();
         let crs = around.crs.to_uppercase();
         let is_mercator = crs.contains("3857") || crs.contains("900913");
         let says_degrees = crs.contains("CRS84") || crs.contains("4326");
-        let plane = |scale: f64, says: &str| {
+        let plane = |scale: f64, (says, says_en): Both| {
             let far = low.coords.amax().max(high.coords.amax()) * scale > FAR;
             let origin = if far { [low.x.floor(), low.y.floor()] } else { [0.0, 0.0] };
-            let moved = if far {
-                format!("; начало координат – {}, {}", origin[0], origin[1])
-            } else {
-                String::new()
-            };
-            (Self::Plane { scale, origin }, format!("координаты – {says}{moved}"))
+            let [mut moved, mut moved_en] = [String::new(), String::new()];
+            if far {
+                moved = format!("; начало координат – {}, {}", origin[0], origin[1]);
+                moved_en = format!("; the origin is {}, {}", origin[0], origin[1]);
+            }
+            let told = bilingual!(
+                "координаты – {says}{moved}",
+                "the coordinates are {says_en}{moved_en}"
+            );
+            (Self::Plane { scale, origin }, told)
         };
         if let Some((scale, says)) = unit(&around.units) {
             return plane(scale, says);
@@ -65,24 +69,26 @@ impl Ground {
         if is_imdf || says_degrees || (crs.is_empty() && in_range && span <= LARGEST_SPAN) {
             let middle = low + (high - low) / 2.0;
             let (lon, lat) = (middle.x, middle.y.clamp(-89.0, 89.0));
-            let says =
-                format!("координаты – градусы; начало плана – {lon:.7}° в. д., {lat:.7}° с. ш.");
+            let says = bilingual!(
+                "координаты – градусы; начало плана – {lon:.7}° в. д., {lat:.7}° с. ш.",
+                "the coordinates are degrees; the origin of the plan is {lon:.7}° E, {lat:.7}° N"
+            );
             return (Self::Degrees { lon, lat }, says);
         }
         if is_mercator && low.coords.amax().max(high.coords.amax()) > 1e5 {
             // Mercator stretches by 1/cos of the latitude.
             let lat = 2.0 * ((low.y + high.y) / 2.0 / 6_378_137.0).exp().atan()
                 - std::f64::consts::FRAC_PI_2;
-            return plane(100.0 * lat.cos(), "метры проекции Меркатора");
+            return plane(100.0 * lat.cos(), ("метры проекции Меркатора", "metres of Mercator’s projection"));
         }
         sizes.sort_by(f64::total_cmp);
         let room = sizes.get(sizes.len() / 2).copied().unwrap_or(5.0);
         if is_mercator || room < 100.0 {
-            plane(100.0, "метры")
+            plane(100.0, ("метры", "metres"))
         } else if room < 2000.0 {
-            plane(1.0, "сантиметры (по размеру помещений)")
+            plane(1.0, ("сантиметры (по размеру помещений)", "centimetres (by the size of the rooms)"))
         } else {
-            plane(0.1, "миллиметры (по размеру помещений)")
+            plane(0.1, ("миллиметры (по размеру помещений)", "millimetres (by the size of the rooms)"))
         }
     }
 
@@ -108,12 +114,15 @@ impl Ground {
     }
 }
 
-fn unit(word: &str) -> Option<(f64, &'static str)> {
+/// The same words in Russian and in English.
+type Both = (&'static str, &'static str);
+
+fn unit(word: &str) -> Option<(f64, Both)> {
     match word.trim().to_lowercase().as_str() {
-        "m" | "metre" | "metres" | "meter" | "meters" => Some((100.0, "метры")),
-        "cm" => Some((1.0, "сантиметры")),
-        "mm" => Some((0.1, "миллиметры")),
-        "ft" | "feet" => Some((30.48, "футы")),
+        "m" | "metre" | "metres" | "meter" | "meters" => Some((100.0, ("метры", "metres"))),
+        "cm" => Some((1.0, ("сантиметры", "centimetres"))),
+        "mm" => Some((0.1, ("миллиметры", "millimetres"))),
+        "ft" | "feet" => Some((30.48, ("футы", "feet"))),
         _ => None,
     }
 }

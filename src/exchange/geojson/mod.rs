@@ -165,7 +165,7 @@ fn survey(
         room_places: HashMap::new(),
         left_out: BTreeMap::new(),
     };
-    reader.survey.frame.clone_from(&says);
+    reader.survey.frame = says.to_string();
     reader.remark("", says);
     if let Some(assumed) = reader.levels.assumed() {
         reader.remark("", assumed);
@@ -391,6 +391,7 @@ impl Reader {
     }
 
     fn finish(mut self) -> Result<Survey, ReadError> {
+        self.things_of_parts();
         self.survey.kinds = self.things.kinds;
         for (what, count) in std::mem::take(&mut self.left_out) {
             let (russian, english) = what;
@@ -416,8 +417,17 @@ impl Reader {
 
 /// What a feature says beside its name and place, as far as it is words and numbers.
 fn properties(feature: &Feature) -> Properties {
-    const TOLD: [&str; 8] =
-        ["name", "level", "level_id", "display_point", "alt_name", "height", "id", "geometry"];
+    const TOLD: [&str; 9] = [
+        "name",
+        "level",
+        "level_id",
+        "display_point",
+        "alt_name",
+        "height",
+        "id",
+        "geometry",
+        "part_of",
+    ];
     feature
         .properties
         .keys()
