@@ -1,6 +1,6 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{NoRoute, Remedy, Route};
+use crate::geometry::{Barrier, NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::{InitialFact, PlanPlace};
@@ -149,6 +149,12 @@ pub enum Ending {
 const MOST_CHANGES: usize = 20;
 
 impl Surprise {
+    /// Whether a zone bars the way: nobody moves it, and what would lead through it is no plan.
+    fn is_of_zone(&self) -> bool {
+        let is_zone = |barrier: &Barrier| matches!(barrier, Barrier::Zone { .. });
+        matches!(self, Self::NoWay { why, .. } if why.barriers().iter().any(is_zone))
+    }
+
     /// Whether a way is given up for it, that the rules then know nothing of.
     fn bars_a_way(&self) -> bool {
         let is_jammed =
@@ -200,6 +206,8 @@ pub struct Mission<'r> {
     lifts: Vec<Lift>,
     /// How often what was seen of each thing changed the belief.
     changes: BTreeMap<Obstruction, usize>,
+    /// The first plan of an attempt that was not begun; told once, where the goal is pursued no further.
+    refused: Option<Planned>,
 }
 
 impl<'r> Mission<'r> {
@@ -213,8 +221,8 @@ impl<'r> Mission<'r> {
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
-        let changes = BTreeMap::new();
-        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes }
+        let (changes, refused) = (BTreeMap::new(), None);
+        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, refused }
     }
 
     /// The plan for a goal from what is believed now.
@@ -298,14 +306,7 @@ impl<'r> Mission<'r> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
-        // The first plan that was not begun; told where there is no other.
-        let mut refused: Option<Planned> = None;
-        let stuck = |refused: Option<Planned>, surprise, tell: &mut dyn FnMut(&Event<'_>)| {
-            if let Some(planned) = &refused {
-                tell(&Event::Planned(planned));
-            }
-            Ok(Ending::Stuck(surprise))
-        };
+        self.refused = None;
         loop {
             if reins.stop.is_raised() {
                 return Ok(Ending::Stopped);
@@ -313,7 +314,7 @@ impl<'r> Mission<'r> {
             let (planned, now_learned) = match (self.plan_again(goal, learned.as_ref()), given_up) {
                 // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
                 (Err(MissionError::Rules(_)), Some(surprise)) => {
-                    return stuck(refused, surprise, reins.tell);
+                    return Ok(Ending::Stuck(surprise));
                 }
                 (planned, before) => {
                     given_up = before;
@@ -334,7 +335,7 @@ impl<'r> Mission<'r> {
             if let (Outcome::NoPlan { .. }, Some(surprise)) =
                 (&planned.solved.outcome, given_up.take())
             {
-                return stuck(refused, surprise, reins.tell);
+                return Ok(Ending::Stuck(surprise));
             }
             let Some(plan) = planned.solved.outcome.plan() else {
                 return Ok(Ending::NoPlan(Box::new(planned)));
@@ -344,15 +345,15 @@ impl<'r> Mission<'r> {
             self.joins.clone_from(&planned.joins);
             self.lifts.clone_from(&planned.lifts);
             if let Err((known, surprise)) = rehearse(self, &directives, &reins.stop) {
-                refused.get_or_insert(planned);
+                self.refused.get_or_insert(planned);
                 if !self.take_over(known) {
-                    return stuck(refused, surprise, reins.tell);
+                    return Ok(Ending::Stuck(surprise));
                 }
                 given_up = Some(surprise);
                 learned = now_learned.and_then(|learned| learned.after(&[]));
                 continue;
             }
-            refused = None;
+            self.refused = None;
             (reins.tell)(&Event::Planned(&planned));
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
