@@ -2,6 +2,7 @@
 
 use crate::language::command::Relation;
 use crate::language::words::russian::{self, Preposition};
+use crate::language::report::Named;
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Deed, Directive, STARTING_POINT};
@@ -363,11 +364,14 @@ impl Words<'_> {
             }
             Deed::CallLift { lift, .. } => match self.language {
                 Language::Russian => format!("вызвать лифт «{lift}»"),
-                Language::English => format!("call the lift “{lift}”"),
+                Language::English => format!("call the lift “{}”", self.name(lift, Case::Nominative)),
             },
             Deed::Ride { lift, to, .. } => match self.language {
                 Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),
-                Language::English => format!("ride the lift “{lift}” {}", self.storey(to)),
+                Language::English => {
+                    let lift = self.name(lift, Case::Nominative);
+                    format!("ride the lift “{lift}” {}", self.storey(to))
+                }
             },
             Deed::SetOpen { thing, open } => {
                 let verb = if *open {
@@ -460,8 +464,15 @@ impl Words<'_> {
             (None, Language::English) if name == STARTING_POINT || name == ROBOT_PLACE => {
                 "its starting place".to_owned()
             }
+            (None, Language::English) if self.is_lift(name) => {
+                Named::plain(name).english_name().to_owned()
+            }
             (None, _) => name.to_owned(),
         }
+    }
+
+    fn is_lift(&self, name: &str) -> bool {
+        self.world.domain.lifts.iter().any(|(lift, _)| lift == name)
     }
 
     /// The storey of a room, as it is called on the map.

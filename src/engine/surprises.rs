@@ -7,31 +7,35 @@ use crate::robot::{Barred, Obstruction, Refusal, Sighting, Surprise};
 
 use super::advice::Advice;
 use super::barriers::{no_way_in_words, thing_in_words, unknown_thing};
-use super::directive_words::place_in_words;
+use super::directive_words::{name_in, place_in_words};
 use super::lexicon::named;
 
 /// What stood in the way, what the vehicle would not do, or what the map does not know.
 #[must_use]
 pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language) -> String {
-    let said = |entity: Entity| match language {
-        Language::Russian => world.name(entity).to_owned(),
-        Language::English => named(world, entity).english(),
-    };
-    let thing = |what: Obstruction| match what {
+    let form = |entity: Entity, case: Case| named(world, entity).form(case, language);
+    let said = |entity: Entity| form(entity, Case::Nominative);
+    let in_case = |what: Obstruction, case: Case| match what {
         Obstruction::Wall(area) => match language {
             Language::Russian => format!("стена ({})", said(Entity::Area(area))),
             Language::English => format!("a wall of {}", said(Entity::Area(area))),
         },
-        Obstruction::Door(door) => said(Entity::Door(door)),
-        Obstruction::Replica(id) if world.replicas.contains_key(&id) => said(Entity::Replica(id)),
-        Obstruction::Replica(_) | Obstruction::Something => {
-            language.pick("вещь", "a thing").to_owned()
+        Obstruction::Door(door) => form(Entity::Door(door), case),
+        Obstruction::Replica(id) if world.replicas.contains_key(&id) => {
+            form(Entity::Replica(id), case)
         }
+        Obstruction::Replica(_) | Obstruction::Something => match case {
+            Case::Genitive | Case::Prepositional => language.pick("вещи", "a thing").to_owned(),
+            _ => language.pick("вещь", "a thing").to_owned(),
+        },
     };
-    let told = |ru: &str, en: &str, what: Obstruction| {
-        let (pattern, name) = (language.pick(ru, en), thing(what));
+    let thing = |what: Obstruction| in_case(what, Case::Nominative);
+    // In Russian in a case, where the pattern asks for one.
+    let told_in = |case: Case, ru: &str, en: &str, what: Obstruction| {
+        let (pattern, name) = (language.pick(ru, en), in_case(what, case));
         pattern.replacen("{}", &name, 1)
     };
+    let told = |ru: &str, en: &str, what: Obstruction| told_in(Case::Nominative, ru, en, what);
     match surprise {
         Surprise::Blocked { bump, .. } => {
             told("путь преграждает {}", "{} is in the way", bump.against)
@@ -55,7 +59,7 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         }
         Surprise::NoWay { to, why, remedy } => {
             let to = place_in_words(world, to, language);
-            let told = format!("«{to}»: {}", no_way_in_words(world, why, language));
+            let told = format!("{to}: {}", no_way_in_words(world, why, language));
             let Some(remedy) = remedy else { return told };
             let advice = Advice { remedy: Remedy::clone(remedy), whither: None };
             let advice = advice.in_words(world, language);
@@ -66,8 +70,13 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         }
         Surprise::NotSeen { thing, area, next, for_kin } => {
             let area = said(Entity::Area(*area));
+            let known = world.find(thing).first().copied();
+            let thing = match (known, language) {
+                (Some(entity), _) => form(entity, Case::Genitive),
+                (None, _) => name_in(world, thing, language),
+            };
             let seen = match language {
-                Language::Russian => format!("{area}: «{thing}» не видно"),
+                Language::Russian => format!("{area}: {thing} не видно"),
                 Language::English => format!("{thing} is not seen in {area}"),
             };
             let rooms: Vec<String> = next.iter().map(|area| said(Entity::Area(*area))).collect();
@@ -83,7 +92,8 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             }
         }
         Surprise::NoReturn { door, area, by } => {
-            let (door, room) = (said(Entity::Door(*door)), said(Entity::Area(*area)));
+            let door = form(Entity::Door(*door), Case::Accusative);
+            let room = form(Entity::Area(*area), Case::Genitive);
             let (ru, en) = match by.map(thing) {
                 Some(by) => {
                     (format!("створке мешает {by}"), format!("{by} is in the way of the leaf"))
@@ -93,13 +103,13 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
                 }
             };
             language.pick(
-                format!("закрыв {door}, робот не сможет открыть её снова из «{room}»: {ru}"),
+                format!("закрыв {door}, робот не сможет открыть её снова из {room}: {ru}"),
                 format!("once {door} is shut, the robot could not open it again from {room}: {en}"),
             )
         }
         Surprise::Unknown { name } => match language {
             Language::Russian => format!("на карте нет «{name}»"),
-            Language::English => format!("the map has no \"{name}\""),
+            Language::English => format!("the map has no “{name}”"),
         },
         Surprise::Refused { refusal, .. } => match *refusal {
             Refusal::Locked(door) => told("{} заперта", "{} is locked", Obstruction::Door(door)),
@@ -119,31 +129,36 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
                 )
             }
             Refusal::OutOfReach(id) => {
-                told("до «{}» не дотянуться", "{} is out of reach", Obstruction::Replica(id))
+                let what = Obstruction::Replica(id);
+                told_in(Case::Genitive, "до {} не дотянуться", "{} is out of reach", what)
             }
             Refusal::NotThere(id) => {
-                told("«{}» нет на месте", "{} is not in its place", Obstruction::Replica(id))
+                let what = Obstruction::Replica(id);
+                told_in(Case::Genitive, "{} нет на месте", "{} is not in its place", what)
             }
             Refusal::HandFull(id) => told(
-                "рука занята: в ней «{}»",
+                "рука занята: в ней {}",
                 "the hand is full: it holds {}",
                 Obstruction::Replica(id),
             ),
             Refusal::NotHeld(id) => {
-                told("«{}» нет в руке", "{} is not in the hand", Obstruction::Replica(id))
+                let what = Obstruction::Replica(id);
+                told_in(Case::Genitive, "{} нет в руке", "{} is not in the hand", what)
             }
             Refusal::Shut(id) => told(
-                "«{}»: дверцы закрыты, а дверцы мебели робот не открывает",
+                "{}: дверцы закрыты, а дверцы мебели робот не открывает",
                 "{} is shut, and the robot does not open doors of furniture",
                 Obstruction::Replica(id),
             ),
-            Refusal::Stays(id) => told(
-                "«{}» туда не подвинуть",
+            Refusal::Stays(id) => told_in(
+                Case::Accusative,
+                "{} туда не подвинуть",
                 "{} cannot be pushed there",
                 Obstruction::Replica(id),
             ),
-            Refusal::NoRoom(id) => told(
-                "на «{}» нет свободного места",
+            Refusal::NoRoom(id) => told_in(
+                Case::Prepositional,
+                "на {} нет свободного места",
                 "there is no room on {}",
                 Obstruction::Replica(id),
             ),
@@ -151,7 +166,7 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
     }
 }
 
-/// What bars the only way, and where: «В Коридоре путь к «Дверь-1» преграждает Стул-2 (345; 125)».
+/// What bars the only way, and where: «В Коридоре путь к Двери-1 преграждает Стул-2 (345; 125)».
 #[must_use]
 pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language) -> String {
     let known =
@@ -163,17 +178,20 @@ pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language
     let is_one = things.len() == 1;
     let things = enumerate(&things, language);
     let room = named(world, Entity::Area(barred.area));
-    let to = barred.to.as_ref().map(|to| place_in_words(world, to, language));
+    let to = barred.to.as_ref().map(|to| match (world.find(to).first(), language) {
+        (Some(entity), Language::Russian) => named(world, *entity).form(Case::Dative, language),
+        _ => place_in_words(world, to, language),
+    });
     let at = format!("({:.0}; {:.0})", barred.at.x, barred.at.y);
     match language {
         Language::Russian => {
             let room = crate::language::russian::where_at(room.phrase());
-            let to = to.map_or_else(String::new, |to| format!(" к «{to}»"));
+            let to = to.map_or_else(String::new, |to| format!(" к {to}"));
             let bars = if is_one { "преграждает" } else { "преграждают" };
             format!("{room} путь{to} {bars} {things} {at}")
         }
         Language::English => {
-            let to = to.map_or_else(String::new, |to| format!(" to \"{to}\""));
+            let to = to.map_or_else(String::new, |to| format!(" to {to}"));
             let bars = if is_one { "bars" } else { "bar" };
             format!("in {} {things} {bars} the way{to} {at}", room.english())
         }
