@@ -73,6 +73,7 @@ mod talk;
 mod talk_ways;
 mod thresholds;
 mod tight_floors;
+mod told_truly;
 mod truth;
 mod ugly_floors;
 mod vehicle;

@@ -42,6 +42,15 @@ impl State {
             }]
         };
         match (to.relation, to.anchor) {
+            // What is brought to a person is given to him; nothing is put on him.
+            (Relation::At | Relation::NextTo, Entity::Replica(person))
+                if world.has_trait(person, "person") =>
+            {
+                Ok(fact(predicate::HANDED_OVER, to.anchor))
+            }
+            (_, Entity::Replica(person)) if world.has_trait(person, "person") => {
+                Err(RequestError::NotPutThere { name: name(to.anchor) }.into())
+            }
             (Relation::In, Entity::Replica(support)) => {
                 if !self.must_be_opened(support)? {
                     return Ok(fact(predicate::THING_ON, to.anchor));

@@ -134,6 +134,7 @@ impl State {
             }
             Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
                 let near = match (to.relation, to.anchor) {
+                    (_, Entity::Replica(person)) if world.has_trait(person, "person") => false,
                     (Relation::NextTo | Relation::Middle, _) => true,
                     (Relation::At, Entity::Replica(anchor)) => !self.bears(anchor),
                     _ => false,
@@ -355,6 +356,7 @@ impl State {
         };
         let support = about(predicate::THING_ON, 0, name, 1);
         let place = about(predicate::THING_AT_PLACE, 0, name, 1)
+            .or_else(|| about(predicate::PERSON_AT_PLACE, 0, name, 1))
             .or_else(|| about(predicate::PLACE_BY, 1, support.as_deref().unwrap_or(name), 0))
             .ok_or_else(|| RequestError::NotAPlace { name: name.to_owned() })?;
         Ok(fact(predicate::ROBOT_AT_PLACE, vec![place]))

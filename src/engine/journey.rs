@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{FloorPlan, Leg, Method, Remedy, Ride, Target, across};
+use crate::geometry::{FloorPlan, Leg, Method, Opening, Remedy, Ride, Target, across};
 use crate::language::Language;
+use crate::language::question::{Crossing, RoomPath, Thing};
 use crate::language::report::{Detail, Named};
-use crate::map::{Entity, World};
-use crate::units::{Deg, DoorId, MapId, Point};
+use crate::map::{DoorState, Entity, Extent, Forms, World, Zone, ZoneKind};
+use crate::units::{AreaId, Deg, DoorId, MapId, Point, ZoneId};
 
 use super::advice::Advice;
 use super::known::Known;
@@ -140,6 +141,105 @@ impl Known {
         }
     }
 
+    /// The rooms and openings that a journey leads through, and the lifts that it rides; none where there is no way.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub(super) fn rooms_of(&self, journey: &Journey) -> Result<Option<RoomPath>, Error> {
+        let mut path: Option<RoomPath> = None;
+        for (k, leg) in journey.legs.iter().enumerate() {
+            let Ok(route) = &leg.route else { return Ok(None) };
+            let floor = self.floor(leg.map)?;
+            let begins = || Some(floor.locate(*route.points.first()?)?.0);
+            let Some(start) = leg.stages.first().map(|stage| stage.area).or_else(begins) else {
+                return Ok(None);
+            };
+            let path = path.get_or_insert(RoomPath { start, crossings: Vec::new() });
+            for two in leg.stages.windows(2) {
+                let Some(doorway) = two[0].leaves_by.map(|d| &floor.doorways()[d]) else {
+                    continue;
+                };
+                let by = match doorway.door {
+                    Some(door) => Thing::Entity(Entity::Door(door)),
+                    None => Thing::Opening(doorway.id),
+                };
+                path.crossings.push(Crossing { by, into: two[1].area });
+            }
+            if let Some(ride) = journey.rides.get(k) {
+                let by = Thing::Entity(Entity::Area(ride.from));
+                path.crossings.push(Crossing { by, into: ride.to });
+            }
+        }
+        Ok(path)
+    }
+
+    /// The same with rooms that are not entered and openings that are not passed; the room that is wanted is entered.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub(super) fn without(
+        &self,
+        avoided: &[Thing],
+        wanted: Option<AreaId>,
+    ) -> Result<Self, Error> {
+        let mut world = self.world().clone();
+        let mut rooms: Vec<AreaId> = Vec::new();
+        let mut shut: BTreeMap<DoorId, DoorState> = BTreeMap::new();
+        let mut extents: Vec<Extent> = Vec::new();
+        for thing in avoided {
+            match *thing {
+                Thing::Entity(Entity::Area(area)) if Some(area) != wanted => rooms.push(area),
+                Thing::Entity(Entity::Door(door)) if world.doors[&door].leaves.is_empty() => {
+                    let floors = self.floors()?.values();
+                    let own = floors.flat_map(|floor| floor.doorways_of(door));
+                    extents.extend(own.map(across_doorway));
+                }
+                Thing::Entity(Entity::Door(door)) => {
+                    shut.insert(door, DoorState::LOCKED);
+                }
+                Thing::Opening(id) => {
+                    let floors = self.floors()?.values();
+                    let ways = floors.flat_map(|floor| floor.doorways().iter());
+                    extents.extend(ways.filter(|way| way.id == id).map(|way| across_doorway(way)));
+                }
+                _ => {}
+            }
+        }
+        if !rooms.is_empty() {
+            extents.push(Extent::Areas(rooms));
+        }
+        for (door, state) in &shut {
+            if let Some(door) = world.doors.get_mut(door) {
+                door.state = *state;
+            }
+        }
+        let first = world.zones.keys().map(|id| id.0).max().unwrap_or(0) + 1;
+        for (number, extent) in (first..).zip(extents) {
+            let id = ZoneId(number);
+            let zone = Zone {
+                id,
+                key: String::new(),
+                name: String::new(),
+                name_en: String::new(),
+                kind: ZoneKind::KeepOut,
+                extent,
+                reason: String::new(),
+                reason_en: String::new(),
+                from: None,
+                until: None,
+                forms: Forms::new(),
+            };
+            world.zones.insert(id, zone);
+        }
+        let is_wanted = |zone: &Zone| zone.id.0 >= first || self.is_in_force(zone);
+        let floors = self.floors()?.iter().map(|(map, floor)| {
+            let floor = if shut.is_empty() { floor.clone() } else { floor.with_doors(&world, &shut) };
+            (*map, floor.with_zones(&world, is_wanted))
+        });
+        let floors: BTreeMap<MapId, FloorPlan> = floors.collect();
+        Ok(self.driven_otherwise(world, floors))
+    }
+
     /// Whether a change that opens one leg opens the whole way, which other things may bar as well.
     fn opens(
         &self,
@@ -184,6 +284,14 @@ impl Known {
         );
         Ok(sentences)
     }
+}
+
+/// The floor within a doorway, from wall to wall.
+fn across_doorway(doorway: &Opening) -> Extent {
+    let (a, b) = doorway.line();
+    let aside = doorway.out() * (doorway.gap / 2.0).max(1.0);
+    let corners = vec![a - aside, b - aside, b + aside, a + aside];
+    Extent::Polygon { map: doorway.map, corners }
 }
 
 /// «Поднимитесь на лифте «Лифт-1» на Второй этаж.»

@@ -121,6 +121,12 @@ impl Known {
         Ok(self)
     }
 
+    /// The same, where doors and zones are others for the one who drives.
+    pub(super) fn driven_otherwise(&self, world: World, floors: Floors) -> Self {
+        let floors = OnceLock::from(Arc::new(floors));
+        Self { world: Arc::new(world), floors, ..self.clone() }
+    }
+
     pub(super) fn world(&self) -> &World {
         &self.world
     }

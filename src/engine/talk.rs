@@ -18,6 +18,7 @@ use crate::units::{MapId, Pose, ReplicaId};
 
 use super::barriers::no_way_in_words;
 use super::journey::Journey;
+use super::known::Known;
 use super::position::describe;
 use super::route::Located;
 use super::{Error, State};
@@ -327,21 +328,29 @@ impl RobotSenses<'_> {
         }))
     }
 
-    fn journey(&self, from: Option<Thing>, to: Thing) -> Result<Option<Journey>, Error> {
+    fn journey(
+        &self,
+        around: &Known,
+        from: Option<Thing>,
+        to: Thing,
+    ) -> Result<Option<Journey>, Error> {
         if let Thing::Entity(Entity::Map(map)) = to {
-            return self.to_storey(from, map);
+            return self.to_storey(around, from, map);
         }
         let (Some(start), Some(goal)) = (self.located(from)?, self.located(Some(to))?) else {
             return Ok(None);
         };
         let goal = (self.called(to), goal);
-        let around = self.engine.around()?;
         around.journey_between(("", start), (&goal.0, goal.1), Method::Shortest).map(Some)
     }
 
     /// The shortest way to where a lift or stairs arrive on a storey.
-    fn to_storey(&self, from: Option<Thing>, map: MapId) -> Result<Option<Journey>, Error> {
-        let around = self.engine.around()?;
+    fn to_storey(
+        &self,
+        around: &Known,
+        from: Option<Thing>,
+        map: MapId,
+    ) -> Result<Option<Journey>, Error> {
         let (world, Some(start)) = (around.world(), self.located(from)?) else {
             return Ok(None);
         };
@@ -360,6 +369,64 @@ impl RobotSenses<'_> {
             }
         }
         Ok(best.map(|(_, journey)| journey))
+    }
+
+    /// A way over what is known, or why there is none, in words.
+    fn way_around(
+        &self,
+        around: &Known,
+        from: Option<Thing>,
+        to: Thing,
+        language: Language,
+        detail: Detail,
+    ) -> Result<Way, String> {
+        let pick = |russian: &str, english: &str| match language {
+            Language::Russian => russian.to_owned(),
+            Language::English => english.to_owned(),
+        };
+        // From a storey one starts where one is on it.
+        let here = self.engine.robot_pose().map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let from = from.filter(|start| Some(*start) != here);
+        if let Thing::Entity(Entity::Map(map)) = to
+            && self.engine.robot_pose().is_some_and(|(here, _)| here == map)
+            && from.is_none()
+        {
+            return Err(pick("я уже на этом этаже", "I am on that floor already"));
+        }
+        if to.replica().is_some_and(|id| self.holder(id).is_some_and(|h| h.is_empty())) {
+            return Err(pick("это у меня в руках", "it is in my hands"));
+        }
+        let journey = self.journey(around, from, to).map_err(|error| match (language, error) {
+            (Language::English, Error::Request(_)) => {
+                "the robot cannot stand at that place".to_owned()
+            }
+            (_, error) => error.to_string(),
+        })?;
+        let unknown = || pick("место неизвестно", "the place is unknown");
+        let journey = journey.ok_or_else(unknown)?;
+        let mut length = 0.0;
+        for leg in &journey.legs {
+            match &leg.route {
+                Ok(route) => length += route.length,
+                Err(no) => {
+                    let world = around.world();
+                    let why = no_way_in_words(world, no, language);
+                    // A door that is shut and no more can be opened.
+                    return Err(match only_shut(no) {
+                        true => format!("{why}, {}", pick("но не на замок", "but not locked")),
+                        false => why,
+                    });
+                }
+            }
+        }
+        // Only of itself does the robot know how it stands.
+        let own = matches!(from, None | Some(Thing::Robot));
+        let heading = self.engine.robot_pose().filter(|_| own).map(|(_, pose)| pose.heading);
+        let sentences = around.journey_in_words(&journey, heading, language, detail);
+        let riding = journey.rides.iter().map(Ride::seconds).sum();
+        let sentences = sentences.map_err(|e| e.to_string())?;
+        let rooms = around.rooms_of(&journey).map_err(|e| e.to_string())?.ok_or_else(unknown)?;
+        Ok(Way { length, riding, sentences, rooms })
     }
 
     fn called(&self, thing: Thing) -> String {
@@ -396,52 +463,20 @@ impl Senses for RobotSenses<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Way, String> {
-        let pick = |russian: &str, english: &str| match language {
-            Language::Russian => russian.to_owned(),
-            Language::English => english.to_owned(),
-        };
-        // From a storey one starts where one is on it.
-        let here = self.engine.robot_pose().map(|(map, _)| Thing::Entity(Entity::Map(map)));
-        let from = from.filter(|start| Some(*start) != here);
-        if let Thing::Entity(Entity::Map(map)) = to
-            && self.engine.robot_pose().is_some_and(|(here, _)| here == map)
-            && from.is_none()
-        {
-            return Err(pick("я уже на этом этаже", "I am on that floor already"));
-        }
-        if to.replica().is_some_and(|id| self.holder(id).is_some_and(|h| h.is_empty())) {
-            return Err(pick("это у меня в руках", "it is in my hands"));
-        }
-        let journey = self.journey(from, to).map_err(|error| match (language, error) {
-            (Language::English, Error::Request(_)) => {
-                "the robot cannot stand at that place".to_owned()
-            }
-            (_, error) => error.to_string(),
-        })?;
-        let unknown = || pick("место неизвестно", "the place is unknown");
-        let journey = journey.ok_or_else(unknown)?;
         let around = self.engine.around().map_err(|e| e.to_string())?;
-        let mut length = 0.0;
-        for leg in &journey.legs {
-            match &leg.route {
-                Ok(route) => length += route.length,
-                Err(no) => {
-                    let world = around.world();
-                    let why = no_way_in_words(world, no, language);
-                    // A door that is shut and no more can be opened.
-                    return Err(match only_shut(no) {
-                        true => format!("{why}, {}", pick("но не на замок", "but not locked")),
-                        false => why,
-                    });
-                }
-            }
-        }
-        // Only of itself does the robot know how it stands.
-        let own = matches!(from, None | Some(Thing::Robot));
-        let heading = self.engine.robot_pose().filter(|_| own).map(|(_, pose)| pose.heading);
-        let sentences = around.journey_in_words(&journey, heading, language, detail);
-        let riding = journey.rides.iter().map(Ride::seconds).sum();
-        Ok(Way { length, riding, sentences: sentences.map_err(|e| e.to_string())? })
+        self.way_around(around, from, to, language, detail)
+    }
+
+    fn way_without(
+        &self,
+        from: Option<Thing>,
+        to: Thing,
+        avoided: &[Thing],
+        language: Language,
+    ) -> Result<Way, String> {
+        let around = self.engine.around().map_err(|e| e.to_string())?;
+        let without = around.without(avoided, to.area()).map_err(|e| e.to_string())?;
+        self.way_around(&without, from, to, language, Detail::Region)
     }
 
     fn visible(&self) -> Vec<ReplicaId> {

@@ -3,12 +3,29 @@
 use super::report::Named;
 use super::words::{Animacy, Case, Gender, Language, NounPhrase, Number, WordHints};
 use crate::map::{self, Entity, Forms, TypeEntry, World};
+use crate::units::name_key;
 
 /// The name of an entity, ready to be declined.
 #[must_use]
 pub fn named(world: &World, entity: Entity) -> Named {
     let english = english_name(world, entity);
-    Named::new(world.name(entity), &hints(world, entity), Some(english).filter(|n| !n.is_empty()))
+    let english = Some(english).filter(|n| !n.is_empty());
+    let named = Named::new(world.name(entity), &hints(world, entity), english);
+    if is_called(world, entity) { named.proper() } else { named }
+}
+
+/// Whether a name is that of a person, and not of the kind.
+fn is_called(world: &World, entity: Entity) -> bool {
+    let Entity::Replica(id) = entity else { return false };
+    let kind = || {
+        let object = world.objects.get(&world.replicas.get(&id)?.object)?;
+        world.types.object.get(object.object_type)
+    };
+    let is_kind = |kind: &TypeEntry| {
+        let own = [world.name(entity), english_name(world, entity)].map(name_key);
+        [&kind.name, &kind.name_en].iter().any(|word| own.contains(&name_key(word)))
+    };
+    world.has_trait(id, "person") && kind().is_none_or(|kind| !is_kind(kind))
 }
 
 /// What the map says of the forms of a name.

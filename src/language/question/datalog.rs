@@ -237,7 +237,7 @@ impl Rule<'_, '_> {
             }
             Query::Why { .. }
             | Query::WhereAmI
-            | Query::People
+            | Query::People { .. }
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee

@@ -150,7 +150,8 @@ impl Lexicon {
         for entity in world.names().map(|(entity, _)| entity).collect::<BTreeSet<_>>() {
             let name = world.name(entity);
             let meaning = Meaning::Entity(entity);
-            if name.is_empty() {
+            // On the floor is on the ground, whatever a storey is called.
+            if name.is_empty() || (matches!(entity, Entity::Map(_)) && is_of_floor(name)) {
                 continue;
             }
             if Language::of(name) == Language::English {
@@ -159,8 +160,13 @@ impl Lexicon {
                 lexicon.nouns.insert_name(name, &hints(world, entity), meaning);
             }
             let english = english_name(world, entity);
+            if matches!(entity, Entity::Map(_)) && is_of_floor(english) {
+                continue;
+            }
             if english.is_empty() {
-                if let Some(english) = english::name_of(name) {
+                if let Some(english) = english::name_of(name)
+                    && !(matches!(entity, Entity::Map(_)) && is_of_floor(&english))
+                {
                     lexicon.nouns.insert_english(&english, meaning);
                 }
             } else {
@@ -552,6 +558,13 @@ impl Lexicon {
 }
 
 /// "Dog bed", "toy car": named like a thing for people, and no such thing.
+/// Whether a name is a word for what one stands on.
+fn is_of_floor(name: &str) -> bool {
+    let key = name_key(name);
+    let words = CONCEPTS.iter().filter(|(extension, ..)| *extension == Extension::Floor);
+    words.flat_map(|(_, ru, en)| ru.split('|').chain(en.split('|'))).any(|word| word == key)
+}
+
 fn is_no_real_one(english_name: &str) -> bool {
     let first = english_name.split_whitespace().next().map(str::to_lowercase);
     first.is_some_and(|word| ["dog", "cat", "pet", "toy", "doll", "fake"].contains(&word.as_str()))

@@ -69,7 +69,7 @@ pub use orders::{Conditional, conditional};
 pub use outlive::{Departed, Stamp};
 pub use query::{Best, Claim, Filter, Head, Noun, Passing, Query, Rel, Restriction, Thing, Use};
 pub use resolution::{Settled, Strict};
-pub use senses::{News, Past, Senses, Sighting, Way};
+pub use senses::{Crossing, News, Past, RoomPath, Senses, Sighting, Way};
 pub use serving::{Doing, Part};
 pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};

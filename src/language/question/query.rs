@@ -119,6 +119,12 @@ impl Thing {
             _ => None,
         }
     }
+
+    /// Whether it is a room or a place, which are far or near by the way to them.
+    #[must_use]
+    pub fn is_gone_to(self) -> bool {
+        matches!(self, Self::Entity(Entity::Area(_) | Entity::Place(_)))
+    }
 }
 
 /// What the head of a description means.
@@ -197,6 +203,8 @@ pub struct Noun {
     pub beyond: Option<(Extreme, Box<Self>)>,
     /// «кроме лампы»
     pub except: Vec<Self>,
+    /// "… that you can reach": whether there is a way for the robot.
+    pub reached: Option<bool>,
 }
 
 /// «ближайший к столу», "the three biggest"
@@ -370,8 +378,10 @@ pub enum Query {
     WhereAmI,
     /// Several questions in one sentence, each answered by itself.
     Several(Vec<Self>),
-    /// Who is somewhere: of people the map tells nothing.
-    People,
+    /// Who is somewhere: the people whom the map has among its things.
+    People {
+        within: Vec<Restriction>,
+    },
     /// Which kinds of such things there are, or how many.
     Kinds {
         of: Noun,
@@ -613,9 +623,11 @@ impl Query {
                 }
             }
             Self::Several(queries) => queries.iter_mut().for_each(|q| q.each_noun(act)),
+            Self::People { within } => {
+                within.iter_mut().flat_map(|r| &mut r.anchors).for_each(|n| n.each(act));
+            }
             Self::WhereAreYou(_)
             | Self::WhereAmI
-            | Self::People
             | Self::Help
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
@@ -667,7 +679,7 @@ impl Query {
             Self::WhereAreYou(_) => "where_are_you",
             Self::WhereAmI => "where_am_i",
             Self::Several(_) => "several",
-            Self::People => "people",
+            Self::People { .. } => "people",
             Self::Kinds { .. } => "kinds",
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",

@@ -24,6 +24,18 @@ pub trait Senses {
         language: Language,
         detail: Detail,
     ) -> Result<Way, String>;
+    /// The same without entering some rooms, passing some doors or taking some lifts; a lift is any of its stops. Where one
+    /// begins, and the room to which one wants, is entered all the same.
+    ///
+    /// # Errors
+    /// As [`Senses::way`].
+    fn way_without(
+        &self,
+        from: Option<Thing>,
+        to: Thing,
+        avoided: &[Thing],
+        language: Language,
+    ) -> Result<Way, String>;
     /// What the robot sees, the nearest first.
     fn visible(&self) -> Vec<ReplicaId>;
     /// Who has a thing that was taken off the map; an empty name for the robot itself.
@@ -70,6 +82,22 @@ pub struct Way {
     /// How long lifts are waited for and ridden on it, in seconds.
     pub riding: f64,
     pub sentences: Vec<String>,
+    /// The same by its rooms and doors.
+    pub rooms: RoomPath,
+}
+
+/// A step from one room to the next: by a door or passage, or by a lift.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Crossing {
+    pub by: Thing,
+    pub into: AreaId,
+}
+
+/// The room in which a way begins, and its crossings in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RoomPath {
+    pub start: AreaId,
+    pub crossings: Vec<Crossing>,
 }
 
 /// One look at a thing.

@@ -8,6 +8,8 @@ pub struct Named {
     /// Boxed, since a doorway holds three names and a report several doorways.
     pub(super) russian: Box<NounPhrase>,
     pub(super) english: String,
+    /// A person's name, which has no article.
+    is_proper: bool,
 }
 
 impl Named {
@@ -19,7 +21,13 @@ impl Named {
             .map(Into::into)
             .or_else(|| english::name_of(name))
             .unwrap_or_else(|| name.to_owned());
-        Self { russian: Box::new(NounPhrase::parse(name, hints)), english }
+        Self { russian: Box::new(NounPhrase::parse(name, hints)), english, is_proper: false }
+    }
+
+    /// The same, called by name as a person is.
+    #[must_use]
+    pub fn proper(self) -> Self {
+        Self { is_proper: true, ..self }
     }
 
     /// A name of which nothing more is known.
@@ -42,7 +50,10 @@ impl Named {
     /// The English name within a sentence, with its article.
     #[must_use]
     pub fn english(&self) -> String {
-        english::with_article(&self.english)
+        match self.is_proper {
+            true => self.english.clone(),
+            false => english::with_article(&self.english),
+        }
     }
 
     /// The English name of a door or passage: "the gate", "Door 2", but "the door L1_office" where its name does not

@@ -30,6 +30,15 @@ impl Senses for Blind {
     fn way(&self, _: Option<Thing>, _: Thing, _: Language, _: Detail) -> Result<Way, String> {
         Err(String::new())
     }
+    fn way_without(
+        &self,
+        _: Option<Thing>,
+        _: Thing,
+        _: &[Thing],
+        _: Language,
+    ) -> Result<Way, String> {
+        Err(String::new())
+    }
     fn visible(&self) -> Vec<ReplicaId> {
         Vec::new()
     }

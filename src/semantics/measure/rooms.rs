@@ -1,6 +1,6 @@
 //! The floors of the Areas, ready for measuring, and which of them lie under a point.
 
-use crate::geometry::contact::Footprint;
+use crate::geometry::contact::{Footprint, overlap_area};
 use crate::geometry::{Bounds, Polygon};
 use crate::map::{Item, World};
 use crate::units::{AreaId, Frame, MapId, Point};
@@ -16,7 +16,47 @@ pub(crate) struct Room {
     pub(crate) bounds: Bounds,
 }
 
+/// Rooms lie one over the other where they share more of the smaller floor than this: walls of two storeys that do not
+/// quite meet share less.
+const SHARED: f64 = 0.05;
+/// What begins higher by less, in cm, begins as high.
+const LEVEL: f64 = 1.0;
+
 impl Measurements {
+    /// The Areas of other storeys that lie over an Area, or under it, as the Domain places its Maps; in the order of their
+    /// ids. Storeys that the Domain does not place at heights of their own lie neither over nor under each other.
+    #[must_use]
+    pub fn on_other_storeys(&self, world: &World, area: AreaId, is_over: bool) -> Vec<AreaId> {
+        let frame_of = |room: &Room| {
+            world.domain.maps.iter().find(|placed| placed.map == room.map).map(|m| m.frame)
+        };
+        let Some((own, frame)) = self.rooms.get(&area).and_then(|r| Some((r, frame_of(r)?))) else {
+            return Vec::new();
+        };
+        let lowest = |room: &Room, frame: &Frame| {
+            let bottoms = room.parts.iter().map(|(_, bottom, _)| frame.z.get() + bottom);
+            bottoms.fold(f64::INFINITY, f64::min)
+        };
+        let base = |room: &Room, frame: &Frame| -> Vec<Footprint> {
+            room.parts.iter().map(|(part, _, _)| part.placed(frame)).collect()
+        };
+        let size = |parts: &[Footprint]| parts.iter().map(|part| part.area).sum::<f64>();
+        let (height, own_base) = (lowest(own, &frame), base(own, &frame));
+        let own_size = size(&own_base);
+        let lies_so = |room: &&Room| {
+            let Some(other) = frame_of(room).filter(|_| room.map != own.map) else { return false };
+            let rise = lowest(room, &other) - height;
+            if (if is_over { rise } else { -rise }) <= LEVEL {
+                return false;
+            }
+            let other_base = base(room, &other);
+            let pairs = other_base.iter().flat_map(|a| own_base.iter().map(move |b| (a, b)));
+            let shared: f64 = pairs.map(|(a, b)| overlap_area(a, b)).sum();
+            shared > SHARED * own_size.min(size(&other_base))
+        };
+        self.rooms.values().filter(lies_so).map(|room| room.id).collect()
+    }
+
     /// The Area whose base holds a point of a Map; the lowest id where bases meet.
     #[must_use]
     pub fn area_at(&self, map: MapId, p: Point) -> Option<AreaId> {

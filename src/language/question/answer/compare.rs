@@ -3,13 +3,20 @@
 //! Invariant: what cannot be measured is not compared; equal ones are said to be equal.
 
 use super::Draft;
-use crate::question::knowledge::Knowledge;
+use crate::question::knowledge::{HowFar, Knowledge};
 use crate::question::lexicon::lower_first;
 use crate::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
 use crate::question::values::Property;
 use crate::question::{Doubt, Said};
 use crate::words::russian::{self, Counted};
 use crate::words::{Case, area, length};
+
+/// What is compared of several things, one measure each.
+struct Compared {
+    extreme: Extreme,
+    by_way: bool,
+    each: Vec<f64>,
+}
 
 impl Knowledge<'_> {
     pub(super) fn say_best(&self, noun: &Noun, found: Vec<Thing>) -> Draft {
@@ -38,7 +45,8 @@ impl Knowledge<'_> {
         let list = self.list(&found);
         let how = match best.extreme {
             Extreme::Nearest | Extreme::Farthest => {
-                let away = self.distance(first, anchor).map(|d| length(d, self.language));
+                let far = self.how_far(anchor, &[first]);
+                let away = far.map(|far| self.far_words(first, far.each[0], far.by_way));
                 let away = away.unwrap_or_default();
                 let form = self.form(anchor, Case::Genitive);
                 match self.is_russian() {
@@ -90,6 +98,18 @@ impl Knowledge<'_> {
             (_, false) => format!("these are {list}"),
         };
         Draft::new(Said::Found, text).with(found)
+    }
+
+    /// How far it is to a thing, and how that was measured where it is a room, a place or an opening.
+    fn far_words(&self, to: Thing, far: f64, by_way: bool) -> String {
+        let told = length(far, self.language);
+        match (by_way, to.replica().is_some(), self.is_russian()) {
+            (true, _, true) => format!("{told} пути"),
+            (true, _, false) => format!("{told} of way"),
+            (false, true, _) => told,
+            (false, false, true) => format!("{told} по прямой"),
+            (false, false, false) => format!("{told} in a straight line"),
+        }
     }
 
     /// «выше 2 м», "wider than 80 cm"
@@ -152,12 +172,12 @@ impl Knowledge<'_> {
         closeness: Closeness,
     ) -> Result<Draft, Doubt> {
         let (what, near, than) = (self.one(what)?, self.one(near)?, self.one(than)?);
-        let (Some(a), Some(b)) = (self.distance(what, near), self.distance(what, than)) else {
+        let Some(HowFar { by_way, each }) = self.how_far(what, &[near, than]) else {
             return Ok(self.apart(&[what, near, than]));
         };
+        let (a, b) = (each[0], each[1]);
         let nearer = a < b;
         let yes = nearer == (closeness == Closeness::Nearer) && (a - b).abs() > 1e-9;
-        let lang = self.language;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let text = match self.is_russian() {
             true => {
@@ -167,18 +187,18 @@ impl Knowledge<'_> {
                     russian::preposition(russian::Preposition::Ot, &to(what)),
                     to(what),
                     format_args!("до {}", to(near)),
-                    length(a, lang),
+                    self.far_words(near, a, by_way),
                     "до",
                     to(than),
-                    length(b, lang)
+                    self.far_words(than, b, by_way)
                 )
             }
             false => format!(
                 "{head}it is {} from {} to {} and {} to {}",
-                length(a, lang),
+                self.far_words(near, a, by_way),
                 self.name(what),
                 self.name(near),
-                length(b, lang),
+                self.far_words(than, b, by_way),
                 self.name(than)
             ),
         };
@@ -209,18 +229,28 @@ impl Knowledge<'_> {
         }
     }
 
-    fn compared(&self, thing: Thing, extreme: Extreme, to: Option<Thing>) -> Option<f64> {
-        match extreme {
+    /// What is compared of each of some things; none where one of them has no such measure.
+    fn compared(
+        &self,
+        things: &[Thing],
+        extreme: Extreme,
+        to: Option<Thing>,
+    ) -> Option<Compared> {
+        let each = match extreme {
             Extreme::Nearest | Extreme::Farthest => {
-                self.distance(thing, to.unwrap_or(Thing::Robot))
+                let far = self.how_far(to.unwrap_or(Thing::Robot), things)?;
+                return Some(Compared { extreme, by_way: far.by_way, each: far.each });
             }
-            other => self.measure(other, thing),
-        }
+            other => things.iter().map(|t| self.measure(other, *t)).collect::<Option<Vec<f64>>>()?,
+        };
+        Some(Compared { extreme, by_way: false, each })
     }
 
-    fn compared_words(&self, thing: Thing, extreme: Extreme, value: f64) -> String {
-        match extreme {
-            Extreme::Nearest | Extreme::Farthest => length(value, self.language),
+    fn compared_words(&self, compared: &Compared, thing: Thing, value: f64) -> String {
+        match compared.extreme {
+            Extreme::Nearest | Extreme::Farthest => {
+                self.far_words(thing, value, compared.by_way)
+            }
             other => self.measure_words(other, thing),
         }
     }
@@ -237,7 +267,7 @@ impl Knowledge<'_> {
         let sign = if extreme.is_less() { 1.0 } else { -1.0 };
         let measured = found
             .into_iter()
-            .filter_map(|t| Some((sign * self.compared(t, extreme, to)?, t)))
+            .filter_map(|t| Some((sign * self.compared(&[t], extreme, to)?.each[0], t)))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         measured.map(|(_, thing)| thing).ok_or_else(|| self.none_such(noun))
     }
@@ -255,18 +285,16 @@ impl Knowledge<'_> {
             return Ok(self.further_aside([*a, *b], extreme, true));
         }
         let extreme = self.settled(extreme, &things);
-        let mut measured: Vec<(f64, Thing)> = Vec::new();
-        for &thing in &things {
-            match self.compared(thing, extreme, to) {
-                Some(measure) => measured.push((measure, thing)),
-                None => return Ok(self.incomparable(&things, extreme)),
-            }
-        }
+        let Some(compared) = self.compared(&things, extreme, to) else {
+            return Ok(self.incomparable(&things, extreme));
+        };
+        let each = compared.each.iter().copied();
+        let mut measured: Vec<(f64, Thing)> = each.zip(things.iter().copied()).collect();
         let sign = if extreme.is_less() { 1.0 } else { -1.0 };
         measured.sort_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
         let [(best, winner), rest @ ..] = &measured[..] else { return Ok(self.apart(&things)) };
         // What is told to be as much is not more.
-        let told = |measure: f64, thing: Thing| self.compared_words(thing, extreme, measure);
+        let told = |measure: f64, thing: Thing| self.compared_words(&compared, thing, measure);
         let same = |m: f64, thing: Thing| {
             (m - best).abs() < 1e-6 || told(m, thing) == told(*best, *winner)
         };
@@ -276,7 +304,7 @@ impl Knowledge<'_> {
             return Ok(Draft::new(Said::Nothing, text).with(things));
         }
         let words =
-            |(measure, thing): &(f64, Thing)| self.compared_words(*thing, extreme, *measure);
+            |(measure, thing): &(f64, Thing)| self.compared_words(&compared, *thing, *measure);
         let comparative = self.comparative(extreme);
         let (won, lost) = rest.split_at(equal);
         let winners: Vec<Thing> =
@@ -358,12 +386,12 @@ impl Knowledge<'_> {
             return Ok(self.further_aside([a, b], extreme, false));
         }
         let extreme = self.settled(extreme, &[a, b]);
-        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
-        else {
+        let Some(compared) = self.compared(&[a, b], extreme, to) else {
             return Ok(self.incomparable(&[a, b], extreme));
         };
+        let (x, y) = (compared.each[0], compared.each[1]);
         let less = extreme.is_less();
-        let words = |t, v| self.compared_words(t, extreme, v);
+        let words = |t, v| self.compared_words(&compared, t, v);
         let yes = (x - y).abs() > 1e-9 && (x < y) == less && words(a, x) != words(b, y);
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let both =

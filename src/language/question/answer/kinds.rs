@@ -6,10 +6,13 @@ use std::collections::BTreeMap;
 
 use super::Draft;
 use crate::question::knowledge::Knowledge;
-use crate::question::lexicon::lower_first;
-use crate::question::query::Noun;
+use crate::question::lexicon::{Extension, lower_first};
+use crate::question::query::{Head, Noun, Restriction, Thing};
 use crate::question::{Doubt, Said};
 use crate::words::{Case, NounPhrase, Number, WordHints, english, enumerate, russian};
+
+/// So many people are told of, at most.
+const MOST_TOLD: usize = 12;
 
 impl Knowledge<'_> {
     /// "There are 3 kinds: a bed, 2 bedside tables and a wardrobe."
@@ -74,7 +77,32 @@ impl Knowledge<'_> {
         }
     }
 
-    pub(super) fn people(&self) -> Draft {
+    /// Of people the map knows those whom it has among its things.
+    pub(super) fn people(&self, within: &[Restriction]) -> Result<Draft, Doubt> {
+        let all = self.members(&Extension::Trait("person"));
+        if all.is_empty() {
+            return Ok(self.no_people());
+        }
+        let head = Head { things: Some(all.clone()), ..Head::default() };
+        let noun = Noun { head, plural: true, restrictions: within.to_vec(), ..Noun::default() };
+        let found = self.find(&noun, false)?;
+        let where_each = |people: &[Thing]| {
+            let told = people.iter().take(MOST_TOLD).map(|t| self.where_one(*t, &mut Vec::new()));
+            told.collect::<Vec<_>>().join("; ")
+        };
+        if found.is_empty() {
+            let (place, elsewhere) = (self.restrictions(&noun), where_each(&all));
+            let text = match self.is_russian() {
+                true => format!("{place} нет никого из людей, которых знает карта: {elsewhere}"),
+                false => format!("none of the people whom the map knows is {place}: {elsewhere}"),
+            };
+            return Ok(Draft::new(Said::Nothing, text).about(&all));
+        }
+        let number = found.len() as f64;
+        Ok(Draft::new(Said::Found, where_each(&found)).with(found).number(number))
+    }
+
+    fn no_people(&self) -> Draft {
         let text = self.pick(
             "людей карта не знает: на ней только помещения и вещи",
             "the map knows no people: only rooms and things are on it",

@@ -38,13 +38,22 @@ impl Knowledge<'_> {
 
     /// Passages beside doors, and what lies inside beside what stands on top.
     pub(super) fn also(&self, noun: &Noun, found: &[Thing]) -> String {
-        let doors =
-            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
-        if doors && found.is_empty() && noun.filters.is_empty() {
-            return self.joined_by_passage(noun);
+        let is_of = |wanted: Extension| {
+            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == wanted)
+        };
+        if is_of(Extension::Exits) && noun.filters.is_empty() && noun.best.is_none() {
+            return self.to_other_rooms(noun, found);
         }
-        let of_area =
-            noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
+        let doors = is_of(Extension::Doors);
+        if doors && found.is_empty() && noun.filters.is_empty() {
+            let joined = self.joined_by_passage(noun);
+            if !joined.is_empty() {
+                return joined;
+            }
+        }
+        let of_area = noun.restrictions.iter().find(|r| {
+            matches!(r.rel, Rel::From | Rel::To | Rel::Of | Rel::In | Rel::At) && !r.negated
+        });
         let Some(restriction) =
             of_area.filter(|_| doors && noun.filters.is_empty() && !self.leads_both(noun))
         else {
@@ -70,6 +79,26 @@ impl Knowledge<'_> {
             (_, true) => format!("; кроме того, есть {list}"),
             (1, false) => format!("; besides, there is {list}"),
             (_, false) => format!("; besides, there are {list}"),
+        }
+    }
+
+    /// Who asks for the exits of one room is told what leads out of it, beside what leads out of the building.
+    fn to_other_rooms(&self, noun: &Noun, found: &[Thing]) -> String {
+        let place = noun.restrictions.iter().find(|r| {
+            matches!(r.rel, Rel::From | Rel::Of | Rel::In | Rel::At) && !r.negated
+        });
+        let anchor = place.and_then(|place| place.anchors.first());
+        let rooms = anchor.and_then(|anchor| self.find(anchor, true).ok()).unwrap_or_default();
+        let [room] = rooms[..] else { return String::new() };
+        let Some(area) = room.area() else { return String::new() };
+        let inner = self.openings().iter().filter(|gate| gate.areas.contains(&area));
+        let inner: Vec<Thing> =
+            inner.map(|gate| gate.thing).filter(|gate| !found.contains(gate)).collect();
+        let list = enumerate(&self.with_destinations(&inner, room), self.language);
+        match (inner.len(), self.is_russian()) {
+            (0, _) => String::new(),
+            (_, true) => format!("; в другие помещения ведут: {list}"),
+            (_, false) => format!("; to other rooms lead {list}"),
         }
     }
 

@@ -152,7 +152,7 @@ impl Knowledge<'_> {
             Query::WhereAreYou(detail) => self.where_are_you(*detail),
             Query::WhereAmI => self.where_am_i(),
             Query::Several(queries) => return self.several(queries),
-            Query::People => self.people(),
+            Query::People { within } => self.people(within)?,
             Query::Kinds { of, count } => self.say_kinds(of, *count)?,
             Query::Help => self.help(),
             Query::Courtesy(courtesy) => self.courteous(*courtesy),

@@ -1,11 +1,12 @@
 //! Ways told by the rooms and doors that they lead through.
 //!
-//! Invariant: doors that are shut on a way are named.
+//! Invariant: a way that is told is the one that the robot would drive; doors that are shut on it are named.
 
 use super::Draft;
 use crate::map::Entity;
-use crate::question::knowledge::{Knowledge, Limits, RoomPath};
+use crate::question::knowledge::Knowledge;
 use crate::question::query::{Noun, Passing, Rel, Thing};
+use crate::question::senses::{Crossing, RoomPath};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
 use crate::units::AreaId;
@@ -40,36 +41,46 @@ impl Knowledge<'_> {
                 self.pick("где это, на карте не указано", "the map does not tell where it is");
             return Ok(Draft::new(Said::Unknown, text.to_owned()).about(&[goal]));
         }
-        let free = Limits::default();
-        // What all ways lead through cannot be avoided.
-        let must = asks == Passing::Must;
-        if must {
-            avoided.extend(&through);
-        }
-        let limits = Limits {
-            avoiding: avoided.clone(),
-            open_only: matches!(asks, Passing::Unopened | Passing::Opens),
-        };
-        let through = if must { &[][..] } else { &through[..] };
-        // What stands in a room that is to be avoided is not come to.
-        let reached = |area: &AreaId| {
-            goal.area().is_some() || !avoided.contains(&Thing::Entity(Entity::Area(*area)))
-        };
-        let goals_left: Vec<AreaId> = goals.iter().copied().filter(reached).collect();
-        let way = self.passage_through(&ends, &goals_left, through, &limits);
-        // Who comes through a room twice on the way does not need to pass where he turns round.
-        let way = way.filter(|way| asks == Passing::How || way.is_straight());
-        let any = self.passage(&ends, &goals, &free);
-        let Some(any) = any else {
+        if self.passage(&ends, &goals).is_none() {
             let (from, to) = (self.place(Rel::From, &[start]), self.place(Rel::To, &[goal]));
             let text = match self.is_russian() {
                 true => format!("нет, по карте {from} {to} не ведут ни двери, ни проходы"),
                 false => format!("no, by the map no doors or passages lead {from} {to}"),
             };
             return Ok(Draft::new(Said::No, text).about(&[goal]));
-        };
+        }
         let yes = self.pick("да", "yes");
         let no = self.pick("нет", "no");
+        let any = match self.by_rooms(start, goal, &[], &[]) {
+            Ok(any) => any,
+            Err(why) => {
+                let text = match (asks, self.is_russian()) {
+                    (Passing::How | Passing::Doors | Passing::Rooms, true) => {
+                        format!("проехать туда нельзя: {why}")
+                    }
+                    (Passing::How | Passing::Doors | Passing::Rooms, false) => {
+                        format!("there is no way: {why}")
+                    }
+                    (_, true) => format!("проехать туда нельзя вовсе: {why}"),
+                    (_, false) => format!("there is no way at all: {why}"),
+                };
+                return Ok(Draft::new(Said::No, text).about(&[goal]));
+            }
+        };
+        // What all ways lead through cannot be avoided.
+        let must = asks == Passing::Must;
+        if must {
+            avoided.extend(&through);
+        }
+        let opens = matches!(asks, Passing::Unopened | Passing::Opens);
+        if opens {
+            let shut = self.openings().iter().map(|gate| gate.thing);
+            avoided.extend(shut.filter(|gate| self.is_shut(*gate)));
+        }
+        let through = if must { &[][..] } else { &through[..] };
+        let way = self.by_rooms(start, goal, through, &avoided).ok();
+        // Who comes through a room twice on the way does not need to pass where he turns round.
+        let way = way.filter(|way| asks == Passing::How || way.is_straight());
         let leads = self.pick("путь ведёт", "the way leads");
         let (said, text) = match (asks, way) {
             (Passing::Doors | Passing::Rooms, Some(way)) => {
@@ -91,10 +102,7 @@ impl Knowledge<'_> {
             }
             (Passing::Opens, None) => (Said::Yes, format!("{yes}: {}", self.told(&any))),
             (Passing::Whether | Passing::Unopened, Some(way)) => {
-                match self.blocked(start, goal, &way) {
-                    Some(why) => (Said::No, format!("{no}: {why}")),
-                    None => (Said::Yes, format!("{yes}, {leads} {}", self.told(&way))),
-                }
+                (Said::Yes, format!("{yes}, {leads} {}", self.told(&way)))
             }
             (_, None) => {
                 let text = self.pick("нет, путь только такой", "no, this is the only way");
@@ -104,12 +112,54 @@ impl Knowledge<'_> {
         Ok(Draft::new(said, text).about(&[goal]))
     }
 
-    /// Why a way without shut doors cannot be driven, where things bar it.
-    fn blocked(&self, start: Thing, goal: Thing, way: &RoomPath) -> Option<String> {
-        if way.crossings.iter().any(|c| self.is_shut(c.by)) {
-            return None;
+    /// The way that is driven, by its rooms: through these rooms and doors in their order, and without those.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn by_rooms(
+        &self,
+        from: Thing,
+        to: Thing,
+        through: &[Thing],
+        avoided: &[Thing],
+    ) -> Result<RoomPath, String> {
+        let drive = |from: Thing, to: Thing| {
+            let start = Some(from).filter(|start| *start != Thing::Robot);
+            match avoided.is_empty() {
+                true => self.senses.way(start, to, self.language, Detail::Region),
+                false => self.senses.way_without(start, to, avoided, self.language),
+            }
+            .map(|way| way.rooms)
+        };
+        let Some((next, rest)) = through.split_first() else { return drive(from, to) };
+        let Some(gate) = self.opening(*next) else {
+            let first = drive(from, *next)?;
+            return Ok(first.then(None, self.by_rooms(*next, to, rest, avoided)?));
+        };
+        // Through a door either way, whichever is the shorter.
+        let mut best: Result<RoomPath, String> = Err(String::new());
+        for (near, far) in gate.areas.iter().flat_map(|a| gate.areas.iter().map(move |b| (*a, *b)))
+        {
+            if !gate.joins(near, far) || near == far {
+                continue;
+            }
+            let room = |area| Thing::Entity(Entity::Area(area));
+            let crossing = Crossing { by: *next, into: far };
+            let first = match self.rooms_of(from).contains(&near) && from.area().is_some() {
+                true => Ok(RoomPath { start: near, crossings: Vec::new() }),
+                false => drive(from, room(near)),
+            };
+            let whole = first.and_then(|first| {
+                let last = self.by_rooms(room(far), to, rest, avoided)?;
+                Ok(first.then(Some(crossing), last))
+            });
+            best = match (best, whole) {
+                (Ok(a), Ok(b)) if b.crossings.len() < a.crossings.len() => Ok(b),
+                (Err(_), found) => found,
+                (known, _) => known,
+            };
         }
-        self.senses.way(Some(start), goal, self.language, Detail::Region).err()
+        best
     }
 
     /// «из Комнаты-В через Проход-ВК в Коридор, затем через Дверь-КY в Комнату-Y; Дверь-КY закрыта»

@@ -210,13 +210,19 @@ impl Knowledge<'_> {
         };
         let own = areas(start);
         let same_room = areas(to).iter().any(|a| own.contains(a));
-        let things = start.area().is_none() && to.area().is_none() && start != Thing::Robot;
+        let things = start.replica().is_some() && to.replica().is_some();
         let way = match same_room && things {
             true => None,
-            false => {
-                self.senses.way(from, to, self.language, Detail::Region).ok().map(|w| w.length)
-            }
+            false => Some(self.senses.way(from, to, self.language, Detail::Region)),
         };
+        // Who asks of a way that is barred is told so beside the straight line.
+        let barred = way.as_ref().and_then(|way| way.as_ref().err()).filter(|why| !why.is_empty());
+        let barred = barred.map(|why| match self.is_russian() {
+            true => format!(" по прямой, а проехать нельзя: {why}"),
+            false => format!(" in a straight line, and there is no way: {why}"),
+        });
+        let barred = barred.unwrap_or_default();
+        let way = way.and_then(|way| way.ok()).map(|way| way.length);
         let straight = straight.filter(|_| !rooms || way.is_none());
         let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
         let until = russian::preposition(russian::Preposition::Do, &b);
@@ -230,7 +236,7 @@ impl Knowledge<'_> {
                 length(d, lang)
             ),
             (Some(way), None, true) => format!("{of} {a} {until} {b} {} пути", length(way, lang)),
-            (None, Some(d), true) => format!("{of} {a} {until} {b} {}", length(d, lang)),
+            (None, Some(d), true) => format!("{of} {a} {until} {b} {}{barred}", length(d, lang)),
             (Some(way), Some(d), false) => format!(
                 "from {} to {} it is {} by way, {} in a straight line",
                 name(start),
@@ -245,7 +251,7 @@ impl Knowledge<'_> {
                 length(way, lang)
             ),
             (None, Some(d), false) => {
-                format!("from {} to {} it is {}", name(start), name(to), length(d, lang))
+                format!("from {} to {} it is {}{barred}", name(start), name(to), length(d, lang))
             }
             (None, None, true) => {
                 format!("расстояние {of} {a} {until} {b} неизвестно: они на разных картах")

@@ -4,6 +4,7 @@
 
 use super::Frame;
 use super::Spot;
+use crate::map::Entity;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
@@ -99,8 +100,22 @@ impl Frame<'_, '_> {
             || self.has(Mark::Exists)
             || self.has(Mark::Be)
             || self.has(Mark::See);
+        // «Кто такой Боб?»
+        if let ([one], true, true) =
+            (&self.nouns[..], self.has(Mark::Who) && self.spots.is_empty(), !other && !only_rooms)
+            && is_replica(&one.noun)
+        {
+            return Some(Query::Describe(one.noun.clone()));
+        }
+        let named = self.nouns.iter().filter(|s| !self.is_rooms(&s.noun)).map(|s| Restriction {
+            rel: Rel::In,
+            anchors: vec![s.noun.clone()],
+            negated: false,
+        });
+        let spots = self.spots.iter().filter(|s| s.nouns.iter().all(|n| !self.is_building(n)));
+        let within = named.chain(spots.flat_map(Spot::restrictions)).collect();
         (self.has(Mark::Who) && !other && only_rooms && asks && self.values.is_empty())
-            .then_some(Query::People)
+            .then_some(Query::People { within })
     }
 
     /// «Какие виды мебели есть в спальне?», "How many kinds of food are there?"
@@ -431,4 +446,10 @@ impl Frame<'_, '_> {
 
 fn is_robot(noun: &Noun) -> bool {
     noun.head.things.as_deref() == Some(&[Thing::Robot][..])
+}
+
+/// Whether a noun is the name of a thing.
+fn is_replica(noun: &Noun) -> bool {
+    let of_thing = |e: &Entity| matches!(e, Entity::Replica(_));
+    !noun.head.named.is_empty() && noun.head.named.iter().all(of_thing)
 }

@@ -368,7 +368,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
                 | Q::Size { .. }
                 | Q::Distance { .. }
                 | Q::Duration { .. }
-                | Q::People
+                | Q::People { .. }
         ),
         Mark::HowFar => matches!(
             query,

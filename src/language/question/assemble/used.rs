@@ -121,7 +121,7 @@ impl Frame<'_, '_> {
                 | Query::Noted { .. }
                 | Query::Ran { .. }
                 | Query::Help
-                | Query::People
+                | Query::People { .. }
                 | Query::Courtesy(_)
                 | Query::WhereAreYou(_)
                 | Query::WhereAmI

@@ -18,7 +18,16 @@ impl Frame<'_, '_> {
         }
         let long = self.has(Mark::HowLong);
         let far = self.has(Mark::HowFar) || long;
-        if self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet) {
+        let asks_which = self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet);
+        // "Which rooms can you reach?"
+        if let ([one], true) = (&self.nouns[..], asks_which && self.spots.is_empty())
+            && self.has(Mark::Move)
+            && !self.is_doors(&one.noun)
+        {
+            let noun = Noun { plural: true, ..one.noun.clone() };
+            return Some(Query::Find(Noun { reached: Some(!self.negated), ..noun }));
+        }
+        if asks_which {
             return None;
         }
         if far && self.marks.iter().any(|(m, _)| matches!(m, Mark::More(_))) {
@@ -42,6 +51,13 @@ impl Frame<'_, '_> {
         let how = !long && (self.has(Mark::HowGet) || (self.has(Mark::How) && goes));
         if how && let Some(out) = self.way_out() {
             return Some(out);
+        }
+        // "How do I leave the bedroom?"
+        if let ([left], true) = (&self.nouns[..], how && self.spots.is_empty())
+            && self.says_out()
+            && self.is_area(&left.noun)
+        {
+            return Some(self.doors_out_of(left.noun.clone()));
         }
         let can = self.has(Mark::Can) && goes;
         if !(far || how || can) {
@@ -114,16 +130,7 @@ impl Frame<'_, '_> {
             (Some(from), None, 0) if far => (None, from),
             // «Как выйти из спальни?»: by its doors.
             (Some(from), None, 0) if how && self.is_area(&from) => {
-                let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
-                let out = Restriction { rel: Rel::From, anchors: vec![from], negated: false };
-                let head = Head { kinds, ..Head::default() };
-                let restrictions = vec![out];
-                return Some(Query::Find(Noun {
-                    head,
-                    plural: true,
-                    restrictions,
-                    ..Noun::default()
-                }));
+                return Some(self.doors_out_of(from));
             }
             _ => return None,
         };
@@ -189,14 +196,26 @@ impl Frame<'_, '_> {
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let spots = self.spots.iter().flat_map(|s| &s.nouns);
         let all: Vec<&Noun> = nouns.chain(spots).collect();
-        // "How do I get out of here?"
-        const OUT: [&str; 6] = ["out", "leave", "exit", "выйти", "выбраться", "выехать"];
-        let says = self.sentence.keys.iter().any(|key| OUT.contains(&key.as_str()));
-        let out = (!all.is_empty() || says) && all.iter().all(|noun| self.is_building(noun));
+        let out = (!all.is_empty() || self.says_out()) && all.iter().all(|noun| self.is_building(noun));
         if !out || self.spots.iter().any(|s| s.rel != Rel::From) {
             return None;
         }
         Some(Query::Way { from: None, to: self.nearest_exit(), detail: self.detail() })
+    }
+
+    /// "How do I get out of here?"
+    fn says_out(&self) -> bool {
+        const OUT: [&str; 7] =
+            ["out", "leave", "exit", "выйти", "выбраться", "выехать", "покинуть"];
+        self.sentence.keys.iter().any(|key| OUT.contains(&key.as_str()))
+    }
+
+    /// The doors of a room, by which one leaves it.
+    fn doors_out_of(&self, room: Noun) -> Query {
+        let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
+        let out = Restriction { rel: Rel::From, anchors: vec![room], negated: false };
+        let head = Head { kinds, ..Head::default() };
+        Query::Find(Noun { head, plural: true, restrictions: vec![out], ..Noun::default() })
     }
 
     /// «Соединена ли спальня с кухней?», "Are the hall and the kitchen connected?"

@@ -130,6 +130,19 @@ impl Knowledge<'_> {
                 let words = restriction.anchors.first().unwrap_or(noun).text.clone();
                 return Err(Doubt::NotUnderstood { words });
             }
+            // "Which rooms are on the floor?": on the storey.
+            if let ([floor], false) = (&restriction.anchors[..], restriction.negated)
+                && self.is_floor(floor)
+                && restriction.rel == Rel::On
+                && !found.is_empty()
+                && found.iter().all(|t| t.area().is_some())
+            {
+                let maps = self.members(&Extension::Storeys);
+                if maps.len() > 1 {
+                    return Err(self.ambiguous(floor, &maps));
+                }
+                continue;
+            }
             let related = match self.related_to(restriction, loose) {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
                 Ok(related) => related,
@@ -148,8 +161,14 @@ impl Knowledge<'_> {
                 && found.iter().all(|t| !related.contains(t))
             {
                 let rooms = related.iter().filter(|t| t.area().is_some()).copied();
-                if restriction.rel == Rel::NextTo || restriction.rel == Rel::Near {
-                    found = rooms.collect();
+                let storeys = related.iter().filter(|t| is_map(**t)).copied();
+                if let Rel::NextTo | Rel::Near | Rel::Above | Rel::Under = restriction.rel {
+                    let mut told: Vec<Thing> = storeys.collect();
+                    if told.is_empty() {
+                        told = rooms.collect();
+                    }
+                    told.sort_unstable();
+                    found = told;
                     continue;
                 }
             }
@@ -191,6 +210,13 @@ impl Knowledge<'_> {
         for size in &noun.sizes {
             let fits = |t: &Thing| self.measure(size.extreme, *t).is_some_and(|m| size.admits(m));
             found.retain(fits);
+        }
+        if let Some(wanted) = noun.reached {
+            let own = self.area_of(Thing::Robot);
+            let is_here = |t: &Thing| t.area().is_some() && t.area() == own;
+            found.retain(|t| {
+                (is_here(t) || self.driven(Thing::Robot, *t).is_some()) == wanted
+            });
         }
         for except in &noun.except {
             let without = self.find(except, true)?;
@@ -434,7 +460,7 @@ impl Knowledge<'_> {
             };
             let mut rooms = &next(a) & &next(b);
             if gates.is_empty() && rooms.is_empty() {
-                let way = self.passage(&[a], &[b], &super::Limits::default());
+                let way = self.passage(&[a], &[b]);
                 let between = way.map(|way| way.between()).unwrap_or_default();
                 rooms.extend(between.into_iter().map(|id| Thing::Entity(Entity::Area(id))));
             }
@@ -494,7 +520,15 @@ impl Knowledge<'_> {
                     found
                         .retain(|t| !below.contains(t) && !self.support_chain(*t).contains(anchor));
                 }
-                if let (Extreme::Nearest, [anchor], 1) = (best.extreme, &anchors[..], rank) {
+                let way = match anchors[..] {
+                    [anchor] if found.iter().all(|t| t.is_gone_to()) => {
+                        self.ways_to(&mut found, anchor)
+                    }
+                    _ => Vec::new(),
+                };
+                if way.is_empty()
+                    && let (Extreme::Nearest, [anchor], 1) = (best.extreme, &anchors[..], rank)
+                {
                     return Ok(self.nearest(self.this_side(found, *anchor, count), *anchor, count));
                 }
                 let sign = if best.extreme == Extreme::Nearest { 1.0 } else { -1.0 };
@@ -503,7 +537,10 @@ impl Knowledge<'_> {
                         anchors.iter().filter(|a| **a != t).filter_map(|a| self.distance(t, *a));
                     all.reduce(f64::min)
                 };
-                found.iter().filter_map(|t| Some((sign * away(*t)?, *t))).collect()
+                match way.is_empty() {
+                    true => found.iter().filter_map(|t| Some((sign * away(*t)?, *t))).collect(),
+                    false => way.into_iter().map(|(far, thing)| (sign * far, thing)).collect(),
+                }
             }
             Extreme::LeftMost | Extreme::RightMost => self.outermost(&found, best.extreme),
             Extreme::Most | Extreme::Fewest => {
@@ -537,6 +574,14 @@ impl Knowledge<'_> {
         let limit = limit.0;
         // Equal ones are all the biggest.
         Ok(ranked.into_iter().take_while(|(m, _)| *m <= limit + 1e-6).map(|(_, t)| t).collect())
+    }
+
+    /// Rooms and places with how far it is to drive to each from another thing, of those to which there is a way; who asks
+    /// from within a room does not ask of that.
+    fn ways_to(&self, found: &mut Vec<Thing>, from: Thing) -> Vec<(f64, Thing)> {
+        let own = self.opening(from).is_none().then(|| self.area_of(from)).flatten();
+        found.retain(|t| *t != from && (t.area().is_none() || t.area() != own));
+        found.iter().filter_map(|t| Some((self.driven(from, *t)?, *t))).collect()
     }
 
     /// Of some things those in the room of another, where there are so many: what is behind a wall is not near.

@@ -6,7 +6,15 @@ use super::Knowledge;
 use crate::map::{Entity, Extent};
 use crate::question::query::{Extreme, Thing};
 use crate::question::values::Property;
+use crate::report::Detail;
 use crate::units::{AreaId, MapId, Point, Vector};
+
+/// Distances of several things, all measured in one manner, in cm.
+pub(in crate::question) struct HowFar {
+    /// Along the ways that the robot drives; else straight.
+    pub(in crate::question) by_way: bool,
+    pub(in crate::question) each: Vec<f64>,
+}
 
 impl Knowledge<'_> {
     /// The room in which a thing is.
@@ -100,6 +108,24 @@ impl Knowledge<'_> {
                 (m == n).then(|| (p - q).norm())
             }
         }
+    }
+
+    /// How far it is from one thing to each of several: by the ways that are driven, where all of them are rooms and places
+    /// to go to and there is a way to each; else straight. None where one has no distance.
+    pub(in crate::question) fn how_far(&self, from: Thing, to: &[Thing]) -> Option<HowFar> {
+        let driven = || to.iter().map(|t| self.driven(from, *t)).collect::<Option<Vec<f64>>>();
+        let by_way = to.iter().all(|t| t.is_gone_to()).then(driven).flatten();
+        if let Some(each) = by_way {
+            return Some(HowFar { by_way: true, each });
+        }
+        let straight = to.iter().map(|t| self.distance(*t, from)).collect::<Option<Vec<f64>>>();
+        straight.map(|each| HowFar { by_way: false, each })
+    }
+
+    /// How far the robot drives from one thing to another, cm; none where there is no way.
+    pub(in crate::question) fn driven(&self, from: Thing, to: Thing) -> Option<f64> {
+        let start = Some(from).filter(|start| *start != Thing::Robot);
+        self.senses.way(start, to, self.language, Detail::Region).ok().map(|way| way.length)
     }
 
     /// «Выше всех» by their place; by their size, where all begin equally high or have no such measure.

@@ -11,7 +11,7 @@ mod values;
 mod walls;
 
 pub(super) use levels::Level;
-pub(super) use passages::{Limits, RoomPath};
+pub(super) use measure::HowFar;
 pub(super) use walls::Held;
 
 use super::lexicon::Lexicon;

@@ -1,36 +1,14 @@
 //! Ways as rooms one after the other, with the doors and passages between them.
 //!
-//! Invariant: a passage has the fewest crossings of all that keep to what is asked, and of those the fewest shut doors.
+//! Invariant: a passage has the fewest crossings of all, and of those the fewest shut doors.
 
 use super::Knowledge;
 use super::KnownOpening;
 use crate::map::{DoorStatus, Entity};
 use crate::question::query::Thing;
+use crate::question::senses::{Crossing, RoomPath};
 use crate::units::AreaId;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A step from one room to the next: by a door or passage, or by a lift.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::question) struct Crossing {
-    pub(in crate::question) by: Thing,
-    pub(in crate::question) into: AreaId,
-}
-
-/// The room in which a passage begins, and its crossings in order.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::question) struct RoomPath {
-    pub(in crate::question) start: AreaId,
-    pub(in crate::question) crossings: Vec<Crossing>,
-}
-
-/// What a passage must keep to.
-#[derive(Debug, Clone, Default)]
-pub(in crate::question) struct Limits {
-    /// Rooms and doors that are not on it; it may begin and end in such a room.
-    pub(in crate::question) avoiding: Vec<Thing>,
-    /// No door is to be opened on it.
-    pub(in crate::question) open_only: bool,
-}
 
 impl Knowledge<'_> {
     /// Rooms in which a thing is, or which it joins.
@@ -71,14 +49,12 @@ impl Knowledge<'_> {
         beyond.chain(rides.map(|s| Crossing { by: area(from), into: s.area })).collect()
     }
 
-    /// The passage from one of some rooms to one of others; none where what is asked leaves no way.
+    /// The passage from one of some rooms to one of others, as far as doors and passages lead.
     pub(in crate::question) fn passage(
         &self,
         from: &[AreaId],
         to: &[AreaId],
-        limits: &Limits,
     ) -> Option<RoomPath> {
-        let area = |area: AreaId| Thing::Entity(crate::map::Entity::Area(area));
         // Number of crossings and of shut doors, room; how it was come to.
         let mut open: BTreeSet<(usize, usize, AreaId)> = BTreeSet::new();
         let mut came: BTreeMap<AreaId, (AreaId, Crossing)> = BTreeMap::new();
@@ -102,12 +78,8 @@ impl Knowledge<'_> {
             }
             for crossing in self.crossings(at) {
                 let is_shut = self.is_shut(crossing.by);
-                let barred = limits.avoiding.contains(&crossing.by)
-                    || (limits.avoiding.contains(&area(crossing.into))
-                        && !to.contains(&crossing.into))
-                    || (limits.open_only && is_shut);
                 let cost = (steps + 1, shut + usize::from(is_shut));
-                if barred || best.get(&crossing.into).is_some_and(|known| *known <= cost) {
+                if best.get(&crossing.into).is_some_and(|known| *known <= cost) {
                     continue;
                 }
                 best.insert(crossing.into, cost);
@@ -117,49 +89,14 @@ impl Knowledge<'_> {
         }
         None
     }
-
-    /// The passage that leads through rooms and doors in their order.
-    pub(in crate::question) fn passage_through(
-        &self,
-        from: &[AreaId],
-        to: &[AreaId],
-        through: &[Thing],
-        limits: &Limits,
-    ) -> Option<RoomPath> {
-        let Some((next, rest)) = through.split_first() else {
-            return self.passage(from, to, limits);
-        };
-        let joined = |first: RoomPath, crossing: Option<Crossing>, last: RoomPath| {
-            let mut crossings = first.crossings;
-            crossings.extend(crossing);
-            crossings.extend(last.crossings);
-            RoomPath { start: first.start, crossings }
-        };
-        let Some(gate) = self.opening(*next) else {
-            let first = self.passage(from, &self.rooms_of(*next), limits)?;
-            let here = [first.end()];
-            let last = self.passage_through(&here, to, rest, limits)?;
-            return Some(joined(first, None, last));
-        };
-        if limits.open_only && self.is_shut(*next) {
-            return None;
-        }
-        let ways = gate.areas.iter().flat_map(|near| {
-            let beyond = gate.areas.iter().filter(move |far| *far != near);
-            beyond.filter_map(|far| {
-                let first = self.passage(from, &[*near], limits)?;
-                let last = self.passage_through(&[*far], to, rest, limits)?;
-                Some(joined(first, Some(Crossing { by: *next, into: *far }), last))
-            })
-        });
-        ways.min_by_key(|way| way.crossings.len())
-    }
 }
 
 impl RoomPath {
-    /// The room in which it ends.
-    pub(in crate::question) fn end(&self) -> AreaId {
-        self.crossings.last().map_or(self.start, |last| last.into)
+    /// This one, and on by a crossing and another.
+    pub(in crate::question) fn then(mut self, crossing: Option<Crossing>, on: Self) -> Self {
+        self.crossings.extend(crossing);
+        self.crossings.extend(on.crossings);
+        self
     }
 
     /// Whether it comes into no room twice.

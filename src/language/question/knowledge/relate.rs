@@ -32,6 +32,15 @@ impl Knowledge<'_> {
                 }
                 found
             }
+            // Rooms of other storeys: what stands over a thing in its own room the relations tell.
+            (Rel::Above | Rel::Under, Thing::Entity(Entity::Area(area))) => {
+                let measured = self.relations.measurements();
+                let found = measured.on_other_storeys(self.world, area, rel == Rel::Above);
+                found.into_iter().map(|id| Thing::Entity(Entity::Area(id))).collect()
+            }
+            (Rel::Above | Rel::Under, Thing::Entity(Entity::Map(map))) => {
+                self.of_other_storeys(map, rel == Rel::Above)
+            }
             (Rel::Outside, Thing::Entity(Entity::Area(area))) => {
                 let inside: HashSet<Thing> = self.in_area(area).into_iter().collect();
                 let all = self.members(&Extension::Things).into_iter();
@@ -271,6 +280,22 @@ impl Knowledge<'_> {
         }
         found.sort_unstable();
         found.dedup();
+        found
+    }
+
+    /// The storeys above one, or below it, and their rooms.
+    fn of_other_storeys(&self, map: MapId, is_above: bool) -> Vec<Thing> {
+        let placed = &self.world.domain.maps;
+        let height = |map: MapId| placed.iter().find(|m| m.map == map).map(|m| m.frame.z.get());
+        let Some(own) = height(map) else { return Vec::new() };
+        let is_there = |other: &MapId| {
+            height(*other).is_some_and(|z| (if is_above { z - own } else { own - z }) > 1.0)
+        };
+        let mut found = Vec::new();
+        for other in self.world.maps.values().filter(|other| is_there(&other.id)) {
+            found.push(Thing::Entity(Entity::Map(other.id)));
+            found.extend(other.items.iter().map(|item| Thing::Entity(Entity::Area(item.area))));
+        }
         found
     }
 

@@ -1,0 +1,213 @@
+//! What is told of rooms, ways and people is what the map has and what the robot drives.
+
+use std::collections::BTreeSet;
+
+use orthoframe::engine::{Change, Dialogue, Engine, Format, Method, Mode, Timestamp};
+use orthoframe_language::question::{Answer, Memory};
+use orthoframe_map::{Edits, Entity};
+use orthoframe_units::Source;
+
+use crate::files::{project, shared};
+
+fn change() -> Change {
+    Change::new("Мастер", Timestamp(1_790_000_000_000), "")
+}
+
+/// A map file, changed, in a store of its own.
+fn engine(file: &std::path::Path, with: impl Fn(String) -> String) -> (tempfile::TempDir, Engine) {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("map.toml");
+    std::fs::write(&path, with(std::fs::read_to_string(file).unwrap())).unwrap();
+    let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
+    engine.import(&path, &change()).expect("the map is sound");
+    (dir, engine)
+}
+
+fn map(name: &str, with: impl Fn(String) -> String) -> (tempfile::TempDir, Engine) {
+    engine(&project(&format!("maps/{name}.toml")), with)
+}
+
+fn lay(engine: &mut Engine, edits: &str) {
+    let edits = Edits::read(&Source::new("edits.toml", edits), Format::Toml);
+    engine.edit(&edits, &change(), Mode::Commit).expect("good edits");
+}
+
+fn ask(engine: &Engine, question: &str) -> Answer {
+    let answer = engine.ask(question, &mut Memory::default()).expect("there is a map");
+    answer.unwrap_or_else(|doubt| panic!("{question}: {doubt:?}"))
+}
+
+fn names(engine: &Engine, question: &str) -> BTreeSet<String> {
+    ask(engine, question).symbols.into_iter().collect()
+}
+
+/// What is said while an order is carried out, and in the end.
+fn drive(engine: &mut Engine, order: &str) -> String {
+    let mut told = Vec::new();
+    let mut dialogue = Dialogue::default();
+    let heard = dialogue.hear(engine, order, &mut |_, event| told.extend(event.in_words()));
+    match heard {
+        Ok(replies) => told.push(replies.text()),
+        Err(error) => told.push(error.to_string()),
+    }
+    told.join("\n")
+}
+
+/// Which rooms a way leads through was told by the fewest doors, and driven was another.
+#[test]
+fn a_way_that_is_told_by_its_rooms_is_the_way_that_is_driven() {
+    let (_dir, mut engine) = map("rb2", |text| text);
+    for zone in ["", "room-z", "corridor"] {
+        if !zone.is_empty() {
+            let laid = "[[edit]]\nremove = \"Зона\"\n";
+            if engine.world().unwrap().find("Зона").len() == 1 {
+                lay(&mut engine, laid);
+            }
+            let rooms = format!("rooms = [\"{zone}\"]");
+            lay(&mut engine, &format!("[zone.z]\nname = \"Зона\"\nkind = \"keep-out\"\n{rooms}\n"));
+        }
+        let driven = engine.route("Комната-В", "Комната-Y", Method::Shortest).unwrap();
+        let passed = driven.stages.len() - 2;
+        let between = driven.stages[1].area;
+        let world = engine.world().unwrap();
+        let room = world.name(Entity::Area(between)).to_owned();
+        let told = ask(&engine, "Сколько комнат на пути из Комнаты-В в Комнату-Y?");
+        assert_eq!(told.number, Some(passed as f64), "{zone}: {}", told.text);
+        assert_eq!(told.symbols, [room], "{zone}: {}", told.text);
+    }
+}
+
+#[test]
+fn rooms_above_and_below_are_those_of_other_storeys_that_lie_there() {
+    let (_dir, house) = map("two-storeys", |text| text);
+    let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let above: BTreeSet<String> = names(&house, "Какие комнаты находятся над Холлом-1?");
+    assert_eq!(above, set(&["Холл-2"]));
+    let below: BTreeSet<String> = names(&house, "Какие комнаты находятся под Холлом-2?");
+    assert_eq!(below, set(&["Холл-1"]));
+    assert!(ask(&house, "Находится ли Холл-2 над Холлом-1?").text.starts_with("Да"));
+    assert!(ask(&house, "Находится ли Холл-1 над Холлом-2?").text.starts_with("Нет"));
+    let Some(office) = shared("cases/office-two-storeys.toml") else { return };
+    let (_dir, office) = engine(&office, |text| text);
+    assert_eq!(names(&office, "Which rooms are above the kitchen?"), set(&["Office A"]));
+    assert_eq!(names(&office, "Which rooms are below Office A?"), set(&["Kitchen"]));
+    assert_eq!(ask(&office, "Which rooms lie above the ground floor?").things.len(), 5);
+}
+
+#[test]
+fn the_nearest_room_is_that_to_which_the_way_is_the_shortest_and_not_the_robots_own() {
+    for (name, nearest, farthest) in [
+        ("rb2", "Какая комната ближайшая?", "Какая комната самая дальняя?"),
+        ("lab", "Which room is nearest?", "Which room is the farthest?"),
+    ] {
+        let (_dir, engine) = map(name, |text| text);
+        let world = engine.world().unwrap();
+        let start = world.name(Entity::Place(world.robot.start.unwrap())).to_owned();
+        let own = world.places[&world.robot.start.unwrap()].area;
+        let mut ways: Vec<(f64, String)> = Vec::new();
+        for area in world.areas.keys().filter(|area| **area != own) {
+            let room = world.name(Entity::Area(*area)).to_owned();
+            let way = engine.journey(&start, &room, Method::Shortest).unwrap();
+            let length: Option<f64> =
+                way.legs.iter().map(|leg| leg.route.as_ref().ok().map(|r| r.length)).sum();
+            ways.extend(length.map(|length| (length, room)));
+        }
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let told = |question: &str| ask(&engine, question).symbols;
+        assert_eq!(told(nearest), [ways[0].1.clone()], "{name}: {ways:?}");
+        assert_eq!(told(farthest), [ways[ways.len() - 1].1.clone()], "{name}: {ways:?}");
+    }
+}
+
+#[test]
+fn how_far_places_are_is_told_by_way_or_said_to_be_straight() {
+    let (_dir, lab) = map("lab", |text| text.replace("state = \"closed\"", "state = \"locked\""));
+    let told = ask(&lab, "How far is the desk?").text;
+    assert!(told.contains("in a straight line, and there is no way: the office door is locked"), "{told}");
+    let told = ask(&lab, "How far is the lab?").text;
+    assert!(told.contains("the way is"), "{told}");
+}
+
+#[test]
+fn what_a_zone_shuts_is_not_reached_and_no_plan_leads_there() {
+    let (_dir, mut engine) = map("rb2", |text| text);
+    let zone = "[zone.z]\nname = \"Краска\"\nkind = \"keep-out\"\nrooms = [\"room-y\"]\n";
+    lay(&mut engine, zone);
+    let reached = names(&engine, "Which rooms can you reach?");
+    assert!(reached.contains("Комната-В") && !reached.contains("Комната-Y"), "{reached:?}");
+    for order in ["Принеси лекарство", "Поезжай в Комнату-Y"] {
+        let told = drive(&mut engine, order);
+        assert!(told.contains("«Краска»"), "{told}");
+        assert!(!told.contains("План:"), "{told}");
+    }
+}
+
+/// Ways out without a leaf were told only where doors were.
+#[test]
+fn passages_are_told_where_one_asks_how_a_room_is_left() {
+    let (_dir, engine) = map("rb2", |text| text);
+    for question in ["What doors does Room V have?", "How do I leave Room V?"] {
+        let told = ask(&engine, question).text;
+        assert!(told.contains("Door VZ") && told.to_lowercase().contains("passage"), "{told}");
+    }
+    let told = ask(&engine, "What exits does the corridor have?").text;
+    assert!(told.contains("entrance door") && told.contains("Door KY"), "{told}");
+}
+
+const BOB: &str = "  { name = \"Bob\", object = \"human\", at = [420, 200] },\n";
+
+fn with_bob(text: String) -> String {
+    let kind = "object = [\n  { name = \"human\", traits = [\"person\"] },\n";
+    let body = "[orthoframe.body]\nname = \"Body\"\ntype = \"part\"\nrect = [40, 40]\nheight = 170\n\n\
+                [object.human]\nname = \"Human\"\ntype = \"human\"\n\
+                items = [{ id = \"A\", orthoframe = \"body\" }]\n\n[object.workbench]";
+    let stool = "  { name = \"Stool 1\"";
+    text.replacen("object = [\n", kind, 1)
+        .replacen("[object.workbench]", body, 1)
+        .replacen(stool, &format!("{BOB}{stool}"), 1)
+}
+
+#[test]
+fn a_person_on_the_map_is_found_called_by_name_and_given_things() {
+    let (_dir, mut engine) = map("lab", with_bob);
+    assert_eq!(names(&engine, "Who is in the lab?"), BTreeSet::from(["Bob".to_owned()]));
+    assert!(names(&engine, "Who is in the office?").is_empty());
+    assert_eq!(ask(&engine, "How many people are there?").number, Some(1.0));
+    assert_eq!(ask(&engine, "Where is Bob?").text, "Bob is in the lab.");
+    assert!(ask(&engine, "Who is Bob?").text.starts_with("Bob is a human"));
+    let told = drive(&mut engine, "Bring the toolbox to Bob");
+    assert!(told.contains("give Toolbox 1 to Bob"), "{told}");
+    assert!(told.contains("Done"), "{told}");
+    assert!(drive(&mut engine, "Go to Bob").contains("Done"));
+}
+
+#[test]
+fn on_the_floor_is_on_the_ground_whatever_a_storey_is_called() {
+    let floor = |name: &'static str| {
+        map("lab", move |text| text.replace("\"Ground floor\"", &format!("\"{name}\"")))
+    };
+    let (_dir, plain) = floor("Ground floor");
+    let expected = names(&plain, "What is on the floor?");
+    for name in ["Floor", "Этаж", "Ground"] {
+        let (_dir, engine) = floor(name);
+        assert_eq!(names(&engine, "What is on the floor?"), expected, "{name}");
+        assert_eq!(ask(&engine, "Which rooms are on the floor?").things.len(), 3, "{name}");
+    }
+}
+
+#[test]
+fn an_area_is_moved_by_its_name_and_what_cannot_be_moved_is_called_what_it_is() {
+    let (_dir, mut engine) = map("lab", |text| text);
+    let edit = |engine: &mut Engine, text: &str| {
+        let edits = Edits::read(&Source::new("edits.toml", text), Format::Toml);
+        engine.edit(&edits, &change(), Mode::DryRun).map(|edited| {
+            edited.differences.iter().map(|d| format!("{d}\n")).collect::<String>()
+        })
+    };
+    let told = edit(&mut engine, "[[edit]]\nmove = \"Office\"\nby = [0, 0, 5]\n");
+    let told = told.unwrap_or_else(|e| panic!("{e:?}"));
+    assert!(told.contains("Ground floor"), "{told}");
+    let no = edit(&mut engine, "[[edit]]\nmove = \"Office door\"\nby = [1, 0]\n").unwrap_err();
+    let no = format!("{no:?}");
+    assert!(no.contains("дверь «Office door»"), "{no}");
+}
