@@ -2,13 +2,13 @@
 
 use crate::belief::Station;
 use crate::directive::Deed;
-use crate::geometry::{Blocker, DoorStates, Method, NoRoute, Ride, Target};
+use crate::geometry::{Barrier, Blocker, DoorStates, Method, NoRoute, Ride, Target};
 use crate::map::{DoorState, DoorStatus, Entity};
 use crate::placing::{spot_in, spot_on, spot_on_floor};
 use crate::reins::Reins;
 use crate::semantics::cargo;
 use crate::semantics::planning::PLACE_BESIDE;
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 use crate::vehicle::{Done, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch};
 
 use super::{Leg, Mission, Surprise, blocked, look_round, refused};
@@ -197,7 +197,7 @@ impl Mission<'_> {
         let Some((arrival, rise)) = self.arrival(to) else {
             self.belief.unreachable.push((to, door.to_owned()));
             return Err({
-                let why = NoRoute::NoFloor;
+                let why = self.no_arrival(to);
                 Surprise::NoWay { to: lift.to_owned(), why, remedy: None }.into()
             });
         };
@@ -235,6 +235,30 @@ impl Mission<'_> {
         let height = |storey: Frame, cabin: Frame| storey.z.get() + cabin.z.get();
         let (_, here) = belief.world.placement(belief.area)?;
         Some(((map, Pose { at, heading }), height(above, frame) - height(below, here)))
+    }
+
+    /// Why the robot has no place in a cabin: a zone that is shut lies over it, or it does not fit.
+    fn no_arrival(&self, to: AreaId) -> NoRoute {
+        let world = &self.belief.world;
+        let over = || {
+            let (map, frame) = world.placement(to)?;
+            let item = world.areas.get(&to)?.items.first()?;
+            let corners: Vec<Point> = world.orthoframe_of(item).corners().collect();
+            let sum = corners.iter().fold(Vector::zeros(), |sum, corner| sum + corner.coords);
+            let middle = Point::from(sum / corners.len().max(1) as f64);
+            let at = frame.compose(&item.frame).apply(middle);
+            let zones = self.belief.floor_of(map)?.zones().iter();
+            let mut shut = zones.filter(|zone| zone.kind.is_shut());
+            shut.find(|zone| zone.contains(at, 0.0)).map(|zone| zone.id)
+        };
+        match over() {
+            Some(zone) => {
+                let name = world.zones.get(&zone).map_or("", |zone| &zone.name);
+                let text = format!("зона «{name}»");
+                NoRoute::Blocked { barriers: vec![Barrier::Zone { zone }], text }
+            }
+            None => NoRoute::NoFloor,
+        }
     }
 
     /// A lift has opened its door.
