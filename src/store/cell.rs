@@ -11,6 +11,8 @@
 
 use std::fmt;
 
+use crate::units::{Bilingual, Language};
+
 /// One value of a record.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
@@ -27,6 +29,17 @@ impl fmt::Display for Cell {
             Self::Int(n) => write!(f, "{n}"),
             Self::Real(x) => write!(f, "{x}"),
             Self::Text(text) => write!(f, "«{text}»"),
+        }
+    }
+}
+
+impl Cell {
+    /// The same with a text in the quotation marks of a language.
+    #[must_use]
+    pub fn say(&self, language: Language) -> String {
+        match self {
+            Self::Text(text) => Bilingual::quoted(text).say(language).to_owned(),
+            other => other.to_string(),
         }
     }
 }

@@ -58,7 +58,8 @@ impl Difference {
             (None, Fate::Changed) => {
                 let change = |field: &FieldChange| {
                     let (russian, english) = word(field.column);
-                    format!("{} {} → {}", language.pick(russian, english), field.old, field.new)
+                    let (old, new) = (field.old.say(language), field.new.say(language));
+                    format!("{} {old} → {new}", language.pick(russian, english))
                 };
                 self.fields.iter().map(change).collect::<Vec<_>>().join(", ")
             }
@@ -346,17 +347,12 @@ fn subject(table: Table, row: &Row, names: &Names<'_>) -> Bilingual {
         _ => 0,
     };
     if let Some(owner) = owner {
-        let rest: Vec<String> = table
-            .columns()
-            .iter()
-            .zip(row)
-            .skip(1)
-            .filter(|(c, _)| c.is_key)
-            .map(|(_, cell)| cell.to_string())
-            .collect();
+        let keys = table.columns().iter().zip(row).skip(1).filter(|(c, _)| c.is_key);
+        let rest: Vec<&Cell> = keys.map(|(_, cell)| cell).collect();
         let owner = names.get(owner, id(row.first()));
         return Bilingual::both(|language| {
             let (noun, owner) = (language.pick(noun.0, noun.1), owner.say(language));
+            let rest: Vec<String> = rest.iter().map(|cell| cell.say(language)).collect();
             format!("{noun} {owner} {}", rest.join(" ")).trim_end().to_owned()
         });
     }
@@ -402,8 +398,10 @@ fn words(
         | Table::ReplicaProperties
         | Table::OrtFrmProperties
         | Table::OrtFrmSideProperties => match (was.and_then(|r| r.last()), is?.last()?) {
-            (None, new) => Some(new.to_string().into()),
-            (Some(old), new) => Some(format!("{old} → {new}").into()),
+            (None, new) => Some(Bilingual::both(|language| new.say(language))),
+            (Some(old), new) => Some(Bilingual::both(|language| {
+                format!("{} → {}", old.say(language), new.say(language))
+            })),
         },
         _ => None,
     }

@@ -117,13 +117,16 @@ pub(super) fn build(
 }
 
 fn empty(survey: &Survey) -> World {
-    let name = names::tidy(&survey.name);
-    let name = if name.is_empty() { "Здание".to_owned() } else { name };
+    let mut name = names::tidy(&survey.name);
+    let mut name_en = if names::is_russian(&name) { String::new() } else { name.clone() };
+    if name.is_empty() {
+        (name, name_en) = ("Здание".to_owned(), "Building".to_owned());
+    }
     let empty = World::empty();
     World {
         domain: Domain {
             key: "building".to_owned(),
-            name_en: if names::is_russian(&name) { String::new() } else { name.clone() },
+            name_en,
             name,
             ..empty.domain
         },
