@@ -142,6 +142,13 @@ fn what_a_zone_shuts_is_not_reached_and_no_plan_leads_there() {
     }
 }
 
+#[test]
+fn who_goes_through_a_room_turns_round_only_where_nothing_leads_on() {
+    let (_dir, engine) = map("rb2", |text| text);
+    let told = ask(&engine, "How do I get to Room Y through the corridor?").text;
+    assert!(told.contains("Door KY to Room Y; Door KY is closed"), "{told}");
+}
+
 /// Ways out without a leaf were told only where doors were.
 #[test]
 fn passages_are_told_where_one_asks_how_a_room_is_left() {

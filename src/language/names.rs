@@ -23,7 +23,8 @@ fn is_called(world: &World, entity: Entity) -> bool {
     };
     let is_kind = |kind: &TypeEntry| {
         let own = [world.name(entity), english_name(world, entity)].map(name_key);
-        [&kind.name, &kind.name_en].iter().any(|word| own.contains(&name_key(word)))
+        let words = [&kind.name, &kind.name_en].map(|word| name_key(word));
+        words.iter().any(|word| !word.is_empty() && own.contains(word))
     };
     world.has_trait(id, "person") && kind().is_none_or(|kind| !is_kind(kind))
 }

@@ -134,7 +134,14 @@ impl Knowledge<'_> {
         let Some((next, rest)) = through.split_first() else { return drive(from, to) };
         let Some(gate) = self.opening(*next) else {
             let first = drive(from, *next)?;
-            return Ok(first.then(None, self.by_rooms(*next, to, rest, avoided)?));
+            // Who turns round to go on does so where nothing else leads on.
+            let behind = std::iter::once(first.start).chain(first.between());
+            let behind = behind.map(|area| Thing::Entity(Entity::Area(area)));
+            let behind = behind.filter(|room| room != next);
+            let ahead: Vec<Thing> = avoided.iter().copied().chain(behind).collect();
+            let on = self.by_rooms(*next, to, rest, &ahead);
+            let on = on.or_else(|_| self.by_rooms(*next, to, rest, avoided))?;
+            return Ok(first.then(None, on));
         };
         // Through a door either way, whichever is the shorter.
         let mut best: Result<RoomPath, String> = Err(String::new());
