@@ -113,7 +113,8 @@ const WET: &str = "(define (domain wet) (:requirements :typing :negative-precond
    :precondition (and (at ?a) (next ?a ?b) (has ?k) (fits ?k ?b)) :effect (and (open ?b) (wet ?b))))";
 
 /// Boxes that are taken with an alarm, which bars the way to whoever holds none.
-const ALARM: &str = "(define (domain alarm) (:requirements :adl) (:types room box) (:constants c - room)
+const ALARM: &str =
+    "(define (domain alarm) (:requirements :adl) (:types room box) (:constants c - room)
  (:predicates (at ?r - room) (next ?a ?b - room) (heavy ?x - box) (in ?x - box ?r - room)
    (held ?x - box) (alarm) (done))
  (:action go :parameters (?a ?b - room)

@@ -66,7 +66,8 @@ fn a_way_that_is_told_by_its_rooms_is_the_way_that_is_driven() {
             let rooms = format!("rooms = [\"{zone}\"]");
             lay(&mut engine, &format!("[zone.z]\nname = \"Зона\"\nkind = \"keep-out\"\n{rooms}\n"));
         }
-        let driven = engine.route("Комната-В", "Комната-Y", Method::Shortest).unwrap();
+        let driven = engine.journey("Комната-В", "Комната-Y", Method::Shortest).unwrap();
+        let driven = &driven.legs[0];
         let passed = driven.stages.len() - 2;
         let between = driven.stages[1].area;
         let world = engine.world().unwrap();
@@ -123,7 +124,10 @@ fn the_nearest_room_is_that_to_which_the_way_is_the_shortest_and_not_the_robots_
 fn how_far_places_are_is_told_by_way_or_said_to_be_straight() {
     let (_dir, lab) = map("lab", |text| text.replace("state = \"closed\"", "state = \"locked\""));
     let told = ask(&lab, "How far is the desk?").text;
-    assert!(told.contains("in a straight line, and there is no way: the office door is locked"), "{told}");
+    assert!(
+        told.contains("in a straight line, and there is no way: the office door is locked"),
+        "{told}"
+    );
     let told = ask(&lab, "How far is the lab?").text;
     assert!(told.contains("the way is"), "{told}");
 }
@@ -137,7 +141,7 @@ fn what_a_zone_shuts_is_not_reached_and_no_plan_leads_there() {
     assert!(reached.contains("Комната-В") && !reached.contains("Комната-Y"), "{reached:?}");
     for order in ["Принеси лекарство", "Поезжай в Комнату-Y"] {
         let told = drive(&mut engine, order);
-        assert!(told.contains("«Краска»"), "{told}");
+        assert!(told.contains("Краск"), "{told}");
         assert!(!told.contains("План:"), "{told}");
     }
 }
@@ -169,9 +173,11 @@ fn with_bob(text: String) -> String {
                 [object.human]\nname = \"Human\"\ntype = \"human\"\n\
                 items = [{ id = \"A\", orthoframe = \"body\" }]\n\n[object.workbench]";
     let stool = "  { name = \"Stool 1\"";
-    text.replacen("object = [\n", kind, 1)
-        .replacen("[object.workbench]", body, 1)
-        .replacen(stool, &format!("{BOB}{stool}"), 1)
+    text.replacen("object = [\n", kind, 1).replacen("[object.workbench]", body, 1).replacen(
+        stool,
+        &format!("{BOB}{stool}"),
+        1,
+    )
 }
 
 #[test]
@@ -207,9 +213,9 @@ fn an_area_is_moved_by_its_name_and_what_cannot_be_moved_is_called_what_it_is() 
     let (_dir, mut engine) = map("lab", |text| text);
     let edit = |engine: &mut Engine, text: &str| {
         let edits = Edits::read(&Source::new("edits.toml", text), Format::Toml);
-        engine.edit(&edits, &change(), Mode::DryRun).map(|edited| {
-            edited.differences.iter().map(|d| format!("{d}\n")).collect::<String>()
-        })
+        engine
+            .edit(&edits, &change(), Mode::DryRun)
+            .map(|edited| edited.differences.iter().map(|d| format!("{d}\n")).collect::<String>())
     };
     let told = edit(&mut engine, "[[edit]]\nmove = \"Office\"\nby = [0, 0, 5]\n");
     let told = told.unwrap_or_else(|e| panic!("{e:?}"));

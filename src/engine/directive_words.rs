@@ -1,8 +1,8 @@
 //! A directive in words: what it asks for, and what it has done: what was switched, found, put away, who was called.
 
 use crate::language::command::Relation;
-use crate::language::words::russian::{self, Preposition};
 use crate::language::report::Named;
+use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Deed, Directive, STARTING_POINT};
@@ -364,7 +364,9 @@ impl Words<'_> {
             }
             Deed::CallLift { lift, .. } => match self.language {
                 Language::Russian => format!("вызвать лифт «{lift}»"),
-                Language::English => format!("call the lift “{}”", self.name(lift, Case::Nominative)),
+                Language::English => {
+                    format!("call the lift “{}”", self.name(lift, Case::Nominative))
+                }
             },
             Deed::Ride { lift, to, .. } => match self.language {
                 Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),

@@ -177,11 +177,7 @@ impl Known {
     ///
     /// # Errors
     /// There is no map.
-    pub(super) fn without(
-        &self,
-        avoided: &[Thing],
-        wanted: Option<AreaId>,
-    ) -> Result<Self, Error> {
+    pub(super) fn without(&self, avoided: &[Thing], wanted: Option<AreaId>) -> Result<Self, Error> {
         let mut world = self.world().clone();
         let mut rooms: Vec<AreaId> = Vec::new();
         let mut shut: BTreeMap<DoorId, DoorState> = BTreeMap::new();
@@ -233,7 +229,8 @@ impl Known {
         }
         let is_wanted = |zone: &Zone| zone.id.0 >= first || self.is_in_force(zone);
         let floors = self.floors()?.iter().map(|(map, floor)| {
-            let floor = if shut.is_empty() { floor.clone() } else { floor.with_doors(&world, &shut) };
+            let floor =
+                if shut.is_empty() { floor.clone() } else { floor.with_doors(&world, &shut) };
             (*map, floor.with_zones(&world, is_wanted))
         });
         let floors: BTreeMap<MapId, FloorPlan> = floors.collect();

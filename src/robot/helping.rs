@@ -7,7 +7,7 @@
 //! **Invariant**: with each set of facts that is left, stated beside those that help the other goals, there is a plan; where
 //! another goal is past help, for the one goal alone.
 
-use super::solve::grounded;
+use super::grounding::grounded;
 use crate::graphplan::{self, Limits, Outcome};
 use crate::strips::{Domain, Obstacle, Problem, Said, SaidArgument};
 
@@ -16,7 +16,7 @@ const EFFORT: u64 = Limits::TO_START / 8;
 /// So many objects are tried where any one of a type is said to help.
 const MOST_TRIED: usize = 8;
 /// An object that is not there yet.
-const NEW: &str = "?";
+const NEW: &str = "new-object";
 
 /// Leaves of what would help only what does.
 pub(super) fn keep_what_helps(

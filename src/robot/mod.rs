@@ -28,6 +28,7 @@ mod barred;
 mod belief;
 mod directive;
 mod eye;
+mod grounding;
 mod helping;
 mod idle;
 mod mission;

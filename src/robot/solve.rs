@@ -1,17 +1,17 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
-use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::directive::Directive;
+use super::grounding::grounded;
 use super::helping::keep_what_helps;
 use super::timing::{Clock, Takes};
 use super::wishes::{self, Wishes};
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{
     Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
-    explain_unreachable, ground_while,
+    explain_unreachable,
 };
 use crate::units::{Language, name_key};
 
@@ -412,21 +412,6 @@ pub fn solve_without(
     };
     *problem = without;
     Ok(Replanned { before, after, withdrawn: gone, learned_before })
-}
-
-/// The task, or the limit that grounding ran into.
-pub(super) fn grounded(
-    domain: &Domain,
-    problem: &Problem,
-    limits: &Limits,
-) -> Result<Result<Task, Limit>, RuleFaults> {
-    let reached = Cell::new(None);
-    let may_go_on = |bytes| {
-        reached.set(limits.check(bytes).err());
-        reached.get().is_none()
-    };
-    let task = ground_while(domain, problem, &may_go_on)?;
-    Ok(task.ok_or_else(|| reached.get().expect("a limit stopped it")))
 }
 
 /// Of a goal that can be met in several ways, the way that the plan takes; the operator that only says so is no step.

@@ -38,9 +38,7 @@ impl OwnText {
             Self::Edit => ("правка", "edit"),
             Self::Assumption => ("предположение", "assumption"),
             Self::Measurements => ("измерения (встроенные)", "measurements (built in)"),
-            Self::Relations => {
-                ("rules/relations.dl (встроенный)", "rules/relations.dl (built in)")
-            }
+            Self::Relations => ("rules/relations.dl (встроенный)", "rules/relations.dl (built in)"),
         };
         language.pick(russian, english)
     }

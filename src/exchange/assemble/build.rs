@@ -123,15 +123,7 @@ fn empty(survey: &Survey) -> World {
         (name, name_en) = ("Здание".to_owned(), "Building".to_owned());
     }
     let empty = World::empty();
-    World {
-        domain: Domain {
-            key: "building".to_owned(),
-            name_en,
-            name,
-            ..empty.domain
-        },
-        ..empty
-    }
+    World { domain: Domain { key: "building".to_owned(), name_en, name, ..empty.domain }, ..empty }
 }
 
 impl Maker<'_> {

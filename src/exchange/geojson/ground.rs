@@ -42,7 +42,10 @@ impl Ground {
             points.iter_mut().filter(|p| p.x < 0.0).for_each(|p| p.x += 360.0);
         }
         if points.is_empty() {
-            return (Self::Plane { scale: 100.0, origin: [0.0, 0.0] }, ("координат нет", "there are no coordinates").into());
+            return (
+                Self::Plane { scale: 100.0, origin: [0.0, 0.0] },
+                ("координат нет", "there are no coordinates").into(),
+            );
         }
         let (low, high) = outline::bounds(&points);
         let span = (high - low).amax();
@@ -57,10 +60,8 @@ impl Ground {
                 moved = format!("; начало координат – {}, {}", origin[0], origin[1]);
                 moved_en = format!("; the origin is {}, {}", origin[0], origin[1]);
             }
-            let told = bilingual!(
-                "координаты – {says}{moved}",
-                "the coordinates are {says_en}{moved_en}"
-            );
+            let told =
+                bilingual!("координаты – {says}{moved}", "the coordinates are {says_en}{moved_en}");
             (Self::Plane { scale, origin }, told)
         };
         if let Some((scale, says)) = unit(&around.units) {
@@ -79,16 +80,25 @@ impl Ground {
             // Mercator stretches by 1/cos of the latitude.
             let lat = 2.0 * ((low.y + high.y) / 2.0 / 6_378_137.0).exp().atan()
                 - std::f64::consts::FRAC_PI_2;
-            return plane(100.0 * lat.cos(), ("метры проекции Меркатора", "metres of Mercator’s projection"));
+            return plane(
+                100.0 * lat.cos(),
+                ("метры проекции Меркатора", "metres of Mercator’s projection"),
+            );
         }
         sizes.sort_by(f64::total_cmp);
         let room = sizes.get(sizes.len() / 2).copied().unwrap_or(5.0);
         if is_mercator || room < 100.0 {
             plane(100.0, ("метры", "metres"))
         } else if room < 2000.0 {
-            plane(1.0, ("сантиметры (по размеру помещений)", "centimetres (by the size of the rooms)"))
+            plane(
+                1.0,
+                ("сантиметры (по размеру помещений)", "centimetres (by the size of the rooms)"),
+            )
         } else {
-            plane(0.1, ("миллиметры (по размеру помещений)", "millimetres (by the size of the rooms)"))
+            plane(
+                0.1,
+                ("миллиметры (по размеру помещений)", "millimetres (by the size of the rooms)"),
+            )
         }
     }
 

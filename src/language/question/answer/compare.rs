@@ -230,27 +230,22 @@ impl Knowledge<'_> {
     }
 
     /// What is compared of each of some things; none where one of them has no such measure.
-    fn compared(
-        &self,
-        things: &[Thing],
-        extreme: Extreme,
-        to: Option<Thing>,
-    ) -> Option<Compared> {
+    fn compared(&self, things: &[Thing], extreme: Extreme, to: Option<Thing>) -> Option<Compared> {
         let each = match extreme {
             Extreme::Nearest | Extreme::Farthest => {
                 let far = self.how_far(to.unwrap_or(Thing::Robot), things)?;
                 return Some(Compared { extreme, by_way: far.by_way, each: far.each });
             }
-            other => things.iter().map(|t| self.measure(other, *t)).collect::<Option<Vec<f64>>>()?,
+            other => {
+                things.iter().map(|t| self.measure(other, *t)).collect::<Option<Vec<f64>>>()?
+            }
         };
         Some(Compared { extreme, by_way: false, each })
     }
 
     fn compared_words(&self, compared: &Compared, thing: Thing, value: f64) -> String {
         match compared.extreme {
-            Extreme::Nearest | Extreme::Farthest => {
-                self.far_words(thing, value, compared.by_way)
-            }
+            Extreme::Nearest | Extreme::Farthest => self.far_words(thing, value, compared.by_way),
             other => self.measure_words(other, thing),
         }
     }

@@ -84,9 +84,10 @@ impl Knowledge<'_> {
 
     /// Who asks for the exits of one room is told what leads out of it, beside what leads out of the building.
     fn to_other_rooms(&self, noun: &Noun, found: &[Thing]) -> String {
-        let place = noun.restrictions.iter().find(|r| {
-            matches!(r.rel, Rel::From | Rel::Of | Rel::In | Rel::At) && !r.negated
-        });
+        let place = noun
+            .restrictions
+            .iter()
+            .find(|r| matches!(r.rel, Rel::From | Rel::Of | Rel::In | Rel::At) && !r.negated);
         let anchor = place.and_then(|place| place.anchors.first());
         let rooms = anchor.and_then(|anchor| self.find(anchor, true).ok()).unwrap_or_default();
         let [room] = rooms[..] else { return String::new() };

@@ -41,7 +41,8 @@ impl Knowledge<'_> {
                 self.pick("где это, на карте не указано", "the map does not tell where it is");
             return Ok(Draft::new(Said::Unknown, text.to_owned()).about(&[goal]));
         }
-        if self.passage(&ends, &goals).is_none() {
+        let next = self.passage(&ends, &goals);
+        if next.is_none() {
             let (from, to) = (self.place(Rel::From, &[start]), self.place(Rel::To, &[goal]));
             let text = match self.is_russian() {
                 true => format!("нет, по карте {from} {to} не ведут ни двери, ни проходы"),
@@ -51,6 +52,12 @@ impl Knowledge<'_> {
         }
         let yes = self.pick("да", "yes");
         let no = self.pick("нет", "no");
+        // A door that is shut joins two rooms all the same, whichever way is driven.
+        let leads = self.pick("путь ведёт", "the way leads");
+        if let (Passing::Directly, Some(next)) = (asks, next.filter(|n| n.crossings.len() <= 1)) {
+            let text = format!("{yes}, {leads} {}", self.told(&next));
+            return Ok(Draft::new(Said::Yes, text).about(&[goal]));
+        }
         let any = match self.by_rooms(start, goal, &[], &[]) {
             Ok(any) => any,
             Err(why) => {
@@ -81,15 +88,11 @@ impl Knowledge<'_> {
         let way = self.by_rooms(start, goal, through, &avoided).ok();
         // Who comes through a room twice on the way does not need to pass where he turns round.
         let way = way.filter(|way| asks == Passing::How || way.is_straight());
-        let leads = self.pick("путь ведёт", "the way leads");
         let (said, text) = match (asks, way) {
             (Passing::Doors | Passing::Rooms, Some(way)) => {
                 return Ok(self.passed(&way, asks).about(&[goal]));
             }
             (Passing::How, Some(way)) => (Said::Found, self.told(&way)),
-            (Passing::Directly, _) if any.crossings.len() <= 1 => {
-                (Said::Yes, format!("{yes}, {leads} {}", self.told(&any)))
-            }
             (Passing::Directly, _) => (Said::No, format!("{no}, {leads} {}", self.told(&any))),
             (Passing::Must, Some(way)) => (Said::No, format!("{no}, {leads} {}", self.told(&way))),
             (Passing::Must, None) => {

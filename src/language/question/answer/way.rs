@@ -210,7 +210,8 @@ impl Knowledge<'_> {
         };
         let own = areas(start);
         let same_room = areas(to).iter().any(|a| own.contains(a));
-        let things = start.replica().is_some() && to.replica().is_some();
+        let goes = |t: Thing| t == Thing::Robot || t.is_gone_to();
+        let things = !goes(start) && !goes(to);
         let way = match same_room && things {
             true => None,
             false => Some(self.senses.way(from, to, self.language, Detail::Region)),

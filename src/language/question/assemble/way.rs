@@ -196,7 +196,8 @@ impl Frame<'_, '_> {
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let spots = self.spots.iter().flat_map(|s| &s.nouns);
         let all: Vec<&Noun> = nouns.chain(spots).collect();
-        let out = (!all.is_empty() || self.says_out()) && all.iter().all(|noun| self.is_building(noun));
+        let out =
+            (!all.is_empty() || self.says_out()) && all.iter().all(|noun| self.is_building(noun));
         if !out || self.spots.iter().any(|s| s.rel != Rel::From) {
             return None;
         }

@@ -214,9 +214,7 @@ impl Knowledge<'_> {
         if let Some(wanted) = noun.reached {
             let own = self.area_of(Thing::Robot);
             let is_here = |t: &Thing| t.area().is_some() && t.area() == own;
-            found.retain(|t| {
-                (is_here(t) || self.driven(Thing::Robot, *t).is_some()) == wanted
-            });
+            found.retain(|t| (is_here(t) || self.driven(Thing::Robot, *t).is_some()) == wanted);
         }
         for except in &noun.except {
             let without = self.find(except, true)?;

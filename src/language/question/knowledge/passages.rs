@@ -50,11 +50,7 @@ impl Knowledge<'_> {
     }
 
     /// The passage from one of some rooms to one of others, as far as doors and passages lead.
-    pub(in crate::question) fn passage(
-        &self,
-        from: &[AreaId],
-        to: &[AreaId],
-    ) -> Option<RoomPath> {
+    pub(in crate::question) fn passage(&self, from: &[AreaId], to: &[AreaId]) -> Option<RoomPath> {
         // Number of crossings and of shut doors, room; how it was come to.
         let mut open: BTreeSet<(usize, usize, AreaId)> = BTreeSet::new();
         let mut came: BTreeMap<AreaId, (AreaId, Crossing)> = BTreeMap::new();

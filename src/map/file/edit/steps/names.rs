@@ -7,7 +7,9 @@ use super::super::kind::names_of;
 use super::{Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::decode::{likely, shortened};
 use crate::file::read::{Behind, Names};
-use crate::units::{AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
+use crate::units::{
+    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key,
+};
 use crate::{TypeKind, World};
 
 /// Keys of the map as names are compared, each kind when it is first asked for. Of what [`crate::NameIndex`] does not know,
