@@ -140,7 +140,6 @@ fn only_what_brings_a_plan_is_said_to_help() {
             "(at c)",
             &[][..],
         ),
-        (WET, rooms, "(next a b) (open b) (lies k b) (fits k c)", "(at c)", &[]),
         (WET, rooms, "(next a b) (next b c) (open b) (open c) (wet b)", "(at c)", &["НЕ wet(b)"]),
         (
             ALARM,
