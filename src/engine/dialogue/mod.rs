@@ -34,6 +34,7 @@ use crate::language::command::{
 };
 use crate::language::question::{
     Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, sentences,
+    unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -248,6 +249,7 @@ impl Hearing<'_, '_> {
         if line.is_empty() {
             return Ok(());
         }
+        let line = &*unaddressed(line);
         let said = aside(line);
         if said == Some(Aside::End) {
             return self.put(Outcome::Ended, "", self.dialogue.language);
@@ -427,6 +429,14 @@ impl Hearing<'_, '_> {
         let commands = match self.engine.understand_in(line, &mut self.dialogue.memory) {
             Ok(commands) => commands,
             Err(error) => {
+                // "Put it back" means what this line spoke of, and nothing that was spoken of before.
+                let asks_back = matches!(
+                    &error,
+                    Error::Misheard(Misheard::WhichOf(_) | Misheard::Ambiguous { .. })
+                );
+                if !asks_back {
+                    self.engine.hear_of(line, &mut self.dialogue.memory)?;
+                }
                 return match self.offer_nearest(line, &error, language)? {
                     true => Ok(()),
                     false => self.refuse(error, language),

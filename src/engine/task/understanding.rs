@@ -174,8 +174,11 @@ impl State {
             memory.leave(Thing::Entity(here));
         }
         let named: Vec<Thing> = commands.iter().filter_map(thing_of).map(Thing::Entity).collect();
+        let going = |command: &&Command<Entity>| matches!(command, Command::GoTo { .. });
+        let carried = commands.iter().filter(|command| !going(command));
+        let places = carried.filter_map(Command::place).map(|place| Thing::Entity(place.anchor));
         if !named.is_empty() {
-            memory.mention(&named);
+            memory.order(&named, &places.collect::<Vec<_>>());
         }
         Ok(commands)
     }

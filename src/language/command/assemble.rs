@@ -347,6 +347,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             });
             return Ok(there.into_iter().chain([command]).collect());
         }
+        let carried = |thing: &T| self.listener.fixed.is_some_and(|fixed| !fixed(thing));
         match verb {
             Verb::Stop => return Ok(vec![Command::Stop]),
             Verb::Face => {
@@ -355,6 +356,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 return Ok(vec![Command::Face(facing)]);
             }
             Verb::Charge => return Ok(vec![Command::Charge]),
+            // "Leave the cup": nothing carried is left by driving out of it.
+            Verb::Leave if roles.objects.iter().any(carried) => {
+                return Err(self.incomplete(words, ("где это оставить", "where to leave it")));
+            }
             Verb::Leave => {
                 let place = roles.at.take().map(|place| place.anchor);
                 return Ok(vec![Command::Leave(place.or_else(|| roles.objects.pop()))]);

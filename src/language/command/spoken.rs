@@ -464,7 +464,11 @@ fn gapped(said: &Said) -> Option<String> {
 
 /// "Leave the bowl where it is and …", «другая пусть остаётся»: beside what is to be done.
 fn left_alone(said: &Said) -> Option<String> {
-    const ALONE: [&str; 24] = [
+    const ALONE: [&str; 28] = [
+        "leave it",
+        "leave them",
+        "leave that",
+        "leave this",
         "the rest",
         "the others",
         "остальное",

@@ -255,8 +255,13 @@ pub(super) fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
     let mut placed = false;
     query.each_noun(&mut |old| {
         if std::mem::take(&mut first) && !old.head.anything && old.head.things.is_none() {
-            old.restrictions.clone_from(&noun.restrictions);
-            old.filters.extend(noun.filters.iter().cloned());
+            if !noun.restrictions.is_empty() {
+                old.restrictions.clone_from(&noun.restrictions);
+            }
+            // "Where is the red book? And the blue one?"
+            if !noun.filters.is_empty() {
+                old.filters.clone_from(&noun.filters);
+            }
             if !old.head.kinds.is_empty() {
                 old.head.named.clear();
             }

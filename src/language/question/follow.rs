@@ -6,7 +6,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
-    several,
+    several, vocabulary,
 };
 use crate::map::Entity;
 use crate::words::{Language, word_keys, word_ranges};
@@ -54,6 +54,9 @@ impl Asker<'_> {
             return Some(query);
         }
         if let Some(query) = self.how_many_told(text, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.count_of_kind(&sentence, memory) {
             return Some(query);
         }
         if let Some(query) = self.another_asked(&key, last, memory) {
@@ -163,7 +166,8 @@ impl Asker<'_> {
             return Some(Query::Find(asked));
         }
         // "And the one in the living room?": another of what was asked of.
-        let another = noun.head.anything && !noun.restrictions.is_empty() && noun.best.is_none();
+        let told = !noun.restrictions.is_empty() || !noun.filters.is_empty();
+        let another = noun.head.anything && told && noun.best.is_none();
         if another && let Some(query) = another_placed(last, &noun) {
             return Some(query);
         }
@@ -411,7 +415,7 @@ impl Asker<'_> {
         ];
         let words: Vec<&str> = key
             .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty() && !SMALL.contains(word))
+            .filter(|word| !word.is_empty() && !SMALL.contains(word) && !stands(word))
             .collect();
         let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
         let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();
@@ -509,6 +513,12 @@ impl Asker<'_> {
 
 fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {
     query.clone().each_noun(&mut |noun| act(noun));
+}
+
+/// Whether a word says of a thing only that it is somewhere: «стоят», "lying".
+fn stands(word: &str) -> bool {
+    let said = vocabulary::longest(&[word.to_owned()]);
+    matches!(said, Some((_, Mark::Be | Mark::Hang | Mark::Filler)))
 }
 
 /// «выше», «ниже», by place as well as by size.

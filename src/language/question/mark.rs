@@ -156,6 +156,8 @@ pub(super) enum Mark {
     One,
     A,
     The,
+    /// «дружок», "dear": how somebody is spoken to, where commas part it from the rest.
+    Called,
     Filler,
 }
 

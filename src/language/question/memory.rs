@@ -120,6 +120,10 @@ impl Memory {
             return;
         }
         self.last.clone_from(&answer.things);
+        // "How far is the toolbox from the battery? Which of them is higher up?"
+        if answer.things.is_empty() {
+            self.last.clone_from(&answer.compared);
+        }
         if answer.things.len() > 1 {
             self.listed.clone_from(&answer.things);
         }
@@ -128,6 +132,18 @@ impl Memory {
             self.spoken.insert(0, *thing);
         }
         self.spoken.truncate(50);
+    }
+
+    /// Notes what a command is done to, and whither it goes: "there" afterwards, and «на нём» of what may bear things.
+    pub fn order(&mut self, things: &[Thing], places: &[Thing]) {
+        self.mention(things);
+        let Some(place) = places.last() else { return };
+        self.told_place = Some(*place);
+        let own = places.iter().rev().filter(|place| !things.contains(place));
+        match self.exchanges.first_mut().filter(|_| !things.is_empty()) {
+            Some(exchange) => exchange.topics.extend(own),
+            None => self.hear_of_things(places),
+        }
     }
 
     /// Notes the things that a command named.
@@ -186,6 +202,8 @@ pub(super) struct Exchange {
     topics: Vec<Thing>,
     /// The members of a list, none of which is more spoken of than the others.
     listed: Vec<Thing>,
+    /// What was measured against each other: each is "the other one" of the rest.
+    compared: Vec<Thing>,
 }
 
 impl Exchange {
@@ -195,18 +213,24 @@ impl Exchange {
         match &answer.query {
             // "What is the lamp on?" goes on being about the lamp.
             Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
-                Self { topics: others().chain(found).collect(), listed: Vec::new() }
+                Self { topics: others().chain(found).collect(), ..Self::default() }
             }
-            _ if answer.things.len() > 1 => {
-                Self { topics: others().collect(), listed: answer.things.clone() }
-            }
-            _ => Self { topics: found.chain(others()).collect(), listed: Vec::new() },
+            _ if answer.things.len() > 1 => Self {
+                topics: others().collect(),
+                listed: answer.things.clone(),
+                compared: answer.compared.clone(),
+            },
+            _ => Self {
+                topics: found.chain(others()).collect(),
+                listed: Vec::new(),
+                compared: answer.compared.clone(),
+            },
         }
     }
 
     /// Several things alike.
     pub(super) fn list(things: &[Thing]) -> Self {
-        Self { topics: Vec::new(), listed: things.to_vec() }
+        Self { listed: things.to_vec(), ..Self::default() }
     }
 
     /// What it was most about.
@@ -222,6 +246,11 @@ impl Exchange {
     /// The members of a list that was told.
     pub(super) fn members(&self) -> &[Thing] {
         &self.listed
+    }
+
+    /// What was measured against each other.
+    pub(super) fn compared(&self) -> &[Thing] {
+        &self.compared
     }
 
     /// All that it was about.
@@ -243,7 +272,7 @@ impl Memory {
     /// Notes what an order names, the last of which is spoken of most.
     pub(super) fn hear_of_things(&mut self, things: &[Thing]) {
         let topics = things.iter().rev().copied().collect();
-        self.follow(Exchange { topics, listed: Vec::new() });
+        self.follow(Exchange { topics, ..Exchange::default() });
     }
 
     fn follow(&mut self, exchange: Exchange) {

@@ -7,6 +7,7 @@
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
 //! three different [`Doubt`]s. No text makes it panic.
 
+mod address;
 mod another_place;
 mod answer;
 mod asides;
@@ -58,6 +59,7 @@ mod vocabulary;
 mod whole;
 mod why;
 
+pub use address::unaddressed;
 pub use asides::{Aside, aside, asks_whether, begs};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use courtesy::Courtesy;
@@ -140,6 +142,8 @@ pub struct Answer {
     /// A count, or a measure in cm or cm².
     pub number: Option<f64>,
     topic: Vec<Thing>,
+    /// The two or more things that the question measured against each other.
+    compared: Vec<Thing>,
     /// The words of the question.
     words: String,
     /// Of which its query speaks by places in lists.
@@ -160,6 +164,7 @@ impl Answer {
             facts: Vec::new(),
             number: None,
             topic: Vec::new(),
+            compared: Vec::new(),
             words: words.to_owned(),
             stamp: None,
         }
@@ -193,6 +198,7 @@ impl Answer {
             facts: Vec::new(),
             number: None,
             topic: Vec::new(),
+            compared: Vec::new(),
             words: String::new(),
             stamp: None,
         };
@@ -229,6 +235,19 @@ pub struct Unanswered {
     pub names: Vec<String>,
 }
 
+/// Whether a line goes on from the question before and names one thing that the map lacks: «А полотенце?»
+fn is_only_named(text: &str, doubt: &Doubt) -> bool {
+    const GOING_ON: [&str; 6] = ["а", "и", "and", "what", "how", "about"];
+    const ARTICLES: [&str; 5] = ["the", "a", "an", "any", "some"];
+    let Doubt::Unknown { reference, .. } = doubt else { return false };
+    let named = |key: &String| !ARTICLES.contains(&key.as_str());
+    let keys = word_keys(text);
+    let goes_on = keys.iter().take_while(|key| GOING_ON.contains(&key.as_str())).count();
+    let rest: Vec<&String> = keys[goes_on..].iter().filter(|key| named(key)).collect();
+    let unknown = word_keys(reference);
+    goes_on > 0 && rest == unknown.iter().filter(|key| named(key)).collect::<Vec<_>>()
+}
+
 /// Answers questions about one state of a map.
 #[derive(Clone, Copy)]
 pub struct Asker<'a> {
@@ -247,6 +266,7 @@ impl Asker<'_> {
     /// # Errors
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
+        let text = &*unaddressed(text);
         if text.chars().any(char::is_alphabetic) {
             memory.language = Language::of(text);
         }
@@ -323,7 +343,10 @@ impl Asker<'_> {
                 }
                 let is_deaf = memory.exchanges == before && !self.has_pronoun(text);
                 let names_nothing = is_deaf && self.introduces(text);
+                let asked = memory.query.take_if(|_| is_only_named(text, &doubt));
                 memory.miss(&doubt, names_nothing);
+                // «А полотенце? – Такого нет. – А мыло?»: the same is asked of each.
+                memory.query = memory.query.take().or(asked);
                 // «Это Часы-1 или Часы-2? – Где вторые?»
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
                     memory.listed.clone_from(candidates);

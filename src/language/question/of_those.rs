@@ -2,10 +2,10 @@
 //!
 //! Invariant: of all that there is nothing is asked here; where nothing was told there is no such question.
 
-use super::grammar::{Item, Sentence};
+use super::grammar::{Item, Phrase, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::query::{Best, Extreme};
-use super::{Asker, Memory, Noun, Query, Rel, Thing, memory, vocabulary};
+use super::query::{Best, Extreme, Head};
+use super::{Asker, Memory, Noun, Query, Rel, Thing, assemble, memory, vocabulary};
 use crate::words::{Gender, Language, word_keys};
 
 impl Asker<'_> {
@@ -179,6 +179,38 @@ impl Asker<'_> {
         };
         let of = [earlier.clone(), later.clone()];
         Some(Query::MoreOf { of, extreme, asks: true, by: false })
+    }
+
+    /// «Где ближайший стул? А в гостиной их сколько?»: of the kind of the one thing that was told, there.
+    pub(super) fn count_of_kind(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Query> {
+        let they = |phrase: &Phrase| phrase.pronoun == Some(Pronoun::They);
+        let (mut counts, mut meant, mut places) = (false, false, 0);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::HowMany) => counts = true,
+                Item::Mark(Mark::And | Mark::Be | Mark::Exists | Mark::Hang) => {}
+                Item::Noun(phrase) if they(&phrase) => meant = true,
+                Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if nouns.iter().all(they) => {
+                    meant = true;
+                }
+                Item::Place { nouns, .. }
+                    if nouns.iter().all(|p| p.pronoun.is_none() && p.person.is_none()) =>
+                {
+                    places += 1;
+                }
+                _ => return None,
+            }
+        }
+        let [only] = memory.last[..] else { return None };
+        let knowledge = self.knowledge(sentence.language, memory);
+        let kind = knowledge.kind_of(only).filter(|_| counts && meant && places > 0)?;
+        let nobody = |_: Pronoun, _: Option<Rel>| Vec::new();
+        let fragment = assemble::fragment(sentence, &self.mind.lexicon, &nobody)?;
+        let mut restrictions = fragment.restrictions;
+        restrictions.retain(|place| !matches!(place.rel, Rel::From | Rel::Of));
+        let head = Head { kinds: vec![kind], ..Head::default() };
+        (!restrictions.is_empty())
+            .then(|| Query::Count(Noun { head, restrictions, plural: true, ..Noun::default() }))
     }
 
     /// "Things" and no more.

@@ -526,6 +526,18 @@ impl Claim {
 
 impl Query {
     /// The same question about something else: what stands in it first.
+    /// What the question measures against each other, each by its own description.
+    pub(super) fn compares(&self) -> Vec<&Noun> {
+        match self {
+            Self::Distance { from: Some(from), to } => vec![to, from],
+            Self::WhichMore { of, .. } => of.iter().collect(),
+            Self::Larger { what, than, .. } => vec![what, than],
+            Self::Closer { near, than, .. } => vec![near, than],
+            Self::Same { of, .. } => of.iter().collect(),
+            _ => Vec::new(),
+        }
+    }
+
     pub(super) fn of_another(mut self, noun: &Noun) -> Self {
         let mut is_first = true;
         self.each_noun(&mut |old| {

@@ -71,8 +71,13 @@ pub(super) fn asks_in(text: &str) -> bool {
 
 /// The same, where "somebody" asks for nobody.
 pub(super) fn asks_outright(text: &str) -> bool {
-    let keys = word_keys(text);
-    (0..keys.len()).any(|n| match vocabulary::longest(&keys[n..]) {
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    // «чего-то не пойму»
+    let indefinite = |n: usize| {
+        let particle = keys.get(n + 1).is_some_and(|k| matches!(&**k, "то" | "нибудь" | "либо"));
+        particle && &text[words[n].end..words[n + 1].start] == "-"
+    };
+    (0..keys.len()).any(|n| !indefinite(n) && match vocabulary::longest(&keys[n..]) {
         Some((taken, Mark::Who)) => {
             let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
             taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))

@@ -72,7 +72,15 @@ impl Knowledge<'_> {
             (holds && all.len() > told.len() && self.alike(all).is_some())
                 .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
         };
-        if let Some(rest) = self.memory.exchanges.iter().skip(1).find_map(wider) {
+        // "How far is the cup from the kettle? … And the other one?"
+        let compared = |exchange: &Exchange| {
+            let all = exchange.compared();
+            let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
+            (holds && all.len() > told.len())
+                .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
+        };
+        let exchanges = &self.memory.exchanges;
+        if let Some(rest) = exchanges.iter().skip(1).find_map(wider).or_else(|| exchanges.iter().find_map(compared)) {
             return Some(rest);
         }
         let others = |thing: &Thing| {
@@ -98,6 +106,11 @@ impl Knowledge<'_> {
     /// What a question word without a noun asks among: those that were told, else what was asked for.
     pub(super) fn elided(&self) -> Option<Head> {
         let last = &self.memory.last;
+        // «Это Часы-1, Часы-2 или Часы-3?» – «Сколько в спальне?»
+        if let Some(pending) = &self.memory.pending {
+            let things = pending.candidates.clone();
+            return self.alike(&things).map(|_| Head { things: Some(things), ..Head::default() });
+        }
         let query = self.memory.query.as_ref()?;
         let counted = |noun: &Noun| match &noun.best {
             Some(best) if matches!(best.extreme, Extreme::Most | Extreme::Fewest) => {
@@ -199,7 +212,8 @@ impl Knowledge<'_> {
             things.len() > 1
                 && rel.is_none_or(|rel| things.iter().all(|t| self.may_be_anchor(rel, *t)))
         };
-        let topics = self.memory.exchanges.iter().flat_map(|e| [e.topics(), e.members()]);
+        let topics = self.memory.exchanges.iter();
+        let topics = topics.flat_map(|e| [e.topics(), e.members(), e.compared()]);
         let mut told = std::iter::once(&last[..]).chain(topics);
         told.find(|things| fit(things)).unwrap_or(last).to_vec()
     }

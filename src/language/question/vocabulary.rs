@@ -1,6 +1,6 @@
 //! The words of questions in both languages, and what each does in a sentence.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
@@ -181,6 +181,7 @@ const MARKS: &[Mark] = &[
     Mark::One,
     Mark::A,
     Mark::The,
+    Mark::Called,
     Mark::Filler,
 ];
 
@@ -190,7 +191,8 @@ fn table() -> &'static HashMap<String, Phrases> {
     static TABLE: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut table: HashMap<String, Phrases> = HashMap::new();
-        for (mark, phrase) in phrases() {
+        // Within a sentence "honey" is a thing.
+        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| *mark != Mark::Called) {
             let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
             table.entry(words[0].clone()).or_default().push((words, mark));
         }
@@ -227,6 +229,18 @@ pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
         (Some(listed), Some(deed)) if deed.0 > listed.0 => Some(deed),
         (listed, deed) => listed.or(deed),
     }
+}
+
+/// Whether these words are no more than how somebody is spoken to: "my dear".
+pub(super) fn is_called(words: &[String]) -> bool {
+    static CALLED: OnceLock<HashSet<String>> = OnceLock::new();
+    let called = CALLED.get_or_init(|| {
+        let of_mark = phrases().into_iter().filter(|(mark, _)| *mark == Mark::Called);
+        of_mark.map(|(_, phrase)| name_key(&phrase)).collect()
+    });
+    let own = |word: &&String| matches!(longest(std::slice::from_ref(*word)), Some((1, Mark::The | Mark::You | Mark::Filler)));
+    let small = words.iter().take_while(own).count();
+    !words.is_empty() && called.contains(&words[small.min(words.len() - 1)..].join(" "))
 }
 
 /// Whether a word is in any phrase of the vocabulary: it is a word, whatever it does there.

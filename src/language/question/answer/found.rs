@@ -326,12 +326,13 @@ impl Knowledge<'_> {
     pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
         let frame = self.frame_of(noun);
         let general = noun.head.anything && noun.filters.is_empty();
+        let but = noun.other || !noun.except.is_empty();
         if !noun.also.is_empty() || noun.like.is_some() || noun.beyond.is_some() {
             return format!("{place} {}", self.pick("таких нет", "there are none such"));
         }
         match (self.is_russian(), general) {
-            (true, true) if noun.other => format!("{place}{frame} больше ничего нет"),
-            (false, true) if noun.other => format!("there is nothing else {place}{frame}"),
+            (true, true) if but => format!("{place}{frame} больше ничего нет"),
+            (false, true) if but => format!("there is nothing else {place}{frame}"),
             (true, true) => format!("{place}{frame} ничего нет{}", self.nearest_instead(noun)),
             (false, true) => {
                 format!("there is nothing {place}{frame}{}", self.nearest_instead(noun))

@@ -200,9 +200,22 @@ impl Knowledge<'_> {
             facts: draft.facts,
             number: draft.number,
             topic,
+            compared: self.measured_together(query),
             words: String::new(),
             stamp: None,
         })
+    }
+
+    /// The things that a question measures against each other, where each is one.
+    fn measured_together(&self, query: &Query) -> Vec<Thing> {
+        let one = |noun: &&Noun| self.one(noun).ok();
+        let mut things = Vec::new();
+        for thing in query.compares().iter().map_while(one) {
+            if !things.contains(&thing) {
+                things.push(thing);
+            }
+        }
+        if things.len() == query.compares().len() && things.len() > 1 { things } else { Vec::new() }
     }
 
     /// «Есть ли грязные тарелки?» where the map says of no plate whether it is dirty.

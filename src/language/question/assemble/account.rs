@@ -473,7 +473,8 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Number(_) | Mark::OnlyOne => {
             told.counted || matches!(query, Q::MoreOf { .. } | Q::Count(_))
         }
-        Mark::Without | Mark::Avoiding | Mark::Unopened | Mark::Directly | Mark::Must => {
+        Mark::Unopened | Mark::MustOpen => matches!(query, Q::Passing { .. }),
+        Mark::Without | Mark::Avoiding | Mark::Directly | Mark::Must => {
             told.inward || matches!(query, Q::Passing { .. } | Q::Way { .. } | Q::CanReach { .. })
         }
         _ => true,

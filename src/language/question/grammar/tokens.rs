@@ -283,8 +283,8 @@ impl<'t> Sentence<'t> {
         let before = self.tokens.last().map(|t| t.kind);
         let used = matches!(before, Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown)))
             || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Deed(_))));
-        let ends =
-            !used && matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
+        let joint = matches!(next, Some("or" | "and"));
+        let ends = !used && (joint || self.ends_in_small_words(at + 1));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
         let is_noun = |t: &&Token| matches!(t.kind, Tok::Noun(_) | Tok::Mark(Mark::Pronoun(_)));
         let nouns = self.tokens.iter().filter(is_noun).count();
@@ -299,6 +299,19 @@ impl<'t> Sentence<'t> {
             && !said("what")
             && self.keys[..at].iter().any(|k| ["is", "are", "was", "were"].contains(&k.as_str()));
         ((ends && !link) || placed).then(|| lexicon.values.meaning(word)).flatten()
+    }
+
+    /// Whether nothing but small words follows: "on then", "on at the moment, please".
+    fn ends_in_small_words(&self, from: usize) -> bool {
+        let mut at = from;
+        while let Some(rest) = self.keys.get(at..).filter(|rest| !rest.is_empty()) {
+            at += match vocabulary::longest(rest) {
+                Some((taken, Mark::Filler)) => taken,
+                None if small_words::says_nothing(&rest[0]) => 1,
+                _ => return false,
+            };
+        }
+        true
     }
 
     /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В.

@@ -1,0 +1,67 @@
+//! How somebody is spoken to within a line: "Where is it, dear?", «Скажи, дружок, где чашка?»
+//!
+//! Invariant: commas or the ends of the line part it from everything else; what is named within a sentence is no address.
+
+use std::borrow::Cow;
+
+use super::vocabulary;
+use crate::words::word_keys;
+
+/// A line without the words by which somebody is spoken to.
+#[must_use]
+pub fn unaddressed(line: &str) -> Cow<'_, str> {
+    let mut cuts = Vec::new();
+    let mut from = 0;
+    let marks = line.char_indices().filter(|(_, c)| MARKS.contains(c));
+    for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
+        if vocabulary::is_called(&word_keys(&line[from..at])) {
+            cuts.push((from, at, at + mark));
+        }
+        from = at + mark;
+    }
+    let alone = cuts.iter().map(|(from, at, _)| word_keys(&line[*from..*at]).len()).sum::<usize>();
+    if cuts.is_empty() || alone == word_keys(line).len() {
+        return Cow::Borrowed(line);
+    }
+    let mut kept = String::new();
+    let mut from = 0;
+    for (begin, end, next) in cuts {
+        let before = line[from..begin].trim_end();
+        let within = !line[next..].trim().is_empty() && !before.is_empty();
+        // "…, dear?" keeps the mark that ends the line; «Скажи, дружок, где …» one comma.
+        kept.push_str(if within { before } else { before.trim_end_matches(COMMAS) });
+        from = if within || before.is_empty() && kept.is_empty() { next } else { end };
+    }
+    let rest = &line[from..];
+    if !kept.is_empty() && !rest.starts_with(MARKS) && !rest.starts_with(' ') {
+        kept.push(' ');
+    }
+    kept.push_str(rest);
+    Cow::Owned(kept.trim().to_owned())
+}
+
+/// What parts an address from the rest of a line.
+const MARKS: [char; 9] = [',', ';', '.', '!', '?', '…', '–', '—', ':'];
+/// What stands before one at the end of a line.
+const COMMAS: [char; 2] = [',', ' '];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_is_spoken_to_is_left_out_and_what_is_named_stays() {
+        for (line, plain) in [
+            ("Where is the cup, dear?", "Where is the cup?"),
+            ("Скажи, дружок, где чашка?", "Скажи, где чашка?"),
+            ("Сынок, сколько у нас стульев?", "сколько у нас стульев?"),
+            ("Hey, buddy! Bring me the cup.", "Hey, Bring me the cup."),
+            ("My dear, which one is red", "which one is red"),
+            ("Is there honey in the kitchen?", "Is there honey in the kitchen?"),
+            ("Принеси чашку, блюдце и ложку", "Принеси чашку, блюдце и ложку"),
+            ("Mum?", "Mum?"),
+        ] {
+            assert_eq!(unaddressed(line), plain, "{line}");
+        }
+    }
+}
