@@ -412,3 +412,75 @@ fn whose_name_is_asked_is_told_no_list() {
         }
     }
 }
+
+/// What bounds a question stands before it or behind it, and is never left aside: the answer says what it makes of it, or
+/// there is none.
+#[test]
+fn what_bounds_a_question_is_not_left_aside() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    let query = |question: &str| {
+        let answer = rb2.ask(question, &mut Memory::default()).expect("there is a map").ok()?;
+        Some((format!("{:?}", answer.query), answer.text))
+    };
+    let russian = [
+        "не открывая дверей",
+        "не заходя в коридор",
+        "не считая первой",
+        "за исключением красных",
+        "кроме тех, что на полу",
+        "не больше двух",
+        "помимо вазы",
+        "минуя кухню",
+        "хотя бы три",
+        "тяжелее килограмма",
+        "но не больше метра",
+        "снаружи",
+    ];
+    let english = [
+        "without opening any door",
+        "not counting the first one",
+        "apart from the red ones",
+        "excluding the kitchen",
+        "without going through the hall",
+        "at least three",
+        "heavier than a kilo",
+        "bypassing the kitchen",
+    ];
+    let asked = [
+        (&russian[..], "Какие чашки есть в доме?"),
+        (&russian[..], "Сколько стульев в гостиной?"),
+        (&russian[..], "Куда можно попасть из спальни?"),
+        (&english[..], "Which cups are there in the house?"),
+        (&english[..], "How many chairs are in the living room?"),
+        (&english[..], "Which rooms can I get to from the bedroom?"),
+    ];
+    for (bounds, question) in asked {
+        let (plain, _) = query(question).expect("a plain question");
+        let bare = question.trim_end_matches('?');
+        for bound in bounds {
+            for line in [
+                format!("{bare} {bound}?"),
+                format!("{bare}, {bound}?"),
+                format!("{bound}, {question}"),
+            ] {
+                let told = query(&line);
+                assert!(told.as_ref().is_none_or(|(own, _)| *own != plain), "{line}: {told:?}");
+            }
+        }
+    }
+}
+
+/// "Then", "at the moment" and who is spoken to change nothing of what is switched on.
+#[test]
+fn small_words_behind_a_state_leave_it_one() {
+    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
+    for question in ["How many lights are on", "Which lamps are off", "Is Lamp 1 on"] {
+        let plain = answered(&rb2, &format!("{question}?"), &mut Memory::default());
+        assert!(plain.is_some(), "{question}");
+        for behind in [" then", " now", " at the moment", ", dear", ", mate", " right now, please"] {
+            let line = format!("{question}{behind}?");
+            let told = answered(&rb2, &line, &mut Memory::default());
+            assert_eq!(told, plain, "{line}");
+        }
+    }
+}

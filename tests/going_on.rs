@@ -393,3 +393,122 @@ fn another_room_has_none_of_what_was_told_by_name() {
         assert!(told.is_none_or(|answer| !answer.text.contains("is not a door")), "{line}");
     }
 }
+
+/// "How far is A from B? Which of them is higher up? What is it on? And the other one?": the two that were measured.
+#[test]
+fn what_was_measured_together_is_them_and_the_other_one() {
+    let rb2 = rb2();
+    let things = ["the fridge", "the kettle", "the medicine", "the vase", "the umbrella", "Book 5"];
+    let found = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    let (mut them, mut other) = (Family::default(), Family::default());
+    for (a, b) in things.iter().zip(things.iter().cycle().skip(1)) {
+        let far = format!("How far is {a} from {b}?");
+        for more in ["higher up", "taller"] {
+            let whole = format!("Which is {more}, {a} or {b}?");
+            them.hear(&rb2, &[&far, &format!("Which of them is {more}?")], &whole, found);
+        }
+        let Some(higher) = whole_of(&rb2, &format!("Which is taller, {a} or {b}?")) else {
+            continue;
+        };
+        for rest in [a, b] {
+            if whole_of(&rb2, &format!("Where is {rest}?")).is_some_and(|t| t != higher) {
+                let lines = [&far, "Which of them is taller?", "Where is it?", "And the other one?"];
+                other.hear(&rb2, &lines, &format!("Where is {rest}?"), found);
+            }
+        }
+    }
+    them.mostly_understood();
+    other.mostly_understood();
+}
+
+fn whole_of(engine: &Engine, question: &str) -> Option<BTreeSet<orthoframe_language::question::Thing>> {
+    whole(engine, question).map(|answer| answer.things.into_iter().collect())
+}
+
+/// «Отнеси чашку на стол. – Что на нём лежит? – Положи туда книгу»: where the order went, and never what was carried.
+#[test]
+fn there_is_whither_the_last_order_went() {
+    let rb2 = rb2();
+    let order = |text: &str, memory: &mut Memory| {
+        let commands = rb2.understand_in(text, memory).ok()?;
+        Some(format!("{commands:?}"))
+    };
+    let things = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    let mut understood = 0;
+    for place in ["the desk", "the dresser", "Table 1", "the dining table", "Bedside table 1"] {
+        for thing in ["Book 1", "Plate 1", "the vase", "the kettle"] {
+            let carry = format!("Put {thing} on {place}");
+            let bears = whole(&rb2, &format!("What is on {place}?")).map(|a| things(&a));
+            for asked in ["What is on it?", "What is on it now?"] {
+                let mut memory = Memory::default();
+                order(&carry, &mut memory).expect("a plain order");
+                let told = ask(&rb2, asked, &mut memory).map(|a| things(&a));
+                assert!(told.is_none() || told == bears, "{carry}. {asked}");
+                understood += usize::from(told.is_some());
+            }
+            let plain = order(&format!("Put Book 5 on {place}"), &mut Memory::default());
+            for line in ["Put Book 5 on it", "Put Book 5 there", "Book 5 there too", "now put Book 5 there as well"] {
+                let mut memory = Memory::default();
+                order(&carry, &mut memory).expect("a plain order");
+                let told = order(line, &mut memory);
+                assert!(told.is_none() || told == plain, "{carry}. {line}: {told:?}");
+                understood += usize::from(told.is_some());
+            }
+        }
+    }
+    assert!(understood > 5 * 4 * 6 * 3 / 4, "{understood}");
+}
+
+/// "Where is the nearest chair? How many of them are in the kitchen?": of its kind; «А на другой?»: on the other of the kind;
+/// and of what the map lacks the question goes on to what it has.
+#[test]
+fn a_kind_goes_on_from_the_one_that_was_told() {
+    let rb2 = rb2();
+    let number = |answer: &Answer| answer.number;
+    let found = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    let rooms = ["в Комнате-В", "в Комнате-Z", "в Комнате-Y", "в коридоре"];
+    let mut counts = Family::default();
+    for room in rooms {
+        for (kind, all) in [("стул", "стульев"), ("шкаф", "шкафов"), ("торшер", "торшеров")] {
+            let whole = format!("Сколько {all} {room}?");
+            for last in [format!("А {room} их сколько?"), format!("Сколько их {room}?")] {
+                counts.hear(&rb2, &[&format!("Где ближайший {kind}?"), &last], &whole, number);
+            }
+        }
+    }
+    counts.mostly_understood();
+    let mut others = Family::default();
+    for (one, rest) in [("Тумбочке-1", "Тумбочке-2"), ("Тумбочке-2", "Тумбочке-1")] {
+        for what in ["Что лежит", "Что стоит", "Что есть"] {
+            let first = format!("{what} на {one}?");
+            for last in ["А на другой?".to_owned(), format!("{what} на другой?")] {
+                others.hear(&rb2, &[&first, &last], &format!("{what} на {rest}?"), found);
+            }
+        }
+    }
+    others.mostly_understood();
+    let mut lacking = Family::default();
+    for room in rooms {
+        for kind in ["книга", "лампа", "стул"] {
+            let first = format!("Есть ли {room} чашка?");
+            let lines = [&first, "А аквариум?", &format!("А {kind}?")];
+            lacking.hear(&rb2, &lines, &format!("Есть ли {room} {kind}?"), |a| a.said);
+        }
+    }
+    lacking.mostly_understood();
+}
+
+/// "Which of the cups do you mean?" – "How many are in the kitchen?": of those that were asked back.
+#[test]
+fn what_was_asked_back_is_what_is_counted() {
+    let rb2 = rb2();
+    let mut counts = Family::default();
+    for (one, all) in [("cup", "cups"), ("chair", "chairs"), ("lamp", "lamps"), ("wardrobe", "wardrobes")] {
+        for room in ROOMS {
+            let asked = format!("What colour is the {one}?");
+            let whole = format!("How many {all} are in {room}?");
+            counts.hear(&rb2, &[&asked, &format!("How many are in {room}?")], &whole, |a| a.number);
+        }
+    }
+    counts.mostly_understood();
+}

@@ -4,6 +4,8 @@
 
 use std::borrow::Cow;
 
+use super::mark::Mark;
+use super::several::is_tag;
 use super::vocabulary;
 use crate::words::word_keys;
 
@@ -14,7 +16,9 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     let mut from = 0;
     let marks = line.char_indices().filter(|(_, c)| MARKS.contains(c));
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
-        if vocabulary::is_called(&word_keys(&line[from..at])) {
+        let asks = line.trim_end().ends_with('?');
+        let parted = vocabulary::parted(&word_keys(&line[from..at]));
+        if parted == Some(Mark::Called) || asks && parted == Some(Mark::Hesitates) {
             cuts.push((from, at, at + mark));
         }
         from = at + mark;
@@ -40,6 +44,22 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     Cow::Owned(kept.trim().to_owned())
 }
 
+/// A line without an "isn't it" in its midst, which denies nothing: "It's in there, isn't it, but where?"
+pub(super) fn untagged(line: &str) -> Cow<'_, str> {
+    let mut commas = line.char_indices().filter(|(_, c)| *c == ',').map(|(at, _)| at);
+    let (Some(first), Some(last)) = (commas.next(), commas.next_back()) else {
+        return Cow::Borrowed(line);
+    };
+    let parts: Vec<&str> = line[first + 1..last].split(',').collect();
+    let kept: Vec<&str> =
+        parts.iter().copied().filter(|part| !is_tag(&word_keys(part).join(" "))).collect();
+    if kept.len() == parts.len() {
+        return Cow::Borrowed(line);
+    }
+    let ends = [&line[..first]].into_iter().chain(kept).chain([&line[last + 1..]]);
+    Cow::Owned(ends.collect::<Vec<_>>().join(","))
+}
+
 /// What parts an address from the rest of a line.
 const MARKS: [char; 9] = [',', ';', '.', '!', '?', '…', '–', '—', ':'];
 /// What stands before one at the end of a line.
@@ -48,6 +68,18 @@ const COMMAS: [char; 2] = [',', ' '];
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_tag_within_a_line_denies_nothing() {
+        for (line, plain) in [
+            ("It's in there, isn't it, but where?", "It's in there, but where?"),
+            ("Она красная, не так ли, или синяя?", "Она красная, или синяя?"),
+            ("A, b, c", "A, b, c"),
+            ("It is red, isn't it?", "It is red, isn't it?"),
+        ] {
+            assert_eq!(untagged(line), plain, "{line}");
+        }
+    }
 
     #[test]
     fn who_is_spoken_to_is_left_out_and_what_is_named_stays() {
@@ -59,6 +91,8 @@ mod tests {
             ("My dear, which one is red", "which one is red"),
             ("Is there honey in the kitchen?", "Is there honey in the kitchen?"),
             ("Принеси чашку, блюдце и ложку", "Принеси чашку, блюдце и ложку"),
+            ("Ok wait, is it red?", "is it red?"),
+            ("Подожди, пока я не приду", "Подожди, пока я не приду"),
             ("Mum?", "Mum?"),
         ] {
             assert_eq!(unaddressed(line), plain, "{line}");

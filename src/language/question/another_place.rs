@@ -70,6 +70,32 @@ impl Asker<'_> {
         (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
     }
 
+    /// «Что ещё на столе? – … – Кроме карандашей?»: the same without those.
+    pub(super) fn but_for(&self, sentence: &Sentence<'_>, last: &Query, memory: &Memory) -> Option<Query> {
+        let items = sentence.items();
+        let mut rest = items.iter().filter(|item| !matches!(item, Item::Mark(Mark::And)));
+        if rest.next() != Some(&Item::Mark(Mark::Except)) {
+            return None;
+        }
+        let mut except = Vec::new();
+        for item in rest {
+            match item {
+                Item::Noun(phrase) if phrase.person.is_none() && phrase.pronoun.is_none() => {
+                    except.push(Noun { plural: true, ..phrase.noun.clone() });
+                }
+                _ => return None,
+            }
+        }
+        let known = |noun: &Noun| self.knowledge(sentence.language, memory).find(noun, true).is_ok();
+        let mut query = last.clone();
+        let (Query::Find(asked) | Query::Count(asked)) = &mut query else { return None };
+        if except.is_empty() || !except.iter().all(known) {
+            return None;
+        }
+        asked.except.extend(except);
+        Some(query)
+    }
+
     /// "What is on the counter? – … – Anything made of metal?": of what is there.
     pub(super) fn anything_such(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
         let plain = self.plain(text);

@@ -191,6 +191,8 @@ impl Knowledge<'_> {
                     noun.head.things = shown.map(|shown| vec![shown]);
                     noun.head.anything = noun.head.things.is_none();
                 }
+            } else if one && is_shown(noun) && self.found_nothing() {
+                // "What about pens? – There are none. – Where is that one?"
             } else if one && noun.head.anything && self.memory.listed.len() > 1 {
                 // "Which rooms have a TV? What does the one in the bedroom stand on?"
                 let rooms = self.memory.listed.iter().all(|t| t.area().is_some());
@@ -218,6 +220,12 @@ impl Knowledge<'_> {
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
         }
+    }
+
+    /// Whether the last question sought something and there was none.
+    fn found_nothing(&self) -> bool {
+        let sought = self.memory.query.as_ref().is_some_and(|query| query.sought().is_some());
+        sought && self.memory.last.is_empty()
     }
 
     /// "The kitchen one, is it white?": the pronoun resumes the subject, and claims nothing of it.

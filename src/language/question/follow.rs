@@ -56,6 +56,9 @@ impl Asker<'_> {
         if let Some(query) = self.how_many_told(text, memory) {
             return Some(query);
         }
+        if let Some(query) = self.but_for(&sentence, last, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.count_of_kind(&sentence, memory) {
             return Some(query);
         }

@@ -158,6 +158,8 @@ pub(super) enum Mark {
     The,
     /// «дружок», "dear": how somebody is spoken to, where commas part it from the rest.
     Called,
+    /// "Wait", «постой»: who says so before a question is about to ask.
+    Hesitates,
     Filler,
 }
 

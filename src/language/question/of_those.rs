@@ -4,8 +4,8 @@
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::query::{Best, Extreme, Head};
-use super::{Asker, Memory, Noun, Query, Rel, Thing, assemble, memory, vocabulary};
+use super::query::{Best, Extreme, Head, Restriction};
+use super::{Asker, Memory, Noun, Query, Rel, Thing, memory, vocabulary};
 use crate::words::{Gender, Language, word_keys};
 
 impl Asker<'_> {
@@ -15,11 +15,11 @@ impl Asker<'_> {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let items = sentence.items();
-        let (mut extreme, mut which, mut of_two) = (None, false, false);
+        let (mut extreme, mut which, mut of) = (None, false, None);
         for item in &items {
             match item {
                 // "Which of the two is taller?"
-                Item::Number(2) => of_two = true,
+                Item::Number(n @ 2..) if of.is_none() => of = usize::try_from(*n).ok(),
                 Item::Mark(Mark::More(by) | Mark::Best(by)) if extreme.is_none() => {
                     extreme = Some(*by);
                 }
@@ -48,16 +48,21 @@ impl Asker<'_> {
             things.len() > 1 && things.iter().any(fits)
         };
         let mut named = vec![memory.last.clone()];
-        if of_two {
+        if of.is_some() {
             named.extend(knowledge.last_pair());
             named.extend(knowledge.last_places());
+            named.push(knowledge.measured_before());
         }
         memory.query.clone()?.each_noun(&mut |noun| {
             named.extend(knowledge.find(noun, true).ok());
         });
-        named.extend(self.alike_spoken_of(memory));
-        if of_two {
-            named.retain(|things| things.len() == 2);
+        // "Are there any lamps? – No. – Which of them is biggest?": of none, none is.
+        let none = memory.last.is_empty() && memory.query.as_ref().is_some_and(|q| q.sought().is_some());
+        if !none {
+            named.extend(self.alike_spoken_of(memory));
+        }
+        if let Some(of) = of {
+            named.retain(|things| things.len() == of);
         }
         let things = named.into_iter().find(|things| agree(things))?;
         let best = Some(Best { extreme, anchor: None });
@@ -77,7 +82,9 @@ impl Asker<'_> {
             let kind = knowledge.kind_of(*first)?;
             let alike = spoken.iter().filter(|t| knowledge.kind_of(**t) == Some(kind)).copied();
             let alike: Vec<Thing> = alike.collect();
-            (alike.len() > 1).then_some(alike)
+            // «Сколько там столов? – Один. – Какой из них больше?»: chairs that were told before are none of them.
+            let of_last = memory.last.iter().all(|last| alike.contains(last));
+            (alike.len() > 1 && of_last).then_some(alike)
         })
     }
 
@@ -184,7 +191,7 @@ impl Asker<'_> {
     /// «Где ближайший стул? А в гостиной их сколько?»: of the kind of the one thing that was told, there.
     pub(super) fn count_of_kind(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Query> {
         let they = |phrase: &Phrase| phrase.pronoun == Some(Pronoun::They);
-        let (mut counts, mut meant, mut places) = (false, false, 0);
+        let (mut counts, mut meant, mut restrictions) = (false, false, Vec::new());
         for item in sentence.items() {
             match item {
                 Item::Mark(Mark::HowMany) => counts = true,
@@ -193,24 +200,20 @@ impl Asker<'_> {
                 Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if nouns.iter().all(they) => {
                     meant = true;
                 }
-                Item::Place { nouns, .. }
+                Item::Place { rel, nouns, .. }
                     if nouns.iter().all(|p| p.pronoun.is_none() && p.person.is_none()) =>
                 {
-                    places += 1;
+                    let anchors = nouns.into_iter().map(|phrase| phrase.noun).collect();
+                    restrictions.push(Restriction { rel, anchors, negated: false });
                 }
                 _ => return None,
             }
         }
         let [only] = memory.last[..] else { return None };
-        let knowledge = self.knowledge(sentence.language, memory);
-        let kind = knowledge.kind_of(only).filter(|_| counts && meant && places > 0)?;
-        let nobody = |_: Pronoun, _: Option<Rel>| Vec::new();
-        let fragment = assemble::fragment(sentence, &self.mind.lexicon, &nobody)?;
-        let mut restrictions = fragment.restrictions;
-        restrictions.retain(|place| !matches!(place.rel, Rel::From | Rel::Of));
+        let asks = counts && meant && !restrictions.is_empty();
+        let kind = self.knowledge(sentence.language, memory).kind_of(only).filter(|_| asks)?;
         let head = Head { kinds: vec![kind], ..Head::default() };
-        (!restrictions.is_empty())
-            .then(|| Query::Count(Noun { head, restrictions, plural: true, ..Noun::default() }))
+        Some(Query::Count(Noun { head, restrictions, plural: true, ..Noun::default() }))
     }
 
     /// "Things" and no more.
@@ -234,7 +237,10 @@ impl Asker<'_> {
             }
         }
         let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
-        let meant = *memory.listed.get(at)?;
+        // "How many of the three are on the bed? – Two. – Where is the third?"
+        let knowledge = self.knowledge(sentence.language, memory);
+        let wider = || knowledge.list_with(&memory.listed)?.get(at).copied();
+        let meant = memory.listed.get(at).copied().or_else(wider)?;
         let noun = Noun::of(vec![meant]);
         Some(match memory.query.clone()? {
             query @ (Query::Property { .. } | Query::Size { .. }) if !asks_where => {

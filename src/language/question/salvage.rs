@@ -9,7 +9,7 @@ use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, Thing, opening, premise, several, vocabulary,
 };
 use crate::command::is_order;
-use crate::words::{Language, word_keys, word_ranges};
+use crate::words::{Language, is_first_person, word_keys, word_ranges};
 
 /// What the parts of a line tell that do not ask.
 #[derive(Default)]
@@ -221,7 +221,9 @@ impl Asker<'_> {
         let or = keys.iter().rposition(|key| matches!(key.as_str(), "или" | "or" | "либо"))?;
         let tail = text.get(words.get(or + 1)?.start..)?;
         // «или нет» belongs to what is asked.
-        if or < 2 || word_keys(tail).len() < 2 {
+        let is_idle = |word: &String| matches!(word.as_str(), "what" | "что" | "как" | "чего");
+        let or_what = matches!(&word_keys(tail)[..], [only] if is_idle(only));
+        if or < 2 || word_keys(tail).len() < 2 && !or_what {
             return None;
         }
         let plain = self.plain(tail);
@@ -321,6 +323,39 @@ impl Asker<'_> {
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))
     }
 
+    /// Whether a part of a line is no clause of the person's, and denies, excepts, compares or counts: «не открывая дверей»,
+    /// "apart from the kitchen", «тяжелее килограмма». What is asked beside it is asked within those bounds.
+    pub(super) fn limits(&self, text: &str) -> bool {
+        let keys = word_keys(text);
+        let says = |key: &String| is_first_person(key);
+        if keys.is_empty() || opening::is_of_me(&keys) || keys.iter().any(says) || is_polite(&keys) {
+            return false;
+        }
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let of_person = |item: &Item| match item {
+            Item::Mark(mark) => matches!(mark, Mark::Me | Mark::You | Mark::Be | Mark::Can),
+            Item::Noun(phrase) => phrase.person.is_some(),
+            _ => false,
+        };
+        // «короче» alone only hesitates.
+        let compares = items.len() > 1;
+        let bounds = |item: &Item| match item {
+            Item::Mark(
+                Mark::Except | Mark::Avoiding | Mark::Unopened | Mark::Without | Mark::Directly,
+            ) => true,
+            Item::Mark(Mark::Number(_) | Mark::OnlyOne | Mark::More(_) | Mark::Nearer(_)) => {
+                compares
+            }
+            _ => false,
+        };
+        // «Не открывая дверей», but «нет» and «не утюг, а чайник».
+        let denies = matches!(items.first(), Some(Item::Mark(Mark::Not)))
+            && items.len() > 1
+            && withdrawn(&items).is_none();
+        !items.iter().any(of_person) && (denies || items.iter().any(bounds))
+    }
+
     /// What a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that does.
     pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Named> {
         const LIMITS: [&str; 18] = [
@@ -348,6 +383,9 @@ impl Asker<'_> {
             None => return Some(Named::default()),
             Some((last, before)) => (last, before),
         };
+        if self.limits(text) {
+            return None;
+        }
         // "Sorry to bother you, but …" limits nothing; "all but …" does.
         let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
         let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
@@ -378,6 +416,10 @@ impl Asker<'_> {
             _ => false,
         });
         let of_me = !names && opening::is_of_me(&keys);
+        // "Not the armchair, the sofa": what is withdrawn is not spoken of.
+        if withdrawn(&items).is_some() {
+            return Some(named);
+        }
         for item in items {
             let (phrases, is_place) = match item {
                 Item::Mark(Mark::All) if of_me => (Vec::new(), false),
@@ -399,7 +441,8 @@ impl Asker<'_> {
                     let first = named.things.is_empty() && found.len() > 1;
                     named.reference = first.then(|| phrase.noun.text.clone());
                     named.things.extend(found);
-                    named.plural |= phrase.noun.plural;
+                    // "I fancy an apple, where are they?"
+                    named.plural |= phrase.noun.plural || phrase.noun.indefinite;
                 }
             }
         }
@@ -447,6 +490,16 @@ impl Named {
             memory.told_place = Some(place);
         }
     }
+}
+
+/// What a part of a line takes back: «нет, не утюг», "not the armchair".
+fn withdrawn(items: &[Item]) -> Option<&Item> {
+    let mut rest = items.iter().skip_while(|item| {
+        matches!(item, Item::Mark(Mark::Not | Mark::The | Mark::A | Mark::And | Mark::Filler))
+    });
+    let denies = items.iter().any(|item| *item == Item::Mark(Mark::Not));
+    let only = rest.next().filter(|_| denies && rest.next().is_none())?;
+    matches!(only, Item::Noun(_) | Item::Unknown(_)).then_some(only)
 }
 
 /// "If you don't mind", «если не секрет», "while you're at it": who says so is polite, and supposes nothing.

@@ -270,6 +270,7 @@ impl Asker<'_> {
             || several::asks_in(told)
             || is_reported(&word_keys(told))
             || self.tells_how_much(told)
+            || self.limits(told)
             // «А в той, что меньше?»
             || goes_on(told, asked)
             || (premise::says_here(asked) && self.premise(told).is_some())

@@ -80,7 +80,13 @@ impl Knowledge<'_> {
                 .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
         };
         let exchanges = &self.memory.exchanges;
-        if let Some(rest) = exchanges.iter().skip(1).find_map(wider).or_else(|| exchanges.iter().find_map(compared)) {
+        // "Which of them is higher? What is it standing on? And the other one?"
+        let of_topic = || {
+            let topic = exchanges.first().and_then(Exchange::topic)?;
+            let all = exchanges.iter().map(Exchange::compared).find(|all| all.contains(&topic))?;
+            Some(all.iter().copied().filter(|t| *t != topic).collect::<Vec<_>>())
+        };
+        if let Some(rest) = exchanges.iter().skip(1).find_map(wider).or_else(|| exchanges.iter().find_map(compared)).or_else(of_topic) {
             return Some(rest);
         }
         let others = |thing: &Thing| {
@@ -181,10 +187,21 @@ impl Knowledge<'_> {
         (pair[0] != pair[1]).then_some(pair)
     }
 
-    /// The latest list of things of which some are.
+    /// All that the last exchanges measured: "Is A bigger than B? And C? Which of the three is the smallest?"
+    pub(super) fn measured_before(&self) -> Vec<Thing> {
+        let mut all = Vec::new();
+        for thing in self.memory.exchanges.iter().flat_map(Exchange::compared) {
+            if !all.contains(thing) {
+                all.push(*thing);
+            }
+        }
+        all
+    }
+
+    /// The latest list of things of which some are, and others.
     pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
         let has = |e: &&Exchange| {
-            e.members().len() > 1
+            e.members().len() > some.len()
                 && !some.is_empty()
                 && some.iter().all(|t| e.members().contains(t))
         };

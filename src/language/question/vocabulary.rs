@@ -1,6 +1,6 @@
 //! The words of questions in both languages, and what each does in a sentence.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
@@ -182,6 +182,7 @@ const MARKS: &[Mark] = &[
     Mark::A,
     Mark::The,
     Mark::Called,
+    Mark::Hesitates,
     Mark::Filler,
 ];
 
@@ -191,8 +192,7 @@ fn table() -> &'static HashMap<String, Phrases> {
     static TABLE: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut table: HashMap<String, Phrases> = HashMap::new();
-        // Within a sentence "honey" is a thing.
-        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| *mark != Mark::Called) {
+        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| !is_parted(*mark)) {
             let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
             table.entry(words[0].clone()).or_default().push((words, mark));
         }
@@ -231,16 +231,26 @@ pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
     }
 }
 
-/// Whether these words are no more than how somebody is spoken to: "my dear".
-pub(super) fn is_called(words: &[String]) -> bool {
-    static CALLED: OnceLock<HashSet<String>> = OnceLock::new();
-    let called = CALLED.get_or_init(|| {
-        let of_mark = phrases().into_iter().filter(|(mark, _)| *mark == Mark::Called);
-        of_mark.map(|(_, phrase)| name_key(&phrase)).collect()
+/// What words that a comma parts from a line do in it: how somebody is spoken to ("my dear"), or that one is about to ask
+/// ("ok wait"). Small words may stand before.
+pub(super) fn parted(words: &[String]) -> Option<Mark> {
+    static PARTED: OnceLock<HashMap<String, Mark>> = OnceLock::new();
+    let parted = PARTED.get_or_init(|| {
+        let own = phrases().into_iter().filter(|(mark, _)| is_parted(*mark));
+        own.map(|(mark, phrase)| (name_key(&phrase), mark)).collect()
     });
-    let own = |word: &&String| matches!(longest(std::slice::from_ref(*word)), Some((1, Mark::The | Mark::You | Mark::Filler)));
-    let small = words.iter().take_while(own).count();
-    !words.is_empty() && called.contains(&words[small.min(words.len() - 1)..].join(" "))
+    let small = |word: &&String| {
+        let said = longest(std::slice::from_ref(*word));
+        matches!(said, Some((1, Mark::The | Mark::You | Mark::Filler)))
+    };
+    let before = words.iter().take_while(small).count();
+    let keys = |from: usize| words.get(from..).unwrap_or_default().join(" ");
+    (0..=before).find_map(|from| parted.get(&keys(from)).copied())
+}
+
+/// Within a sentence "honey" is a thing, and "wait" an order.
+fn is_parted(mark: Mark) -> bool {
+    matches!(mark, Mark::Called | Mark::Hesitates)
 }
 
 /// Whether a word is in any phrase of the vocabulary: it is a word, whatever it does there.

@@ -224,6 +224,10 @@ impl Frame<'_, '_> {
 
     /// «Туда дверь открыта?»: of the door there, and not of any.
     fn loses_there(&self, query: &Query) -> bool {
+        // "How many chairs have we got there?", where nothing was told that it could be.
+        if self.nowhere.is_some() && self.spots.is_empty() {
+            return matches!(query, Query::Count(_) | Query::Find(_) | Query::Exists { .. });
+        }
         let (Some(there), Query::Holds { .. }) = (&self.there, query) else { return false };
         let mut taken = false;
         if let Query::Holds { claims, .. } = query {
@@ -243,7 +247,8 @@ impl Frame<'_, '_> {
         if !matches!(query, Query::Find(_) | Query::Count(_) | Query::Exists { .. }) {
             return false;
         }
-        let side = |rel: Rel| rel.is_side() || matches!(rel, Rel::Under | Rel::Above);
+        let side =
+            |rel: Rel| rel.is_side() || matches!(rel, Rel::Under | Rel::Above | Rel::Outside);
         let mut asked: Vec<Rel> =
             self.links.iter().map(|(rel, _)| *rel).filter(|r| side(*r)).collect();
         query.clone().each_noun(&mut |noun| {
@@ -471,7 +476,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
         Mark::Differ | Mark::Alike => false,
         Mark::Number(_) | Mark::OnlyOne => {
-            told.counted || matches!(query, Q::MoreOf { .. } | Q::Count(_))
+            told.counted || matches!(query, Q::MoreOf { .. })
         }
         Mark::Unopened | Mark::MustOpen => matches!(query, Q::Passing { .. }),
         Mark::Without | Mark::Avoiding | Mark::Directly | Mark::Must => {

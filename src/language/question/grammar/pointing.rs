@@ -16,7 +16,14 @@ const POINTING: [&str; 16] = [
 /// Whether a description is of what a pointing word means: "the one on the left", «те, что на комоде».
 pub(in super::super) fn points(noun: &Noun) -> bool {
     let said = |word: &String| POINTING.contains(&word.as_str());
-    noun.head.anything && word_keys(&noun.text).last().is_some_and(said)
+    let keys = word_keys(&noun.text);
+    let alone = matches!(&keys[..], [only] if noun.rank.is_some() || stands_for_one(only));
+    noun.head.anything && (alone || keys.last().is_some_and(said))
+}
+
+/// A form of «другой»: «ещё» is other, and stands for no noun.
+pub(super) fn stands_for_one(word: &str) -> bool {
+    ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг"
 }
 
 impl Sentence<'_> {

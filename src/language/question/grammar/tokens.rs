@@ -1,5 +1,6 @@
 //! A sentence cut into tokens: which words are a name, a value, a property, a number, or a word of the vocabulary.
 
+use super::pointing::stands_for_one;
 use super::{Found, Sentence, Tok, Token};
 use crate::map::Entity;
 use crate::question::compared::quantity;
@@ -32,6 +33,7 @@ impl<'t> Sentence<'t> {
             at = sentence.token(at, lexicon);
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
+        sentence.fill_elided();
         sentence.drop_asking_particle();
         sentence.drop_stranded();
         sentence.tell_heights();
@@ -201,6 +203,31 @@ impl<'t> Sentence<'t> {
                 Tok::Mark(Mark::More(extreme)) => Tok::Mark(Mark::More(raised(extreme))),
                 other => other,
             };
+        }
+    }
+
+    /// «А на другой?», «что на второй?»: an adjective that a preposition governs and no noun follows stands for one.
+    fn fill_elided(&mut self) {
+        let governed = |n: usize| matches!(self.tokens[n].kind, Tok::Mark(Mark::Link(_)));
+        let tells = |t: &Token| match t.kind {
+            Tok::Mark(Mark::Other) => stands_for_one(&self.keys[t.from as usize]),
+            Tok::Mark(Mark::Rank(_)) => true,
+            _ => false,
+        };
+        let open = |n: usize| {
+            self.tokens.get(n).is_none_or(|t| {
+                matches!(
+                    t.kind,
+                    Tok::Mark(Mark::Be | Mark::Exists | Mark::Hang | Mark::What | Mark::HowMany)
+                )
+            })
+        };
+        let at = (1..self.tokens.len())
+            .rev()
+            .find(|&n| governed(n - 1) && tells(&self.tokens[n]) && open(n + 1));
+        if let (Some(at), Language::Russian) = (at, self.language) {
+            let one = Token { kind: Tok::Mark(Mark::One), ..self.tokens[at] };
+            self.tokens.insert(at + 1, one);
         }
     }
 

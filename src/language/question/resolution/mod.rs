@@ -366,7 +366,9 @@ impl Settler<'_, '_> {
         let items = self.freed(items, |byte| sort(clause_at(byte)));
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
-        let place = self.knowledge.memory.last_thing();
+        // «Отнеси чашку на стол. Положи туда книгу»: whither the last order went.
+        let memory = self.knowledge.memory;
+        let place = memory.told_place.or_else(|| memory.last_thing());
         let mut told = Told { place, ..Told::default() };
         for clause in 0..clauses.len().max(1) {
             let own = spots.iter().filter(|s| s.clause == clause).collect();
@@ -378,6 +380,9 @@ impl Settler<'_, '_> {
             });
             let clause = Clause { sort: sort(clause), items: &items, objects: objects.collect() };
             self.settle_clause(&clause, own, &mut told, &mut edits)?;
+        }
+        if let [_] = clauses[..] {
+            edits.extend(self.borne_by_pronoun(sort(0), &items));
         }
         Ok(edits)
     }
@@ -543,6 +548,24 @@ impl Settler<'_, '_> {
             && names
             && spot.item > *item
             && self.candidates(&phrase.noun, &[told]).is_ok_and(fixed)
+    }
+
+    /// "Put the book on it", «положи в неё»: of what was spoken of before the sentence, what may bear or hold things.
+    fn borne_by_pronoun(&self, sort: Sort, items: &[Item]) -> Option<Edit> {
+        let named = items.iter().any(|item| matches!(item, Item::Noun(_)));
+        let mut places = items.iter().filter_map(|item| match item {
+            Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
+            _ => None,
+        });
+        let (rel, nouns) = places.next().filter(|_| named && places.next().is_none())?;
+        let ([phrase], Rel::On | Rel::In) = (&nouns[..], rel) else { return None };
+        let carried = matches!(sort, Sort::Put | Sort::Carry);
+        let mut meant = self.knowledge.referent(phrase.pronoun.filter(|_| carried)?, Some(rel));
+        meant.retain(|thing| self.knowledge.may_be_anchor(rel, *thing));
+        let [thing] = meant[..] else { return None };
+        let name = self.knowledge.form(self.told_by(thing), case_of(rel, true));
+        let at = self.bytes(&phrase.words);
+        Some(Edit { at, name, things: vec![thing], object: false, goal: None })
     }
 
     /// What of what the sentence has named a verb can be done to, of the pronoun's gender; none where that was named

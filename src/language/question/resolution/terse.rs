@@ -60,6 +60,9 @@ const WRONG: [&str; 16] = [
     "those", "there",
 ];
 
+/// Whither the last order went, once more.
+const THERE: [&str; 7] = ["туда", "же", "тоже", "there", "too", "as", "well"];
+
 /// «И обратно», "and back again": to where the robot was.
 fn is_back(text: &str) -> bool {
     const BACK: [&str; 4] = ["back", "обратно", "назад", "взад"];
@@ -133,6 +136,14 @@ impl Asker<'_> {
             "fast",
         ];
         let keys = word_keys(text);
+        // «Да где же эти ключи!» asks, however loud.
+        let asks = |n: usize| {
+            let said = vocabulary::longest(&keys[n..]).map(|(_, mark)| mark);
+            matches!(said, Some(Mark::Where | Mark::HowMany | Mark::HowFar | Mark::When))
+        };
+        if (0..keys.len()).any(asks) {
+            return false;
+        }
         let urges = text.contains('!') || keys.iter().any(|key| URGES.contains(&key.as_str()));
         let plain = self.plain(text);
         let with = self.with_verb(plain.clone(), &Memory::default());
@@ -169,6 +180,11 @@ impl Asker<'_> {
         // "the red one, please"
         let mut until = words.len();
         while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
+            until -= 1;
+        }
+        // «И зелёную книгу туда же», "the plate there too"
+        let kept = ordered.goal.is_some();
+        while kept && until > at + 1 && THERE.contains(&keys[until - 1].as_str()) {
             until -= 1;
         }
         let rest = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
