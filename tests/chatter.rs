@@ -477,7 +477,8 @@ fn small_words_behind_a_state_leave_it_one() {
     for question in ["How many lights are on", "Which lamps are off", "Is Lamp 1 on"] {
         let plain = answered(&rb2, &format!("{question}?"), &mut Memory::default());
         assert!(plain.is_some(), "{question}");
-        for behind in [" then", " now", " at the moment", ", dear", ", mate", " right now, please"] {
+        for behind in [" then", " now", " at the moment", ", dear", ", mate", " right now, please"]
+        {
             let line = format!("{question}{behind}?");
             let told = answered(&rb2, &line, &mut Memory::default());
             assert_eq!(told, plain, "{line}");

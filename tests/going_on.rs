@@ -412,7 +412,8 @@ fn what_was_measured_together_is_them_and_the_other_one() {
         };
         for rest in [a, b] {
             if whole_of(&rb2, &format!("Where is {rest}?")).is_some_and(|t| t != higher) {
-                let lines = [&far, "Which of them is taller?", "Where is it?", "And the other one?"];
+                let lines =
+                    [&far, "Which of them is taller?", "Where is it?", "And the other one?"];
                 other.hear(&rb2, &lines, &format!("Where is {rest}?"), found);
             }
         }
@@ -421,7 +422,10 @@ fn what_was_measured_together_is_them_and_the_other_one() {
     other.mostly_understood();
 }
 
-fn whole_of(engine: &Engine, question: &str) -> Option<BTreeSet<orthoframe_language::question::Thing>> {
+fn whole_of(
+    engine: &Engine,
+    question: &str,
+) -> Option<BTreeSet<orthoframe_language::question::Thing>> {
     whole(engine, question).map(|answer| answer.things.into_iter().collect())
 }
 
@@ -447,7 +451,12 @@ fn there_is_whither_the_last_order_went() {
                 understood += usize::from(told.is_some());
             }
             let plain = order(&format!("Put Book 5 on {place}"), &mut Memory::default());
-            for line in ["Put Book 5 on it", "Put Book 5 there", "Book 5 there too", "now put Book 5 there as well"] {
+            for line in [
+                "Put Book 5 on it",
+                "Put Book 5 there",
+                "Book 5 there too",
+                "now put Book 5 there as well",
+            ] {
                 let mut memory = Memory::default();
                 order(&carry, &mut memory).expect("a plain order");
                 let told = order(line, &mut memory);
@@ -469,16 +478,19 @@ fn a_kind_goes_on_from_the_one_that_was_told() {
     let rooms = ["в Комнате-В", "в Комнате-Z", "в Комнате-Y", "в коридоре"];
     let mut counts = Family::default();
     for room in rooms {
-        for (kind, all) in [("стул", "стульев"), ("шкаф", "шкафов"), ("торшер", "торшеров")] {
+        for (kind, all) in [("стул", "стульев"), ("шкаф", "шкафов"), ("торшер", "торшеров")]
+        {
             let whole = format!("Сколько {all} {room}?");
-            for last in [format!("А {room} их сколько?"), format!("Сколько их {room}?")] {
+            for last in [format!("А {room} их сколько?"), format!("Сколько их {room}?")]
+            {
                 counts.hear(&rb2, &[&format!("Где ближайший {kind}?"), &last], &whole, number);
             }
         }
     }
     counts.mostly_understood();
     let mut others = Family::default();
-    for (one, rest) in [("Тумбочке-1", "Тумбочке-2"), ("Тумбочке-2", "Тумбочке-1")] {
+    for (one, rest) in [("Тумбочке-1", "Тумбочке-2"), ("Тумбочке-2", "Тумбочке-1")]
+    {
         for what in ["Что лежит", "Что стоит", "Что есть"] {
             let first = format!("{what} на {one}?");
             for last in ["А на другой?".to_owned(), format!("{what} на другой?")] {
@@ -503,7 +515,9 @@ fn a_kind_goes_on_from_the_one_that_was_told() {
 fn what_was_asked_back_is_what_is_counted() {
     let rb2 = rb2();
     let mut counts = Family::default();
-    for (one, all) in [("cup", "cups"), ("chair", "chairs"), ("lamp", "lamps"), ("wardrobe", "wardrobes")] {
+    for (one, all) in
+        [("cup", "cups"), ("chair", "chairs"), ("lamp", "lamps"), ("wardrobe", "wardrobes")]
+    {
         for room in ROOMS {
             let asked = format!("What colour is the {one}?");
             let whole = format!("How many {all} are in {room}?");

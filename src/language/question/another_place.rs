@@ -71,7 +71,12 @@ impl Asker<'_> {
     }
 
     /// «Что ещё на столе? – … – Кроме карандашей?»: the same without those.
-    pub(super) fn but_for(&self, sentence: &Sentence<'_>, last: &Query, memory: &Memory) -> Option<Query> {
+    pub(super) fn but_for(
+        &self,
+        sentence: &Sentence<'_>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
         let items = sentence.items();
         let mut rest = items.iter().filter(|item| !matches!(item, Item::Mark(Mark::And)));
         if rest.next() != Some(&Item::Mark(Mark::Except)) {
@@ -86,11 +91,18 @@ impl Asker<'_> {
                 _ => return None,
             }
         }
-        let known = |noun: &Noun| self.knowledge(sentence.language, memory).find(noun, true).is_ok();
+        let known =
+            |noun: &Noun| self.knowledge(sentence.language, memory).find(noun, true).is_ok();
         let mut query = last.clone();
         let (Query::Find(asked) | Query::Count(asked)) = &mut query else { return None };
         if except.is_empty() || !except.iter().all(known) {
             return None;
+        }
+        // What "else" there was is what was told.
+        if !memory.last.is_empty() {
+            asked.head = Head { things: Some(memory.last.clone()), ..Head::default() };
+            asked.restrictions.clear();
+            asked.other = false;
         }
         asked.except.extend(except);
         Some(query)

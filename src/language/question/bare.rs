@@ -21,6 +21,19 @@ pub(super) fn where_such(sentence: &Sentence<'_>, last: &Query) -> Option<Query>
     (!filters.is_empty()).then(|| Query::Where(Noun { head, filters, ..Noun::default() }))
 }
 
+/// "Is there an apple? – Yes. – Where exactly?": where those are that were told.
+pub(super) fn where_alone(sentence: &Sentence<'_>, last: &Query, memory: &Memory) -> Option<Query> {
+    let items = sentence.items();
+    let asks = items.contains(&Item::Mark(Mark::Where));
+    let small =
+        |item: &Item| matches!(item, Item::Mark(Mark::Where | Mark::And | Mark::Be | Mark::The));
+    let sought = last.sought().filter(|_| asks && items.iter().all(small)).is_some();
+    let told = memory.last.iter().all(|thing| thing.replica().is_some());
+    (sought && told && !memory.last.is_empty()).then(|| {
+        Query::Where(Noun { plural: memory.last.len() > 1, ..Noun::of(memory.last.clone()) })
+    })
+}
+
 /// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
 pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
     const ROOM: [&str; 8] = [

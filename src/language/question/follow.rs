@@ -1,7 +1,7 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
 use super::another_place::{another_placed, near_another};
-use super::bare::{by_how_much, room_alone, where_such};
+use super::bare::{by_how_much, room_alone, where_alone, where_such};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
@@ -99,6 +99,9 @@ impl Asker<'_> {
         }
         let query = self.altogether(&key, last).or_else(|| self.counted_of_listed(text, memory));
         if let Some(query) = query {
+            return Some(query);
+        }
+        if let Some(query) = where_alone(&sentence, last, memory) {
             return Some(query);
         }
         if let Some(query) = room_alone(text, memory) {

@@ -57,7 +57,8 @@ impl Asker<'_> {
             named.extend(knowledge.find(noun, true).ok());
         });
         // "Are there any lamps? – No. – Which of them is biggest?": of none, none is.
-        let none = memory.last.is_empty() && memory.query.as_ref().is_some_and(|q| q.sought().is_some());
+        let none =
+            memory.last.is_empty() && memory.query.as_ref().is_some_and(|q| q.sought().is_some());
         if !none {
             named.extend(self.alike_spoken_of(memory));
         }

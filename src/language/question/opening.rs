@@ -111,6 +111,12 @@ fn asks_way(words: &[String]) -> bool {
     let you = longest(words).filter(|(_, mark)| *mark == Mark::You).map_or(0, |(taken, _)| taken);
     let Some((taken, Mark::Move)) = longest(&words[you..]) else { return false };
     let next = longest(&words[you + taken..]).map(|(_, mark)| mark);
+    // "Can you get into the office?" asks; "Can you get to it?" may send.
+    let into = |word: &String| matches!(word.as_str(), "into" | "in" | "inside" | "past");
+    if words.get(you).is_some_and(|word| word == "get") && words.get(you + taken).is_some_and(into)
+    {
+        return true;
+    }
     // "Can you drive through it?" asks of a door.
     matches!(next, Some(Mark::Link(Rel::From | Rel::Through)))
 }

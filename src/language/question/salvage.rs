@@ -328,7 +328,8 @@ impl Asker<'_> {
     pub(super) fn limits(&self, text: &str) -> bool {
         let keys = word_keys(text);
         let says = |key: &String| is_first_person(key);
-        if keys.is_empty() || opening::is_of_me(&keys) || keys.iter().any(says) || is_polite(&keys) {
+        if keys.is_empty() || opening::is_of_me(&keys) || keys.iter().any(says) || is_polite(&keys)
+        {
             return false;
         }
         let plain = self.plain(text);

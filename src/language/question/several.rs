@@ -77,13 +77,16 @@ pub(super) fn asks_outright(text: &str) -> bool {
         let particle = keys.get(n + 1).is_some_and(|k| matches!(&**k, "то" | "нибудь" | "либо"));
         particle && &text[words[n].end..words[n + 1].start] == "-"
     };
-    (0..keys.len()).any(|n| !indefinite(n) && match vocabulary::longest(&keys[n..]) {
-        Some((taken, Mark::Who)) => {
-            let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
-            taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
-        }
-        Some((_, mark)) => is_asking(mark),
-        None => false,
+    (0..keys.len()).any(|n| {
+        !indefinite(n)
+            && match vocabulary::longest(&keys[n..]) {
+                Some((taken, Mark::Who)) => {
+                    let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
+                    taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
+                }
+                Some((_, mark)) => is_asking(mark),
+                None => false,
+            }
     })
 }
 

@@ -7,7 +7,10 @@ use crate::words;
 /// Whether a word, in [`name_key`](crate::units::name_key) form, that neither the map nor the vocabulary knows, may be left
 /// out of any sentence.
 pub(super) fn says_nothing(key: &str) -> bool {
-    is_sound(key) || is_interjection(key) || (!limits(key) && words::says_nothing(key))
+    is_sound(key)
+        || is_interjection(key)
+        || curses(key)
+        || (!limits(key) && words::says_nothing(key))
 }
 
 /// "um", "hmmm", «эээ», «ммм»: a sound drawn out.
@@ -78,6 +81,13 @@ fn is_interjection(key: &str) -> bool {
         "kinda",
     ];
     SAID.contains(&key)
+}
+
+/// «эти чёртовы ключи»: an adjective that says only how the speaker feels.
+fn curses(key: &str) -> bool {
+    ["чертов", "проклят", "дурацк", "треклят", "окаянн", "злосчастн"]
+        .iter()
+        .any(|stem| key.starts_with(stem))
 }
 
 /// Particles by which a sentence says less or more.

@@ -86,7 +86,13 @@ impl Knowledge<'_> {
             let all = exchanges.iter().map(Exchange::compared).find(|all| all.contains(&topic))?;
             Some(all.iter().copied().filter(|t| *t != topic).collect::<Vec<_>>())
         };
-        if let Some(rest) = exchanges.iter().skip(1).find_map(wider).or_else(|| exchanges.iter().find_map(compared)).or_else(of_topic) {
+        if let Some(rest) = exchanges
+            .iter()
+            .skip(1)
+            .find_map(wider)
+            .or_else(|| exchanges.iter().find_map(compared))
+            .or_else(of_topic)
+        {
             return Some(rest);
         }
         let others = |thing: &Thing| {

@@ -475,9 +475,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Kinds => matches!(query, Q::Kinds { .. }),
         Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
         Mark::Differ | Mark::Alike => false,
-        Mark::Number(_) | Mark::OnlyOne => {
-            told.counted || matches!(query, Q::MoreOf { .. })
-        }
+        Mark::Number(_) | Mark::OnlyOne => told.counted || matches!(query, Q::MoreOf { .. }),
         Mark::Unopened | Mark::MustOpen => matches!(query, Q::Passing { .. }),
         Mark::Without | Mark::Avoiding | Mark::Directly | Mark::Must => {
             told.inward || matches!(query, Q::Passing { .. } | Q::Way { .. } | Q::CanReach { .. })
