@@ -310,6 +310,12 @@ impl Knowledge<'_> {
                 e.members().len() > 1 && e.members().iter().all(|t| self.may_be_anchor(rel, *t))
             };
             let told = self.memory.exchanges.iter().find(bear);
+            for anchor in place.anchors.iter_mut().filter(|a| points(a) && a.other) {
+                if let Some(rest) = self.other_bearing(rel) {
+                    anchor.head = Head { things: Some(rest), ..Head::default() };
+                    anchor.other = false;
+                }
+            }
             for anchor in place.anchors.iter_mut().filter(|a| points(a) && !a.other) {
                 if let Some(told) = told {
                     let things = Some(told.members().to_vec());
@@ -455,7 +461,11 @@ impl Knowledge<'_> {
         let near = self.memory.exchanges.iter().take(NEAR);
         let fitting = |admits: &dyn Fn(&Thing) -> bool| -> Vec<Thing> {
             let fits = |t: &Thing| self.agrees(pronoun, *t) && admits(t);
+            let placed = matches!(rel, Some(Rel::On | Rel::In));
             let rank = near.clone().find_map(|exchange| {
+                if let Some(whither) = exchange.whither().filter(|t| placed && fits(t)) {
+                    return Some(vec![whither]);
+                }
                 let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| vec![*t]);
                 let listed = || exchange.members().iter().copied().filter(|t| fits(t)).collect();
                 topic.or_else(|| Some(listed()).filter(|all: &Vec<Thing>| !all.is_empty()))

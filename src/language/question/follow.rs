@@ -421,7 +421,9 @@ impl Asker<'_> {
         ];
         let words: Vec<&str> = key
             .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty() && !SMALL.contains(word) && !stands(word))
+            .filter(|word| {
+                !word.is_empty() && !SMALL.contains(word) && (OTHER.contains(word) || !stands(word))
+            })
             .collect();
         let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
         let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();

@@ -124,8 +124,13 @@ impl Memory {
         if answer.things.is_empty() {
             self.last.clone_from(&answer.compared);
         }
-        if answer.things.len() > 1 {
-            self.listed.clone_from(&answer.things);
+        // "Where do the doors lead? Which of them is wider?"
+        if matches!(answer.query, Query::Leads(_)) {
+            let told = answer.topic.iter().filter(|t| !answer.things.contains(t));
+            self.last = told.copied().collect();
+        }
+        if self.last.len() > 1 {
+            self.listed.clone_from(&self.last);
         }
         for thing in answer.topic.iter().rev() {
             self.spoken.retain(|t| t != thing);
@@ -141,7 +146,10 @@ impl Memory {
         self.told_place = Some(*place);
         let own = places.iter().rev().filter(|place| !things.contains(place));
         match self.exchanges.first_mut().filter(|_| !things.is_empty()) {
-            Some(exchange) => exchange.topics.extend(own),
+            Some(exchange) => {
+                exchange.topics.extend(own);
+                exchange.whither = Some(*place);
+            }
             None => self.hear_of_things(places),
         }
     }
@@ -202,6 +210,8 @@ pub(super) struct Exchange {
     topics: Vec<Thing>,
     /// The members of a list, none of which is more spoken of than the others.
     listed: Vec<Thing>,
+    /// Whither an order went: "on it" is on that before it is on what was carried.
+    whither: Option<Thing>,
     /// What was measured against each other: each is "the other one" of the rest.
     compared: Vec<Thing>,
 }
@@ -219,11 +229,12 @@ impl Exchange {
                 topics: others().collect(),
                 listed: answer.things.clone(),
                 compared: answer.compared.clone(),
+                ..Self::default()
             },
             _ => Self {
                 topics: found.chain(others()).collect(),
-                listed: Vec::new(),
                 compared: answer.compared.clone(),
+                ..Self::default()
             },
         }
     }
@@ -246,6 +257,11 @@ impl Exchange {
     /// The members of a list that was told.
     pub(super) fn members(&self) -> &[Thing] {
         &self.listed
+    }
+
+    /// Whither an order went.
+    pub(super) fn whither(&self) -> Option<Thing> {
+        self.whither
     }
 
     /// What was measured against each other.

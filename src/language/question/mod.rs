@@ -52,6 +52,7 @@ mod several;
 mod small_words;
 mod speech;
 mod storeys;
+mod told_aside;
 mod told_together;
 mod uses;
 mod values;

@@ -211,8 +211,15 @@ impl Asker<'_> {
             }
         }
         let [only] = memory.last[..] else { return None };
-        let asks = counts && meant && !restrictions.is_empty();
-        let kind = self.knowledge(sentence.language, memory).kind_of(only).filter(|_| asks)?;
+        let knowledge = self.knowledge(sentence.language, memory);
+        // The whole house is no place of its own.
+        let part = |anchor: &Noun| {
+            let base = knowledge.base(&anchor.head);
+            !base.is_empty() && base.iter().all(|t| t.area().is_some() || t.replica().is_some())
+        };
+        let parts = restrictions.iter().flat_map(|place: &Restriction| &place.anchors).all(part);
+        let asks = counts && meant && parts && !restrictions.is_empty();
+        let kind = knowledge.kind_of(only).filter(|_| asks)?;
         let head = Head { kinds: vec![kind], ..Head::default() };
         Some(Query::Count(Noun { head, restrictions, plural: true, ..Noun::default() }))
     }

@@ -6,10 +6,14 @@ use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
 use super::{Answer, Asker, Courtesy, Head, Memory, Noun, Query, Rel, Restriction, Said, Thing};
-use crate::words::{Language, is_first_person, word_keys, word_ranges};
+use crate::words::{Case, Language, is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
-const SMALL: [&str; 14] = [
+const SMALL: [&str; 18] = [
+    "up",
+    "down",
+    "out",
+    "inside",
     "если",
     "раз",
     "сейчас",
@@ -64,7 +68,17 @@ impl Asker<'_> {
                     let here = matches!(rel, Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near);
                     let [phrase] = &nouns[..] else { return None };
                     let goes = rel == Rel::To && self.is_room(&phrase.noun);
-                    if !(here || goes) || phrase.pronoun.is_some() || phrase.person.is_some() {
+                    // «Мне бы в ванную» says whither.
+                    let has = |case: Case| phrase.cases.iter().any(|r| r.has_case(case));
+                    let whither = sentence.language == Language::Russian
+                        && has(Case::Accusative)
+                        && !has(Case::Prepositional)
+                        && !has(Case::Locative);
+                    if whither
+                        || !(here || goes)
+                        || phrase.pronoun.is_some()
+                        || phrase.person.is_some()
+                    {
                         return None;
                     }
                     place = Some(phrase.noun.clone());

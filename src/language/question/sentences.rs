@@ -273,7 +273,7 @@ impl Asker<'_> {
             || self.limits(told)
             // «А в той, что меньше?»
             || goes_on(told, asked)
-            || (premise::says_here(asked) && self.premise(told).is_some())
+            || (premise::says_here(asked) && self.tells_of_place(told))
         {
             return None;
         }
@@ -282,6 +282,13 @@ impl Asker<'_> {
         let answer = self.ask(asked.trim(), &mut after).ok()?;
         *memory = after;
         Some(answer)
+    }
+
+    /// Whether what is told is where something is, or may be where the person is.
+    fn tells_of_place(&self, told: &str) -> bool {
+        let plain = self.plain(told);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        items.iter().any(|item| matches!(item, Item::Place { .. }))
     }
 
     /// «Расскажи кратко, …»: how much is asked for.

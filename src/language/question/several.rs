@@ -153,9 +153,10 @@ fn has_mark(words: &[String], wanted: fn(Mark) -> bool) -> bool {
 /// Whether words behind a comma ask anew, which a relative clause does not: «…, на каком этаже», «…, сколько».
 fn begins_anew(words: &[String]) -> bool {
     match vocabulary::longest(words) {
+        // «…, на каком этаже», «…, на чём стоит», but «…, на котором»
         Some((taken, Mark::Link(_))) => {
-            let next = words.get(taken).map(String::as_str);
-            next.is_some_and(|w| w.starts_with("как") || w == "what")
+            let what = matches!(vocabulary::longest(&words[taken..]), Some((_, Mark::What)));
+            what || words.get(taken).is_some_and(|w| w.starts_with("как"))
         }
         Some((_, Mark::HowMany)) => true,
         _ => false,

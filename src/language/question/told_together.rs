@@ -115,6 +115,18 @@ impl Knowledge<'_> {
         }
     }
 
+    /// "And on the other one?": of what was spoken of, the others of the kind of what may bear or hold something.
+    pub(super) fn other_bearing(&self, rel: Rel) -> Option<Vec<Thing>> {
+        if !matches!(rel, Rel::On | Rel::In) {
+            return None;
+        }
+        let exchange = self.memory.exchanges.first()?;
+        let meant = exchange.things().find(|thing| self.may_be_anchor(rel, **thing)).copied()?;
+        let all = self.members(&self.lexicon().kind(self.kind_of(meant)?).extension);
+        let rest: Vec<Thing> = all.into_iter().filter(|thing| *thing != meant).collect();
+        (!rest.is_empty()).then_some(rest)
+    }
+
     /// What a question word without a noun asks among: those that were told, else what was asked for.
     pub(super) fn elided(&self) -> Option<Head> {
         let last = &self.memory.last;

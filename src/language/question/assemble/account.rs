@@ -131,6 +131,17 @@ impl Frame<'_, '_> {
         let why = matches!(query, Query::Why { about: None, .. })
             && (self.has(Mark::Can) || self.has(Mark::Cannot) || self.has(Mark::Move))
             && !(self.spots.is_empty() && self.nouns.is_empty());
+        // «Которая из них в спальне, на чём стоит?» asks two things.
+        let governed = |(rel, at): &(Rel, usize)| {
+            matches!(rel, Rel::On | Rel::In | Rel::Under)
+                && self.marks.contains(&(Mark::What, at + 1))
+        };
+        let twofold = !matches!(query, Query::Anchor { .. })
+            && (self.has(Mark::Which) || self.has(Mark::Where) || self.has(Mark::HowMany))
+            && self.links.iter().any(governed);
+        // "Where does he sleep?": of one that was spoken of, and not of any place.
+        let own_place = matches!(query, Query::Place { what: None, .. })
+            && self.nouns.iter().any(|subject| spoken_of(&subject.noun));
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
@@ -148,6 +159,8 @@ impl Frame<'_, '_> {
             || told.itself
             || many
             || why
+            || twofold
+            || own_place
             || here
             || supposes
             || named
@@ -283,9 +296,6 @@ impl Frame<'_, '_> {
                 | Query::Passing { .. }
                 | Query::CanReach { .. }
         );
-        let robot = [Thing::Robot];
-        let spoken_of =
-            |noun: &Noun| noun.head.things.as_deref().is_some_and(|things| things != robot);
         // "Which room has nothing in it?" means the room.
         let own = self.nouns.iter().any(|subject| !spoken_of(&subject.noun));
         let places = self.spots.iter().filter(|_| !own).flat_map(|spot| &spot.nouns);
@@ -320,6 +330,11 @@ impl Frame<'_, '_> {
             && (matches!(query, Query::Find(_) | Query::Exists { .. }) || placed(query))
             && !self.marks.iter().any(asks)
     }
+}
+
+/// Whether a description is of what was spoken of, and not of the robot.
+fn spoken_of(noun: &Noun) -> bool {
+    noun.head.things.as_deref().is_some_and(|things| things != [Thing::Robot])
 }
 
 /// Whether a query of this sort takes up a word.

@@ -10,6 +10,25 @@ use crate::question::query::{Claim, Extreme, Filter, Noun, Query, Rel, Restricti
 use crate::question::values::ValueId;
 
 impl Frame<'_, '_> {
+    /// «В холодильнике пусто?», «Темно ли в спальне?»: a value in the short neuter that no noun bears is said of the place.
+    pub(super) fn said_of_a_place(&self) -> Option<Query> {
+        let ([(value, _, negated)], [spot]) = (&self.values[..], &self.spots[..]) else {
+            return None;
+        };
+        let one = matches!((spot.rel, &spot.nouns[..]), (Rel::In | Rel::On, [_]));
+        let neuter = self
+            .sentence
+            .keys
+            .iter()
+            .any(|key| key.ends_with('о') && self.lexicon.values.meaning(key) == Some(*value));
+        if self.asks() || !self.nouns.is_empty() || !one || spot.negated || !neuter {
+            return None;
+        }
+        let claims = vec![Claim::Value(Filter::new(*value, *negated))];
+        let subject = spot.nouns[0].clone();
+        Some(Query::Holds { subject, claims, negated: self.negated })
+    }
+
     pub(super) fn why(&self) -> Query {
         let negated = self.has(Mark::WhyNot) || self.negated;
         // «Почему она там?» asks of its place.
@@ -248,6 +267,22 @@ impl Frame<'_, '_> {
         if let (true, Some(there)) = (claims.is_empty(), &self.there) {
             let anchors = vec![there.clone()];
             claims.push(Claim::Related(Restriction { rel: Rel::There, anchors, negated: false }));
+        }
+        // "Three spoons are on the counter, right?": whether there are so many there, and not where each of them is.
+        let placed = |claim: &Claim| matches!(claim, Claim::Related(place) if !place.negated);
+        if subject.count.is_some()
+            && subject.head.things.is_none()
+            && !subject.all
+            && !self.negated
+            && !claims.is_empty()
+            && claims.iter().all(placed)
+        {
+            let mut noun = Noun { plural: true, indefinite: true, ..subject };
+            noun.restrictions.extend(claims.into_iter().filter_map(|claim| match claim {
+                Claim::Related(place) => Some(place),
+                _ => None,
+            }));
+            return Some(Query::Exists { what: vec![noun], either: false, negated: false });
         }
         // «Один ли телевизор в доме?»
         if claims.is_empty() && subject.count.is_some() && self.nouns.len() == 1 {

@@ -294,6 +294,9 @@ impl Frame<'_, '_> {
         if done && self.values.iter().any(|(value, _, _)| state(*value)) {
             return self.openable();
         }
+        if let Some(query) = self.said_of_a_place() {
+            return Some(query);
+        }
         let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
         if fits && self.spot(&[Rel::Under]).is_some() {
             return None;
