@@ -250,6 +250,13 @@ impl Frame<'_, '_> {
         }
         if let (Some(use_for), true) = (use_for, asks && !nearest) {
             let (what, within) = (self.first(), within());
+            // "Where does he sleep?" asks of him, and not of any place.
+            let of_one = what.as_ref().is_some_and(|what| {
+                what.head.things.as_deref().is_some_and(|things| things != [Thing::Robot])
+            });
+            if of_one && use_for != Use::Put {
+                return None;
+            }
             return Some(Query::Place { use_for, what, within, whether });
         }
         if !self.has(Mark::Free) {

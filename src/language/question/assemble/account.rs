@@ -139,9 +139,6 @@ impl Frame<'_, '_> {
         let twofold = !matches!(query, Query::Anchor { .. })
             && (self.has(Mark::Which) || self.has(Mark::Where) || self.has(Mark::HowMany))
             && self.links.iter().any(governed);
-        // "Where does he sleep?": of one that was spoken of, and not of any place.
-        let own_place = matches!(query, Query::Place { what: None, .. })
-            && self.nouns.iter().any(|subject| spoken_of(&subject.noun));
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
@@ -160,7 +157,6 @@ impl Frame<'_, '_> {
             || many
             || why
             || twofold
-            || own_place
             || here
             || supposes
             || named

@@ -21,7 +21,9 @@ impl Frame<'_, '_> {
             .keys
             .iter()
             .any(|key| key.ends_with('о') && self.lexicon.values.meaning(key) == Some(*value));
-        if self.asks() || !self.nouns.is_empty() || !one || spot.negated || !neuter {
+        // «А чё, в холодильнике пусто?» asks for no things.
+        let asks = [Mark::Which, Mark::HowMany, Mark::Where].into_iter().any(|mark| self.has(mark));
+        if asks || !self.nouns.is_empty() || !one || spot.negated || !neuter {
             return None;
         }
         let claims = vec![Claim::Value(Filter::new(*value, *negated))];

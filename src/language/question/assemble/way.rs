@@ -5,13 +5,26 @@
 use super::Frame;
 use super::Spot;
 use super::Subject;
+use crate::question::grammar::Item;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Closeness, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
 };
+use crate::words::{Case, Language};
 
 impl Frame<'_, '_> {
+    /// Whether a place says where something is, and by its case cannot say whither: «на кухне».
+    fn is_where(&self, spot: &Spot) -> bool {
+        if self.sentence.language != Language::Russian || !matches!(spot.rel, Rel::In | Rel::On) {
+            return false;
+        }
+        let items = self.sentence.items();
+        let Some(Item::Place { nouns, .. }) = items.get(spot.at) else { return false };
+        let has = |case: Case| nouns[0].cases.iter().any(|reading| reading.has_case(case));
+        (has(Case::Prepositional) || has(Case::Locative)) && !has(Case::Accusative)
+    }
+
     pub(super) fn way(&self) -> Option<Query> {
         if let Some(query) = self.which_way() {
             return Some(query);
@@ -91,7 +104,9 @@ impl Frame<'_, '_> {
         let robot = |noun: &Noun| noun.head.things.as_deref() == Some(&[Thing::Robot][..]);
         let mut ends: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();
         ends.extend(self.there.clone());
-        let room = self.spot_noun(&TO);
+        // «Я на кухне, как пройти?» says whence, and not whither.
+        let goal = self.spot(&TO).filter(|spot| !(ends.is_empty() && self.is_where(spot)));
+        let room = goal.and_then(|spot| spot.nouns.first()).cloned();
         let (from, to) = match (from, room, ends.len()) {
             // "How far is the table from the bed?"
             // "How far apart are the two wardrobes?"

@@ -411,6 +411,8 @@ impl Settler<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
+        // "Put the book there": not to the book.
+        let spoken_of = told.place;
         let mut until_word = 0;
         for (n, (at, phrase)) in objects.iter().enumerate() {
             if phrase.words.start < until_word {
@@ -429,7 +431,7 @@ impl Settler<'_, '_> {
                 if there.is_some() {
                     edits.push(Edit::deletion(&self.bytes(&phrase.words)));
                 } else if goal.is_none() && matches!(sort, Sort::Go | Sort::Put | Sort::Carry) {
-                    edits.extend(told.place.map(|thing| self.to_there(thing, phrase)));
+                    edits.extend(spoken_of.map(|thing| self.to_there(thing, phrase)));
                 }
                 continue;
             }
