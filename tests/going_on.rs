@@ -451,6 +451,8 @@ fn there_is_whither_the_last_order_went() {
                 understood += usize::from(told.is_some());
             }
             let plain = order(&format!("Put Book 5 on {place}"), &mut Memory::default());
+            // A thing that is brought to a table is put on it.
+            let toward = order(&format!("Put Book 5 to {place}"), &mut Memory::default());
             for line in [
                 "Put Book 5 on it",
                 "Put Book 5 there",
@@ -460,7 +462,10 @@ fn there_is_whither_the_last_order_went() {
                 let mut memory = Memory::default();
                 order(&carry, &mut memory).expect("a plain order");
                 let told = order(line, &mut memory);
-                assert!(told.is_none() || told == plain, "{carry}. {line}: {told:?}");
+                assert!(
+                    told.is_none() || told == plain || told == toward,
+                    "{carry}. {line}: {told:?}"
+                );
                 understood += usize::from(told.is_some());
             }
         }
