@@ -139,6 +139,8 @@ impl Frame<'_, '_> {
         let twofold = !matches!(query, Query::Anchor { .. })
             && (self.has(Mark::Which) || self.has(Mark::Where) || self.has(Mark::HowMany))
             && self.links.iter().any(governed);
+        // "Which rooms can I get to, excluding the kitchen?": all are told.
+        let leads_but = matches!(query, Query::Leads(_)) && !self.except.is_empty();
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
@@ -157,6 +159,7 @@ impl Frame<'_, '_> {
             || many
             || why
             || twofold
+            || leads_but
             || here
             || supposes
             || named
