@@ -452,7 +452,8 @@ fn there_is_whither_the_last_order_went() {
             }
             let plain = order(&format!("Put Book 5 on {place}"), &mut Memory::default());
             // A thing that is brought to a table is put on it.
-            let toward = order(&format!("Put Book 5 to {place}"), &mut Memory::default());
+            let toward = ["Put", "Bring"]
+                .map(|verb| order(&format!("{verb} Book 5 to {place}"), &mut Memory::default()));
             for line in [
                 "Put Book 5 on it",
                 "Put Book 5 there",
@@ -463,7 +464,7 @@ fn there_is_whither_the_last_order_went() {
                 order(&carry, &mut memory).expect("a plain order");
                 let told = order(line, &mut memory);
                 assert!(
-                    told.is_none() || told == plain || told == toward,
+                    told.is_none() || told == plain || toward.contains(&told),
                     "{carry}. {line}: {told:?}"
                 );
                 understood += usize::from(told.is_some());
