@@ -28,9 +28,9 @@ pub(super) enum ObserveCommand {
     },
     /// Note that a thing was seen somewhere, or was not where it was expected
     Observe(ObserveArgs),
-    /// Things that are believed to stand elsewhere than the map says
+    /// Things that are believed to stand elsewhere than the map says, and those that it lacks
     Proposals,
-    /// Correct the map: the thing does stand where it is believed to
+    /// Correct the map: the thing does stand where it is believed to, or is one that the map lacks
     Confirm {
         name: String,
         #[arg(long, value_name = "TEXT")]
@@ -197,7 +197,8 @@ fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
 
 fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure> {
     let b = &found.belief;
-    let replica = engine.world()?.replicas.get(&found.replica);
+    let replica = engine.uncarried()?.replicas.get(&found.replica);
+    let replica = replica.or(engine.world()?.replicas.get(&found.replica));
     let name = replica.map_or(found.name.as_str(), |r| spoken(&r.name, &r.name_en, lang));
     match (found.carried.as_deref(), lang) {
         (Some(""), Lang::Ru) => return Ok(format!("{name}: в руке робота.")),
@@ -214,14 +215,12 @@ fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure
         (Some(at), Lang::Ru) => format!("; осмотр {at} этого не подтвердил"),
         (Some(at), Lang::En) => format!("; a look at {at} did not find it there"),
     };
-    let map = if b.is_surveyed {
-        lang.pick("как на карте", "as on the map").to_owned()
-    } else {
-        format!(
-            "{} {}",
-            lang.pick("на карте:", "on the map:"),
-            place(engine, &found.surveyed, lang)?
-        )
+    let map = match &found.surveyed {
+        _ if b.is_surveyed => lang.pick("как на карте", "as on the map").to_owned(),
+        Some(surveyed) => {
+            format!("{} {}", lang.pick("на карте:", "on the map:"), place(engine, surveyed, lang)?)
+        }
+        None => lang.pick("на карте этого нет", "not on the map").to_owned(),
     };
     Ok(match lang {
         Lang::Ru => format!("{name}: {here}, с {since}, уверенность {sure} % – {map}{missed}."),

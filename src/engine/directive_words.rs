@@ -5,7 +5,7 @@ use crate::language::report::Named;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
-use crate::robot::{Deed, Directive, STARTING_POINT};
+use crate::robot::{Deed, Directive, IN_MIDDLE, STARTING_POINT};
 use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
 use crate::units::Bilingual;
@@ -257,7 +257,6 @@ const TASK_POINTS: [TaskPoint; 13] = [
 
 const BY_WINDOW: &str = "Место-у-окна-в-";
 const ON_FLOOR: &str = "Место-на-полу-в-";
-const IN_MIDDLE: &str = "Место-посреди-";
 const AT_SPOT: &str = "Точка-пола-";
 const FACING_WINDOW: &str = "Место-лицом-к-окну-в-";
 const FACING_WALL: &str = "Место-лицом-к-стене-в-";

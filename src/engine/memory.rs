@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::map::{DoorStatus, Entity, Replica, World, is_on, set_open, stands, switch};
-use crate::robot::{Belief, starting_pose};
-use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
+use crate::robot::{Belief, outline_of, starting_pose};
+use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
 use crate::units::{AreaId, Deg, MapId, Pose, ReplicaId};
 
 use super::obstacles::{is_obstacle, put_up};
@@ -288,11 +288,11 @@ pub struct After {
 }
 
 impl After {
-    /// What a robot holds to be so, against the map and against what was so, and remembered, when it began.
+    /// What a robot holds to be so, against the map and against what was so, and remembered, when it began at a moment.
     pub(super) fn of(
         surveyed: &World,
         before: &World,
-        remembered: &RobotMemory,
+        (remembered, begun): (&RobotMemory, Timestamp),
         belief: &Belief,
     ) -> Self {
         let doors = belief
@@ -340,7 +340,15 @@ impl After {
             })
             .collect();
         let pose = Some((belief.map, belief.pose));
-        let obstacles = remembered.obstacles.clone();
+        let stand = belief.world.replicas.keys().filter(|id| is_obstacle(**id));
+        let obstacles = stand.filter_map(|&id| {
+            let (area, pieces, top) = outline_of(&belief.world, id)?;
+            let new = SeenObstacle { area, pieces, top, at: begun, sure: SURE_OF_OWN_DEED };
+            // What is as it was remembered was not seen again.
+            Some(remembered.obstacles.iter().find(|old| old.is_as(&new)).cloned().unwrap_or(new))
+        });
+        // Their names follow their order.
+        let obstacles = obstacles.rev().collect();
         let memory = RobotMemory {
             pose,
             doors,

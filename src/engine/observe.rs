@@ -16,8 +16,8 @@ pub struct Believed {
     pub replica: ReplicaId,
     pub name: String,
     pub belief: Belief,
-    /// Where the map has it at that time.
-    pub surveyed: Seen,
+    /// Where the map has it at that time; none where it lacks it.
+    pub surveyed: Option<Seen>,
     /// Taken off the map by the robot: the person who has it, or an empty name for its own hand.
     pub carried: Option<String>,
 }
@@ -69,7 +69,7 @@ impl State {
         let then = reader.replica(replica.id)?;
         let then = then.ok_or_else(|| RequestError::NotYet { name: replica.name.clone() })?;
         let belief = reader.belief(&then, at)?;
-        let surveyed = Seen { area: then.area, frame: then.frame };
+        let surveyed = Some(Seen { area: then.area, frame: then.frame });
         // What is carried now says nothing of an earlier moment.
         let is_latest = reader.observations(replica.id)?.iter().all(|o| o.at <= at);
         let carried = reader.robot_memory()?.carried.remove(&replica.id).filter(|_| is_latest);
@@ -230,7 +230,7 @@ impl Engine {
         }
     }
 
-    /// The things that are believed to stand elsewhere than the map says.
+    /// The things that are believed to stand elsewhere than the map says, and those that it lacks.
     ///
     /// # Errors
     /// The store cannot be read.
@@ -238,22 +238,25 @@ impl Engine {
         let world = self.world()?;
         let carried = self.store()?.reader().robot_memory()?.carried;
         let all = self.store()?.proposals(now)?.into_iter();
-        Ok(all
-            .map(|p| Believed {
-                replica: p.replica,
-                name: world.replicas[&p.replica].name.clone(),
-                belief: p.believed,
-                surveyed: p.surveyed,
-                carried: carried.get(&p.replica).cloned(),
-            })
-            .collect())
+        let moved = all.map(|p| Believed {
+            replica: p.replica,
+            name: world.replicas[&p.replica].name.clone(),
+            belief: p.believed,
+            surveyed: Some(p.surveyed),
+            carried: carried.get(&p.replica).cloned(),
+        });
+        Ok(moved.chain(self.lacked(now)?).collect())
     }
 
-    /// A person says that a thing does stand where it is believed to: an edit of the map, checked as any.
+    /// A person says that a thing does stand where it is believed to: an edit of the map, checked as any. What the map lacks
+    /// becomes a thing of it.
     ///
     /// # Errors
     /// As [`State::thing`]; the map would be faulty.
     pub fn confirm(&mut self, name: &str, change: &Change) -> Result<ImportReport, Error> {
+        if let Some(obstacle) = self.obstacle(name)? {
+            return self.survey_obstacle(&obstacle, change);
+        }
         let id = self.thing(name)?.id;
         let believed = self.where_is(name, change.at)?.belief;
         if believed.is_surveyed {
@@ -272,6 +275,9 @@ impl Engine {
     /// # Errors
     /// As [`State::thing`]; the disk refused.
     pub fn reject(&mut self, name: &str, change: &Change) -> Result<(), Error> {
+        if let Some(obstacle) = self.obstacle(name)? {
+            return self.forget_obstacle(&obstacle, change);
+        }
         let id = self.thing(name)?.id;
         self.next().forget_present();
         Ok(self.writable()?.reject(id, change)?)

@@ -453,8 +453,8 @@ impl State {
         let begun_at = vehicle.time();
         let (surveyed, before) = (self.world()?, self.uncarried()?);
         let (map, start) = self.robot()?;
-        let memory = self.memory()?;
-        let after = |belief: &Belief| After::of(surveyed, before, memory, belief);
+        let remembered = (self.memory()?, self.around()?.moment());
+        let after = |belief: &Belief| After::of(surveyed, before, remembered, belief);
         let Errand { domain, belief, relations, goals, tidies } = errand;
         // Reports are of moments between plans; each follows by itself.
         let mut reported = relations.clone();

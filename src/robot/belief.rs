@@ -44,6 +44,8 @@ pub struct Person {
 
 /// The name of the point where a mission began, if the Map has none for it.
 pub const STARTING_POINT: &str = "Исходная-точка";
+/// What the name of a point in the middle of an Area begins with; the Area's follows.
+pub const IN_MIDDLE: &str = "Место-посреди-";
 /// A robot this near to a named place stands at it, cm.
 pub(super) const AT_PLACE: f64 = 15.0;
 
@@ -87,8 +89,9 @@ pub struct Belief {
     /// What is to be pushed out of the way, and what proved not to be.
     pub(super) pushes: Vec<InTheWay>,
     pub(super) stays: BTreeSet<ReplicaId>,
-    /// Unknown things that were met, and whether one whose outline was not seen bars one of these ways.
+    /// Unknown things that were met, seen or only felt, and whether one whose outline was not seen bars one of these ways.
     unknown: Vec<ReplicaId>,
+    felt: Vec<ReplicaId>,
     is_barred: bool,
     /// Things that may be gone.
     lost: BTreeMap<ReplicaId, Lost>,
@@ -156,6 +159,7 @@ impl Belief {
             pushes: Vec::new(),
             stays: BTreeSet::new(),
             unknown: Vec::new(),
+            felt: Vec::new(),
             is_barred: false,
             lost: BTreeMap::new(),
             no_return: Vec::new(),
@@ -306,10 +310,8 @@ impl Belief {
                 all.extend(door.map(|door| fact(predicate::KEY_FITS, &args(door))));
             }
         }
-        for spot in &self.spots {
-            let area = self.world.name(Entity::Area(spot.area));
-            all.push(fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")]));
-        }
+        let stands = self.spots.iter().map(|spot| self.fact_of(spot));
+        all.extend(stands.filter(|fact| !self.is_refuted(fact)));
         for person in &self.people {
             let args = [(person.name.as_str(), "человек"), (person.place.as_str(), "место")];
             all.push(fact(predicate::PERSON_AT_PLACE, &args));
@@ -362,6 +364,37 @@ impl Belief {
             }
         }
         all
+    }
+
+    fn fact_of(&self, spot: &Spot) -> InitialFact {
+        let area = self.world.name(Entity::Area(spot.area));
+        fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")])
+    }
+
+    /// Names a point in each Area where something is to be looked for and of which these facts name none, in the middle of
+    /// its largest Passframe; what is to be told of them.
+    pub(super) fn name_views(&mut self, facts: &[InitialFact]) -> Vec<InitialFact> {
+        let of_place = |fact: &&InitialFact| is(fact, predicate::PLACE_IN);
+        let named: BTreeSet<&str> =
+            facts.iter().filter(of_place).map(|fact| fact.arguments[1].name.as_str()).collect();
+        let may_be = self.sought.iter().flat_map(|(thing, past)| self.where_may_be(thing, past));
+        let areas: BTreeSet<AreaId> =
+            may_be.filter(|area| !named.contains(self.world.name(Entity::Area(*area)))).collect();
+        let view = |area: AreaId| {
+            let (map, _) = self.world.placement(area)?;
+            let cells = self.floors.get(&map)?.passframes(area).iter();
+            let largest = cells.max_by(|a, b| {
+                a.polygon.signed_area().total_cmp(&b.polygon.signed_area()).then(b.id.cmp(&a.id))
+            });
+            let (at, heading) = (largest?.polygon.centroid(), Deg::ZERO);
+            let name = format!("{IN_MIDDLE}{}", self.world.name(Entity::Area(area)));
+            let is_new = !self.spots.iter().any(|spot| spot.name == name);
+            is_new.then_some(Spot { name, area, pose: Pose { at, heading }, looks: false })
+        };
+        let views: Vec<Spot> = areas.into_iter().filter_map(view).collect();
+        let told = views.iter().map(|spot| self.fact_of(spot)).collect();
+        self.spots.extend(views);
+        told
     }
 
     /// The doors to which a person has the key, by the Map.

@@ -27,6 +27,7 @@ use super::barred::{Answer, Barred};
 use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::idle::without_idle;
+use super::obstacle::is_obstacle;
 use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
 use super::solve::{Solved, solve_again};
@@ -247,7 +248,8 @@ impl<'r> Mission<'r> {
             self.relations.tell(told)?;
         }
         let relations = self.relations.relations();
-        let (facts, places) = self.belief.initial(relations);
+        let (mut facts, places) = self.belief.initial(relations);
+        facts.extend(self.belief.name_views(&facts));
         for fact in &without_idle(facts, goal) {
             state(&mut problem, fact);
         }
@@ -292,7 +294,9 @@ impl<'r> Mission<'r> {
             Ok(mut reins) => {
                 // What was seen counts before the first metre.
                 self.take_notice(&mut reins);
-                self.pursue(goal, &mut reins)
+                let ending = self.pursue(goal, &mut reins);
+                self.gather(&mut reins);
+                ending
             }
             Err(failure) => Ok(Ending::Failed(failure)),
         }
@@ -445,6 +449,27 @@ impl<'r> Mission<'r> {
     fn take_notice(&mut self, reins: &mut Reins<'_>) -> Option<Sighting> {
         let seen = std::mem::take(&mut reins.seen);
         seen.into_iter().filter(|seen| self.belief.learn(*seen)).last()
+    }
+
+    /// Takes over all that the vehicle found to differ, whether it was in the way or not, for what follows.
+    fn gather(&mut self, reins: &Reins<'_>) {
+        let gathered = reins.gathered();
+        for seen in gathered.moved {
+            self.belief.learn(seen);
+        }
+        for thing in gathered.missed {
+            if is_obstacle(thing) {
+                self.belief.lose(thing);
+            } else {
+                self.belief.miss(thing);
+            }
+        }
+        for (thing, pieces) in self.belief.obstacles() {
+            if reins.sees_through(&pieces) {
+                self.belief.lose(thing);
+            }
+        }
+        self.belief.stand_beside(&gathered.new);
     }
 
     /// Counts how often a thing was seen otherwise than before; the number, once it is too often.

@@ -46,23 +46,23 @@ mod vehicle;
 mod wishes;
 
 pub use barred::{Answer, Barred};
-pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
+pub use belief::{Belief, IN_MIDDLE, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
-pub use obstacle::{is_obstacle, stand_obstacle};
+pub use obstacle::{is_obstacle, outline_of, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use shortness::Shortness;
 pub use simulator::Simulator;
-pub use simulator::senses::{Senses, SensingRobot};
+pub use simulator::senses::{Senses, SensingRobot, Touch};
 pub use solve::{
     DrivenTime, Reason, Replanned, Solved, Wanted, solve, solve_quickest, solve_without,
 };
 pub use timing::Clock;
 pub use vehicle::{
-    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
+    Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
     RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
 };
 pub use wishes::Wishes;

@@ -92,6 +92,21 @@ pub fn stand_obstacle(
     Some(id)
 }
 
+/// What [`stand_obstacle`] was told of a thing that stands so: its Area, the pieces and their top.
+#[must_use]
+pub fn outline_of(world: &World, id: ReplicaId) -> Option<(AreaId, Vec<Vec<Point>>, f64)> {
+    let replica = world.replicas.get(&id).filter(|_| is_obstacle(id))?;
+    let items = &world.objects.get(&replica.object)?.items;
+    let frames = items.iter().map(|item| Some((item, world.orthoframes.get(&item.orthoframe)?)));
+    let frames: Vec<_> = frames.collect::<Option<_>>()?;
+    let top = frames.first()?.1.height.get();
+    let piece = |(item, frame): &(&Item, &Orthoframe)| {
+        let placed = replica.frame.compose(&item.frame);
+        frame.base.iter().map(|vector| placed.apply(vector.start)).collect()
+    };
+    Some((replica.area, frames.iter().map(piece).collect(), top))
+}
+
 fn prism(id: OrFrId, piece: &[Point], top: f64) -> Orthoframe {
     let corner = |index: usize| Point::from(piece[index % piece.len()] - piece[0]);
     let side = |index: usize| BaseVector {
@@ -141,5 +156,7 @@ mod tests {
         };
         let names: Vec<String> = (0..3).map(|_| stand()).collect();
         assert_eq!(names, ["Препятствие-1", "Препятствие-2", "Препятствие-3"]);
+        let told = outline_of(&world, ReplicaId(LAST_ID)).expect("it stands");
+        assert_eq!(told, (area, vec![square.to_vec()], 50.0));
     }
 }

@@ -8,19 +8,19 @@
 //! move that would tell places apart, and then says that it does not know.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
 use nalgebra::Isometry2;
 
-use crate::geometry::{FloorPlan, Ride};
+use crate::geometry::{FloorPlan, Polygon, Ride};
 use crate::map::{DoorState, World};
 use crate::sensing::{Belief, Chart, Fit, Inspector, Localiser, Options, Tracker, telling_move};
 use crate::units::{AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 use crate::vectors::scan::{Noise, Sensor};
 use crate::vehicle::protocol::Scan;
 use crate::vehicle::{
-    Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Refusal, Sighting, Unfinished,
+    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Refusal, Sighting, Unfinished,
     Vehicle, Watch,
 };
 
@@ -92,10 +92,13 @@ pub struct Pilot<'g, 'v> {
     doors: BTreeMap<DoorId, DoorState>,
     news: Vec<Sighting>,
     has_jumped: bool,
-    /// Returns for which it stopped last.
+    /// Returns for which it stopped last, and what stood before the body where it touched something that nobody knows.
     met: Vec<Point>,
+    felt: Vec<Point>,
     /// Things that it told to stand elsewhere than mapped, and where.
     told: BTreeMap<ReplicaId, Frame>,
+    /// Things that its own hand changed: they are not where they were to be seen.
+    handled: BTreeSet<ReplicaId>,
 }
 
 /// What was heard on the way.
@@ -157,7 +160,9 @@ impl<'g, 'v> Pilot<'g, 'v> {
             news: Vec::new(),
             has_jumped: false,
             met: Vec::new(),
+            felt: Vec::new(),
             told: BTreeMap::new(),
+            handled: BTreeSet::new(),
         };
         let watch = &mut Watch::none();
         let looked: Done = pilot.ask(watch, |body, watch| body.look_round(watch));
@@ -410,6 +415,14 @@ impl Vehicle for Pilot<'_, '_> {
         self.unknown()
     }
 
+    fn gathered(&self) -> Gathered {
+        self.found()
+    }
+
+    fn sees_through(&self, pieces: &[Polygon]) -> bool {
+        self.inspector.is_gone(pieces)
+    }
+
     fn follow(
         &mut self,
         path: &[Point],
@@ -484,6 +497,7 @@ impl Vehicle for Pilot<'_, '_> {
     }
 
     fn set_open(&mut self, thing: ReplicaId, open: bool, watch: &mut Watch<'_>) -> Done {
+        self.handled.insert(thing);
         self.act(watch, |body, watch| body.set_open(thing, open, watch))
     }
 
@@ -494,14 +508,17 @@ impl Vehicle for Pilot<'_, '_> {
         frame: Frame,
         watch: &mut Watch<'_>,
     ) -> Done {
+        self.handled.insert(thing);
         self.act(watch, |body, watch| body.push(thing, area, frame, watch))
     }
 
     fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
+        self.handled.insert(thing);
         self.act(watch, |body, watch| body.take(thing, watch))
     }
 
     fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame, watch: &mut Watch<'_>) -> Done {
+        self.handled.insert(thing);
         self.act(watch, |body, watch| body.put(thing, area, frame, watch))
     }
 

@@ -5,13 +5,13 @@
 
 use std::ops::ControlFlow;
 
-use crate::geometry::nearest_on_segment;
+use crate::geometry::{Polygon, nearest_on_segment};
 use crate::units::{Deg, MapId, Point, Pose, Stop};
 
 use super::belief::AT_PLACE;
 use super::mission::Event;
 use super::vehicle::{
-    Bump, Done, Failure, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished, Vehicle,
+    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished, Vehicle,
     Watch,
 };
 use crate::units::ReplicaId;
@@ -65,6 +65,15 @@ impl<'v> Reins<'v> {
     /// What it sees about it that nobody knows.
     pub(super) fn outlines(&self) -> Outlines {
         self.vehicle.outlines()
+    }
+
+    /// All that its senses have found to differ.
+    pub(super) fn gathered(&self) -> Gathered {
+        self.vehicle.gathered()
+    }
+
+    pub(super) fn sees_through(&self, pieces: &[Polygon]) -> bool {
+        self.vehicle.sees_through(pieces)
     }
 
     /// Whether it found itself elsewhere since this was asked last.

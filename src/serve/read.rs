@@ -319,9 +319,9 @@ fn believed(state: &State, found: &Believed) -> Result<Value, Error> {
     let belief = &found.belief;
     Ok(json!({
         "name": found.name,
-        "name_en": state.world()?.replicas.get(&found.replica).map(|r| &r.name_en),
+        "name_en": state.uncarried()?.replicas.get(&found.replica).or(state.world()?.replicas.get(&found.replica)).map(|r| &r.name_en),
         "place": place(state, &belief.place),
-        "surveyed": place(state, &found.surveyed),
+        "surveyed": found.surveyed.as_ref().and_then(|seen| place(state, seen)),
         "confidence": (belief.confidence * 1000.0).round() / 1000.0,
         "since": belief.since.to_string(),
         "last_seen": belief.last_seen.map(|at| at.to_string()),

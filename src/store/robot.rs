@@ -58,6 +58,18 @@ impl SeenObstacle {
         faded(self.sure, MAY_BE_ANYWHERE, now.hours_since(self.at))
     }
 
+    /// Whether it has the outline of another, whenever that was seen.
+    #[must_use]
+    pub fn is_as(&self, other: &Self) -> bool {
+        /// Numbers are not the same to the last digit after they were reckoned with, cm.
+        const SAME: f64 = 0.01;
+        let corners = |seen: &Self| seen.pieces.concat();
+        self.area == other.area
+            && (self.top - other.top).abs() <= SAME
+            && self.pieces.iter().map(Vec::len).eq(other.pieces.iter().map(Vec::len))
+            && corners(self).iter().zip(corners(other)).all(|(a, b)| (a - b).norm() <= SAME)
+    }
+
     /// Whether it is to be reckoned with at a moment.
     #[must_use]
     pub fn stands(&self, now: Timestamp) -> bool {

@@ -62,7 +62,7 @@ pub fn believed(state: &State, found: &Believed) -> Result<Value, Error> {
         "last_seen": b.last_seen.map(|at| at.to_string()),
         "missed": b.missed.map(|at| at.to_string()),
         "is_surveyed": b.is_surveyed,
-        "surveyed": place(state, &found.surveyed)?,
+        "surveyed": found.surveyed.as_ref().map(|seen| place(state, seen)).transpose()?,
         "carried": found.carried,
     }))
 }

@@ -2,8 +2,10 @@
 
 use crate::belief::Station;
 use crate::directive::Deed;
-use crate::geometry::{Barrier, Blocker, DoorStates, Method, NoRoute, Ride, Target};
-use crate::map::{DoorState, DoorStatus, Entity};
+use crate::geometry::{
+    Barrier, Blocker, DoorStates, FloorPlan, Method, NoRoute, PlacedZone, Ride, Route, Target,
+};
+use crate::map::{DoorState, DoorStatus, Entity, Zone};
 use crate::placing::{spot_in, spot_on, spot_on_floor};
 use crate::reins::Reins;
 use crate::semantics::cargo;
@@ -39,14 +41,14 @@ impl Mission<'_> {
             Deed::GoToDoor(name) => {
                 let area = self.belief.area;
                 let target = self.door_target(name, area, area)?;
-                self.go(name, target, &[area], reins, leg)?;
+                self.go_out(name, target, &[area], reins, leg)?;
                 self.belief.station = Station::Door(name.clone());
             }
             Deed::Cross { door: name, into } => {
                 let into = self.area(into)?;
                 let areas = [self.belief.area, into];
                 let target = self.door_target(name, self.belief.area, into)?;
-                self.go(name, target, &areas, reins, leg)?;
+                self.go_out(name, target, &areas, reins, leg)?;
                 self.belief.area = into;
                 self.belief.station = Station::Door(name.clone());
             }
@@ -156,12 +158,52 @@ impl Mission<'_> {
         reins: &mut Reins<'_>,
         leg: &mut Leg,
     ) -> Result<(), Unfinished<Surprise>> {
-        let from = self.belief.pose.at;
         let route = self
-            .belief
-            .floor()
-            .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
+            .way(self.belief.floor(), target, areas)
             .map_err(|why| Surprise::NoWay { to: name.to_owned(), why, remedy: None })?;
+        self.drive(route, reins, leg)
+    }
+
+    fn way(
+        &self,
+        floor: &FloorPlan,
+        target: Target,
+        areas: &[AreaId],
+    ) -> Result<Route, NoRoute> {
+        let (world, from) = (&self.belief.world, self.belief.pose.at);
+        floor.route_within(world, from, target, Method::Shortest, Some(areas))
+    }
+
+    /// The same to or through a door: of a room that is shut as a whole the robot gets out all the same.
+    fn go_out(
+        &mut self,
+        name: &str,
+        target: Target,
+        areas: &[AreaId],
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let (floor, at) = (self.belief.floor(), self.belief.pose.at);
+        let zones = floor.zones().iter();
+        let is_in = |zone: &&PlacedZone| zone.kind.is_shut() && zone.contains(at, floor.reach());
+        let (held_in, others): (Vec<_>, Vec<_>) = zones.partition(is_in);
+        if held_in.is_empty() || self.way(floor, target, areas).is_ok() {
+            return self.go(name, target, areas, reins, leg);
+        }
+        let is_other = |zone: &Zone| others.iter().any(|other| other.id == zone.id);
+        let open = floor.with_zones(&self.belief.world, is_other);
+        match self.way(&open, target, areas) {
+            Ok(route) => self.drive(route, reins, leg),
+            Err(_) => self.go(name, target, areas, reins, leg),
+        }
+    }
+
+    fn drive(
+        &mut self,
+        route: Route,
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
         let pieces = self.belief.floor().paces(&route.points);
         let driven = reins.follow_paced(&pieces, route.heading);
         leg.route = Some(route);

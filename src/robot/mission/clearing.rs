@@ -75,6 +75,13 @@ impl Mission<'_> {
         for thing in barred.things.into_iter().filter(|thing| doubted.insert(*thing)) {
             is_news |= self.look_for(thing, goal, reins)?;
         }
+        // What an earlier mission met and nobody knows may have gone since.
+        for thing in barred.unknown {
+            if !self.belief.has_met(thing) && doubted.insert(thing) {
+                self.belief.lose(thing);
+                is_news = true;
+            }
+        }
         if is_news {
             self.belief.reopen_ways();
         }

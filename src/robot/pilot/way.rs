@@ -5,7 +5,7 @@ use crate::geometry::{PlacedReplica, Polygon, convex_hull, nearest_on_segment};
 use crate::map::DoorKind;
 use crate::sensing::ThingSeen;
 use crate::units::{Deg, Frame, Point, Pose, ReplicaId, Vector};
-use crate::vehicle::{Bump, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
+use crate::vehicle::{Bump, Gathered, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
 
 use super::{Pilot, SURE, UNKNOWN};
 
@@ -30,8 +30,12 @@ const NEARER: f64 = 1.0;
 const TURN: f64 = 30.0;
 /// How thick something is at least of which single returns tell, cm to each side.
 const THICK: f64 = 3.0;
-/// Contacts on one stretch of a way after which something unseen stands there.
+/// Contacts on one stretch of a way, where something is known to stand, after which something unseen stands there too.
 const CONTACTS: usize = 4;
+/// What is seen beside the way is kept off by so much where there is room, cm.
+const AMPLE: f64 = 4.0;
+/// What is no larger across may be one thing on several legs, cm.
+const ONE_THING: f64 = 90.0;
 /// Away from what was touched, cm.
 const AWAY: f64 = 4.0;
 
@@ -192,6 +196,44 @@ impl Pilot<'_, '_> {
         near.map_or(Vector::x(), |(_, u)| from.rotation * u)
     }
 
+    /// Whether what was touched just before the body may be what is known to stand there.
+    fn may_be_known(&self, front: &[Point]) -> bool {
+        let floor = &self.ground.floors[&self.map];
+        let walls = floor.fragments().flat_map(|fragment| fragment.walls.iter().copied());
+        let things = floor.fragments().flat_map(|fragment| fragment.obstacles());
+        let edges = things.flat_map(|thing| thing.polygon.edges().collect::<Vec<_>>());
+        let is_near = |p: &Point, (a, b): (Point, Point)| {
+            (nearest_on_segment(*p, a, b) - p).norm() <= UNKNOWN
+        };
+        let mut known = walls.chain(edges).chain(self.leaves());
+        known.any(|edge| front.iter().any(|p| is_near(p, edge)))
+    }
+
+    /// A point on the way, moved a little away from what the last look shows beside it: outlines are known no better.
+    fn eased(&self, p: Point) -> Point {
+        let Some((from, sensor, ranges)) = &self.look else { return p };
+        let robot = &self.ground.world.robot;
+        let keep = robot.radius.get() + robot.clearance.get().max(AMPLE);
+        let ends = ranges.iter().zip(sensor.directions());
+        let ends = ends.filter(|(range, _)| sensor.returned(**range));
+        let near: Vec<Point> = ends
+            .map(|(range, u)| from * Point::from(u * *range))
+            .filter(|end| (end - p).norm() < 2.0 * keep)
+            .collect();
+        // One return by itself is noise.
+        let second = |p: Point| {
+            let mut off: Vec<Vector> = near.iter().map(|end| p - end).collect();
+            off.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+            off.get(1).copied()
+        };
+        let Some(off) = second(p).filter(|off| off.norm() < keep) else { return p };
+        let lack = keep - off.norm();
+        let tries = [1.0, 0.5, 0.25].map(|share| p + off.normalize() * (lack * share));
+        let room = |p: &Point| second(*p).map_or(f64::INFINITY, |off| off.norm());
+        let best = tries.into_iter().max_by(|a, b| room(a).total_cmp(&room(b)));
+        best.filter(|eased| room(eased) > room(&p)).unwrap_or(p)
+    }
+
     /// Points just before the body on its way.
     fn front(&self, way: Vector) -> Vec<Point> {
         let radius = self.ground.world.robot.radius.get() + THICK + 1.0;
@@ -213,16 +255,24 @@ impl Pilot<'_, '_> {
         let (from, goal) = leg;
         let close = if rest.len() > 1 { AT_CORNER } else { AT_END };
         let (mut contacts, mut is_turned) = (0, false);
+        let (mut goal, mut rest) = (goal, rest.to_vec());
+        let mut is_eased = rest.len() < 2;
+        self.felt.clear();
         loop {
             watch.check()?;
+            if !is_eased && (goal - self.at()).norm() <= 2.0 * PIECE {
+                is_eased = true;
+                goal = self.eased(goal);
+                rest[0] = goal;
+            }
             let way = goal - self.at();
             let left = way.norm();
             let is_past = left <= 2.0 * AT_END && way.dot(&(goal - from)) <= 0.0;
             if left <= close || is_past {
                 return Ok(());
             }
-            if !self.in_the_way(rest).is_empty() {
-                self.wait_for_way(rest, watch)?;
+            if !self.in_the_way(&rest).is_empty() {
+                self.wait_for_way(&rest, watch)?;
                 continue;
             }
             let course = Deg::from_radians(way.y.atan2(way.x));
@@ -232,17 +282,23 @@ impl Pilot<'_, '_> {
                 continue;
             }
             is_turned = false;
-            let target = self.to_odometry(self.at() + way * (PIECE.min(left) / left));
+            let target = match left > PIECE {
+                true => self.eased(self.at() + way * (PIECE / left)),
+                false => goal,
+            };
+            let target = self.to_odometry(target);
             match self.ask(watch, |body, watch| body.follow(&[target], None, watch)) {
                 Ok(()) => {}
                 Err(Unfinished::Met(bump)) => {
                     contacts += 1;
                     self.settle(watch)?;
                     // Below or above what the laser sees: it stands before the body.
-                    let met = self.front(way);
+                    let felt = self.front(way);
+                    let is_new = !self.may_be_known(&felt);
                     self.back_off(way, watch)?;
-                    if contacts >= CONTACTS {
-                        self.met = met;
+                    if is_new || contacts >= CONTACTS {
+                        self.met.clear();
+                        self.felt = felt;
                         let at = Pose::from(self.pose);
                         return Err(Bump { at, ..bump }.into());
                     }
@@ -276,7 +332,27 @@ impl Pilot<'_, '_> {
         Ok(())
     }
 
-    /// Things that it sees about it and that nobody knows.
+    /// What it found to differ on this floor: of things that nobody knows those that stay.
+    pub(super) fn found(&self) -> Gathered {
+        let seen = self.inspector.differences();
+        let mut gathered = Gathered::default();
+        for look in seen.things {
+            if look.sure < SURE || self.handled.contains(&look.thing) {
+                continue;
+            }
+            match look.seen {
+                ThingSeen::There => {}
+                ThingSeen::Missed => gathered.missed.push(look.thing),
+                ThingSeen::Moved(frame) => gathered.moved.extend(self.in_area(look.thing, frame)),
+            }
+        }
+        let new = seen.unmapped.into_iter().filter(|new| new.sure >= SURE && new.looks >= STAYS);
+        gathered.new.things = new.map(|new| new.pieces).collect();
+        gathered.new.top = self.ground.height + 1.0;
+        gathered
+    }
+
+    /// Things that it sees about it and that nobody knows, and what it touched.
     pub(super) fn unknown(&self) -> Outlines {
         let at = self.at();
         let is_here = |middle: Point| (middle - at).norm() <= NEAR;
@@ -289,14 +365,41 @@ impl Pilot<'_, '_> {
         };
         let untold: Vec<Point> = self.met.iter().filter(|p| !is_told(p)).copied().collect();
         if untold.len() >= 2 {
-            let around = |p: &Point| {
-                [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
-                    .map(|(x, y)| p + Vector::new(x, y) * THICK)
-            };
-            things.push(vec![Polygon::new(convex_hull(untold.iter().flat_map(around).collect()))]);
+            things.push(vec![hull_about(&untold)]);
         }
-        Outlines { things, top: self.ground.height + 1.0 }
+        let mut felt = Vec::new();
+        if self.felt.len() >= 2 {
+            // What stands on legs that are seen reaches over them: it is one thing with those about it.
+            let touched = hull_about(&self.felt);
+            let size = |hull: &Polygon| (hull.bounds().max - hull.bounds().min).norm();
+            let (mut legs, mut whole) = (things.clone(), touched);
+            loop {
+                let with = |leg: &Vec<Polygon>| {
+                    let own = leg.iter().flat_map(|piece| piece.corners.iter().copied());
+                    let all = own.chain(whole.corners.iter().copied()).collect();
+                    Polygon::new(convex_hull(all))
+                };
+                let hulls = legs.iter().map(with).enumerate();
+                let next = hulls.min_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
+                let Some((leg, hull)) = next.filter(|(_, hull)| size(hull) <= ONE_THING) else {
+                    break;
+                };
+                legs.swap_remove(leg);
+                whole = hull;
+            }
+            felt.push(vec![whole]);
+        }
+        Outlines { things, felt, top: self.ground.height + 1.0 }
     }
+}
+
+/// Points with something about each.
+fn hull_about(points: &[Point]) -> Polygon {
+    let around = |p: &Point| {
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
+            .map(|(x, y)| p + Vector::new(x, y) * THICK)
+    };
+    Polygon::new(convex_hull(points.iter().flat_map(around).collect()))
 }
 
 /// Whether most of what was met is of these outlines.

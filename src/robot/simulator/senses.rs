@@ -87,7 +87,16 @@ pub struct SensingRobot {
     odometry: Pose,
     /// When the laser last turned.
     looked: f64,
-    contacts: usize,
+    touched: Vec<Touch>,
+}
+
+/// A contact of a [`SensingRobot`], as a judge of its drive knows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Where the robot truly was.
+    pub at: Pose,
+    /// What it touched; none: somebody.
+    pub what: Option<Obstruction>,
 }
 
 impl std::fmt::Debug for SensingRobot {
@@ -105,7 +114,7 @@ impl SensingRobot {
         let people = (0..senses.people).filter_map(|_| Walker::appear(&body, &mut dice)).collect();
         let odometry = Pose { at: Point::origin(), heading: Deg::ZERO };
         let walked = body.time;
-        Self { body, senses, dice, faces, people, walked, odometry, looked: walked, contacts: 0 }
+        Self { body, senses, dice, faces, people, walked, odometry, looked: walked, touched: Vec::new() }
     }
 
     /// The robot as it truly is, for who judges a drive.
@@ -120,10 +129,10 @@ impl SensingRobot {
         self.body.into_truth()
     }
 
-    /// How often it touched something.
+    /// All that it touched.
     #[must_use]
-    pub fn contacts(&self) -> usize {
-        self.contacts
+    pub fn touched(&self) -> &[Touch] {
+        &self.touched
     }
 
     /// Somebody lifts it up and sets it down elsewhere: its wheels tell nothing of that.
@@ -182,25 +191,25 @@ impl SensingRobot {
         }
     }
 
-    fn bump(&mut self) -> Unfinished<Bump> {
-        self.contacts += 1;
+    fn bump(&mut self, what: Option<Obstruction>) -> Unfinished<Bump> {
+        self.touched.push(Touch { at: self.body.pose, what });
         Bump { at: self.odometry, against: Obstruction::Something }.into()
     }
 
-    /// How far it gets on a straight way before it touches something or somebody.
-    fn free_way(&self, goal: Point) -> Option<f64> {
+    /// How far it gets on a straight way before it touches something, or somebody, of whom it is told as nothing.
+    fn free_way(&self, goal: Point) -> Option<(f64, Option<Obstruction>)> {
         let (from, way) = (self.body.pose.at, goal - self.body.pose.at);
         let length = way.norm();
-        let thing = self.body.first_contact(goal).map(|(distance, _)| distance);
+        let thing = self.body.first_contact(goal).map(|(distance, what)| (distance, Some(what)));
         let girth = self.body.profile.radius.get() + GIRTH;
         let person = self.people().into_iter().filter_map(|(at, _)| {
             let to = at - from;
             let along = to.dot(&way) / length;
             let half = (girth * girth - (to.norm_squared() - along * along)).sqrt();
             // Nobody is run through who is touched already and behind.
-            (along > 0.0 && along - half <= length).then(|| (along - half).max(0.0))
+            (along > 0.0 && along - half <= length).then(|| ((along - half).max(0.0), None))
         });
-        thing.into_iter().chain(person).min_by(f64::total_cmp)
+        thing.into_iter().chain(person).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Drives straight ahead by what the wheels tell.
@@ -218,15 +227,15 @@ impl SensingRobot {
             let length = way.norm().max(1e-9);
             let goal = self.body.pose.at + way;
             let contact = self.free_way(goal);
-            let share = contact.map_or(1.0, |free| ((free - SKIN).max(0.0) / length).min(1.0));
+            let share = contact.map_or(1.0, |(free, _)| ((free - SKIN).max(0.0) / length).min(1.0));
             let at = self.body.pose.at + way * share;
-            let turned = self.turned(swerve * share);
+            let (turned, _) = self.turned(swerve * share);
             let heading = self.body.pose.heading + Deg::of(turned);
             self.body.advance(step * share / self.body.profile.speed, Pose { at, heading });
             self.odometry.at += heading_of(self.odometry) * (step * share);
-            if contact.is_some() {
+            if let Some((_, what)) = contact {
                 self.tell(watch, true);
-                return Err(self.bump());
+                return Err(self.bump(what));
             }
             left -= step;
             self.tell(watch, left <= 1e-9);
@@ -234,11 +243,15 @@ impl SensingRobot {
         Ok(())
     }
 
-    /// How far it can truly turn of so many degrees.
-    fn turned(&self, turn: f64) -> f64 {
-        let contact = self.body.contact_in_turn(turn);
+    /// How far it can truly turn of so many degrees, and what stops it.
+    fn turned(&self, turn: f64) -> (f64, Option<Obstruction>) {
         let skin = (SKIN / self.body.profile.radius.get()).to_degrees();
-        contact.map_or(turn, |(angle, _)| turn.signum() * (angle - skin).clamp(0.0, turn.abs()))
+        match self.body.contact_in_turn(turn) {
+            Some((angle, what)) => {
+                (turn.signum() * (angle - skin).clamp(0.0, turn.abs()), Some(what))
+            }
+            None => (turn, None),
+        }
     }
 
     fn turn(&mut self, turn: f64, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
@@ -248,7 +261,7 @@ impl SensingRobot {
             let step = STEP.1.min(left);
             let wished = step + self.normal() * self.senses.slip * (90.0 * step).sqrt();
             let wished = wished.max(0.0) * turn.signum();
-            let truly = self.turned(wished);
+            let (truly, stopped) = self.turned(wished);
             let heading = self.body.pose.heading + Deg::of(truly);
             let pose = Pose { heading, ..self.body.pose };
             self.body.advance(step / self.body.profile.turn_rate, pose);
@@ -257,7 +270,7 @@ impl SensingRobot {
             self.odometry.heading = self.odometry.heading + Deg::of(told * turn.signum());
             if touches {
                 self.tell(watch, true);
-                return Err(self.bump());
+                return Err(self.bump(stopped));
             }
             left -= step;
             self.tell(watch, left <= 1e-9);

@@ -6,6 +6,7 @@ mod leaves;
 mod lifts;
 mod missions;
 mod push;
+mod remembered;
 mod search;
 mod senses;
 mod setting;

@@ -321,7 +321,9 @@ struct Counts {
     truly_impossible: usize,
     wrongly_impossible: Vec<String>,
     lost: Vec<String>,
-    contacts: usize,
+    /// Contacts with what its laser sees, and how many there were with what that passes over or under.
+    contacts: Vec<String>,
+    unseen: usize,
     replans: usize,
 }
 
@@ -356,7 +358,18 @@ fn run(
         }
         Err(failure) => Ending::Failed(failure),
     };
-    counts.contacts += body.contacts();
+    let scene = Scene::of(body.body().truth(), map);
+    let is_seen = |touch: &&Touch| match touch.what {
+        Some(Obstruction::Replica(thing)) => scene.replicas.get(&thing).is_some_and(|thing| {
+            let at_laser = thing.prisms.iter();
+            let mut at_laser = at_laser.filter(|p| p.bottom <= senses.height && senses.height < p.top);
+            at_laser.any(|p| p.polygon.border_distance(touch.at.at) < world.robot.radius.get() + 3.0)
+        }),
+        _ => true,
+    };
+    let (seen, unseen): (Vec<&Touch>, Vec<&Touch>) = body.touched().iter().partition(is_seen);
+    counts.contacts.extend(seen.iter().map(|touch| format!("{how}: {touch:?}")));
+    counts.unseen += unseen.len();
     counts.replans += log.iter().filter(|line| *line == "plan").count().saturating_sub(1);
     let (_, truly) = body.body().pose();
     let told = || {
@@ -399,11 +412,13 @@ fn run(
     }
 }
 
-/// Thirty missions; with ORTHOFRAME_LONG set, a hundred.
+/// Thirty missions; with ORTHOFRAME_LONG set, a hundred; from the seed ORTHOFRAME_FROM, or ORTHOFRAME_SEED alone.
 #[test]
 fn missions_in_worlds_that_differ_end_done_or_truly_impossible() {
     let count = if std::env::var_os("ORTHOFRAME_LONG").is_some() { 100 } else { 30 };
-    let one = std::env::var("ORTHOFRAME_SEED").ok().and_then(|seed| seed.parse::<u64>().ok());
+    let told = |name| std::env::var(name).ok().and_then(|seed| seed.parse::<u64>().ok());
+    let (from, one) = (told("ORTHOFRAME_FROM").unwrap_or(0), told("ORTHOFRAME_SEED"));
+    let (from, count) = one.map_or((from, count), |one| (one, 1));
     let world = World::load(file("maps/rb2.toml")).unwrap();
     let (map, pose) = starting_pose(&world).unwrap();
     let medicine = world.find("Лекарство").into_iter().find_map(|entity| match entity {
@@ -415,13 +430,11 @@ fn missions_in_worlds_that_differ_end_done_or_truly_impossible() {
         truly_impossible: 0,
         wrongly_impossible: Vec::new(),
         lost: Vec::new(),
-        contacts: 0,
+        contacts: Vec::new(),
+        unseen: 0,
         replans: 0,
     };
-    for seed in 0..count {
-        if one.is_some_and(|one| one != seed) {
-            continue;
-        }
+    for seed in from..from + count {
         let mut dice = fastrand::Rng::with_seed(seed);
         let differing = differ(&world, map, pose.at, &mut dice);
         let areas: Vec<AreaId> = world.areas.keys().copied().collect();
@@ -436,16 +449,18 @@ fn missions_in_worlds_that_differ_end_done_or_truly_impossible() {
             println!("seed {seed}: {:?}", begun.elapsed());
         }
     }
-    let Counts { done, truly_impossible, wrongly_impossible, lost, contacts, replans } = &counts;
+    let Counts { done, truly_impossible, wrongly_impossible, lost, contacts, unseen, replans } = &counts;
     println!(
-        "{count} missions: {done} done, {truly_impossible} truly impossible, {} wrongly, {} lost; {replans} replans, {contacts} contacts",
+        "{count} missions: {done} done, {truly_impossible} truly impossible, {} wrongly, {} lost; {replans} replans, {} contacts with what the laser sees, {unseen} with what it does not",
         wrongly_impossible.len(),
-        lost.len()
+        lost.len(),
+        contacts.len()
     );
-    for told in wrongly_impossible.iter().chain(lost) {
+    for told in wrongly_impossible.iter().chain(lost).chain(contacts) {
         println!("{told}");
     }
     let right = done + truly_impossible;
     let all = right + wrongly_impossible.len() + lost.len();
     assert!(right as f64 >= 0.98 * all as f64, "{right} of {all}");
+    assert!(contacts.is_empty(), "{contacts:?}");
 }

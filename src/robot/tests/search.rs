@@ -85,3 +85,42 @@ fn what_is_not_in_its_place_is_sought_where_its_kind_lies_first() {
     assert!(told_at_once * 4 <= portable.len(), "{told_at_once} of {}", portable.len());
     assert!(found * 10 >= portable.len() * 8, "{found} of {}", portable.len());
 }
+
+/// Nothing in it has a place before it either.
+#[test]
+fn a_room_without_a_named_place_is_looked_over_from_its_middle() {
+    let mut world = example("rb2");
+    let room = world.find("Комната-Y").into_iter();
+    let room = room.filter_map(|e| if let Entity::Area(id) = e { Some(id) } else { None }).next();
+    let room = room.expect("the flat has it");
+    world.places.retain(|_, place| place.area != room);
+    world.replicas.retain(|_, thing| thing.area != room);
+    let setting = Setting::of(world.clone());
+    let middle = setting.floors[&setting.map].rest_in(room).expect("it has a floor");
+    let (_, frame) = world.placement(room).expect("it is on the map");
+    let at = frame.invert(middle);
+    let sought: Vec<&Replica> =
+        world.replicas.values().filter(|thing| world.has_trait(thing.id, "portable")).collect();
+    let mut found = 0;
+    for thing in sought.iter().take(5) {
+        let mut truth = world.clone();
+        let moved = truth.replicas.get_mut(&thing.id).expect("it is one");
+        (moved.area, moved.frame) = (room, Frame::new(at.x + 30.0, at.y, 0.0, thing.frame.angle));
+        let mut belief = setting.belief().expect("the robot stands somewhere");
+        belief.sought.insert(thing.name.clone(), BTreeSet::new());
+        let mut mission = setting.mission(belief);
+        let mut robot = Simulator::new(truth, setting.map, setting.pose);
+        let goal = [fact("ПРЕДМЕТ-НАЙДЕН", &thing.name)];
+        let mut stood = Vec::new();
+        let mut tell = |event: &Event<'_>| {
+            if let Event::Started { directive, .. } = event {
+                stood.extend(directive.args.iter().map(ToString::to_string));
+            }
+        };
+        let ending = mission.run(&goal, &mut robot, &Stop::new(), &mut tell).unwrap();
+        let from_middle = stood.contains(&format!("{IN_MIDDLE}Комната-Y"));
+        found += usize::from(matches!(ending, Ending::Done) && from_middle);
+        assert!(matches!(ending, Ending::Done), "{}: {ending:?}", thing.name);
+    }
+    assert!(found >= 4, "{found}");
+}

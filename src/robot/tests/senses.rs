@@ -132,7 +132,7 @@ fn a_pilot_knows_where_it_is_though_its_wheels_slip() {
         let at =
             start.1.at + nalgebra::Vector2::new(by.x * cos - by.y * sin, by.x * sin + by.y * cos);
         wheels = wheels.max((at - body.body().pose().1.at).norm());
-        contacts += body.contacts();
+        contacts += body.touched().len();
     }
     println!(
         "{ways} ways: off by {worst:.1} cm at most, wheels by {wheels:.0} cm, {contacts} contacts"

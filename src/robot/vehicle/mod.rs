@@ -119,13 +119,26 @@ pub enum Sighting {
     },
 }
 
-/// Things that were seen and that nobody knows.
+/// Things that were met and that nobody knows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Outlines {
-    /// Of each thing convex pieces, counter-clockwise, in the Map's frame.
+    /// Of each that was seen convex pieces, counter-clockwise, in the Map's frame.
     pub things: Vec<Vec<Polygon>>,
+    /// Of each that was touched and not seen there: nobody who walks is like that.
+    pub felt: Vec<Vec<Polygon>>,
     /// They stand up to here at least, cm above the Map's zero.
     pub top: f64,
+}
+
+/// What a vehicle's senses have found on the floor where it is to differ from the world that it was told.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Gathered {
+    /// Things that stand elsewhere.
+    pub moved: Vec<Sighting>,
+    /// Things that are not where they were to be seen.
+    pub missed: Vec<ReplicaId>,
+    /// What stands where nobody knows of anything.
+    pub new: Outlines,
 }
 
 impl Sighting {
@@ -269,6 +282,16 @@ pub trait Vehicle {
     /// What it sees about it that the Map has not.
     fn outlines(&self) -> Outlines {
         Outlines::default()
+    }
+
+    /// All that its senses have found to differ so far; what it told before is among it.
+    fn gathered(&self) -> Gathered {
+        Gathered::default()
+    }
+
+    /// Whether its senses have found nothing where these convex pieces are, in the Map's frame.
+    fn sees_through(&self, _pieces: &[Polygon]) -> bool {
+        false
     }
 
     /// Drives along a polyline from where it stands, turning on the spot at each corner, and ends facing

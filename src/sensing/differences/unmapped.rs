@@ -28,6 +28,8 @@ pub struct Unmapped {
     pub pieces: Vec<Polygon>,
     /// Returns from it.
     pub returns: usize,
+    /// Scans that saw a place of it, in the median of its places: of what walks by few see the same.
+    pub looks: usize,
     /// 0..=1 that it is there.
     pub sure: f64,
     middle: Point2<f64>,
@@ -46,12 +48,17 @@ struct Cell {
     sum: Vector2<f64>,
     returns: usize,
     weight: f64,
+    /// Scans with returns from it, and the number of the last.
+    looks: usize,
+    last: usize,
 }
 
 /// See the head of this file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cells {
     cells: BTreeMap<(i32, i32), Cell>,
+    /// Scans so far.
+    count: usize,
 }
 
 impl Cells {
@@ -75,11 +82,14 @@ impl Cells {
             }
         }
         self.cells.retain(|_, cell| cell.weight > BOUNDS.0);
+        self.count += 1;
         for (_, end) in extra {
             let place = ((end.x / CELL).floor(), (end.y / CELL).floor());
             let cell = self.cells.entry((place.0 as i32, place.1 as i32)).or_default();
             cell.sum += end.coords;
             cell.returns += 1;
+            cell.looks += usize::from(cell.last != self.count);
+            cell.last = self.count;
             cell.weight = (cell.weight + RETURN).min(BOUNDS.1);
         }
     }
@@ -122,12 +132,15 @@ impl Cells {
             }
             let points: Vec<Point2<f64>> =
                 cells.iter().map(|c| Point2::from(c.sum / c.returns as f64)).collect();
+            let mut looks: Vec<usize> = cells.iter().map(|cell| cell.looks).collect();
+            looks.sort_unstable();
             let weight: f64 = cells.iter().map(|cell| cell.weight).sum();
             let sum: Vector2<f64> = points.iter().map(|p| p.coords).sum();
             found.push(Unmapped {
                 middle: Point2::from(sum / points.len() as f64),
                 pieces: pieces(points),
                 returns,
+                looks: looks[looks.len() / 2],
                 sure: 1.0 - 0.5_f64.powf(weight / 2.0),
             });
         }

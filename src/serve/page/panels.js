@@ -172,7 +172,7 @@ function mapTab(act) {
   const parts = [];
   if (S.edit) parts.push(editSection(act));
   if (S.proposals.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Видно не там', 'Seen elsewhere'), el('span', { class: 'num' }, String(S.proposals.length))), S.proposals.map((one) => el('div', { class: 'note warn' }, el('b', null, nameButton(one.name)),
-    el('div', { class: 'pair' }, el('div', null, el('small', null, L('на карте', 'on the map')), el('div', null, placeWords(one.surveyed))), el('div', null, el('small', null, `${L('видели', 'seen')} · ${Math.round(one.confidence * 100)} %`), el('div', null, placeWords(one.place)))),
+    el('div', { class: 'pair' }, el('div', null, el('small', null, L('на карте', 'on the map')), el('div', null, one.surveyed ? placeWords(one.surveyed) : L('нет такого', 'no such thing'))), el('div', null, el('small', null, `${L('видели', 'seen')} · ${Math.round(one.confidence * 100)} %`), el('div', null, placeWords(one.place)))),
     may('edit') ? el('div', { class: 'btns' }, button('pri', L('Так и есть', 'That is so'), () => act.decide(one.name, 'confirm')), button('', L('Нет, как на карте', 'No, as on the map'), () => act.decide(one.name, 'reject'))) : null))));
   if (S.edits.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Предложил помощник', 'Proposed by an assistant'), el('span', { class: 'num' }, String(S.edits.length))), S.edits.map((one) => el('div', { class: `note ${one.fault ? 'bad' : 'warn'}` }, el('b', null, one.reason || L('без объяснения', 'without a reason')),
     one.fault ? el('span', null, (S.lang === 'en' && one.fault.message_en) || one.fault.message) : el('ul', { class: 'diff' }, some(one.differences)),
