@@ -1,12 +1,13 @@
 //! Drives in a world that is not as the robot believes: what the file of a truth may say, and what the robot then tells.
 
 use orthoframe::Engine;
-use orthoframe::engine::{Error, Progress, TaskAnswer, TaskEnding, change_now};
+use orthoframe::engine::{Error, Progress, TaskAnswer, TaskEnding, Timestamp, change_now};
 use orthoframe_geometry::Scene;
+use orthoframe_language::question::News;
 use orthoframe_map::{DoorState, Entity, Format, World};
-use orthoframe_robot::{GoalFact, Surprise, facts_of_map};
+use orthoframe_robot::{GoalFact, Senses, Surprise, facts_of_map, is_obstacle};
 use orthoframe_semantics::{Profile, RelationRules, derive};
-use orthoframe_units::{AreaId, Frame, Point, ReplicaId, Source};
+use orthoframe_units::{AreaId, Frame, Point, ReplicaId, Source, Stop};
 
 use crate::files::project;
 use crate::generated_worlds::Dice;
@@ -353,4 +354,53 @@ fn the_store_keeps_what_was_found_out_and_not_the_truth() {
     let map = std::fs::read_to_string(project("maps/rb2.toml")).unwrap();
     let truth = engine.truth(&Source::new("rb2.toml", map), Format::Toml).unwrap().world;
     assert!(!truth.replicas.contains_key(&thing(&world, "Лекарство")));
+}
+
+/// What a robot by its senses met and no map has: told when it is asked what has changed, known to the next task, proposed,
+/// and by who says so a thing of the map, or forgotten.
+#[test]
+fn what_was_met_is_believed_and_proposed_and_becomes_a_thing_of_the_map_or_none() {
+    let stranger = "[[edit]]\nplace = \"Чужое\"\nobject = \"bedside\"\narea = \"Комната-В\"\nat = [255, 290]\n";
+    for is_confirmed in [true, false] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = Engine::open(&dir.path().join("store"), None).unwrap();
+        engine.import(&project("maps/rb2.toml"), &change_now("тест", "импорт")).unwrap();
+        let world = engine.world().unwrap().clone();
+        let truth = || engine.truth(&edits(stranger), Format::Toml).unwrap().world;
+        let mut robot = engine.sensing_robot(Some(truth()), Senses::of_seed(3)).unwrap();
+        let mut surprises = 0;
+        let mut tell = |progress: &Progress<'_>| {
+            surprises += usize::from(matches!(progress, Progress::Surprised { .. }));
+        };
+        let commands = engine.understand("Поезжай в Комнату-Z").unwrap();
+        let answer = engine.carry_out_with(&commands, &mut robot, &mut tell, &Stop::new()).unwrap();
+        assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+        assert!(surprises > 0, "it stood in the way");
+        engine.remember(&answer, std::time::SystemTime::now().into()).unwrap();
+        assert_eq!(engine.world().unwrap(), &world, "the map is as it was");
+        let now: Timestamp = std::time::SystemTime::now().into();
+        let news = engine.news(now).unwrap();
+        assert!(news.iter().any(|one| matches!(one, News::New(_))), "{news:?}");
+        let proposed: Vec<String> =
+            engine.proposals(now).unwrap().into_iter().map(|one| one.name).collect();
+        assert_eq!(proposed, ["Препятствие-1"]);
+        // Hours later nobody reckons with it.
+        let later = Timestamp(now.0 + 4 * 3_600_000);
+        assert!(engine.proposals(later).unwrap().is_empty());
+        let change = change_now("тест", "");
+        match is_confirmed {
+            true => {
+                engine.confirm("Препятствие-1", &change).unwrap();
+                let found = engine.world().unwrap().find("Препятствие-1");
+                assert!(matches!(found[..], [Entity::Replica(id)] if !is_obstacle(id)));
+            }
+            false => {
+                engine.reject("Препятствие-1", &change).unwrap();
+                assert_eq!(engine.world().unwrap(), &world);
+            }
+        }
+        assert!(engine.proposals(now).unwrap().is_empty());
+        let news = engine.news(now).unwrap();
+        assert!(!news.iter().any(|one| matches!(one, News::New(_))), "{news:?}");
+    }
 }

@@ -143,3 +143,21 @@ fn a_mission_goes_round_zones_or_says_which_bars_it() {
     let told = drive(&mut engine, "Иди в Комнату-Z");
     assert!(told.contains("Сделано"), "{told}");
 }
+
+/// Shut as a whole, doors and all, the room in which the robot stands is left; within it nothing is a goal.
+#[test]
+fn of_a_room_that_is_shut_as_a_whole_the_robot_gets_out() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = rb2(dir.path(), "");
+    lay(&mut engine, "[zone.here]\nname = \"Учения\"\nkind = \"keep-out\"\nrooms = [\"room-v\"]\n");
+    let mut hear = |order: &str| match Dialogue::default().hear(&mut engine, order, &mut |_, _| {}) {
+        Ok(heard) => heard.text(),
+        Err(error) => error.to_string(),
+    };
+    let told = hear("Подъедь к столу-1");
+    assert!(told.contains("Учения"), "{told}");
+    let told = hear("Поезжай в Комнату-Z");
+    assert!(told.contains("Комнате-Z"), "{told}");
+    let told = hear("Поезжай в Комнату-В");
+    assert!(told.contains("Учения"), "{told}");
+}

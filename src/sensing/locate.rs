@@ -3,7 +3,7 @@
 use nalgebra::{Isometry2, Matrix3, Vector2};
 
 use super::chart::Chart;
-use super::refine::refine;
+use super::refine::{CLOSE, WIDE, refine};
 use super::search::{Mark, Pyramid, is_near};
 use crate::vectors::scan::{Extractor, Sensor};
 
@@ -127,13 +127,13 @@ impl<'c> Localiser<'c> {
         let found = self.pyramid.search(&marks, least * 0.8, 1.5 * margin, APART, MOST_PLACES);
         let Some(found) = found else { return Answer::Unknown };
         let some: Vec<Vector2<f64>> = marks.iter().map(|mark| mark.at).collect();
-        let roughly = |candidate| self.fit(sensor, ranges, &some, candidate);
+        let roughly = |candidate| self.fit(sensor, ranges, &some, candidate, WIDE);
         let rough: Vec<Option<Fit>> = found.into_iter().map(roughly).collect();
         let mut is_loose = rough.iter().any(Option::is_none);
         let best = rough.iter().flatten().map(Fit::rank).fold(-1.0, f64::max);
         let mut fits: Vec<Fit> = Vec::new();
         for fit in rough.iter().flatten().filter(|fit| fit.rank() >= best - 1.5 * margin) {
-            let Some(fit) = self.fit(sensor, ranges, &returns, fit.pose) else {
+            let Some(fit) = self.fit(sensor, ranges, &returns, fit.pose, WIDE) else {
                 is_loose = true;
                 continue;
             };
@@ -185,7 +185,23 @@ impl<'c> Localiser<'c> {
     /// How a scan fits when it was taken near a pose; none where it holds none there.
     #[must_use]
     pub fn near(&self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Option<Fit> {
-        self.fit(sensor, ranges, &self.returns(sensor, ranges), pose)
+        self.fit(sensor, ranges, &self.returns(sensor, ranges), pose, WIDE)
+    }
+
+    /// The same where the pose is known so well that only what ends close to what the chart has is of that. A thing whose
+    /// face stands a hand before the one that is drawn pulls the pose no more; where the robot is quite elsewhere, what is
+    /// farther off tells so by much.
+    #[must_use]
+    pub fn close_to(&self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Option<Fit> {
+        let returns = self.returns(sensor, ranges);
+        let [close, wide] =
+            [CLOSE, WIDE].map(|gate| self.fit(sensor, ranges, &returns, pose, gate));
+        match (close, wide) {
+            (Some(close), Some(wide)) if wide.rank() > close.rank() + self.options.margin => {
+                Some(wide)
+            }
+            (close, wide) => close.or(wide),
+        }
     }
 
     fn fit(
@@ -194,8 +210,9 @@ impl<'c> Localiser<'c> {
         ranges: &[f64],
         returns: &[Vector2<f64>],
         pose: Isometry2<f64>,
+        gate: f64,
     ) -> Option<Fit> {
-        let refined = refine(self.chart, returns, self.options.sigma, pose)?;
+        let refined = refine(self.chart, returns, self.options.sigma, pose, gate)?;
         Some(self.fit_at(sensor, ranges, refined.pose, refined.covariance))
     }
 

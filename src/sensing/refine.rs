@@ -10,8 +10,10 @@ const STEPS: usize = 12;
 const NARROW: usize = 5;
 /// A step by less than this is the last, in cm and rad.
 const SETTLED: (f64, f64) = (0.05, 1e-4);
-/// Returns farther from every line than this take no part, in cm: at first, and in the end.
-const GATE: (f64, f64) = (40.0, 12.0);
+/// Returns farther from every line than this take no part, in cm: at first where the pose is only roughly known, and in the
+/// end.
+pub(crate) const WIDE: f64 = 40.0;
+pub(crate) const CLOSE: f64 = 12.0;
 
 /// A pose and its covariance over x, y (cm) and the turn (rad).
 pub(crate) struct Refined {
@@ -25,12 +27,13 @@ pub(crate) fn refine(
     returns: &[Vector2<f64>],
     sigma: f64,
     start: Isometry2<f64>,
+    first_gate: f64,
 ) -> Option<Refined> {
     let mut pose = start;
     let mut covariance = None;
     for step in 0..STEPS {
         let share = (step as f64 / NARROW as f64).min(1.0);
-        let gate = GATE.0 + (GATE.1 - GATE.0) * share;
+        let gate = first_gate + (CLOSE - first_gate) * share;
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         let (mut squares, mut count) = (0.0, 0);
         for p in returns {

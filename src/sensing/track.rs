@@ -106,7 +106,7 @@ impl<'l> Tracker<'l> {
             // In a corridor the scan holds no pose along it: odometry does, for a while.
             let fit = self
                 .localiser
-                .near(sensor, ranges, *pose)
+                .close_to(sensor, ranges, *pose)
                 .filter(|fit| is_near(&fit.pose, pose, 60.0));
             let fit = fit.unwrap_or_else(|| {
                 let covariance =

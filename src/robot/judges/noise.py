@@ -1,4 +1,5 @@
-"""Ways driven in IR-SIM by wheels that slip and a laser that errs: python3 noise.py ORTHO [WAYS [SEED]], in the repository's root.
+"""Ways driven in IR-SIM by wheels that slip and a laser that errs: python3 noise.py ORTHO [WAYS [SEED [BUILDING…]]], in the
+repository's root; of the ways those in the buildings named, or all.
 
 The robot knows what its wheels count and what its laser tells; where it is the mission finds out. What IR-SIM says that it touches
 is a contact. Beside it IR-SIM's own A*, in the same world with the same noise: driven by what the wheels count, and, which no robot
@@ -286,11 +287,15 @@ def ways(program, file, count, dice, ours, counted, told):
 
 def main():
     program, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 5
-    dice = random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else 1)
+    seed, wanted = sys.argv[3] if len(sys.argv) > 3 else "1", sys.argv[4:]
     files = buildings(few=count < 50)
     ours, counted, told, faults = Told(), Told(), Told(), []
     for number, file in enumerate(files):
         share = count * (number + 1) // len(files) - count * number // len(files)
+        if wanted and file.stem not in wanted:
+            continue
+        # Each building has ways of its own, whichever are driven.
+        dice = random.Random(f"{seed} {file.stem}")
         faults += ways(program, file, share, dice, ours, counted, told)
         print(ours.row(file.stem), flush=True)
     print("| who drives | ways | arrived | contacts | m | off the goal, cm: median | most |")

@@ -107,11 +107,11 @@ impl Mission<'_> {
     fn give_way(&mut self, reins: &mut Reins<'_>) -> Result<(), Ending> {
         let (belief, floor) = (&self.belief, self.belief.floor());
         let (here, area) = (belief.pose.at, belief.area);
-        let mut met = belief.unknown_places();
-        if met.is_empty() {
-            met.push(here);
-        }
-        let is_clear = |at: &Point| met.iter().all(|one| (one - at).norm() >= ROOM);
+        // Of all that it met it is the nearest that it is face to face with.
+        let met = belief.unknown_places().into_iter();
+        let met = met.min_by(|a, b| (a - here).norm().total_cmp(&(b - here).norm()));
+        let met = met.unwrap_or(here);
+        let is_clear = |at: &Point| (met - at).norm() >= ROOM;
         let middles = floor.passframes(area).iter().map(|cell| cell.polygon.centroid());
         let far = |at: Point| {
             let (world, target) = (&belief.world, Target::Point(at));

@@ -196,6 +196,13 @@ impl Pilot<'_, '_> {
         near.map_or(Vector::x(), |(_, u)| from.rotation * u)
     }
 
+    /// Whether the laser sees what the body touches: it was grazed.
+    fn sees_beside(&self) -> bool {
+        let beside = self.ground.world.robot.radius.get() + UNKNOWN;
+        let Some((_, sensor, ranges)) = &self.look else { return false };
+        ranges.iter().any(|range| sensor.returned(*range) && *range <= beside)
+    }
+
     /// Whether what was touched just before the body may be what is known to stand there.
     fn may_be_known(&self, front: &[Point]) -> bool {
         let floor = &self.ground.floors[&self.map];
@@ -294,7 +301,7 @@ impl Pilot<'_, '_> {
                     self.settle(watch)?;
                     // Below or above what the laser sees: it stands before the body.
                     let felt = self.front(way);
-                    let is_new = !self.may_be_known(&felt);
+                    let is_new = !self.sees_beside() && !self.may_be_known(&felt);
                     self.back_off(way, watch)?;
                     if is_new || contacts >= CONTACTS {
                         self.met.clear();

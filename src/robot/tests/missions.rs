@@ -312,8 +312,10 @@ impl Judge {
     }
 }
 
+/// Of one seed alone all is told.
 fn short(told: &str) -> String {
-    told.chars().take(300).collect()
+    let most = if std::env::var_os("ORTHOFRAME_SEED").is_some() { usize::MAX } else { 300 };
+    told.chars().take(most).collect()
 }
 
 struct Counts {

@@ -141,18 +141,26 @@ impl<'w> Doors<'w> {
     pub(super) fn leaves_near(&self, pose: &Isometry2<f64>, reach: f64) -> Vec<Line> {
         let at = Point2::from(pose.translation.vector);
         let near = self.doors.iter().filter(|door| (door.middle - at).norm() <= reach + door.reach);
-        near.flat_map(|door| {
-            let mapped = self.world.doors.get(&door.id).map(|door| door.state);
-            let opening = match (door.seen(), mapped) {
-                (Some(seen), Some(mapped)) => seen.state(mapped).unwrap_or(mapped).opening,
-                (Some(seen), None) => seen.best,
-                (None, Some(mapped)) => mapped.opening,
-                (None, None) => 0.0,
-            };
-            let number = (opening / STEP as f64).round() as usize;
-            door.leaves[number.min(door.leaves.len() - 1)].clone()
-        })
-        .collect()
+        near.flat_map(|door| self.leaves_of(door)).copied().collect()
+    }
+
+    /// Whether a point is of a leaf as the doors are seen to stand, else as they are mapped.
+    pub(super) fn holds(&self, p: Point2<f64>, slack: f64) -> bool {
+        let near = self.doors.iter().filter(|door| (door.middle - p).norm() <= door.reach + slack);
+        let mut leaves = near.flat_map(|door| self.leaves_of(door));
+        leaves.any(|line| (line.nearest(p) - p).norm() <= slack)
+    }
+
+    fn leaves_of<'d>(&self, door: &'d Door) -> &'d [Line] {
+        let mapped = self.world.doors.get(&door.id).map(|door| door.state);
+        let opening = match (door.seen(), mapped) {
+            (Some(seen), Some(mapped)) => seen.state(mapped).unwrap_or(mapped).opening,
+            (Some(seen), None) => seen.best,
+            (None, Some(mapped)) => mapped.opening,
+            (None, None) => 0.0,
+        };
+        let number = (opening / STEP as f64).round() as usize;
+        &door.leaves[number.min(door.leaves.len() - 1)]
     }
 
     /// Whether a point may be of a leaf of which it is not known how it stands.

@@ -217,9 +217,11 @@ impl<'w> Inspector<'w> {
         self.count += 1;
     }
 
-    /// A door was moved: what was seen of it before counts no more.
+    /// A door was moved: what was seen of it before counts no more, nor what its leaves were taken for meanwhile.
     pub fn forget_door(&mut self, door: DoorId) {
         self.doors.forget(door);
+        let doors = &self.doors;
+        self.cells.forget(|p| doors.may_hold(p, SLACK.0));
     }
 
     /// What differs by all scans so far; of what changed meanwhile the last look counts.
@@ -227,6 +229,8 @@ impl<'w> Inspector<'w> {
     pub fn differences(&self) -> Differences {
         let mut things: Vec<ThingLook> = Vec::new();
         let mut cells = self.cells.clone();
+        // A leaf that was moved was something else until it was known to be there.
+        cells.forget(|p| self.doors.holds(p, SLACK.0));
         for (&thing, looks) in &self.looks {
             let all = looks.struck + looks.through;
             if looks.is_doubtful()
