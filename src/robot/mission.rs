@@ -20,6 +20,7 @@ mod clearing;
 mod missed;
 mod names;
 mod pursuit;
+mod round;
 
 pub(super) use names::before_passage;
 
@@ -295,7 +296,7 @@ impl<'r> Mission<'r> {
                 // What was seen counts before the first metre.
                 self.take_notice(&mut reins);
                 let ending = self.pursue(goal, &mut reins);
-                self.gather(&mut reins);
+                self.gather(&reins);
                 ending
             }
             Err(failure) => Ok(Ending::Failed(failure)),

@@ -62,7 +62,7 @@ pub use solve::{
 };
 pub use timing::Clock;
 pub use vehicle::{
-    Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
-    RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
+    Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience,
+    Refusal, RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
 };
 pub use wishes::Wishes;

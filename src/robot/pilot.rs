@@ -20,8 +20,8 @@ use crate::units::{AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, Re
 use crate::vectors::scan::{Noise, Sensor};
 use crate::vehicle::protocol::Scan;
 use crate::vehicle::{
-    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Refusal, Sighting, Unfinished,
-    Vehicle, Watch,
+    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Refusal, Sighting,
+    Unfinished, Vehicle, Watch,
 };
 
 mod way;

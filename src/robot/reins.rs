@@ -11,8 +11,8 @@ use crate::units::{Deg, MapId, Point, Pose, Stop};
 use super::belief::AT_PLACE;
 use super::mission::Event;
 use super::vehicle::{
-    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished, Vehicle,
-    Watch,
+    Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished,
+    Vehicle, Watch,
 };
 use crate::units::ReplicaId;
 

@@ -164,12 +164,7 @@ impl Mission<'_> {
         self.drive(route, reins, leg)
     }
 
-    fn way(
-        &self,
-        floor: &FloorPlan,
-        target: Target,
-        areas: &[AreaId],
-    ) -> Result<Route, NoRoute> {
+    fn way(&self, floor: &FloorPlan, target: Target, areas: &[AreaId]) -> Result<Route, NoRoute> {
         let (world, from) = (&self.belief.world, self.belief.pose.at);
         floor.route_within(world, from, target, Method::Shortest, Some(areas))
     }

@@ -135,7 +135,7 @@ impl Mission<'_> {
     }
 
     /// Ways that were given up, the last first: it is what the mission ends for.
-    fn given_up(&self) -> impl Iterator<Item = (AreaId, String)> {
+    pub(super) fn given_up(&self) -> impl Iterator<Item = (AreaId, String)> {
         self.belief.unreachable.iter().rev().cloned()
     }
 

@@ -12,7 +12,9 @@ use crate::vehicle::Unfinished;
 use super::{Ending, Event, GoalFact, Leg, Mission, MissionError, look_round};
 
 /// So often a mission looks again before it says that unknown things bar its way, and so many times round each time.
-const MOST_LOOKS: usize = 3;
+const MOST_LOOKS: usize = 5;
+/// So often where what bars the way is elsewhere each time.
+const MOST_FOR_WHO_MOVES: usize = 8;
 const LOOKS_OF_A_WAIT: usize = 8;
 /// So often in one mission somebody is asked to clear a way.
 const MOST_CALLS: usize = 3;
@@ -28,7 +30,8 @@ impl Mission<'_> {
         reins: &mut Reins<'_>,
     ) -> Result<Ending, MissionError> {
         let (mut looks, mut calls, mut tries) = (0, 0, 0);
-        let mut doubted = BTreeSet::new();
+        let (mut doubted, mut entered) = (BTreeSet::new(), BTreeSet::new());
+        let mut places: Vec<Point> = Vec::new();
         loop {
             let ending = self.attempt(goal, reins)?;
             match ending {
@@ -41,7 +44,19 @@ impl Mission<'_> {
                         Ok(false) => {}
                         Err(ended) => return Ok(ended),
                     }
-                    if looks < MOST_LOOKS {
+                    match self.goes_round(&ending, &mut entered, reins)? {
+                        Ok(true) => {
+                            tries += 1;
+                            continue;
+                        }
+                        Ok(false) => {}
+                        Err(ended) => return Ok(ended),
+                    }
+                    let before = std::mem::replace(&mut places, self.belief.unknown_places());
+                    let is_where_it_was =
+                        |at: &Point| before.iter().any(|one| (one - at).norm() <= ROOM / 10.0);
+                    let moves = !places.iter().all(is_where_it_was);
+                    if looks < MOST_LOOKS || moves && looks < MOST_FOR_WHO_MOVES {
                         looks += 1;
                         match self.looked_again(looks > 1, reins) {
                             Ok(true) => continue,

@@ -217,10 +217,9 @@ impl Pilot<'_, '_> {
     }
 
     /// A point on the way, moved a little away from what the last look shows beside it: outlines are known no better.
-    fn eased(&self, p: Point) -> Point {
+    fn eased(&self, p: Point, spare: f64) -> Point {
         let Some((from, sensor, ranges)) = &self.look else { return p };
-        let robot = &self.ground.world.robot;
-        let keep = robot.radius.get() + robot.clearance.get().max(AMPLE);
+        let keep = self.ground.world.robot.radius.get() + spare;
         let ends = ranges.iter().zip(sensor.directions());
         let ends = ends.filter(|(range, _)| sensor.returned(**range));
         let near: Vec<Point> = ends
@@ -263,13 +262,16 @@ impl Pilot<'_, '_> {
         let close = if rest.len() > 1 { AT_CORNER } else { AT_END };
         let (mut contacts, mut is_turned) = (0, false);
         let (mut goal, mut rest) = (goal, rest.to_vec());
-        let mut is_eased = rest.len() < 2;
+        let mut is_eased = false;
+        let clearance = self.ground.world.robot.clearance.get();
+        let ample = clearance.max(AMPLE);
         self.felt.clear();
         loop {
             watch.check()?;
             if !is_eased && (goal - self.at()).norm() <= 2.0 * PIECE {
                 is_eased = true;
-                goal = self.eased(goal);
+                // Where it is to stand it keeps off what is seen there no more than it must.
+                goal = self.eased(goal, if rest.len() > 1 { ample } else { clearance });
                 rest[0] = goal;
             }
             let way = goal - self.at();
@@ -290,7 +292,7 @@ impl Pilot<'_, '_> {
             }
             is_turned = false;
             let target = match left > PIECE {
-                true => self.eased(self.at() + way * (PIECE / left)),
+                true => self.eased(self.at() + way * (PIECE / left), ample),
                 false => goal,
             };
             let target = self.to_odometry(target);

@@ -114,7 +114,17 @@ impl SensingRobot {
         let people = (0..senses.people).filter_map(|_| Walker::appear(&body, &mut dice)).collect();
         let odometry = Pose { at: Point::origin(), heading: Deg::ZERO };
         let walked = body.time;
-        Self { body, senses, dice, faces, people, walked, odometry, looked: walked, touched: Vec::new() }
+        Self {
+            body,
+            senses,
+            dice,
+            faces,
+            people,
+            walked,
+            odometry,
+            looked: walked,
+            touched: Vec::new(),
+        }
     }
 
     /// The robot as it truly is, for who judges a drive.

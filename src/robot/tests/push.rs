@@ -183,3 +183,41 @@ fn who_is_asked_to_clear_the_way_may_do_so_or_give_up() {
     assert!(matches!(came.ending, Ending::Stuck(_)), "{:?} {:?}", came.done, came.ending);
     assert_eq!((&came.asked[0].things[..], came.area), (&[chair][..], one));
 }
+
+/// A board parts the other room: into its one half leads the passage from here, into its other the way by the third room.
+#[test]
+fn what_lies_in_the_other_half_of_a_room_is_gone_to_round_about() {
+    let text = r#"
+[orthoframe.board]
+name = "Board"
+rect = [20, 300]
+height = 200
+[object.board]
+name = "Board"
+items = [{ id = "A", orthoframe = "board" }]
+[[edit]]
+place = "Board 1"
+object = "board"
+area = "Two"
+at = [90, 0]
+[[edit]]
+point = "Goal"
+area = "Two"
+pose = [700, 100]
+"#;
+    let world = home(false, true, ASIDE);
+    let edits = orthoframe_map::Edits::read(&Source::new("board.toml", text), Format::Toml);
+    let names = orthoframe_map::NameIndex::of(&world);
+    let naming = orthoframe_map::Naming { exact: &names, in_other_words: &|_| Vec::new() };
+    let ids = orthoframe_map::NextIds::after(&world);
+    let parted = orthoframe_map::edit(&world, &edits, &ids, naming);
+    let parted = parted.world.unwrap_or_else(|| panic!("{:?}", parted.faults));
+    let setting = Setting::of(parted.clone());
+    let mut mission = setting.mission(setting.belief().unwrap());
+    let mut robot = Simulator::new(parted.clone(), setting.map, setting.pose);
+    let goal = [fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ", "Goal")];
+    let ending = mission.run(&goal, &mut robot, &Stop::new(), &mut |_| {}).unwrap();
+    assert!(matches!(ending, Ending::Done), "{ending:?}");
+    let (_, pose) = robot.pose();
+    assert!((pose.at - orthoframe_units::Point::new(700.0, 100.0)).norm() < 20.0, "{pose:?}");
+}
