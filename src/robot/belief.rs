@@ -12,6 +12,7 @@ use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Ve
 
 mod lost;
 mod unknown;
+mod views;
 
 use super::vehicle::Sighting;
 
@@ -369,32 +370,6 @@ impl Belief {
     fn fact_of(&self, spot: &Spot) -> InitialFact {
         let area = self.world.name(Entity::Area(spot.area));
         fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")])
-    }
-
-    /// Names a point in each Area where something is to be looked for and of which these facts name none, in the middle of
-    /// its largest Passframe; what is to be told of them.
-    pub(super) fn name_views(&mut self, facts: &[InitialFact]) -> Vec<InitialFact> {
-        let of_place = |fact: &&InitialFact| is(fact, predicate::PLACE_IN);
-        let named: BTreeSet<&str> =
-            facts.iter().filter(of_place).map(|fact| fact.arguments[1].name.as_str()).collect();
-        let may_be = self.sought.iter().flat_map(|(thing, past)| self.where_may_be(thing, past));
-        let areas: BTreeSet<AreaId> =
-            may_be.filter(|area| !named.contains(self.world.name(Entity::Area(*area)))).collect();
-        let view = |area: AreaId| {
-            let (map, _) = self.world.placement(area)?;
-            let cells = self.floors.get(&map)?.passframes(area).iter();
-            let largest = cells.max_by(|a, b| {
-                a.polygon.signed_area().total_cmp(&b.polygon.signed_area()).then(b.id.cmp(&a.id))
-            });
-            let (at, heading) = (largest?.polygon.centroid(), Deg::ZERO);
-            let name = format!("{IN_MIDDLE}{}", self.world.name(Entity::Area(area)));
-            let is_new = !self.spots.iter().any(|spot| spot.name == name);
-            is_new.then_some(Spot { name, area, pose: Pose { at, heading }, looks: false })
-        };
-        let views: Vec<Spot> = areas.into_iter().filter_map(view).collect();
-        let told = views.iter().map(|spot| self.fact_of(spot)).collect();
-        self.spots.extend(views);
-        told
     }
 
     /// The doors to which a person has the key, by the Map.

@@ -17,6 +17,7 @@ use thiserror::Error;
 mod acts;
 mod aside;
 mod clearing;
+mod gathered;
 mod missed;
 mod names;
 mod pursuit;
@@ -28,7 +29,6 @@ use super::barred::{Answer, Barred};
 use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::idle::without_idle;
-use super::obstacle::is_obstacle;
 use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
 use super::solve::{Solved, solve_again};
@@ -450,27 +450,6 @@ impl<'r> Mission<'r> {
     fn take_notice(&mut self, reins: &mut Reins<'_>) -> Option<Sighting> {
         let seen = std::mem::take(&mut reins.seen);
         seen.into_iter().filter(|seen| self.belief.learn(*seen)).last()
-    }
-
-    /// Takes over all that the vehicle found to differ, whether it was in the way or not, for what follows.
-    fn gather(&mut self, reins: &Reins<'_>) {
-        let gathered = reins.gathered();
-        for seen in gathered.moved {
-            self.belief.learn(seen);
-        }
-        for thing in gathered.missed {
-            if is_obstacle(thing) {
-                self.belief.lose(thing);
-            } else {
-                self.belief.miss(thing);
-            }
-        }
-        for (thing, pieces) in self.belief.obstacles() {
-            if reins.sees_through(&pieces) {
-                self.belief.lose(thing);
-            }
-        }
-        self.belief.stand_beside(&gathered.new);
     }
 
     /// Counts how often a thing was seen otherwise than before; the number, once it is too often.
