@@ -109,8 +109,7 @@ impl Arguments {
         let read = |unit| {
             let words = in_centimetres(command, std::env::args_os(), unit);
             let matches: ArgMatches = command.clone().get_matches_from(words);
-            let mut read =
-                Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+            let mut read = Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
             let is_told = matches.value_source("lang") != Some(ValueSource::DefaultValue);
             if let (false, None, Some(said)) = (is_told, usual, read.command.words()) {
                 read.common.lang = Language::of(said).pick(Lang::Ru, Lang::En);

@@ -244,7 +244,8 @@ fn nothing_is_english_in_russian() {
 }
 
 #[test]
-fn the_language_is_that_of_the_arguments_then_of_the_environment_then_of_the_locale_then_of_the_words() {
+fn the_language_is_that_of_the_arguments_then_of_the_environment_then_of_the_locale_then_of_the_words()
+ {
     let place = Place::empty();
     let told = |args: &[&str], set: &[(&str, &str)]| {
         let mut command = place.command(args);
