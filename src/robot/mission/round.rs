@@ -65,7 +65,7 @@ impl Mission<'_> {
         })
     }
 
-    /// A door of an Area on the robot's Map from which a way leads to a place or another door of it, and to which none leads
+    /// A door of an Area on the robot's Map from which a way leads to a place of it, and to which none leads
     /// within it from where the robot came.
     fn entrance(&self, area: AreaId, to: &str, tried: &BTreeSet<Entrance>) -> Option<Entrance> {
         let (belief, floor) = (&self.belief, self.belief.floor());
@@ -82,14 +82,8 @@ impl Mission<'_> {
             Target::Point(at) => Some(at),
             _ => None,
         };
-        let target = match self.place_target(to) {
-            Ok(target) => target,
-            Err(_) => {
-                let other = self.joins.iter().find(|j| j.to == area && j.opening == to)?;
-                Target::Point(inside(&other)?)
-            }
-        };
-        self.joins.iter().filter(|join| join.to == area && join.opening != to).find_map(|join| {
+        let target = self.place_target(to).ok()?;
+        self.joins.iter().filter(|join| join.to == area).find_map(|join| {
             let (into, door, from) = (area, join.opening.clone(), join.from);
             let entrance = Entrance { into, door, from };
             let at = inside(&join).filter(|_| !tried.contains(&entrance))?;
