@@ -274,7 +274,8 @@ fn a_spare_floor_of_other_rooms_follows_them() {
         ways
     };
     let _ = (engine.relations().unwrap(), engine.floors().unwrap());
-    let edits: [(bool, &dyn Fn(&mut World)); 6] = [
+    type Alter<'a> = &'a dyn Fn(&mut World);
+    let edits: [(bool, Alter<'_>); 6] = [
         (true, &turn),
         (false, &take_last_away),
         (false, &turn),

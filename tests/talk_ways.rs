@@ -1,9 +1,10 @@
 //! Ways in words: what is told agrees with the route's geometry, in every world and both languages.
 
-use orthoframe::engine::{Engine, Method, RouteAnswer, World};
+use orthoframe::engine::{Engine, Memory, Method, RouteAnswer, World};
 use orthoframe_exchange::{Options, read};
 use orthoframe_language::Language;
 use orthoframe_language::directions::{Directions, RoomPart, Side};
+use orthoframe_language::question::Said;
 use orthoframe_language::report::Detail;
 use orthoframe_map::Entity;
 use orthoframe_units::{Deg, Vector};
@@ -262,4 +263,43 @@ fn in_a_mirror_left_is_right() {
         }
     }
     assert!(turns > 20 && alike * 10 >= all * 9, "{turns} turns, {alike} of {all} alike");
+}
+
+/// The rooms that are said to be reached, or not to be, are those of which each by itself is said so.
+#[test]
+fn rooms_that_are_reached_are_those_to_which_one_can_get() {
+    let questions = [
+        ("Which rooms can you reach?", true),
+        ("Which rooms can I get to?", true),
+        ("В какие комнаты можно попасть?", true),
+        ("Which rooms can I not get to?", false),
+        ("Which rooms can't you reach?", false),
+        ("Which rooms cannot be reached?", false),
+        ("В какие комнаты нельзя попасть?", false),
+        ("До каких комнат ты не доберёшься?", false),
+    ];
+    let mut shut = 0;
+    for locked in 0..4 {
+        let mut world = rb2();
+        for door in world.doors.values_mut().take(locked) {
+            door.state = orthoframe_map::DoorState::LOCKED;
+        }
+        let engine = Engine::in_memory(world, None).unwrap();
+        let ask = |text: &str| engine.ask(text, &mut Memory::default()).unwrap();
+        for (question, reached) in questions {
+            let answer = ask(question).unwrap_or_else(|doubt| panic!("{question}: {}", doubt.text));
+            for area in engine.world().unwrap().areas.values() {
+                let one = ask(&format!("Can you get to {}?", area.name_en)).unwrap();
+                shut += usize::from(one.said == Said::No);
+                let is_listed = answer.symbols.contains(&area.name);
+                assert_eq!(
+                    is_listed,
+                    (one.said != Said::No) == reached,
+                    "{question} {}",
+                    area.name
+                );
+            }
+        }
+    }
+    assert!(shut > 0);
 }

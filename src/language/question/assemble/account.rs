@@ -151,6 +151,11 @@ impl Frame<'_, '_> {
         let named = self.has(Mark::What)
             && self.has(Mark::List)
             && self.sentence.keys.iter().any(|key| key == "name");
+        // "How many chairs can you get to?" asks for ways.
+        let goes = self.has(Mark::Can)
+            && self.has(Mark::Move)
+            && matches!(query, Query::Find(noun) | Query::Count(noun) if noun.reached.is_none())
+            && !told.inward;
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
@@ -162,6 +167,7 @@ impl Frame<'_, '_> {
             || leads_but
             || here
             || supposes
+            || goes
             || named
             || has_more
             || its

@@ -314,6 +314,7 @@ impl Frame<'_, '_> {
             return None;
         }
         self.purpose()
+            .or_else(|| self.reached())
             .or_else(|| self.of_robot())
             .or_else(|| self.people())
             .or_else(|| self.kinds())

@@ -25,22 +25,35 @@ impl Frame<'_, '_> {
         (has(Case::Prepositional) || has(Case::Locative)) && !has(Case::Accusative)
     }
 
+    /// "Which rooms can you not reach?", «До каких комнат ты доберёшься?»
+    pub(super) fn reached(&self) -> Option<Query> {
+        let measures = [Mark::HowFar, Mark::HowLong, Mark::HowGet];
+        if !self.asks() || !self.has(Mark::Move) || measures.iter().any(|mark| self.has(*mark)) {
+            return None;
+        }
+        let robot = |noun: &Noun| noun.head.things.as_deref() == Some(&[Thing::Robot][..]);
+        let mut nouns = self.nouns.iter().map(|s| &s.noun).filter(|noun| !robot(noun));
+        let what = match (nouns.next(), &self.spots[..]) {
+            (Some(noun), []) if self.has(Mark::Can) && !self.is_doors(noun) => noun,
+            (None, [Spot { rel: Rel::To | Rel::In, nouns, .. }]) if self.is_rooms(&nouns[0]) => {
+                &nouns[0]
+            }
+            _ => return None,
+        };
+        if nouns.next().is_some() {
+            return None;
+        }
+        let noun = Noun { plural: true, ..what.clone() };
+        Some(Query::Find(Noun { reached: Some(!self.negated), ..noun }))
+    }
+
     pub(super) fn way(&self) -> Option<Query> {
         if let Some(query) = self.which_way() {
             return Some(query);
         }
         let long = self.has(Mark::HowLong);
         let far = self.has(Mark::HowFar) || long;
-        let asks_which = self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet);
-        // "Which rooms can you reach?"
-        if let ([one], true) = (&self.nouns[..], asks_which && self.spots.is_empty())
-            && self.has(Mark::Move)
-            && !self.is_doors(&one.noun)
-        {
-            let noun = Noun { plural: true, ..one.noun.clone() };
-            return Some(Query::Find(Noun { reached: Some(!self.negated), ..noun }));
-        }
-        if asks_which {
+        if self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet) {
             return None;
         }
         if far && self.marks.iter().any(|(m, _)| matches!(m, Mark::More(_))) {
