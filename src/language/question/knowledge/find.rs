@@ -11,6 +11,9 @@ use crate::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing}
 use crate::units::{AreaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
+/// To more things than this ways are not looked for at once.
+const MOST_DRIVEN: usize = 200;
+
 impl Knowledge<'_> {
     /// What the head alone may mean.
     pub(in crate::question) fn base(&self, head: &Head) -> Vec<Thing> {
@@ -212,6 +215,10 @@ impl Knowledge<'_> {
             found.retain(fits);
         }
         if let Some(wanted) = noun.reached {
+            // A way is looked for to each.
+            if found.len() > MOST_DRIVEN {
+                return Err(Doubt::NotUnderstood { words: noun.text.clone() });
+            }
             let own = self.area_of(Thing::Robot);
             let is_here = |t: &Thing| t.area().is_some() && t.area() == own;
             found.retain(|t| (is_here(t) || self.driven(Thing::Robot, *t).is_some()) == wanted);
