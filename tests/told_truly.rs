@@ -167,7 +167,7 @@ fn passages_are_told_where_one_asks_how_a_room_is_left() {
 
 const BOB: &str = "  { name = \"Bob\", object = \"human\", at = [420, 200] },\n";
 
-fn with_bob(text: String) -> String {
+fn with_bob(text: &str) -> String {
     let kind = "object = [\n  { name = \"human\", traits = [\"person\"] },\n";
     let body = "[orthoframe.body]\nname = \"Body\"\ntype = \"part\"\nrect = [40, 40]\nheight = 170\n\n\
                 [object.human]\nname = \"Human\"\ntype = \"human\"\n\
@@ -182,7 +182,7 @@ fn with_bob(text: String) -> String {
 
 #[test]
 fn a_person_on_the_map_is_found_called_by_name_and_given_things() {
-    let (_dir, mut engine) = map("lab", with_bob);
+    let (_dir, mut engine) = map("lab", |text| with_bob(&text));
     assert_eq!(names(&engine, "Who is in the lab?"), BTreeSet::from(["Bob".to_owned()]));
     assert!(names(&engine, "Who is in the office?").is_empty());
     assert_eq!(ask(&engine, "How many people are there?").number, Some(1.0));

@@ -119,7 +119,8 @@ fn an_assumption_is_withdrawn_and_the_plan_made_anew() {
     assert_eq!(gone["before"]["rested_on_it"], true);
     assert_eq!(gone["withdrawn"].as_array().unwrap().len(), 2);
     let help = gone["explanation"].as_str().unwrap();
-    assert!(help.contains("Помогло бы: ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ВZ"), "{help}");
+    // Through a door that is open on one side the robot would not come back.
+    assert!(!help.contains("Помогло бы"), "{help}");
     let text = place
         .run(&["plan", &file, "--lang", "en", "--without", "дверь_из_в_открыта(Дверь-ВZ, ?x, ?z)"])
         .is(1);

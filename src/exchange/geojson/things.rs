@@ -78,18 +78,18 @@ impl Reader {
                 self.things.by_name.insert(whole, self.things.in_parts.len());
                 self.things.in_parts.push(thing);
             }
-            None => self.stand(thing),
+            None => self.stand(&thing),
         }
     }
 
     /// Stands the things of which all parts have been met.
     pub(super) fn things_of_parts(&mut self) {
         for thing in std::mem::take(&mut self.things.in_parts) {
-            self.stand(thing);
+            self.stand(&thing);
         }
     }
 
-    fn stand(&mut self, thing: Whole) {
+    fn stand(&mut self, thing: &Whole) {
         let corners: Vec<Point> =
             thing.bodies.iter().flat_map(|body| body.ring.iter().copied()).collect();
         let (origin, _) = outline::bounds(&corners);

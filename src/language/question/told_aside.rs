@@ -198,7 +198,7 @@ fn withdrawn(items: &[Item]) -> Option<&Item> {
     let mut rest = items.iter().skip_while(|item| {
         matches!(item, Item::Mark(Mark::Not | Mark::The | Mark::A | Mark::And | Mark::Filler))
     });
-    let denies = items.iter().any(|item| *item == Item::Mark(Mark::Not));
+    let denies = items.contains(&Item::Mark(Mark::Not));
     let only = rest.next().filter(|_| denies && rest.next().is_none())?;
     matches!(only, Item::Noun(_) | Item::Unknown(_)).then_some(only)
 }

@@ -214,7 +214,7 @@ pose = [700, 100]
     let parted = parted.world.unwrap_or_else(|| panic!("{:?}", parted.faults));
     let setting = Setting::of(parted.clone());
     let mut mission = setting.mission(setting.belief().unwrap());
-    let mut robot = Simulator::new(parted.clone(), setting.map, setting.pose);
+    let mut robot = Simulator::new(parted, setting.map, setting.pose);
     let goal = [fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ", "Goal")];
     let ending = mission.run(&goal, &mut robot, &Stop::new(), &mut |_| {}).unwrap();
     assert!(matches!(ending, Ending::Done), "{ending:?}");

@@ -42,7 +42,7 @@ impl Knowledge<'_> {
             noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == wanted)
         };
         if is_of(Extension::Exits) && noun.filters.is_empty() && noun.best.is_none() {
-            return self.to_other_rooms(noun, found);
+            return self.passages_away(noun, found);
         }
         let doors = is_of(Extension::Doors);
         if doors && found.is_empty() && noun.filters.is_empty() {
@@ -83,7 +83,7 @@ impl Knowledge<'_> {
     }
 
     /// Who asks for the exits of one room is told what leads out of it, beside what leads out of the building.
-    fn to_other_rooms(&self, noun: &Noun, found: &[Thing]) -> String {
+    fn passages_away(&self, noun: &Noun, found: &[Thing]) -> String {
         let place = noun
             .restrictions
             .iter()

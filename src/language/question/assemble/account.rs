@@ -152,10 +152,12 @@ impl Frame<'_, '_> {
             && self.has(Mark::List)
             && self.sentence.keys.iter().any(|key| key == "name");
         // "How many chairs can you get to?" asks for ways.
+        let by_way = |noun: &Noun| {
+            noun.reached.is_some() || self.is_doors(noun) || self.is_exits(noun) || told.inward
+        };
         let goes = self.has(Mark::Can)
             && self.has(Mark::Move)
-            && matches!(query, Query::Find(noun) | Query::Count(noun) if noun.reached.is_none())
-            && !told.inward;
+            && matches!(query, Query::Find(noun) | Query::Count(noun) if !by_way(noun));
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads

@@ -73,6 +73,7 @@ fn lost_its_denial(query: &mut Query) -> bool {
     query.each_noun(&mut |noun| {
         denies |= !noun.except.is_empty()
             || noun.other
+            || noun.reached == Some(false)
             || noun.filters.iter().any(|filter| filter.negated)
             || noun.sizes.iter().any(|size| size.negated)
             || noun.restrictions.iter().any(|place| place.negated)
