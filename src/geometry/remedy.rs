@@ -403,8 +403,7 @@ fn blockers_of(barrier: &Barrier) -> impl Iterator<Item = Blocker> + '_ {
     named.iter().copied()
 }
 
-/// The things among what stands in the way that may be moved at all: that wander, and are of a kind that is pushed or
-/// carried, where the map says of what kind they are.
+/// The things among what stands in the way that may be moved at all.
 fn may_move<'a>(
     world: &'a World,
     blockers: impl Iterator<Item = Blocker> + 'a,
@@ -413,14 +412,7 @@ fn may_move<'a>(
         Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => Some(replica),
         _ => None,
     });
-    things.filter(|id| {
-        let Some(thing) = world.replicas.get(id).filter(|thing| thing.move_prob > 0) else {
-            return false;
-        };
-        let is_of_a_kind =
-            world.objects.get(&thing.object).is_some_and(|object| object.object_type.is_some());
-        !is_of_a_kind || ["movable", "portable"].iter().any(|made| world.has_trait(*id, made))
-    })
+    things.filter(|id| world.replicas.get(id).is_some_and(|r| r.move_prob > 0))
 }
 
 fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
