@@ -292,6 +292,13 @@ fn rooms_that_are_reached_are_those_to_which_one_can_get() {
                 let one = ask(&format!("Can you get to {}?", area.name_en)).unwrap();
                 shut += usize::from(one.said == Said::No);
                 let is_listed = answer.symbols.contains(&area.name);
+                assert!(
+                    !answer.symbols.is_empty()
+                        || answer.text.contains("to all of them")
+                        || answer.text.contains("ко всем"),
+                    "{question} {}",
+                    answer.text
+                );
                 assert_eq!(
                     is_listed,
                     (one.said != Said::No) == reached,

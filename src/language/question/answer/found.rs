@@ -23,6 +23,13 @@ impl Knowledge<'_> {
             .best
             .as_ref()
             .is_some_and(|b| matches!(b.extreme, Extreme::Heaviest | Extreme::Lightest));
+        if let (true, Some(reached)) = (found.is_empty(), noun.reached) {
+            let text = match reached {
+                true => self.pick("путей туда нет", "there is a way to none of them"),
+                false => self.pick("путь есть ко всем", "there is a way to all of them"),
+            };
+            return Ok(Draft::new(Said::No, text.to_owned()));
+        }
         if found.is_empty() && by_weight {
             let text =
                 self.pick("вес этих вещей на карте не указан", "the map gives no weight of them");

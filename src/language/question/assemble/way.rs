@@ -33,8 +33,12 @@ impl Frame<'_, '_> {
         }
         let robot = |noun: &Noun| noun.head.things.as_deref() == Some(&[Thing::Robot][..]);
         let mut nouns = self.nouns.iter().map(|s| &s.noun).filter(|noun| !robot(noun));
+        // «До каких комнат …?» asks whither by itself.
+        let able = self.has(Mark::Can)
+            || self.sentence.keys.iter().any(|key| key == "cannot")
+            || self.links.iter().any(|(rel, _)| matches!(rel, Rel::To | Rel::In));
         let what = match (nouns.next(), &self.spots[..]) {
-            (Some(noun), []) if self.has(Mark::Can) && !self.is_doors(noun) => noun,
+            (Some(noun), []) if able && !self.is_doors(noun) => noun,
             (None, [Spot { rel: Rel::To | Rel::In, nouns, .. }]) if self.is_rooms(&nouns[0]) => {
                 &nouns[0]
             }
