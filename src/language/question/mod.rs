@@ -33,6 +33,7 @@ mod mark;
 mod memory;
 mod nearest;
 mod notation;
+mod noun;
 mod of_those;
 mod opening;
 mod orders;
