@@ -54,7 +54,7 @@ fn hospital(wards: usize) -> World {
     }
     let map = world.maps.values_mut().next().expect("the hospital is one");
     let links = map.items.windows(2).map(|two| linked(&two[1], &two[0]));
-    map.links = links.collect();
+    map.links = links.map(Arc::new).collect();
     world
 }
 
@@ -140,7 +140,7 @@ fn add_room(world: &mut World, _: ReplicaId, _: usize) {
     let frame = Frame::new(x, y, 0.0, Deg::ZERO);
     let ward = MapItem { area: id, frame, is_base: false };
     let link = linked(&ward, map.items.last().expect("there are wards"));
-    map.links.push(link);
+    map.links.push(Arc::new(link));
     map.items.push(ward);
 }
 

@@ -1,6 +1,7 @@
 //! Small worlds built by hand, for tests and benches of geometry.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use orthoframe_map::*;
 use orthoframe_units::*;
@@ -166,7 +167,7 @@ impl Builder {
 
     pub(crate) fn link(&mut self, a: AreaId, side_a: usize, b: AreaId, side_b: usize) {
         let side = |i: usize| SideRef { item: "I0".into(), side: format!("S{i}") };
-        self.world.maps.get_mut(&MapId(1)).unwrap().links.push(MapLink {
+        self.world.maps.get_mut(&MapId(1)).unwrap().links.push(Arc::new(MapLink {
             area: a,
             side: side(side_a),
             to_area: b,
@@ -175,7 +176,7 @@ impl Builder {
             rel_y: Cm::ZERO,
             rel_z: Cm::ZERO,
             rel_a: Deg::ZERO,
-        });
+        }));
     }
 
     pub(crate) fn door(&mut self, kind: DoorKind, width: f64, state: DoorState) -> DoorId {

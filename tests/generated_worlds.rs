@@ -1,6 +1,7 @@
 //! Worlds made at random, sound by construction: for properties that must hold of every map.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use orthoframe_map::{
     Area, BaseVector, Case, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
@@ -274,7 +275,7 @@ fn rooms(world: &mut World, dice: &mut Dice) {
             let at = Frame::new(ROOM * i as f64, 0.0, 0.0, Deg::ZERO);
             map.items.push(MapItem { area: id, frame: at, is_base: i == 0 });
             if i > 0 {
-                map.links.push(joint(AreaId(id.0 - 1), id));
+                map.links.push(Arc::new(joint(AreaId(id.0 - 1), id)));
             }
         }
         lift.push(LiftStop { area: AreaId(first + 1) });

@@ -1,6 +1,7 @@
 //! Worlds made by a seed: every field filled, references sound, geometry plausible but not meant to be lived in.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use orthoframe_map::{
     Area, BaseVector, Case, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
@@ -347,7 +348,7 @@ fn maps(dice: &mut Dice, world: &mut World) {
         let map = Map {
             id: MapId(n * 2 + 1),
             key: format!("этаж-{n}"),
-            links: links.collect(),
+            links: links.map(Arc::new).collect(),
             items,
             name: dice.text(),
             name_en: dice.text(),

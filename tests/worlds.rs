@@ -1,6 +1,7 @@
 //! Worlds made from others: renamed, mirrored, turned, with a room more. What works for one must work for all.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use orthoframe_map::{
     Area, BaseVector, Door, DoorKind, DoorLeaf, DoorMount, DoorState, Entity, HingeSide, Item,
@@ -63,7 +64,9 @@ pub(crate) fn mirrored(world: &World) -> World {
     }
     for map in world.maps.values_mut() {
         map.items.iter_mut().for_each(|item| flip_frame(&mut item.frame));
-        map.links.iter_mut().for_each(|l| (l.rel_x, l.rel_a) = (-l.rel_x, -l.rel_a));
+        for link in map.links.iter_mut().map(Arc::make_mut) {
+            (link.rel_x, link.rel_a) = (-link.rel_x, -link.rel_a);
+        }
     }
     world.domain.maps.iter_mut().for_each(|item| flip_frame(&mut item.frame));
     world.replicas.values_mut().for_each(|replica| flip_frame(&mut replica.frame));
@@ -89,7 +92,7 @@ pub(crate) fn rotated(world: &World, angle: Deg) -> World {
     let turn = Frame { angle, ..Frame::IDENTITY };
     for map in world.maps.values_mut() {
         map.items.iter_mut().for_each(|item| item.frame = turn.compose(&item.frame));
-        for link in &mut map.links {
+        for link in map.links.iter_mut().map(Arc::make_mut) {
             let rel = turn.apply(Point::new(link.rel_x.get(), link.rel_y.get()));
             (link.rel_x, link.rel_y) = (Cm::of(rel.x), Cm::of(rel.y));
         }
@@ -126,7 +129,7 @@ pub(crate) fn doubled(world: &World) -> World {
     (above.name, above.name_en) = ("Второй этаж".into(), "Second floor".into());
     above.key.push_str("-2");
     above.items.iter_mut().for_each(|item| item.area.0 += ABOVE);
-    for link in &mut above.links {
+    for link in above.links.iter_mut().map(Arc::make_mut) {
         (link.area.0, link.to_area.0) = (link.area.0 + ABOVE, link.to_area.0 + ABOVE);
     }
     world.maps.insert(above.id, above);
@@ -303,7 +306,7 @@ fn bind(world: &mut World, map: MapId, corridor: AreaId, east: &str, room: AreaI
     let map = world.maps.get_mut(&map).expect("rb2 has a map");
     let at = frame.compose(&Frame::new(160.0, 0.0, 0.0, Deg::ZERO));
     map.items.push(MapItem { area: room, frame: at, is_base: false });
-    map.links.push(MapLink {
+    map.links.push(Arc::new(MapLink {
         area: corridor,
         side: side(east),
         to_area: room,
@@ -312,7 +315,7 @@ fn bind(world: &mut World, map: MapId, corridor: AreaId, east: &str, room: AreaI
         rel_y: Cm::ZERO,
         rel_z: Cm::ZERO,
         rel_a: Deg::ZERO,
-    });
+    }));
 }
 
 /// All the worlds that a capability should work in, with a word for messages.

@@ -14,10 +14,11 @@ use crate::units::{AreaId, DoorId, ObjectId, OrFrId, ReplicaId};
 
 use super::Bounds;
 use super::buckets::Buckets;
+use super::doorways::Doorways;
 use super::floor::FragmentFloor;
 use super::opening::Opening;
 use super::openings::Openings;
-use super::plan::{Doorways, FloorPlan};
+use super::plan::FloorPlan;
 use super::scene::PlacedArea;
 use super::zone::{placed, shut_otherwise};
 
@@ -203,7 +204,7 @@ impl FloorPlan {
                 found.extend(self.next_to(doorway));
             }
             for area in doorway.areas {
-                let own = self.doorways.by_area.get(&area).into_iter().flatten();
+                let own = self.doorways.by_area.of(area).iter();
                 for &(other, side) in own {
                     let other = &self.doorways.ways[other];
                     if other.may_tell(doorway, self.reach()) {
@@ -278,7 +279,7 @@ impl FloorPlan {
     fn near_areas(&self, boxes: &[Bounds]) -> Vec<AreaId> {
         let reach = self.reach();
         let is_near = |area: &&PlacedArea| {
-            let mut mouths = self.doorways.by_area.get(&area.id).into_iter().flatten();
+            let mut mouths = self.doorways.by_area.of(area.id).iter();
             boxes.iter().any(|own| {
                 area.prisms.iter().any(|p| p.bounds.meets(own))
                     || mouths.any(|&(d, _)| self.doorways.ways[d].mouth(reach).meets(own))

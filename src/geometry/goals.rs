@@ -310,7 +310,7 @@ impl FloorPlan {
             let door = doorway.door.and_then(|door| world.doors.get(&door));
             door.is_some_and(|door| door.kind != DoorKind::Passage)
         };
-        let own = self.doorways.by_area.get(&area).into_iter().flatten().map(|own| own.0);
+        let own = self.doorways.by_area.of(area).iter().map(|own| own.0);
         own.filter(|&number| !is_through || !self.admits(number))
             .map(|number| &self.doorways()[number])
             .filter(|doorway| has_leaf(doorway))

@@ -78,6 +78,7 @@ pub mod contact;
 mod coverage;
 mod dead_zone;
 mod digest;
+mod doorways;
 mod edging;
 mod edited;
 mod eye;

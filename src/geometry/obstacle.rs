@@ -220,7 +220,7 @@ fn solid_sides<'s>(
             let own = &d.sides[at].side;
             own.item == model.items[side.item].id && own.side == *id
         };
-        let own = site.by_area.get(&placed.id).map_or(&[][..], Vec::as_slice).iter();
+        let own = site.by_area.of(placed.id).iter();
         let mut own = own.map(|&(doorway, at)| (&*site.doorways[doorway], at));
         let doorway = own.find(|(d, at)| is_here(d, *at));
         (side, doorway)

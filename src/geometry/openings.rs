@@ -153,6 +153,34 @@ impl Openings {
         self.firsts.iter().copied().zip(&self.all)
     }
 
+    /// Those that two have not in common: of these, and of the others. Of openings and a copy of them that was changed these
+    /// are the changed ones; more where the copy was made otherwise.
+    #[must_use]
+    pub fn not_shared<'a>(&'a self, others: &'a Self) -> [Vec<&'a Opening>; 2] {
+        let (mut own, mut other) = (self.placed().peekable(), others.placed().peekable());
+        let [mut ours, mut theirs] = [Vec::new(), Vec::new()];
+        loop {
+            match (own.peek(), other.peek()) {
+                (Some((a, one)), Some((b, two))) if a == b => {
+                    if !Arc::ptr_eq(one, two) {
+                        ours.push(&***one);
+                        theirs.push(&***two);
+                    }
+                    (own.next(), other.next());
+                }
+                (Some((a, one)), other) if other.is_none_or(|(b, _)| a < b) => {
+                    ours.push(&***one);
+                    own.next();
+                }
+                (_, Some((_, two))) => {
+                    theirs.push(&***two);
+                    other.next();
+                }
+                (_, None) => return [ours, theirs],
+            }
+        }
+    }
+
     /// The openings in an Area's sides, and those that the rules join to it.
     pub fn of_area(&self, area: AreaId) -> impl Iterator<Item = &Opening> + '_ {
         self.iter().filter(move |opening| opening.is_of(area))

@@ -8,8 +8,7 @@
 
 mod follow;
 
-use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Arc, OnceLock};
@@ -25,6 +24,7 @@ use super::cells::CellKey;
 use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
+use super::doorways::Doorways;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Shapes, overlay};
 use super::kept;
@@ -61,63 +61,6 @@ pub struct FloorPlan {
     pub(super) extents: Arc<Vec<Bounds>>,
     /// The Fragments by place, with half of the walls behind their doorways.
     pub(super) by_place: Arc<Buckets>,
-}
-
-/// The openings of a Map.
-#[derive(Debug)]
-pub(super) struct Doorways {
-    /// Those that a floor leads through, in the order of their places.
-    pub(super) ways: Vec<Arc<Opening>>,
-    /// The others.
-    blind: Vec<Arc<Opening>>,
-    /// For each Area its doorways, and which of their two sides it is.
-    pub(super) by_area: BTreeMap<AreaId, Vec<(usize, usize)>>,
-}
-
-impl Doorways {
-    pub(super) fn of(openings: &Openings, map: MapId) -> Self {
-        let own = openings.placed().map(|(_, opening)| opening).filter(|o| o.map == map).cloned();
-        let (mut ways, blind): (Vec<_>, Vec<_>) = own.partition(|opening| opening.is_way());
-        ways.sort_by(|one, other| by_place(one, other));
-        let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
-        for (index, doorway) in ways.iter().enumerate() {
-            for side in [0, 1] {
-                by_area.entry(doorway.areas[side]).or_default().push((index, side));
-            }
-        }
-        Self { ways, blind, by_area }
-    }
-
-    /// For each of these doorways the number of that between the same sides among others. Both lists are in the order of
-    /// their places, and one that both share is met in both at once.
-    pub(super) fn places_in(&self, others: &Self) -> Vec<Option<usize>> {
-        if std::ptr::eq(self, others) {
-            return (0..self.ways.len()).map(Some).collect();
-        }
-        let mut rest = others.ways.iter().enumerate().peekable();
-        let place = |doorway: &Arc<Opening>| loop {
-            let (number, other) = rest.peek()?;
-            let order = if Arc::ptr_eq(other, doorway) {
-                Ordering::Equal
-            } else {
-                by_place(other, doorway)
-            };
-            match order {
-                Ordering::Less => drop(rest.next()),
-                Ordering::Equal => return Some(*number),
-                Ordering::Greater => return None,
-            }
-        };
-        self.ways.iter().map(place).collect()
-    }
-}
-
-fn by_place(one: &Opening, other: &Opening) -> Ordering {
-    let areas = one.areas.cmp(&other.areas);
-    areas.then_with(|| {
-        let sides = other.sides.iter().map(|side| &side.side);
-        one.sides.iter().map(|side| &side.side).cmp(sides)
-    })
 }
 
 impl FloorPlan {
@@ -171,7 +114,7 @@ impl FloorPlan {
             let digests = areas.iter().zip(digests(site, &areas));
             let same = digests.filter_map(|(area, digest)| {
                 let (own, floor) = kept.remove(area)?;
-                let count = site.by_area.get(area).map_or(0, Vec::len);
+                let count = site.by_area.of(*area).len();
                 let leads = |doorway: usize| doorway < count;
                 let is_sound = floor.doorways().all(leads);
                 (own == digest && is_sound).then(|| Arc::new(floor))
@@ -201,7 +144,7 @@ impl FloorPlan {
 
     /// A box around all that a Fragment's floor can ever reach, whatever its doors do.
     pub(super) fn extent_of(&self, fragment: &FragmentFloor) -> Bounds {
-        let doorways = self.doorways.by_area.get(&fragment.area).into_iter().flatten();
+        let doorways = self.doorways.by_area.of(fragment.area).iter();
         let mouths = doorways
             .map(|&(d, _)| self.doorways.ways[d].rectangle(0.0, self.doorways.ways[d].gap, 0.0));
         mouths.fold(fragment.bounds, |b, m| b.union(&m.bounds())).grown(1.0)
@@ -289,7 +232,7 @@ impl FloorPlan {
     /// The index in [`Self::doorways`] of an Area's doorway, by its number among those of the Area.
     #[must_use]
     pub fn doorway_at(&self, area: AreaId, number: usize) -> Option<usize> {
-        Some(self.doorways.by_area.get(&area)?.get(number)?.0)
+        Some(self.doorways.by_area.of(area).get(number)?.0)
     }
 
     /// The openings of the Map that join no two Areas by their sides: doors that lead out of it, and those that the rules
@@ -400,7 +343,7 @@ impl FloorPlan {
 
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
     pub(super) fn doorways_at(&self, number: u32) -> &[(usize, usize)] {
-        self.doorways.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
+        self.doorways.by_area.of(self.floor(number).area)
     }
 
     /// Finds where the given Fragments touch others, and what hangs together now.
@@ -410,7 +353,7 @@ impl FloorPlan {
         for &number in &stale {
             touched.insert(number);
             let area = self.fragments[number].area;
-            for &(doorway, side) in self.doorways.by_area.get(&area).into_iter().flatten() {
+            for &(doorway, side) in self.doorways.by_area.of(area).iter() {
                 crossed.insert(doorway);
                 touched.extend(self.number(self.doorways.ways[doorway].areas[1 - side]));
             }

@@ -7,10 +7,11 @@
 //!
 //! **Invariant**: they are those that [`Openings::of`] measures in the edited world, but for the names that openings had.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::map::{MapLink, SideRef, World};
+use crate::map::{Area, MapLink, SideRef, World};
 use crate::units::{AreaId, DoorId, MapId};
 
 use super::Bounds;
@@ -58,11 +59,13 @@ impl Openings {
         if stands_twice(&stands) {
             return None;
         }
-        let links = after.maps.values().flat_map(|map| &map.links).collect();
+        let new_links: Vec<&Arc<MapLink>> =
+            after.maps.values().flat_map(|map| &map.links).collect();
         let mut anew = Anew {
             world: after,
             reach,
-            links,
+            linked: ends(&new_links),
+            mounted: OnceCell::new(),
             stands: &stands,
             placed: BTreeMap::new(),
             sides: BTreeMap::new(),
@@ -76,13 +79,14 @@ impl Openings {
         for opening in self.iter().filter(|o| o.sides.iter().any(|s| areas.contains(&s.area))) {
             opening.sides.iter().for_each(|side| anew.take_side(side.area, &side.side));
         }
-        let old_links: Vec<&MapLink> = before.maps.values().flat_map(|map| &map.links).collect();
+        let old_links: Vec<&Arc<MapLink>> =
+            before.maps.values().flat_map(|map| &map.links).collect();
         let is_of_changed =
-            |link: &&MapLink| areas.contains(&link.area) || areas.contains(&link.to_area);
-        let told: Vec<&MapLink> = [&old_links, &anew.links]
+            |link: &&Arc<MapLink>| areas.contains(&link.area) || areas.contains(&link.to_area);
+        let told: Vec<&Arc<MapLink>> = [&old_links, &new_links]
             .into_iter()
             .flat_map(|links| links.iter().copied().filter(is_of_changed))
-            .chain(differing(&old_links, &anew.links))
+            .chain(differing(&old_links, &new_links))
             .collect();
         for link in told {
             anew.take_side(link.area, &link.side);
@@ -124,11 +128,28 @@ fn is_same(one: &OpenSide, other: &OpenSide) -> bool {
     one.area == other.area && one.side == other.side
 }
 
+/// A side of an Area.
+type End<'w> = (AreaId, &'w SideRef);
+
+/// Both ends of all links, each with the other, in the order of links; sorted by the Area of the first.
+fn ends<'w>(links: &[&'w Arc<MapLink>]) -> Vec<[End<'w>; 2]> {
+    let both = links.iter().flat_map(|link| {
+        let (one, other) = ((link.area, &link.side), (link.to_area, &link.to_side));
+        [[one, other], [other, one]]
+    });
+    let mut ends: Vec<_> = both.collect();
+    ends.sort_by_key(|[(area, _), _]| *area);
+    ends
+}
+
 /// Sides that are to be paired anew, in the making.
 struct Anew<'w> {
     world: &'w World,
     reach: f64,
-    links: Vec<&'w MapLink>,
+    /// Each linked side, with the side that it is linked with; sorted by its Area.
+    linked: Vec<[End<'w>; 2]>,
+    /// Which doors are mounted in which Areas, sorted; found when it is asked for.
+    mounted: OnceCell<Vec<(DoorId, AreaId)>>,
     stands: &'w [Stand],
     /// Areas that had to be placed.
     placed: BTreeMap<AreaId, PlacedArea>,
@@ -170,18 +191,19 @@ impl<'w> Anew<'w> {
         for (_, side) in &mut sides {
             floors.step_off(side, self.reach);
         }
-        for link in &self.links {
-            for (area, side, other) in
-                [(link.area, &link.side, link.to_area), (link.to_area, &link.to_side, link.area)]
-            {
-                if area == stand.area
-                    && let Some((_, own)) = sides.iter_mut().find(|(_, own)| own.side == *side)
-                {
-                    own.linked = Some(other);
-                }
+        for [(_, side), (other, _)] in self.linked_of(stand.area) {
+            if let Some((_, own)) = sides.iter_mut().find(|(_, own)| own.side == **side) {
+                own.linked = Some(*other);
             }
         }
         sides
+    }
+
+    /// The links of an Area's sides, its own end first.
+    fn linked_of(&self, area: AreaId) -> &[[End<'w>; 2]] {
+        let from = self.linked.partition_point(|[(own, _), _]| *own < area);
+        let rest = &self.linked[from..];
+        &rest[..rest.partition_point(|[(own, _), _]| *own == area)]
     }
 
     /// Takes the sides of an Area of which this holds.
@@ -221,13 +243,22 @@ impl<'w> Anew<'w> {
             return;
         }
         let world = self.world;
-        for area in world.areas.values() {
-            if area.doors.iter().any(|mount| doors.contains(&mount.door)) {
-                let is_mounted = |side: &OpenSide| {
-                    side.mount.as_ref().is_some_and(|mount| doors.contains(&mount.door))
-                };
-                self.take(area.id, is_mounted);
-            }
+        let mounted = self.mounted.get_or_init(|| {
+            let mounts = |area: &'w Area| area.doors.iter().map(|mount| (mount.door, area.id));
+            let mut mounted: Vec<_> = world.areas.values().flat_map(mounts).collect();
+            mounted.sort_unstable();
+            mounted
+        });
+        let of_door = |&door: &DoorId| {
+            let from = mounted.partition_point(|(own, _)| *own < door);
+            mounted[from..].iter().take_while(move |(own, _)| *own == door).map(|(_, area)| *area)
+        };
+        let areas: BTreeSet<AreaId> = doors.iter().flat_map(of_door).collect();
+        for area in areas {
+            let is_mounted = |side: &OpenSide| {
+                side.mount.as_ref().is_some_and(|mount| doors.contains(&mount.door))
+            };
+            self.take(area, is_mounted);
         }
     }
 
@@ -239,13 +270,8 @@ impl<'w> Anew<'w> {
                 return None;
             }
             let side = self.group[&place].clone();
-            let links = self.links.iter();
-            let told = links.filter_map(|link| {
-                let ends = [(link.area, &link.side), (link.to_area, &link.to_side)];
-                let at = ends.iter().position(|end| *end == (side.area, &side.side))?;
-                Some(ends[1 - at])
-            });
-            for (area, other) in told.collect::<Vec<_>>() {
+            let own = self.linked_of(side.area).iter().filter(|[(_, own), _]| **own == side.side);
+            for (area, other) in own.map(|[_, other]| *other).collect::<Vec<_>>() {
                 self.take_side(area, other);
             }
             if let Some(mount) = &side.mount {
@@ -276,11 +302,12 @@ fn may_pair(one: &OpenSide, other: &OpenSide, reach: f64) -> bool {
 }
 
 /// The links that two lists, gone through in their order, do not have in common.
-fn differing<'l>(before: &[&'l MapLink], after: &[&'l MapLink]) -> Vec<&'l MapLink> {
+fn differing<'l>(before: &[&'l Arc<MapLink>], after: &[&'l Arc<MapLink>]) -> Vec<&'l Arc<MapLink>> {
+    let same = |one: &Arc<MapLink>, other: &Arc<MapLink>| Arc::ptr_eq(one, other) || one == other;
     let (mut was, mut is, mut found) = (before, after, Vec::new());
     loop {
         match (was, is) {
-            ([one, old @ ..], [other, new @ ..]) if one == other => (was, is) = (old, new),
+            ([one, old @ ..], [other, new @ ..]) if same(one, other) => (was, is) = (old, new),
             ([], []) => return found,
             ([one, old @ ..], new) if old.len() >= new.len() => {
                 found.push(*one);

@@ -7,6 +7,7 @@ use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, Wo
 use crate::units::{AreaId, DoorId, ReplicaId};
 
 use super::Bounds;
+use super::doorways::ByArea;
 use super::opening::Opening;
 use super::scene::Scene;
 use super::zone::PlacedZone;
@@ -24,7 +25,7 @@ pub(super) struct Site<'a> {
     /// Replicas near any place.
     pub(super) nearby: &'a (dyn Fn(&Bounds) -> Vec<ReplicaId> + Sync),
     pub(super) doorways: &'a [Arc<Opening>],
-    pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
+    pub(super) by_area: &'a ByArea,
     pub(super) robot: &'a RobotProfile,
     pub(super) states: &'a DoorStates,
     pub(super) zones: &'a [PlacedZone],
@@ -70,7 +71,7 @@ impl Site<'_> {
         &self,
         area: AreaId,
     ) -> impl Iterator<Item = (usize, &Opening, usize)> {
-        let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
+        let own = self.by_area.of(area);
         let told = |(number, &(index, side)): (usize, &(usize, usize))| {
             (number, &*self.doorways[index], side)
         };

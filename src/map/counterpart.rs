@@ -225,7 +225,7 @@ impl Counterparts {
             let link = |l: &super::MapLink| {
                 (area(l.area), l.side.clone(), area(l.to_area), l.to_side.clone())
             };
-            map.links.iter().map(link).collect::<BTreeSet<Joined>>()
+            map.links.iter().map(|own| link(own)).collect::<BTreeSet<Joined>>()
         };
         standing(a, &Some) == standing(b, &area) && joined(a, &Some) == joined(b, &area)
     }

@@ -1,6 +1,7 @@
 //! Fragment, Map, Domain (paper 1 §4; paper 2 §§5-6), and the [`World`] that holds them all.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
@@ -81,7 +82,8 @@ pub struct Map {
     /// Empty: its own, and a corner of the base Area stands at the origin (paper 2 §5).
     pub frame: String,
     pub items: Vec<MapItem>,
-    pub links: Vec<MapLink>,
+    /// A copy of the Map has them in common with it until it changes one.
+    pub links: Vec<Arc<MapLink>>,
 }
 
 /// A Map placed in its Domain (table DomainMaps).

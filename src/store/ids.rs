@@ -4,6 +4,7 @@
 //! compared with the store, everything in it takes the id that its name has, or ever had, in the store.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::map::{Area, DoorMount, Extent, Item, NextIds, Object, TypeKind, World};
 use crate::units::{
@@ -276,6 +277,7 @@ impl Renumbering {
                 item.area = self.area(item.area);
             }
             for link in &mut m.links {
+                let link = Arc::make_mut(link);
                 link.area = self.area(link.area);
                 link.to_area = self.area(link.to_area);
             }

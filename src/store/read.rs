@@ -3,6 +3,7 @@
 //! Codes, words and numbers are checked once more on the way in, since an import from SQL ends here too.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::map::{
     Area, BaseVector, Domain, DomainMap, Door, DoorLeaf, DoorMount, DoorState, Extent, Forms,
@@ -463,7 +464,7 @@ impl Reader<'_> {
             })
         };
         let link = |r: t::MapItemLinks| {
-            Ok(MapLink {
+            Ok(Arc::new(MapLink {
                 area: AreaId(r.area_id),
                 to_area: AreaId(r.area_id2),
                 rel_x: cm(r.rel_x).or_bad(&r)?,
@@ -472,7 +473,7 @@ impl Reader<'_> {
                 rel_a: deg(r.rel_a).or_bad(&r)?,
                 side: SideRef { item: r.area_item_id, side: r.side_id },
                 to_side: SideRef { item: r.area_item_id2, side: r.side_id2 },
-            })
+            }))
         };
         let map = |r: t::Map| {
             let items = items.remove(&r.id).unwrap_or_default();

@@ -1,6 +1,7 @@
 //! World → records (paper 2 §§2-7).
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crate::map::{
     Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Extent, Face, Forms, Gender,
@@ -573,10 +574,11 @@ fn put_map(
             other.items.get(no) == Some(item) && !but.contains(&item.area)
         })
     };
-    let is_common_link = |no: usize, link: &MapLink| {
+    let is_common_link = |no: usize, link: &Arc<MapLink>| {
         beside.is_some_and(|(other, but)| {
             let is_of = |area| but.contains(area);
-            other.links.get(no) == Some(link) && !is_of(&link.area) && !is_of(&link.to_area)
+            let same = |other: &Arc<MapLink>| Arc::ptr_eq(other, link) || other == link;
+            other.links.get(no).is_some_and(same) && !is_of(&link.area) && !is_of(&link.to_area)
         })
     };
     let (size_x, size_y, height) = map_size(world, map);

@@ -1,6 +1,7 @@
 //! Doors, passages and windows as records, and the links of the Map that follow from them.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::map::{
     Door, DoorKind, DoorLeaf, DoorState, DoorStatus, Forms, Gender, HingeSide, MapLink, OpensTo,
@@ -158,7 +159,7 @@ impl Maker<'_> {
             }
         }
         if let Some(map) = self.world.maps.get_mut(&storey.map) {
-            map.links = links;
+            map.links = links.into_iter().map(Arc::new).collect();
         }
     }
 

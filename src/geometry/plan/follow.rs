@@ -74,7 +74,7 @@ impl FloorPlan {
         for zone in touched {
             // A Fragment sees through its doorways as far as their mouths are deep.
             for fragment in self.fragments_near(&zone.grown(reach + 5.0)) {
-                let mut mouths = self.doorways.by_area.get(&fragment.area).into_iter().flatten();
+                let mut mouths = self.doorways.by_area.of(fragment.area).iter();
                 let prisms = &self.scene.areas[&fragment.area].prisms;
                 if prisms.iter().any(|p| p.bounds.meets(zone))
                     || mouths.any(|&(d, _)| self.doorways.ways[d].mouth(reach).meets(zone))

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use crate::fault::{MapError, Record, Spot};
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, OrFrId, Vector};
@@ -83,7 +84,7 @@ impl<'w> Checker<'w> {
         if !all_there {
             return;
         }
-        let is_meant = |(i, link): &(usize, &MapLink)| {
+        let is_meant = |(i, link): &(usize, &Arc<MapLink>)| {
             self.scope.is_none_or(|scope| scope.has_link(map, *i, link))
         };
         let links: Vec<_> = map.links.iter().enumerate().filter(is_meant).collect();

@@ -4,6 +4,7 @@
 //! find out.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::Checker;
 use crate::fault::Record;
@@ -160,7 +161,7 @@ impl<'w> Scope<'w> {
             self.records.insert(Record::Map(id));
             self.entities.insert(Entity::Map(id));
             if let Some((was, is)) = was.zip(is) {
-                let same = |(a, b): &(&MapLink, &MapLink)| a == b;
+                let same = |(a, b): &(&Arc<MapLink>, &Arc<MapLink>)| Arc::ptr_eq(a, b) || a == b;
                 let first = was.links.iter().zip(&is.links).take_while(same).count();
                 let (was, is) = (&was.links[first..], &is.links[first..]);
                 let last = was.iter().rev().zip(is.iter().rev()).take_while(same).count();

@@ -1,6 +1,7 @@
 //! The records of a world, one by one, from the tables of the file.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::corners::{lettered, regular_corners, twice_area};
 use super::decode::{TWO_OR_THREE, list_of};
@@ -614,16 +615,9 @@ impl Reader<'_> {
             let from = self.area_side(&link.from, areas, at.clone().field("from"));
             let to = self.area_side(&link.to, areas, at.field("to"));
             if let (Some((area, side)), Some((to_area, to_side))) = (from, to) {
-                links.push(MapLink {
-                    area,
-                    side,
-                    to_area,
-                    to_side,
-                    rel_x: offset.x,
-                    rel_y: offset.y,
-                    rel_z: offset.z,
-                    rel_a: offset.angle,
-                });
+                let Frame { x: rel_x, y: rel_y, z: rel_z, angle: rel_a } = offset;
+                let link = MapLink { area, side, to_area, to_side, rel_x, rel_y, rel_z, rel_a };
+                links.push(Arc::new(link));
             }
         }
         Map {

@@ -434,7 +434,7 @@ impl Writer<'_> {
             description: map.description.clone(),
             r#type: self.type_name(TypeKind::Map, map.map_type),
             frame: map.frame.clone(),
-            links: map.links.iter().map(link).collect(),
+            links: map.links.iter().map(|own| link(own)).collect(),
         }
     }
 }

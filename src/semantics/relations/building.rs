@@ -5,8 +5,8 @@
 //! What was measured of an Area or an Object that changed, and of every thing near it, is measured anew, and of them alone;
 //! so are openings that its sides may make.
 
-use std::cell::OnceCell;
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::facts::Value;
@@ -38,8 +38,8 @@ struct Touched {
     reshaped: BTreeSet<AreaId>,
     /// The same, and those that bear another name.
     rebuilt: BTreeSet<AreaId>,
-    /// Where Areas stand now; found when it is asked for.
-    places: OnceCell<BTreeMap<AreaId, (MapId, Frame)>>,
+    /// Where those stand that are asked for, as far as it is known.
+    places: RefCell<BTreeMap<AreaId, Option<(MapId, Frame)>>>,
     /// Whether openings may be others.
     opens: bool,
     /// Whether they may be called otherwise.
@@ -77,8 +77,15 @@ impl Touched {
         touched
     }
 
-    fn places(&self, after: &World) -> &BTreeMap<AreaId, (MapId, Frame)> {
-        self.places.get_or_init(|| after.placements())
+    /// Where an Area stands now: the last of its places, as in [`World::placements`].
+    fn place(&self, after: &World, area: AreaId) -> Option<(MapId, Frame)> {
+        *self.places.borrow_mut().entry(area).or_insert_with(|| {
+            let mut maps = after.maps.values().rev();
+            maps.find_map(|map| {
+                let item = map.items.iter().rev().find(|item| item.area == area)?;
+                Some((map.id, item.frame))
+            })
+        })
     }
 
     fn objects(&mut self, before: &World, after: &World, parts: &BTreeSet<OrFrId>) {
@@ -158,6 +165,15 @@ impl Touched {
     }
 }
 
+/// How many Areas stand somewhere.
+fn count_placed(world: &World) -> usize {
+    let items = world.maps.values().flat_map(|map| &map.items);
+    let mut areas: Vec<AreaId> = items.map(|item| item.area).collect();
+    areas.sort_unstable();
+    areas.dedup();
+    areas.len()
+}
+
 impl Relations {
     /// Follows to an edited building; `false` where deriving anew is cheaper or safer: these relations are then of neither
     /// world.
@@ -173,7 +189,7 @@ impl Relations {
         let rooms = if touched.rebuilt.is_empty() {
             self.measured.rooms.len()
         } else {
-            touched.places(after).len()
+            count_placed(after)
         };
         if before.domain.profile != after.domain.profile
             || renamed_maps
@@ -214,7 +230,7 @@ impl Relations {
         } else {
             Arc::clone(&self.openings)
         };
-        let (names, mouths, fresh) = differing(&self.openings, &new, &touched.rebuilt);
+        let (names, mouths, fresh) = differing(&self.openings, &new, &touched);
         let replicas = self.near_changes(before, after, &touched, &mouths, changed);
         if replicas.len() > MOST_MEASURED {
             return Ok(false);
@@ -249,8 +265,8 @@ impl Relations {
         self.openings = new;
         touched.remade.iter().for_each(|&id| self.measured.enter_kind(after, id));
         for &id in &touched.rebuilt {
-            match touched.places(after).get(&id) {
-                Some(&place) => self.measured.enter_room(after, id, place),
+            match touched.place(after, id) {
+                Some(place) => self.measured.enter_room(after, id, place),
                 None => self.measured.forget_room(id),
             }
         }
@@ -285,10 +301,7 @@ impl Relations {
         });
         self.settle(&mut rows)?;
         self.live.update()?;
-        self.follow();
-        if !fresh.is_empty() {
-            self.decide_openings(|name| fresh.contains(name));
-        }
+        self.follow(fresh);
         self.symbols.retire(&gone, |_| false);
         let old: Vec<_> = old.into_iter().filter_map(|(of, was)| Some((of, was?))).collect();
         self.symbols.retire(&old, |subject| match subject {
@@ -323,8 +336,8 @@ impl Relations {
             }
         }
         for area in touched.rebuilt.union(mouths) {
-            let new =
-                touched.places(after).get(area).and_then(|place| Room::of(after, *area, *place));
+            let place = touched.place(after, *area);
+            let new = place.and_then(|place| Room::of(after, *area, place));
             for room in self.measured.rooms.get(area).into_iter().chain(&new) {
                 replicas.extend(self.measured.things_near(room));
             }
@@ -346,54 +359,48 @@ impl Relations {
         mut put: impl FnMut(&'static str, Vec<Value>),
     ) {
         let doors: Vec<DoorId> = touched.doors.iter().copied().collect();
-        self.openings_and_properties(world, replicas, &doors, &mut put);
+        self.openings_and_properties(world, openings, replicas, &doors, &mut put);
         let mut sink = |rel: &'static str, cells: &[Cell<'_>]| put(rel, tuple(cells));
         let feed = self.feed(world);
         feed.robot(&mut sink);
-        feed.openings(|opening| openings.contains(&opening.name), &mut sink);
         touched.areas.iter().for_each(|&id| feed.area(id, &mut sink));
         touched.objects.iter().for_each(|&id| feed.object(id, &mut sink));
         touched.parts.iter().for_each(|&id| feed.part(id, &mut sink));
     }
 }
 
-/// The names of openings that are others than they were, or are told of with one of these Areas; the Areas in whose sides one
-/// is another; and the names of those that were measured or called anew.
+/// The names of openings that are others than they were, or are told of with a rebuilt Area or a changed door; the Areas in
+/// whose sides one is another; and the names of those that were measured or called anew.
 fn differing(
     before: &Openings,
     after: &Openings,
-    told: &BTreeSet<AreaId>,
+    touched: &Touched,
 ) -> (BTreeSet<String>, BTreeSet<AreaId>, BTreeSet<String>) {
-    let (mut names, mut areas, mut fresh) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
-    if std::ptr::eq(before, after) {
-        return (names, areas, fresh);
+    let (mut names, mut areas) = (BTreeSet::new(), BTreeSet::new());
+    let own = before.not_shared(after);
+    let fresh = own[1].iter().map(|opening| opening.name.clone()).collect();
+    for (own, others) in own.into_iter().zip([after, before]) {
+        for opening in own {
+            let first = opening.sides.first();
+            let other = first.and_then(|side| others.of_side(side.area, &side.side));
+            if other.is_none_or(|other| !other.is_measured_as(opening)) {
+                names.insert(opening.name.clone());
+                areas.extend(opening.sides.iter().map(|side| side.area));
+            }
+        }
     }
     let with = |side: &OpenSide| {
         let met = [side.inward, side.outward].into_iter().flatten().map(|(area, _)| area);
-        met.chain(side.linked).chain([side.area]).any(|area| told.contains(&area))
+        met.chain(side.linked).chain([side.area]).any(|area| touched.rebuilt.contains(&area))
     };
-    let all = |openings: &Openings| -> HashSet<*const Opening> {
-        openings.iter().map(std::ptr::from_ref).collect()
+    let is_told = |opening: &&Opening| {
+        opening.door.is_some_and(|door| touched.doors.contains(&door))
+            || opening.sides.iter().any(with)
     };
-    let shared = [all(after), all(before)];
-    for ((one, others), shared) in [(before, after), (after, before)].into_iter().zip(shared) {
-        for opening in one.iter() {
-            let is_shared = shared.contains(&std::ptr::from_ref(opening));
-            let is_other = || {
-                let first = opening.sides.first();
-                let other = first.and_then(|side| others.of_side(side.area, &side.side));
-                other.is_none_or(|other| !other.is_measured_as(opening))
-            };
-            if !is_shared && is_other() {
-                names.insert(opening.name.clone());
-                areas.extend(opening.sides.iter().map(|side| side.area));
-            } else if opening.sides.iter().any(with) {
-                names.insert(opening.name.clone());
-            }
-            if !is_shared && std::ptr::eq(one, after) {
-                fresh.insert(opening.name.clone());
-            }
-        }
+    for openings in [before, after] {
+        let is_asked = !touched.rebuilt.is_empty() || !touched.doors.is_empty();
+        let told = openings.iter().filter(|_| is_asked).filter(is_told);
+        names.extend(told.map(|opening| opening.name.clone()));
     }
     (names, areas, fresh)
 }

@@ -105,7 +105,8 @@ impl Relations {
             }
         }
         let mut rows = Difference::default();
-        self.openings_and_properties(before, &replicas, &doors, |rel, row| {
+        let hung = self.hung_with(&doors);
+        self.openings_and_properties(before, &hung, &replicas, &doors, |rel, row| {
             rows.out.insert((rel, row));
         });
         for &id in &replicas {
@@ -149,12 +150,12 @@ impl Relations {
             }
             self.settle(&mut rows)?;
         }
-        self.openings_and_properties(after, &replicas, &doors, |rel, row| {
+        self.openings_and_properties(after, &hung, &replicas, &doors, |rel, row| {
             rows.into.insert((rel, row));
         });
         self.settle(&mut rows)?;
         self.live.update()?;
-        self.follow();
+        self.follow(BTreeSet::new());
         self.symbols.retire(&symbols, |_| false);
         Ok(true)
     }
@@ -220,10 +221,18 @@ impl Relations {
         (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
     }
 
-    /// Rows of doorways, where a door's state differs, and of the properties of what differs.
+    /// The names of the openings in which one of these doors hangs.
+    pub(super) fn hung_with(&self, doors: &[DoorId]) -> BTreeSet<String> {
+        let openings = self.openings.iter().filter(|_| !doors.is_empty());
+        let hung = openings.filter(|o| o.door.is_some_and(|door| doors.contains(&door)));
+        hung.map(|o| o.name.clone()).collect()
+    }
+
+    /// Rows of the openings of these names, and of the properties of what differs.
     pub(super) fn openings_and_properties(
         &self,
         world: &World,
+        openings: &BTreeSet<String>,
         replicas: &[ReplicaId],
         doors: &[DoorId],
         mut put: impl FnMut(&'static str, Vec<Value>),
@@ -235,17 +244,14 @@ impl Relations {
             measured: &self.measured,
             openings: &self.openings,
         };
-        let names: BTreeSet<&str> = self
-            .openings
-            .iter()
-            .filter(|o| o.door.is_some_and(|door| doors.contains(&door)))
-            .map(|o| o.name.as_str())
-            .collect();
-        feed.openings(|opening| names.contains(opening.name.as_str()), &mut sink);
+        if !openings.is_empty() {
+            feed.openings(|opening| openings.contains(&opening.name), &mut sink);
+        }
         doors.iter().for_each(|&door| feed.door_properties(door, &mut sink));
         // A door of furniture tells the state of what it belongs to.
         let hung = |o: &&Object| o.doors.iter().any(|mount| doors.contains(&mount.door));
-        let hung: BTreeSet<ObjectId> = world.objects.values().filter(hung).map(|o| o.id).collect();
+        let objects = world.objects.values().filter(|_| !doors.is_empty());
+        let hung: BTreeSet<ObjectId> = objects.filter(hung).map(|o| o.id).collect();
         let mut changed: BTreeSet<ReplicaId> = replicas.iter().copied().collect();
         if !hung.is_empty() {
             let bearing = world.replicas.values().filter(|r| hung.contains(&r.object));

@@ -5,21 +5,22 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::facts::Value;
 use crate::openings::decide;
 use crate::units::AreaId;
 
 use super::Relations;
 
 impl Relations {
-    /// Brings what was looked up to the last update.
-    pub(super) fn follow(&mut self) {
+    /// Brings what was looked up to the last update; openings of these names are `fresh`.
+    pub(super) fn follow(&mut self, fresh: BTreeSet<String>) {
+        let mut names = fresh;
         if let Some(joins) = self.rules.program().relation("JOINS") {
             let news = self.live.added(joins).chain(self.live.removed(joins));
-            let names: BTreeSet<String> =
-                news.filter_map(|tuple| Some(tuple.symbol(0)?.to_owned())).collect();
-            if !names.is_empty() {
-                self.decide_openings(|name| names.contains(name));
-            }
+            names.extend(news.filter_map(|tuple| Some(tuple.symbol(0)?.to_owned())));
+        }
+        if !names.is_empty() {
+            self.decide_openings(Some(&names));
         }
         let program = self.rules.program();
         let find = |name: &str| program.relation(name);
@@ -82,17 +83,24 @@ impl Relations {
         }
     }
 
-    /// Tells the openings of the wanted names which Areas the rules let them join.
-    pub(super) fn decide_openings(&mut self, is_wanted: impl Fn(&str) -> bool) {
+    /// Tells the openings of these names, or all, which Areas the rules let them join.
+    pub(super) fn decide_openings(&mut self, names: Option<&BTreeSet<String>>) {
         let mut joins: BTreeMap<String, BTreeSet<[AreaId; 2]>> = BTreeMap::new();
-        for tuple in self.derived().tuples("JOINS").into_iter().flatten() {
-            let Some(name) = tuple.symbol(0).filter(|name| is_wanted(name)) else { continue };
+        let derived = self.derived();
+        let of_name = |name: &String| {
+            derived
+                .tuples_with("JOINS", &[Value::Symbol(name.as_str().into())])
+                .into_iter()
+                .flatten()
+        };
+        let all = derived.tuples("JOINS").into_iter().flatten().filter(|_| names.is_none());
+        for tuple in names.into_iter().flatten().flat_map(of_name).chain(all) {
             let areas = [1, 2].map(|column| self.symbols.area_of(tuple.symbol(column)));
-            if let [Some(a), Some(b)] = areas {
+            if let ([Some(a), Some(b)], Some(name)) = (areas, tuple.symbol(0)) {
                 joins.entry(name.to_owned()).or_default().insert([a.min(b), a.max(b)]);
             }
         }
-        decide(&mut self.openings, is_wanted, &joins);
+        decide(&mut self.openings, |name| names.is_none_or(|own| own.contains(name)), &joins);
     }
 
     /// Looks up once what others ask for often.

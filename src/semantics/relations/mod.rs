@@ -172,7 +172,7 @@ impl Relations {
             on_floor: BTreeSet::new(),
         };
         relations.index();
-        relations.decide_openings(|_| true);
+        relations.decide_openings(None);
         relations
     }
 }
@@ -228,7 +228,7 @@ impl Relations {
             return Err(RelationError::Schema { fault });
         }
         self.live.update()?;
-        self.follow();
+        self.follow(BTreeSet::new());
         Ok(true)
     }
 }

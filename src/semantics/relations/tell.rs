@@ -103,7 +103,7 @@ impl Relations {
         let out = std::mem::replace(&mut self.told, rows.clone());
         self.settle(&mut Difference { out, into: rows })?;
         self.live.update()?;
-        self.follow();
+        self.follow(BTreeSet::new());
         Ok(())
     }
 }

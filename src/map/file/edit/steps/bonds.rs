@@ -1,5 +1,7 @@
 //! What binds parts together: doors on sides, items of a group, links between faces and between Areas.
 
+use std::sync::Arc;
+
 use super::super::said::table;
 use super::standing::{self, Stands};
 use super::{Done, Frame, Kind, MapError, Outcome, Record, Span, Step, Steps, frame_of, misprint};
@@ -146,7 +148,7 @@ impl Steps<'_> {
                     self.sides_of_map(map, no, [(area, &side), (to_area, &to_side)]);
                 if let (Some(side), Some(to_side)) = (side, to_side) {
                     let link = MapLink { area, side, to_area, to_side, rel_x, rel_y, rel_z, rel_a };
-                    self.map_mut(map).links.push(link);
+                    self.map_mut(map).links.push(Arc::new(link));
                 }
             }
             Owner::Group(group) => {
@@ -199,7 +201,7 @@ impl Steps<'_> {
                     Some((*area, SideRef { item, side: side.to_owned() }))
                 };
                 if let [Some(one), Some(other)] = ends.each_ref().map(side) {
-                    let is_it = |link: &MapLink| {
+                    let is_it = |link: &Arc<MapLink>| {
                         let own =
                             [(link.area, link.side.clone()), (link.to_area, link.to_side.clone())];
                         let [a, b] = own;

@@ -1,5 +1,7 @@
 //! What links say of where sides lie, told anew where a room or its walls went elsewhere.
 
+use std::sync::Arc;
+
 use super::super::Steps;
 use crate::units::{AreaId, Cm, Deg, Frame, MapId, Point};
 use crate::{Area, Face, Item, SideRef};
@@ -21,7 +23,7 @@ impl Steps<'_> {
             }
             let links = &mut self.map_mut(map).links;
             for (no, [x, y], degrees) in found {
-                let link = &mut links[no];
+                let link = Arc::make_mut(&mut links[no]);
                 (link.rel_x, link.rel_y, link.rel_a) = (Cm::of(x), Cm::of(y), Deg::of(degrees));
             }
         }
