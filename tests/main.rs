@@ -1,5 +1,6 @@
 //! Integration tests: one binary, one file a capability.
 
+mod accounted;
 mod architecture;
 mod assembly;
 mod broken_scenarios;

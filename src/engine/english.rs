@@ -108,6 +108,10 @@ impl RequestError {
                 "the robot tidies up, and does not wash or wipe: {} stays as it is",
                 called(name)
             ),
+            Self::KeptThere { things, name } => {
+                let things: Vec<String> = things.iter().map(|one| format!("“{one}”")).collect();
+                format!("{} on “{name}” is kept there", things.join(", "))
+            }
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off", called(name))
             }
@@ -217,6 +221,7 @@ impl InEnglish for RequestError {
             Self::NotCleaned { .. } => {
                 "rooms are tidied, and what things lie on: “Tidy up the table”"
             }
+            Self::KeptThere { .. } => "say where to put it",
             Self::NotADevice { .. } => "a device is what has a type with the trait device",
             Self::Homeless { .. } => {
                 "say where to put it, or give the thing the property ХРАНИТСЯ_НА"

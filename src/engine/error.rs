@@ -394,6 +394,11 @@ pub enum RequestError {
     )]
     NotCleaned { name: String },
 
+    /// A thing is to be cleared of what is kept on it.
+    #[error("{} лежит на «{name}» и там и хранится", things.iter().map(|one| format!("«{one}»")).collect::<Vec<_>>().join(", "))]
+    #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
+    KeptThere { things: Vec<String>, name: String },
+
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]

@@ -184,6 +184,7 @@ impl State {
             Command::Clean(Some(thing @ Entity::Replica(_))) => {
                 return Err(RequestError::NotCleaned { name: name(*thing) }.into());
             }
+            Command::Clear(thing) => self.cleared(*thing, relations, belief)?,
             Command::Tidy(within) | Command::Clean(within) => {
                 self.tidied(*within, relations, belief)?
             }
@@ -199,6 +200,21 @@ impl State {
         let home = home.ok_or_else(|| RequestError::Homeless { thing: name.clone() })?;
         belief.homes.push((name.clone(), home));
         Ok(vec![vec![fact(predicate::IN_ITS_PLACE, vec![name])]])
+    }
+
+    /// What lies on a thing and is kept elsewhere. Where all of it is kept there, nobody said whither it should go.
+    fn cleared(
+        &self,
+        from: Entity,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let goals = self.tidied(Some(from), relations, belief)?;
+        let (kept, name) = (self.lying_on(from, relations)?, self.world()?.name(from).to_owned());
+        match goals.is_empty() && !kept.is_empty() {
+            true => Err(RequestError::KeptThere { things: kept, name }.into()),
+            false => Ok(goals),
+        }
     }
 
     /// What is to be tidied, each thing a goal of its own.

@@ -51,6 +51,17 @@ impl State {
             .collect())
     }
 
+    /// The names of what lies on a thing and can be carried.
+    pub(super) fn lying_on(
+        &self,
+        thing: Entity,
+        relations: &Relations,
+    ) -> Result<Vec<String>, Error> {
+        let name = self.world()?.name(thing);
+        let lying = supports(self.uncarried()?, relations).into_iter();
+        Ok(lying.filter(|(_, on)| on == name).map(|(thing, _)| thing).collect())
+    }
+
     /// Where a thing is kept, by name; none where it lies there already.
     ///
     /// # Errors

@@ -295,6 +295,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             && matches!(verb, Verb::Put | Verb::Move | Verb::Clear | Verb::Leave | Verb::SetDown);
         roles.on_floor &= !on_floor;
         let named = !roles.objects.is_empty();
+        let clears = verb == Verb::Clear;
         let verb = match verb {
             Verb::Put | Verb::Move | Verb::Clear | Verb::Leave if on_floor => Verb::SetDown,
             // «Подожди в коридоре»
@@ -368,7 +369,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::Tidy | Verb::Clean | Verb::Clear
                 if roles.to.is_none() && (verb != Verb::Clear || !named) =>
             {
-                let done = if verb == Verb::Clean { Command::Clean } else { Command::Tidy };
+                let done = |place: Option<T>| match (verb, place) {
+                    (Verb::Clean, place) => Command::Clean(place),
+                    (_, Some(place)) if clears && named => Command::Clear(place),
+                    (_, place) => Command::Tidy(place),
+                };
                 // "Tidy the table in the kitchen": the place tells which.
                 let at = if named { None } else { roles.at.take() };
                 let at = at.map(|place| place.anchor);

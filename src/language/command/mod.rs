@@ -165,6 +165,8 @@ pub enum Command<T> {
     Find(Thing<T>),
     /// Everywhere, unless a place is given.
     Tidy(Option<T>),
+    /// What lies on a thing is put away; a room is tidied.
+    Clear(T),
     /// A room is tidied; of a thing the surface is meant.
     Clean(Option<T>),
     CallOperator,

@@ -47,6 +47,11 @@ pub enum Doubt {
     TooFew {
         found: Vec<Thing>,
     },
+    /// More things than are looked at one by one.
+    TooMany {
+        many: usize,
+        most: usize,
+    },
     /// A pronoun that means nothing yet.
     NoReferent {
         word: String,
@@ -81,6 +86,7 @@ impl Doubt {
             Self::Unknown { .. }
             | Self::NoneSuch { .. }
             | Self::TooFew { .. }
+            | Self::TooMany { .. }
             | Self::Departed { .. }
             | Self::NoStorey { .. } => "unknown",
         }
@@ -145,6 +151,14 @@ impl Knowledge<'_> {
             Doubt::TooFew { found } => match russian {
                 true => format!("столько нет, есть только {}", self.list(found)),
                 false => format!("there are not so many, only {}", self.list(found)),
+            },
+            Doubt::TooMany { many, most } => match russian {
+                true => format!(
+                    "таких {many}, а пути я ищу не больше чем к {most}; спросите об одной комнате"
+                ),
+                false => format!(
+                    "there are {many} of them, and I look for ways to no more than {most}; ask of one room"
+                ),
             },
             Doubt::Windows => self
                 .pick("окон я не открываю и не закрываю", "I neither open nor shut windows")

@@ -71,7 +71,9 @@ pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, conditional};
 pub use outlive::{Departed, Stamp};
-pub use query::{Best, Claim, Filter, Head, Noun, Passing, Query, Rel, Restriction, Thing, Use};
+pub use query::{
+    Best, Claim, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
+};
 pub use resolution::{Settled, Strict};
 pub use senses::{Crossing, News, Past, RoomPath, Senses, Sighting, Way};
 pub use serving::{Doing, Part};

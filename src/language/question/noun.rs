@@ -201,7 +201,17 @@ pub struct Noun {
     /// «кроме лампы»
     pub except: Vec<Self>,
     /// "… that you can reach": whether there is a way for the robot.
-    pub reached: Option<bool>,
+    pub reached: Option<Reach>,
+}
+
+/// "… that you can reach from the hall, not going through the kitchen": whether there is such a way.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reach {
+    pub able: bool,
+    /// None is where the robot stands.
+    pub from: Option<Box<Noun>>,
+    /// Rooms and doors; of those none is told.
+    pub avoiding: Vec<Noun>,
 }
 
 /// «ближайший к столу», "the three biggest"
@@ -258,6 +268,10 @@ impl Noun {
         }
         if let Some((_, other)) = &mut self.like {
             other.each(act);
+        }
+        if let Some(reach) = &mut self.reached {
+            let from = reach.from.as_deref_mut().into_iter();
+            from.chain(&mut reach.avoiding).for_each(|noun| noun.each(act));
         }
         if let Some((_, other)) = &mut self.beyond {
             other.each(act);

@@ -197,6 +197,9 @@ impl Query {
                 *from = Some(place.clone());
             }
             _ => self.each_noun(&mut |noun| {
+                if let Some(reach) = noun.reached.as_mut().filter(|reach| reach.from.is_none()) {
+                    reach.from = Some(Box::new(place.clone()));
+                }
                 if let Some(best) = &mut noun.best
                     && matches!(best.extreme, Extreme::Nearest | Extreme::Farthest)
                     && best.anchor.is_none()

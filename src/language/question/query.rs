@@ -5,7 +5,7 @@ use crate::report::Detail;
 pub(super) use super::compared::{Closeness, Dimension, Extreme, Quantity, Sized};
 use super::courtesy::Courtesy;
 pub(super) use super::noun::Side;
-pub use super::noun::{Best, Filter, Head, Noun, Rel, Restriction, Thing};
+pub use super::noun::{Best, Filter, Head, Noun, Reach, Rel, Restriction, Thing};
 use super::values::Property;
 
 /// What is said of a subject.

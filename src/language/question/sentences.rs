@@ -182,16 +182,25 @@ impl Asker<'_> {
         }
         // "Is the machine on? I can't see it from here.": what is only told stands behind.
         let whole = parts.len();
+        let mut behind = None;
         while parts.len() > 1
             && parts.last().is_some_and(|last| !last.ends_with('?'))
             && parts[..parts.len() - 1].iter().any(|part| part.ends_with('?'))
         {
             let told = parts.pop()?;
+            // "How do I get there? I'm in the bedroom."
+            if behind.is_none() && self.premise(told).is_some() {
+                behind = Some(told);
+                continue;
+            }
             // «Где ты? Подробно»: a word or two belong to what is asked.
             if word_keys(told).len() < 3 {
                 return None;
             }
             self.names_only(told, memory)?;
+        }
+        if let Some(told) = behind {
+            parts.insert(0, told);
         }
         if let ([only], true) = (&parts[..], whole > 1) {
             let mut after = memory.clone();
@@ -232,9 +241,12 @@ impl Asker<'_> {
                 _ => Answer::joined(answers, language),
             }));
         }
-        // "Here" is where the person is, or nowhere.
-        if place.is_some() && premise::says_here(last) {
-            return None;
+        if let Some(place) = &place {
+            // "Here" is where the person is, or nowhere.
+            if premise::says_here(last) {
+                return None;
+            }
+            self.hear_of_place(place, &mut after);
         }
         match self.ask(last, &mut after) {
             Ok(answer) => {

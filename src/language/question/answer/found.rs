@@ -23,8 +23,8 @@ impl Knowledge<'_> {
             .best
             .as_ref()
             .is_some_and(|b| matches!(b.extreme, Extreme::Heaviest | Extreme::Lightest));
-        if let (true, Some(reached)) = (found.is_empty(), noun.reached) {
-            let text = match reached {
+        if let (true, Some(reached)) = (found.is_empty(), &noun.reached) {
+            let text = match reached.able {
                 true => self.pick("путей туда нет", "there is a way to none of them"),
                 false => self.pick("путь есть ко всем", "there is a way to all of them"),
             };

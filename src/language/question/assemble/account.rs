@@ -4,11 +4,13 @@
 //! not to be understood, however well the rest of the sentence was read.
 
 use super::Frame;
+use crate::map::Entity;
 use crate::question::grammar::points;
 use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Extreme, Noun, Quantity, Query, Rel, Restriction, Thing,
 };
+use crate::question::values::Property;
 use crate::words::Language;
 
 /// What the nouns of a query tell by comparing, counting and pointing.
@@ -32,6 +34,8 @@ struct Told {
     itself: bool,
     /// Something is "from" a thing that was spoken of, as no thing is.
     parted: bool,
+    /// Something is in two rooms: «в гостиной, то есть в спальне».
+    torn: bool,
 }
 
 impl Told {
@@ -72,6 +76,15 @@ impl Told {
                 && head.named.is_empty()
         };
         self.itself |= noun.restrictions.iter().any(|r| r.anchors.iter().any(alike));
+        let room = |r: &Restriction| match (&r.anchors[..], r.rel, r.negated) {
+            ([only], Rel::In, false) => match only.head.named[..] {
+                [Entity::Area(room)] => Some(room),
+                _ => None,
+            },
+            _ => None,
+        };
+        let mut rooms = noun.restrictions.iter().filter_map(room);
+        self.torn |= rooms.next().is_some_and(|one| rooms.any(|other| other != one));
         let thing = |noun: &Noun| {
             let things = noun.head.things.as_deref().unwrap_or_default();
             !things.is_empty() && things.iter().all(|t| t.replica().is_some())
@@ -139,8 +152,19 @@ impl Frame<'_, '_> {
         let twofold = !matches!(query, Query::Anchor { .. })
             && (self.has(Mark::Which) || self.has(Mark::Where) || self.has(Mark::HowMany))
             && self.links.iter().any(governed);
-        // "Which rooms can I get to, excluding the kitchen?": all are told.
-        let leads_but = matches!(query, Query::Leads(_)) && !self.except.is_empty();
+        // "Whose mug is that?" asks for an owner.
+        const WHOSE: [&str; 5] = ["whose", "чей", "чья", "чье", "чьи"];
+        let owner = |query: &Query| match query {
+            Query::Property { property, .. } => *property == Property::Owner,
+            _ => false,
+        };
+        let whose =
+            self.sentence.keys.iter().any(|key| WHOSE.contains(&key.as_str())) && !owner(query);
+        // «А в ванной есть хоть одна?»: one of a kind that was spoken of, and not anything at all.
+        const ONE: [&str; 3] = ["один", "одна", "одно"];
+        let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
+        let one = matches!(query, Query::Exists { what, .. } if what.iter().all(bare))
+            && self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str()));
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
@@ -163,10 +187,12 @@ impl Frame<'_, '_> {
         leads
             || told.parted
             || told.itself
+            || told.torn
             || many
             || why
             || twofold
-            || leads_but
+            || whose
+            || one
             || here
             || supposes
             || goes
@@ -264,11 +290,14 @@ impl Frame<'_, '_> {
 
     /// «А пластиковые возле чего лежат?»: a preposition of a side that governs nothing asks for what lies there.
     fn loses_a_side(&self, query: &Query) -> bool {
-        if !matches!(query, Query::Find(_) | Query::Count(_) | Query::Exists { .. }) {
+        let listed = matches!(query, Query::Find(_) | Query::Count(_) | Query::Exists { .. });
+        if !listed && !self.links.iter().any(|(rel, _)| *rel == Rel::Outside) {
             return false;
         }
-        let side =
-            |rel: Rel| rel.is_side() || matches!(rel, Rel::Under | Rel::Above | Rel::Outside);
+        let side = |rel: Rel| match rel {
+            Rel::Outside => true,
+            rel => listed && (rel.is_side() || matches!(rel, Rel::Under | Rel::Above)),
+        };
         let mut asked: Vec<Rel> =
             self.links.iter().map(|(rel, _)| *rel).filter(|r| side(*r)).collect();
         query.clone().each_noun(&mut |noun| {

@@ -66,6 +66,7 @@ impl<'s, 't> Frame<'s, 't> {
             nowhere: None,
             negated: false,
             except: Vec::new(),
+            excepted: Vec::new(),
             undone: None,
             idle: false,
         };
@@ -299,6 +300,7 @@ impl<'s, 't> Frame<'s, 't> {
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
             first.noun.all = true;
         }
+        frame.excepted.clone_from(&frame.except);
         frame.except_rooms();
         frame.look_aside();
         let walls = frame.on_walls(items.len());

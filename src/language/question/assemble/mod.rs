@@ -249,6 +249,8 @@ struct Frame<'s, 't> {
     negated: bool,
     /// «кроме лампы»
     except: Vec<Noun>,
+    /// All that is excepted, whatever of.
+    excepted: Vec<Noun>,
     /// What a deed is done to, where nothing knows the word.
     undone: Option<String>,
     /// A number that counts nothing was said.

@@ -9,7 +9,7 @@ use crate::question::grammar::Item;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{
-    Best, Claim, Closeness, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
+    Best, Claim, Closeness, Extreme, Head, Noun, Query, Reach, Rel, Restriction, Thing,
 };
 use crate::words::{Case, Language};
 
@@ -25,30 +25,53 @@ impl Frame<'_, '_> {
         (has(Case::Prepositional) || has(Case::Locative)) && !has(Case::Accusative)
     }
 
-    /// "Which rooms can you not reach?", «До каких комнат ты доберёшься?»
+    /// "Which rooms can you not reach?", «До каких комнат ты доберёшься?», «Куда ты можешь доехать?»
     pub(super) fn reached(&self) -> Option<Query> {
         let measures = [Mark::HowFar, Mark::HowLong, Mark::HowGet];
-        if !self.asks() || !self.has(Mark::Move) || measures.iter().any(|mark| self.has(*mark)) {
+        if measures.iter().any(|mark| self.has(*mark)) {
             return None;
         }
         let robot = |noun: &Noun| noun.head.things.as_deref() == Some(&[Thing::Robot][..]);
         let mut nouns = self.nouns.iter().map(|s| &s.noun).filter(|noun| !robot(noun));
+        let around = |spot: &&Spot| spot.rel == Rel::Through && spot.negated;
+        let spots: Vec<&Spot> = self.spots.iter().filter(|spot| !around(spot)).collect();
+        let around = self.spots.iter().filter(around);
+        let avoiding: Vec<Noun> = around.flat_map(|spot| spot.nouns.iter().cloned()).collect();
         // «До каких комнат …?» asks whither by itself.
         let able = self.has(Mark::Can)
-            || self.sentence.keys.iter().any(|key| key == "cannot")
             || self.links.iter().any(|(rel, _)| matches!(rel, Rel::To | Rel::In));
-        let what = match (nouns.next(), &self.spots[..]) {
-            (Some(noun), []) if able && !self.is_doors(noun) => noun,
-            (None, [Spot { rel: Rel::To | Rel::In, nouns, .. }]) if self.is_rooms(&nouns[0]) => {
-                &nouns[0]
+        let asks = self.asks() && self.has(Mark::Move);
+        let from = spots.iter().find(|spot| spot.rel == Rel::From && !avoiding.is_empty());
+        let ends: Vec<&&Spot> =
+            spots.iter().filter(|spot| from.is_none_or(|from| from.at != spot.at)).collect();
+        let what = match (nouns.next(), &ends[..]) {
+            (Some(noun), []) if asks && able && !self.is_doors(noun) => noun.clone(),
+            (None, [Spot { rel: Rel::To | Rel::In, nouns, .. }])
+                if asks && self.is_rooms(&nouns[0]) =>
+            {
+                nouns[0].clone()
+            }
+            (None, []) if self.asks_whither() => {
+                let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
+                let except = self.except.clone();
+                Noun { head: Head { kinds, ..Head::default() }, except, ..Noun::default() }
             }
             _ => return None,
         };
         if nouns.next().is_some() {
             return None;
         }
-        let noun = Noun { plural: true, ..what.clone() };
-        Some(Query::Find(Noun { reached: Some(!self.negated), ..noun }))
+        let from = from.and_then(|spot| spot.nouns.first()).cloned().map(Box::new);
+        let reach = Reach { able: !self.negated, from, avoiding };
+        Some(Query::Find(Noun { plural: true, reached: Some(reach), ..what }))
+    }
+
+    /// «Куда ты можешь доехать?», "Where can you go?"
+    fn asks_whither(&self) -> bool {
+        let goes = self.has(Mark::Move) || self.has(Mark::Lead);
+        let whither = self.has(Mark::Whither)
+            || self.has(Mark::Where) && self.sentence.language == Language::English;
+        whither && goes && self.has(Mark::Can) && self.you && self.there.is_none()
     }
 
     pub(super) fn way(&self) -> Option<Query> {

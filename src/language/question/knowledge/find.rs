@@ -7,7 +7,7 @@ use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
-use crate::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
+use crate::question::query::{Best, Extreme, Head, Noun, Reach, Rel, Restriction, Thing};
 use crate::units::{AreaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -214,14 +214,8 @@ impl Knowledge<'_> {
             let fits = |t: &Thing| self.measure(size.extreme, *t).is_some_and(|m| size.admits(m));
             found.retain(fits);
         }
-        if let Some(wanted) = noun.reached {
-            // A way is looked for to each.
-            if found.len() > MOST_DRIVEN {
-                return Err(Doubt::NotUnderstood { words: noun.text.clone() });
-            }
-            let own = self.area_of(Thing::Robot);
-            let is_here = |t: &Thing| t.area().is_some() && t.area() == own;
-            found.retain(|t| (is_here(t) || self.driven(Thing::Robot, *t).is_some()) == wanted);
+        if let Some(reach) = &noun.reached {
+            self.retain_reached(&mut found, reach)?;
         }
         for except in &noun.except {
             let without = self.find(except, true)?;
@@ -351,6 +345,28 @@ impl Knowledge<'_> {
 
     /// # Errors
     /// As [`Self::definite`]; several things are always one too many.
+    /// Keeps what there is a way to, or none.
+    fn retain_reached(&self, found: &mut Vec<Thing>, reach: &Reach) -> Result<(), Doubt> {
+        // A way is looked for to each.
+        if found.len() > MOST_DRIVEN {
+            return Err(Doubt::TooMany { many: found.len(), most: MOST_DRIVEN });
+        }
+        let from = reach.from.as_deref().map_or(Ok(Thing::Robot), |from| self.one(from))?;
+        let mut avoided = Vec::new();
+        for noun in &reach.avoiding {
+            avoided.extend(self.find(noun, false)?);
+        }
+        let own = self.area_of(from);
+        let start = Some(from).filter(|from| *from != Thing::Robot);
+        let is_reached = |t: &Thing| match (t.area().is_some() && t.area() == own, &avoided[..]) {
+            (true, _) => true,
+            (false, []) => self.driven(from, *t).is_some(),
+            (false, avoided) => self.senses.way_without(start, *t, avoided, self.language).is_ok(),
+        };
+        found.retain(|t| !avoided.contains(t) && is_reached(t) == reach.able);
+        Ok(())
+    }
+
     pub(in crate::question) fn one(&self, noun: &Noun) -> Result<Thing, Doubt> {
         let found = self.find(noun, false)?;
         match found[..] {
