@@ -198,7 +198,12 @@ impl<'c> Localiser<'c> {
     }
 
     /// Some of the returns, each with the course of the line that it is seen to lie on, if on any.
-    pub(crate) fn marks(&self, sensor: &Sensor, ranges: &[f64], returns: &[Vector2<f64>]) -> Vec<Mark> {
+    pub(crate) fn marks(
+        &self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        returns: &[Vector2<f64>],
+    ) -> Vec<Mark> {
         let mut extractor = Extractor::new();
         let segments: Vec<_> = extractor.segments(sensor, ranges).iter().collect();
         let long = || segments.iter().filter(|segment| segment.length() >= LEAST_LINE);

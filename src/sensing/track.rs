@@ -48,6 +48,8 @@ pub struct Tracker<'l> {
     last: Option<Isometry2<f64>>,
     /// Scans along the way so far, while the place is not known.
     looks: Vec<Look>,
+    /// The one place that they led to at last, not yet confirmed.
+    likely: Option<Isometry2<f64>>,
     /// Scans in a row that fitted badly.
     doubts: usize,
 }
@@ -56,13 +58,22 @@ pub struct Tracker<'l> {
 const PATIENCE: usize = 3;
 /// A scan says something new after so much way or turn, in cm and rad.
 const STEP: (f64, f64) = (50.0, 0.5);
+/// What looks lead to, and one look later lead to again, is the place: no farther off than this, in cm.
+const APART: f64 = 40.0;
 /// Of a longer way odometry knows too little, by scans.
 const MOST_LOOKS: usize = 12;
 
 impl<'l> Tracker<'l> {
     #[must_use]
     pub fn new(localiser: &'l Localiser<'l>) -> Self {
-        Self { localiser, belief: Belief::Lost, last: None, looks: Vec::new(), doubts: 0 }
+        Self {
+            localiser,
+            belief: Belief::Lost,
+            last: None,
+            looks: Vec::new(),
+            likely: None,
+            doubts: 0,
+        }
     }
 
     /// It is held to be at a pose of the sensor, where the odometry tells another: the first scan then speaks for or against.
@@ -135,6 +146,7 @@ impl<'l> Tracker<'l> {
             way.translation.vector.norm() >= STEP.0 || way.rotation.angle().abs() >= STEP.1
         });
         let is_alone = self.looks.len() == 1 && matches!(self.belief, Belief::Lost);
+        self.likely = self.likely.map(|pose| pose * by);
         if !is_new && !is_alone {
             if let Belief::OneOf(fits) = &mut self.belief {
                 fits.iter_mut().for_each(|fit| fit.pose *= by);
@@ -154,9 +166,32 @@ impl<'l> Tracker<'l> {
         let alone = || self.localiser.locate(sensor, ranges);
         let answer = match &self.looks[..] {
             [] | [_] => alone(),
-            looks => self.localiser.along(looks),
+            looks => match self.localiser.along(looks) {
+                Answer::Unique(fit) => Answer::Unique(fit),
+                // One scan may be clear where those before were not.
+                several => match alone() {
+                    Answer::Unique(fit) => {
+                        self.likely = Some(fit.pose);
+                        Answer::Unique(fit)
+                    }
+                    _ => several,
+                },
+            },
         };
-        self.belief = answer.into();
+        let is_confirmed = |fit: &Fit| {
+            self.looks.len() < 2
+                || self.likely.is_some_and(|likely| is_near(&likely, &fit.pose, APART))
+        };
+        self.belief = match answer {
+            Answer::Unique(fit) if !is_confirmed(&fit) => {
+                self.likely = Some(fit.pose);
+                Belief::Lost
+            }
+            answer => {
+                self.likely = None;
+                answer.into()
+            }
+        };
         match &self.belief {
             Belief::At(_) => {
                 self.looks.clear();

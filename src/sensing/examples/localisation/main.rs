@@ -52,7 +52,8 @@ fn main() {
     };
     let localiser = Localiser::new(&chart, Options::default());
     println!("{} lines, made ready in {:.0} ms", chart.lines().len(), processor() - started);
-    let posed: Vec<&Scan> = asked.into_iter().filter(|scan| scan.pose.is_some()).skip(first).collect();
+    let posed: Vec<&Scan> =
+        asked.into_iter().filter(|scan| scan.pose.is_some()).skip(first).collect();
 
     let mut tally = Tally::default();
     for scan in posed.iter().step_by(every) {
