@@ -1,5 +1,7 @@
 //! Where one scan can have been taken, without a guess (SPEC L2, L3).
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Isometry2, Matrix3, Vector2};
 
 use super::chart::Chart;
@@ -86,7 +88,7 @@ pub struct Localiser<'c> {
 const SEARCHED: usize = 90;
 const VERIFIED: usize = 120;
 /// Places nearer than this are one, in cm.
-const APART: f64 = 60.0;
+pub(crate) const APART: f64 = 60.0;
 /// Places of which more are no answer.
 const MOST_PLACES: usize = 200;
 /// How far a beam ends from what it strikes, in cm and as a share of its range: the chart's errors, and the pose's.
@@ -96,8 +98,38 @@ const NEAR: (f64, f64) = (4.0, 0.005);
 const SURE: f64 = 0.65;
 /// Shorter lines, in cm, have no sure course.
 const LEAST_LINE: f64 = 40.0;
+/// What becomes of a beam, as shares: it ends at what the chart has, before it at what the chart lacks, or anywhere.
+const HIT: f64 = 0.3;
+const SHORT: f64 = 0.4;
+const STRAY: f64 = 0.3;
+/// How far off a wall may be drawn, in cm and as a share of the range, where a beam's likelihood is asked for.
+const WALLS: (f64, f64) = (15.0, 0.01);
 /// Of a scan with fewer returns nothing can be said.
-const LEAST_RETURNS: usize = 25;
+pub(crate) const LEAST_RETURNS: usize = 25;
+
+/// What beams say for a pose, summed.
+#[derive(Debug, Default)]
+pub(crate) struct Sums {
+    count: f64,
+    explained: f64,
+    through: f64,
+    likeness: f64,
+    evidence: f64,
+}
+
+impl Sums {
+    /// The logarithm of a beam's likelihood, in the mean.
+    pub(crate) fn evidence(&self) -> f64 {
+        self.evidence / self.count.max(1.0)
+    }
+
+    pub(crate) fn fit(&self, pose: Isometry2<f64>, covariance: Matrix3<f64>) -> Fit {
+        let share = |n: f64| n / self.count.max(1.0);
+        let [explained, through, likeness] =
+            [self.explained, self.through, self.likeness].map(share);
+        Fit { pose, covariance, explained, through, likeness }
+    }
+}
 
 impl<'c> Localiser<'c> {
     #[must_use]
@@ -108,6 +140,10 @@ impl<'c> Localiser<'c> {
     #[must_use]
     pub fn chart(&self) -> &'c Chart {
         self.chart
+    }
+
+    pub(crate) fn pyramid(&self) -> &Pyramid {
+        &self.pyramid
     }
 
     #[must_use]
@@ -162,7 +198,12 @@ impl<'c> Localiser<'c> {
     }
 
     /// Some of the returns, each with the course of the line that it is seen to lie on, if on any.
-    fn marks(&self, sensor: &Sensor, ranges: &[f64], returns: &[Vector2<f64>]) -> Vec<Mark> {
+    pub(crate) fn marks(
+        &self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        returns: &[Vector2<f64>],
+    ) -> Vec<Mark> {
         let mut extractor = Extractor::new();
         let segments: Vec<_> = extractor.segments(sensor, ranges).iter().collect();
         let long = || segments.iter().filter(|segment| segment.length() >= LEAST_LINE);
@@ -225,36 +266,48 @@ impl<'c> Localiser<'c> {
         covariance: Matrix3<f64>,
     ) -> Fit {
         let every = (sensor.count() / VERIFIED).max(1);
-        let (mut explained, mut through, mut count, mut likeness) = (0, 0, 0, 0.0);
-        for beam in (0..sensor.count().min(ranges.len())).step_by(every) {
-            let range = ranges[beam];
-            if !sensor.returned(range) || range > self.options.farthest {
-                continue;
-            }
-            count += 1;
-            let slack = 10.0 + 0.02 * range;
-            let (expected, _) = self.chart.cast(&pose, sensor.bearing(beam), range + 4.0 * slack);
-            let mut off = (range - expected).abs();
-            if off > slack && range > expected {
-                // Past a corner by a hair is not through it.
-                let end = pose * nalgebra::Point2::from(sensor.directions()[beam] * range);
-                let nearest = self.chart.nearest(end).map(|(_, foot)| (foot - end).norm());
-                off = nearest.unwrap_or(f64::INFINITY);
-                through += usize::from(off > slack);
-            }
-            if off <= slack {
-                explained += 1;
-                let deviations = off / NEAR.1.mul_add(range, NEAR.0);
-                likeness += (-0.5 * deviations * deviations).exp();
+        let mut sums = Sums::default();
+        for (range, direction) in ranges.iter().zip(sensor.directions()).step_by(every) {
+            if sensor.returned(*range) && *range <= self.options.farthest {
+                self.weigh(&mut sums, &pose, direction * *range);
             }
         }
-        let share = |n: f64| n / f64::from(count.max(1));
-        let (explained, through) = (share(f64::from(explained)), share(through as f64));
-        Fit { pose, covariance, explained, through, likeness: share(likeness) }
+        sums.fit(pose, covariance)
+    }
+
+    /// Adds what a return says for a pose.
+    pub(crate) fn weigh(&self, sums: &mut Sums, pose: &Isometry2<f64>, at: Vector2<f64>) {
+        let range = at.norm();
+        let slack = 10.0 + 0.02 * range;
+        let reach = self.options.farthest + 4.0 * slack;
+        let (expected, line) = self.chart.cast(pose, at.y.atan2(at.x), reach);
+        let mut off = (range - expected).abs();
+        if off > slack && range > expected {
+            // Past a corner by a hair is not through it.
+            let end = pose * nalgebra::Point2::from(at);
+            let nearest = self.chart.nearest(end).map(|(_, foot)| (foot - end).norm());
+            off = nearest.unwrap_or(f64::INFINITY);
+            sums.through += f64::from(u8::from(off > slack));
+        }
+        sums.count += 1.0;
+        if off <= slack {
+            sums.explained += 1.0;
+            let deviations = off / NEAR.1.mul_add(range, NEAR.0);
+            sums.likeness += (-0.5 * deviations * deviations).exp();
+        }
+        if line.is_some() {
+            let sigma = WALLS.1.mul_add(expected, WALLS.0);
+            let deviations = (range - expected) / sigma;
+            let hit = (-0.5 * deviations * deviations).exp() / (sigma * TAU.sqrt());
+            let short = if range < expected { 1.0 / expected } else { 0.0 };
+            // Over that of a range that may be any.
+            let density = (HIT * hit + SHORT * short).mul_add(self.options.farthest, STRAY);
+            sums.evidence += density.ln();
+        }
     }
 
     /// Where the beams end, in the sensor's frame.
-    fn returns(&self, sensor: &Sensor, ranges: &[f64]) -> Vec<Vector2<f64>> {
+    pub(crate) fn returns(&self, sensor: &Sensor, ranges: &[f64]) -> Vec<Vector2<f64>> {
         let ends = ranges.iter().zip(sensor.directions());
         ends.filter(|(range, _)| sensor.returned(**range) && **range <= self.options.farthest)
             .map(|(range, direction)| direction * *range)
@@ -263,7 +316,7 @@ impl<'c> Localiser<'c> {
 }
 
 /// So many of them, evenly chosen along their course rather than by angle: a near wall takes many beams.
-fn thinned(returns: &[Vector2<f64>], most: usize) -> Vec<Vector2<f64>> {
+pub(crate) fn thinned(returns: &[Vector2<f64>], most: usize) -> Vec<Vector2<f64>> {
     let steps = returns.windows(2).map(|pair| (pair[1] - pair[0]).norm().min(30.0));
     let length: f64 = steps.sum();
     let every = (length / most as f64).max(2.0);

@@ -19,6 +19,7 @@ use orthoframe_map as map;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
+mod along;
 mod chart;
 mod differences;
 mod discern;

@@ -49,6 +49,14 @@ pub(crate) struct Mark {
     pub(crate) course: Option<f64>,
 }
 
+impl Mark {
+    /// The same as seen from where that place lies so.
+    pub(crate) fn moved(&self, by: &Isometry2<f64>) -> Self {
+        let at = (by * Point2::from(self.at)).coords;
+        Self { at, course: self.course.map(|course| course + by.rotation.angle().to_degrees()) }
+    }
+}
+
 /// Where a mark meets the rasters of a level, from a cell on: where its plane begins, and how many cells on.
 #[derive(Debug, Clone, Copy)]
 struct Offset {

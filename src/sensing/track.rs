@@ -1,7 +1,8 @@
 //! What is possible, carried along from scan to scan by odometry (SPEC L3).
 
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Matrix3, Vector3};
 
+use super::along::Look;
 use super::locate::{Answer, Fit, Localiser};
 use super::search::is_near;
 use crate::vectors::scan::Sensor;
@@ -45,21 +46,34 @@ pub struct Tracker<'l> {
     localiser: &'l Localiser<'l>,
     belief: Belief,
     last: Option<Isometry2<f64>>,
+    /// Scans along the way so far, while the place is not known.
+    looks: Vec<Look>,
+    /// The one place that they led to at last, not yet confirmed.
+    likely: Option<Isometry2<f64>>,
     /// Scans in a row that fitted badly.
     doubts: usize,
 }
 
 /// Scans in a row that a belief may fit badly before it is given up.
 const PATIENCE: usize = 3;
-/// Hypotheses nearer than this are one, in cm.
+/// A scan says something new after so much way or turn, in cm and rad.
+const STEP: (f64, f64) = (50.0, 0.5);
+/// What looks lead to, and one look later lead to again, is the place: no farther off than this, in cm.
 const APART: f64 = 40.0;
-/// Of more places one at a time is no knowledge.
-const MOST: usize = 200;
+/// Of a longer way odometry knows too little, by scans.
+const MOST_LOOKS: usize = 12;
 
 impl<'l> Tracker<'l> {
     #[must_use]
     pub fn new(localiser: &'l Localiser<'l>) -> Self {
-        Self { localiser, belief: Belief::Lost, last: None, doubts: 0 }
+        Self {
+            localiser,
+            belief: Belief::Lost,
+            last: None,
+            looks: Vec::new(),
+            likely: None,
+            doubts: 0,
+        }
     }
 
     /// It is held to be at a pose of the sensor, where the odometry tells another: the first scan then speaks for or against.
@@ -76,9 +90,10 @@ impl<'l> Tracker<'l> {
 
     /// It is held to be here after all, whatever was believed.
     pub fn believe(&mut self, pose: Isometry2<f64>) {
-        let covariance = nalgebra::Matrix3::zeros();
+        let covariance = Matrix3::zeros();
         self.belief =
             Belief::At(Fit { pose, covariance, explained: 0.0, through: 0.0, likeness: 0.0 });
+        self.looks.clear();
         self.doubts = 0;
     }
 
@@ -91,55 +106,100 @@ impl<'l> Tracker<'l> {
     pub fn scan(&mut self, sensor: &Sensor, ranges: &[f64], odometry: Isometry2<f64>) -> Event {
         let by = self.last.map(|last| last.inverse() * odometry);
         self.last = Some(odometry);
-        let known = match (&self.belief, by) {
-            (Belief::At(fit), Some(by)) => vec![fit.pose * by],
-            (Belief::OneOf(fits), Some(by)) => fits.iter().map(|fit| fit.pose * by).collect(),
-            _ => Vec::new(),
-        };
-        if known.is_empty() {
-            self.belief = self.localiser.locate(sensor, ranges).into();
-            self.doubts = 0;
+        match (&self.belief, by) {
+            (Belief::At(fit), Some(by)) => self.follow(sensor, ranges, fit.pose * by),
+            _ => self.look_about(sensor, ranges, odometry, by.unwrap_or_default()),
+        }
+    }
+
+    /// Whether the place that is believed still fits.
+    fn follow(&mut self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Event {
+        // In a corridor the scan holds no pose along it: odometry does, for a while.
+        let fit = self.localiser.close_to(sensor, ranges, pose);
+        let fit = fit.filter(|fit| is_near(&fit.pose, &pose, 60.0)).unwrap_or_else(|| {
+            let covariance = Matrix3::from_diagonal(&Vector3::new(900.0, 900.0, 0.01));
+            self.localiser.fit_at(sensor, ranges, pose, covariance)
+        });
+        let options = self.localiser.options();
+        let is_doubted = fit.worth() < options.least - 2.0 * options.margin;
+        self.doubts = if is_doubted { self.doubts + 1 } else { 0 };
+        self.belief = Belief::At(fit);
+        if self.doubts < PATIENCE {
+            return Event::Steady;
+        }
+        self.belief = Belief::Lost;
+        self.doubts = 0;
+        Event::GivenUp
+    }
+
+    /// Where the place is not known: what it saw along the way, together. By single scans that speak against one place after
+    /// another until one is left it would end at a wrong one, where the right one was never among them.
+    fn look_about(
+        &mut self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        odometry: Isometry2<f64>,
+        by: Isometry2<f64>,
+    ) -> Event {
+        let is_new = self.looks.last().is_none_or(|last| {
+            let way = last.at.inv_mul(&odometry);
+            way.translation.vector.norm() >= STEP.0 || way.rotation.angle().abs() >= STEP.1
+        });
+        let is_alone = self.looks.len() == 1 && matches!(self.belief, Belief::Lost);
+        self.likely = self.likely.map(|pose| pose * by);
+        if !is_new && !is_alone {
+            if let Belief::OneOf(fits) = &mut self.belief {
+                fits.iter_mut().for_each(|fit| fit.pose *= by);
+            }
             return if matches!(self.belief, Belief::Lost) { Event::Lost } else { Event::Steady };
         }
-        let mut fits: Vec<Fit> = Vec::new();
-        for pose in known.iter().take(MOST) {
-            // In a corridor the scan holds no pose along it: odometry does, for a while.
-            let fit = self
-                .localiser
-                .close_to(sensor, ranges, *pose)
-                .filter(|fit| is_near(&fit.pose, pose, 60.0));
-            let fit = fit.unwrap_or_else(|| {
-                let covariance =
-                    nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(900.0, 900.0, 0.01));
-                self.localiser.fit_at(sensor, ranges, *pose, covariance)
-            });
-            match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
-                Some(known) if known.rank() < fit.rank() => *known = fit,
-                Some(_) => {}
-                None => fits.push(fit),
-            }
+        if !is_new {
+            self.looks.clear();
         }
-        fits.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
-        let options = self.localiser.options();
-        let best = fits.first().map_or(-1.0, Fit::worth);
-        if best < options.least - 2.0 * options.margin {
-            self.doubts += 1;
-            if self.doubts >= PATIENCE {
-                self.belief = Belief::Lost;
-                self.doubts = 0;
-                return Event::GivenUp;
-            }
-        } else {
-            self.doubts = 0;
-            // What fits much worse than another is not where the robot is.
-            let bound = fits.first().map_or(-1.0, Fit::rank) - 1.5 * options.margin;
-            fits.retain(|fit| fit.rank() >= bound);
-        }
-        let is_narrowed = fits.len() < known.len();
-        self.belief = match fits.len() {
-            1 => Belief::At(fits.swap_remove(0)),
-            _ => Belief::OneOf(fits),
+        let before = match &self.belief {
+            Belief::OneOf(fits) => fits.len(),
+            _ => 0,
         };
-        if is_narrowed { Event::Narrowed } else { Event::Steady }
+        self.looks.extend(self.localiser.look(sensor, ranges, odometry));
+        let past = self.looks.len().saturating_sub(MOST_LOOKS);
+        self.looks.drain(..past);
+        let alone = || self.localiser.locate(sensor, ranges);
+        let answer = match &self.looks[..] {
+            [] | [_] => alone(),
+            looks => match self.localiser.along(looks) {
+                Answer::Unique(fit) => Answer::Unique(fit),
+                // One scan may be clear where those before were not.
+                several => match alone() {
+                    Answer::Unique(fit) => {
+                        self.likely = Some(fit.pose);
+                        Answer::Unique(fit)
+                    }
+                    _ => several,
+                },
+            },
+        };
+        let is_confirmed = |fit: &Fit| {
+            self.looks.len() < 2
+                || self.likely.is_some_and(|likely| is_near(&likely, &fit.pose, APART))
+        };
+        self.belief = match answer {
+            Answer::Unique(fit) if !is_confirmed(&fit) => {
+                self.likely = Some(fit.pose);
+                Belief::Lost
+            }
+            answer => {
+                self.likely = None;
+                answer.into()
+            }
+        };
+        match &self.belief {
+            Belief::At(_) => {
+                self.looks.clear();
+                if before > 0 { Event::Narrowed } else { Event::Steady }
+            }
+            Belief::OneOf(fits) if fits.len() < before => Event::Narrowed,
+            Belief::OneOf(_) => Event::Steady,
+            Belief::Lost => Event::Lost,
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Where the scans of real logs were taken, without a guess:
-//! `cargo run --release -p orthoframe-sensing --example localisation -- halves|plan LOG.gz [EVERY [PEERS]]`, or `-- made [SCANS]`.
+//! `cargo run --release -p orthoframe-sensing --example localisation -- halves|plan LOG.gz [EVERY [PEERS [FIRST]]]`, or `-- made [SCANS]`.
 //!
 //! `halves`: odd scans against the walls of the even ones. `plan`: all scans against the plan of their building that others
-//! drew (`plan`). `made`: a building of 40 000 lines (`made`). Every EVERYth scan is asked for; so many PEERS scans and starts are given to the peers too (`peers`).
+//! drew (`plan`). `made`: a building of 40 000 lines (`made`). Every EVERYth scan from the FIRST on is asked for; so many PEERS scans and starts are given to the peers too (`peers`).
 //! Times are processor time of this thread.
 
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
@@ -36,7 +36,7 @@ fn main() {
     }
     let path = args.next().expect("a log");
     let mut number = |default| args.next().map_or(default, |n| n.parse().expect("a number"));
-    let (every, peers): (usize, usize) = (number(10), number(0));
+    let (every, peers, first): (usize, usize, usize) = (number(10), number(0), number(0));
     let log = read_log(&read_source(Path::new(&path)).expect("the log can be read")).log;
     let started = processor();
     let (chart, rooms, asked) = match what.as_str() {
@@ -52,7 +52,8 @@ fn main() {
     };
     let localiser = Localiser::new(&chart, Options::default());
     println!("{} lines, made ready in {:.0} ms", chart.lines().len(), processor() - started);
-    let posed: Vec<&Scan> = asked.into_iter().filter(|scan| scan.pose.is_some()).collect();
+    let posed: Vec<&Scan> =
+        asked.into_iter().filter(|scan| scan.pose.is_some()).skip(first).collect();
 
     let mut tally = Tally::default();
     for scan in posed.iter().step_by(every) {
@@ -68,7 +69,9 @@ fn main() {
     tally.tell();
     let starts = starts(&posed, every);
     let mut ways = Ways::default();
+    let (before, mut scans) = (processor(), 0);
     for way in &starts {
+        scans += way.len();
         let mut tracker = Tracker::new(&localiser);
         for scan in way {
             let odometry = scan.odometry.expect("it has one");
@@ -81,6 +84,7 @@ fn main() {
         ways.take_in(way, found);
     }
     ways.tell("after 5 m of odometry");
+    println!("  {:.1} ms a scan", (processor() - before) / scans.max(1) as f64);
     if peers > 0 {
         beside_peers(&log, &chart, &posed, &starts, peers);
     }
@@ -265,6 +269,7 @@ struct Ways {
     all: usize,
     right: usize,
     wrong: usize,
+    errors: Vec<f64>,
 }
 
 impl Ways {
@@ -272,13 +277,21 @@ impl Ways {
         self.all += 1;
         let truth = way.last().and_then(|scan| scan.pose).expect("it has one");
         if let Some(found) = found {
-            if is_right(error(&found, &truth)) { self.right += 1 } else { self.wrong += 1 }
+            let (far, turn) = error(&found, &truth);
+            self.errors.push(far);
+            if is_right((far, turn)) {
+                self.right += 1;
+            } else {
+                self.wrong += 1;
+                println!("wrong after the way from line {}: {far:.0} cm {turn:.0}°", way[0].line);
+            }
         }
     }
 
-    fn tell(&self, what: &str) {
-        let Self { all, right, wrong } = self;
-        println!("{what}: of {all}, right {right}, wrong {wrong}");
+    fn tell(&mut self, what: &str) {
+        let median = share(&mut self.errors, 0.5);
+        let Self { all, right, wrong, .. } = self;
+        println!("{what}: of {all}, right {right}, wrong {wrong}; median error {median:.1} cm");
     }
 }
 
