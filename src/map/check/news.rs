@@ -57,6 +57,7 @@ mod tests {
     use super::whole_news;
     use crate::dice::dice;
     use std::collections::BTreeSet;
+    use std::sync::Arc;
 
     use crate::units::{AreaId, Cm, Deg, DoorId, Frame, ObjectId, OrFrId, PlaceId, ReplicaId};
     use crate::{
@@ -163,7 +164,7 @@ mod tests {
                 let map = any!(throw, world.maps);
                 match map.links.pop() {
                     Some(mut link) if throw(2) == 0 => {
-                        link.rel_x = Cm::of(x);
+                        Arc::make_mut(&mut link).rel_x = Cm::of(x);
                         map.links.insert(0, link);
                     }
                     _ => {}
