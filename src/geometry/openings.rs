@@ -166,7 +166,8 @@ impl Openings {
                         ours.push(&***one);
                         theirs.push(&***two);
                     }
-                    (own.next(), other.next());
+                    own.next();
+                    other.next();
                 }
                 (Some((a, one)), other) if other.is_none_or(|(b, _)| a < b) => {
                     ours.push(&***one);
