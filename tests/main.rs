@@ -37,6 +37,7 @@ mod ifc;
 mod imports;
 mod judged;
 mod lifts;
+mod lost;
 mod map_editing;
 mod maps;
 mod odd_floors;

@@ -399,6 +399,11 @@ fn a_table_is_cleared_and_a_cup_is_put_away() {
         let said = format!("{:?}", engine.understand(order).unwrap());
         assert!(said.contains(wanted), "{order}: {said}");
     }
+    // What is on it is kept there: nobody said where it should go instead.
+    let engine = Engine::in_memory(lab(), None).unwrap();
+    let refused = engine.perform("Clear the desk", &mut |_| {}).unwrap_err();
+    let said = refused.say(engine.world().unwrap(), Language::English);
+    assert!(said.contains("kept there: Battery 1"), "{said}");
 }
 
 /// Whether an utterance can be followed in all its parts, as `do` and `talk` read it before anything is begun; else what

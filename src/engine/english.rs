@@ -109,8 +109,8 @@ impl RequestError {
                 called(name)
             ),
             Self::KeptThere { things, name } => {
-                let things: Vec<String> = things.iter().map(|one| format!("“{one}”")).collect();
-                format!("{} on “{name}” is kept there", things.join(", "))
+                let things: Vec<String> = things.iter().map(|one| called(one)).collect();
+                format!("all that lies on {} is kept there: {}", called(name), things.join(", "))
             }
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off", called(name))

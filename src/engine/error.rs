@@ -395,7 +395,7 @@ pub enum RequestError {
     NotCleaned { name: String },
 
     /// A thing is to be cleared of what is kept on it.
-    #[error("{} лежит на «{name}» и там и хранится", things.iter().map(|one| format!("«{one}»")).collect::<Vec<_>>().join(", "))]
+    #[error("на «{name}» лежит только то, что там и хранится: «{}»", things.join("», «"))]
     #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
     KeptThere { things: Vec<String>, name: String },
 

@@ -394,12 +394,9 @@ impl State {
         if let Err(failure) = self.seek(sought, relations, &mut belief, vehicle)? {
             return self.not_begun(failure);
         }
-        let tidies = commands.iter().any(|c| {
-            matches!(
-                c,
-                Command::Tidy(_) | Command::Clear(_) | Command::Clean(_) | Command::PutBack(_)
-            )
-        });
+        let tidying =
+            |c: &Command<_>| matches!(c, Command::Tidy(_) | Command::Clear(_) | Command::Clean(_));
+        let tidies = commands.iter().any(|c| tidying(c) || matches!(c, Command::PutBack(_)));
         let domain = &self.rules.robot;
         let errand = Errand { domain, belief, relations: followed, goals, tidies };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;
@@ -407,8 +404,6 @@ impl State {
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
         let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
         answer.reported = reported.and_then(Result::ok).map(|found| found.position);
-        let tidying =
-            |c: &Command<_>| matches!(c, Command::Tidy(_) | Command::Clear(_) | Command::Clean(_));
         answer.tidies = commands.iter().any(tidying);
         answer.stops = matches!(commands, [Command::Stop]);
         answer.unsure = unsure;

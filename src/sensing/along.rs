@@ -6,9 +6,9 @@
 //! A plan without furniture, whose walls stand off by a hand, leaves the right place the likeliest that way, where the share
 //! of what it explains does not.
 
-use nalgebra::{Isometry2, Matrix3, Vector2, Vector3};
+use nalgebra::{Isometry2, Matrix3, Vector2};
 
-use super::locate::{APART, Answer, Fit, LEAST_RETURNS, Localiser, Sums, thinned};
+use super::locate::{APART, Answer, Fit, LEAST_RETURNS, Localiser, Sums, loosely, thinned};
 use super::refine::{WIDE, refine};
 use super::search::{Mark, is_near};
 use crate::vectors::scan::Sensor;
@@ -67,18 +67,26 @@ impl Localiser<'_> {
         let whole: usize = weighed.iter().map(Vec::len).sum();
         // Beams of one look are no independent witnesses: each look counts as much as another.
         let scale = (WEIGHED * looks.len()) as f64;
-        let weigh = |pose: &Isometry2<f64>, every: usize| {
+        let evidence = |pose: &Isometry2<f64>, every: usize| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (by, beams) in from.iter().zip(&weighed) {
+                let pose = pose * by;
+                for beam in beams.iter().step_by(every) {
+                    sum += self.evidence(&pose, *beam);
+                    count += 1.0;
+                }
+            }
+            sum / f64::max(count, 1.0) * scale
+        };
+        let fit = |pose: Isometry2<f64>, covariance: Matrix3<f64>| {
             let mut sums = Sums::default();
             for (by, beams) in from.iter().zip(&weighed) {
                 let pose = pose * by;
-                beams.iter().step_by(every).for_each(|beam| self.weigh(&mut sums, &pose, *beam));
+                beams.iter().for_each(|beam| self.weigh(&mut sums, &pose, *beam));
             }
-            sums
+            sums.fit(pose, covariance)
         };
-        let judged = |pose: Isometry2<f64>| {
-            let sums = weigh(&pose, WEIGHED / FIRST);
-            (sums.evidence() * scale, pose)
-        };
+        let judged = |pose: Isometry2<f64>| (evidence(&pose, WEIGHED / FIRST), pose);
         let rough: Vec<(f64, Isometry2<f64>)> = found.into_iter().map(judged).collect();
         let best = rough.iter().map(|(evidence, _)| *evidence).fold(f64::NEG_INFINITY, f64::max);
         let every = (whole / SEARCHED).max(1);
@@ -97,10 +105,8 @@ impl Localiser<'_> {
             let exact = refine(self.chart(), &held, self.options().sigma, pose, WIDE)
                 .filter(|exact| is_near(&exact.pose, &pose, APART));
             is_loose |= exact.is_none();
-            let spread = Matrix3::from_diagonal(&Vector3::new(900.0, 900.0, 0.01));
-            let (pose, covariance) = exact.map_or((pose, spread), |e| (e.pose, e.covariance));
-            let sums = weigh(&pose, 1);
-            let (evidence, fit) = (sums.evidence() * scale, sums.fit(pose, covariance));
+            let (pose, covariance) = exact.map_or((pose, loosely()), |e| (e.pose, e.covariance));
+            let (evidence, fit) = (evidence(&pose, 1), fit(pose, covariance));
             match fits.iter_mut().find(|(_, known)| is_near(&known.pose, &pose, APART)) {
                 Some(known) if known.0 < evidence => *known = (evidence, fit),
                 Some(_) => {}

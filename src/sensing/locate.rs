@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Isometry2, Matrix3, Vector2};
+use nalgebra::{Isometry2, Matrix3, Vector2, Vector3};
 
 use super::chart::Chart;
 use super::refine::{CLOSE, WIDE, refine};
@@ -114,21 +114,25 @@ pub(crate) struct Sums {
     explained: f64,
     through: f64,
     likeness: f64,
-    evidence: f64,
 }
 
 impl Sums {
-    /// The logarithm of a beam's likelihood, in the mean.
-    pub(crate) fn evidence(&self) -> f64 {
-        self.evidence / self.count.max(1.0)
-    }
-
     pub(crate) fn fit(&self, pose: Isometry2<f64>, covariance: Matrix3<f64>) -> Fit {
         let share = |n: f64| n / self.count.max(1.0);
         let [explained, through, likeness] =
             [self.explained, self.through, self.likeness].map(share);
         Fit { pose, covariance, explained, through, likeness }
     }
+}
+
+/// So far from where it should end, in cm, a beam of this range still ends there.
+fn slack(range: f64) -> f64 {
+    10.0 + 0.02 * range
+}
+
+/// How sure a place is that odometry alone holds: 30 cm, .1 rad.
+pub(crate) fn loosely() -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(900.0, 900.0, 0.01))
 }
 
 impl<'c> Localiser<'c> {
@@ -278,9 +282,8 @@ impl<'c> Localiser<'c> {
     /// Adds what a return says for a pose.
     pub(crate) fn weigh(&self, sums: &mut Sums, pose: &Isometry2<f64>, at: Vector2<f64>) {
         let range = at.norm();
-        let slack = 10.0 + 0.02 * range;
-        let reach = self.options.farthest + 4.0 * slack;
-        let (expected, line) = self.chart.cast(pose, at.y.atan2(at.x), reach);
+        let slack = slack(range);
+        let (expected, _) = self.chart.cast(pose, at.y.atan2(at.x), range + 4.0 * slack);
         let mut off = (range - expected).abs();
         if off > slack && range > expected {
             // Past a corner by a hair is not through it.
@@ -295,15 +298,21 @@ impl<'c> Localiser<'c> {
             let deviations = off / NEAR.1.mul_add(range, NEAR.0);
             sums.likeness += (-0.5 * deviations * deviations).exp();
         }
-        if line.is_some() {
-            let sigma = WALLS.1.mul_add(expected, WALLS.0);
-            let deviations = (range - expected) / sigma;
-            let hit = (-0.5 * deviations * deviations).exp() / (sigma * TAU.sqrt());
-            let short = if range < expected { 1.0 / expected } else { 0.0 };
-            // Over that of a range that may be any.
-            let density = (HIT * hit + SHORT * short).mul_add(self.options.farthest, STRAY);
-            sums.evidence += density.ln();
+    }
+
+    /// The logarithm of a return's likelihood for a pose, over that of a range that may be any.
+    pub(crate) fn evidence(&self, pose: &Isometry2<f64>, at: Vector2<f64>) -> f64 {
+        let range = at.norm();
+        let reach = self.options.farthest + 4.0 * slack(range);
+        let (expected, line) = self.chart.cast(pose, at.y.atan2(at.x), reach);
+        if line.is_none() {
+            return 0.0;
         }
+        let sigma = WALLS.1.mul_add(expected, WALLS.0);
+        let deviations = (range - expected) / sigma;
+        let hit = (-0.5 * deviations * deviations).exp() / (sigma * TAU.sqrt());
+        let short = if range < expected { 1.0 / expected } else { 0.0 };
+        (HIT * hit + SHORT * short).mul_add(self.options.farthest, STRAY).ln()
     }
 
     /// Where the beams end, in the sensor's frame.

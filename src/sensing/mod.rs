@@ -2,8 +2,8 @@
 //!
 //! A [`Chart`] is all that a laser can meet at its height: the Map's faces, or walls learned from a log whose poses are
 //! known. [`Localiser::locate`] says of one scan, without a guess, where it can have been taken: [`Answer::Unique`] only
-//! where no other place fits nearly as well. [`Tracker`] carries what is possible along by odometry, from scan to scan,
-//! and notices when none of it fits any more.
+//! where no other place fits nearly as well. [`Tracker`] holds the scans of a way against the chart together until they
+//! lead to one place, follows that by odometry from scan to scan, and notices when it fits no more.
 //!
 //! Lengths are centimetres, angles radians counter-clockwise from +x.
 //!

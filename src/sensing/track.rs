@@ -1,9 +1,9 @@
 //! What is possible, carried along from scan to scan by odometry (SPEC L3).
 
-use nalgebra::{Isometry2, Matrix3, Vector3};
+use nalgebra::{Isometry2, Matrix3};
 
 use super::along::Look;
-use super::locate::{Answer, Fit, Localiser};
+use super::locate::{Answer, Fit, Localiser, loosely};
 use super::search::is_near;
 use crate::vectors::scan::Sensor;
 
@@ -116,10 +116,9 @@ impl<'l> Tracker<'l> {
     fn follow(&mut self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Event {
         // In a corridor the scan holds no pose along it: odometry does, for a while.
         let fit = self.localiser.close_to(sensor, ranges, pose);
-        let fit = fit.filter(|fit| is_near(&fit.pose, &pose, 60.0)).unwrap_or_else(|| {
-            let covariance = Matrix3::from_diagonal(&Vector3::new(900.0, 900.0, 0.01));
-            self.localiser.fit_at(sensor, ranges, pose, covariance)
-        });
+        let fit = fit
+            .filter(|fit| is_near(&fit.pose, &pose, 60.0))
+            .unwrap_or_else(|| self.localiser.fit_at(sensor, ranges, pose, loosely()));
         let options = self.localiser.options();
         let is_doubted = fit.worth() < options.least - 2.0 * options.margin;
         self.doubts = if is_doubted { self.doubts + 1 } else { 0 };

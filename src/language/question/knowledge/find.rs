@@ -343,9 +343,7 @@ impl Knowledge<'_> {
         Ok(found)
     }
 
-    /// # Errors
-    /// As [`Self::definite`]; several things are always one too many.
-    /// Keeps what there is a way to, or none.
+    /// Keeps what there is a way to, or what there is none to.
     fn retain_reached(&self, found: &mut Vec<Thing>, reach: &Reach) -> Result<(), Doubt> {
         // A way is looked for to each.
         if found.len() > MOST_DRIVEN {
@@ -367,6 +365,8 @@ impl Knowledge<'_> {
         Ok(())
     }
 
+    /// # Errors
+    /// As [`Self::definite`]; several things are always one too many.
     pub(in crate::question) fn one(&self, noun: &Noun) -> Result<Thing, Doubt> {
         let found = self.find(noun, false)?;
         match found[..] {

@@ -10,6 +10,7 @@
 mod made;
 mod peers;
 mod plan;
+mod ways;
 
 use std::path::Path;
 use std::time::Instant;
@@ -19,12 +20,10 @@ use orthoframe_sensing::{Answer, Belief, Chart, Fit, Localiser, Options, Tracker
 use orthoframe_vectors::read::{Log, Scan, read_log, read_source};
 
 use plan::Plan;
+use ways::starts;
 
 /// A pose is right that is no farther off, in cm and degrees.
 const RIGHT: (f64, f64) = (50.0, 10.0);
-/// The way of odometry after which the place must be known, in cm.
-const WAY: f64 = 500.0;
-
 /// The room that a fit stands in.
 type RoomOf = fn(&Fit) -> Option<u32>;
 
@@ -105,23 +104,6 @@ fn in_a_made_building(scans: usize) {
         tally.take_in(|| format!("{pose}"), pose, &answer, rooms, time);
     }
     tally.tell();
-}
-
-/// Ways of odometry, each from another start.
-fn starts<'s>(posed: &[&'s Scan], every: usize) -> Vec<Vec<&'s Scan>> {
-    let way = |start: usize| {
-        let (mut far, mut way) = (0.0, vec![posed[start]]);
-        for pair in posed[start..].windows(2) {
-            let step = pair[0].odometry?.translation.vector - pair[1].odometry?.translation.vector;
-            far += step.norm();
-            way.push(pair[1]);
-            if far >= WAY {
-                return Some(way);
-            }
-        }
-        None
-    };
-    (0..posed.len()).step_by(2 * every).filter_map(way).collect()
 }
 
 fn beside_peers(log: &Log, chart: &Chart, posed: &[&Scan], starts: &[Vec<&Scan>], count: usize) {
