@@ -196,8 +196,9 @@ mod tests {
     use crate::{Level, Scribe, Sink, Tape};
 
     fn recorded() -> Vec<u8> {
-        let name = format!("ortho-played-{}.mcap", std::process::id());
-        let path = std::env::temp_dir().join(name);
+        // Both tests record, at the same time.
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("played.mcap");
         let about = BTreeMap::from([("domain".to_owned(), "Дом".to_owned())]);
         let mut tape = Tape::create(&path, "# a map", &about, 1).unwrap();
         let mut scribe = Scribe::new(1);
@@ -207,9 +208,7 @@ mod tests {
             tape.take(&[words], number % 7 == 0).unwrap();
         }
         tape.end().unwrap();
-        let bytes = std::fs::read(&path).unwrap();
-        std::fs::remove_file(&path).unwrap();
-        bytes
+        std::fs::read(&path).unwrap()
     }
 
     /// A cut loses only what comes after it; damage is told; nothing is made up, and nothing brings the reader down.
