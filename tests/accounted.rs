@@ -3,7 +3,7 @@
 
 use orthoframe::engine::Memory;
 
-use crate::files::project;
+use crate::files::{long, project};
 use crate::talk::engine;
 
 /// Words that each ask for something, or bound what is asked for.
@@ -40,8 +40,8 @@ fn with(question: &str, words: &str, gap: usize) -> String {
 #[test]
 fn no_content_word_is_passed_over() {
     let rb2 = engine("maps/rb2.toml").expect("part of the crate");
-    // By default every fortieth; `ACCOUNTED_STEP=1` puts the words into all.
-    let step = std::env::var("ACCOUNTED_STEP").ok().and_then(|step| step.parse().ok());
+    // With `ORTHOFRAME_LONG` words are put into all of them.
+    let step = if long() { 1 } else { 40 };
     let ask = |line: &str| {
         let answer = rb2.ask(line, &mut Memory::default()).expect("there is a map").ok()?;
         Some((format!("{:?}", answer.query), answer.text))
@@ -52,7 +52,7 @@ fn no_content_word_is_passed_over() {
         let questions = std::fs::read_to_string(questions).unwrap();
         let own = questions.lines().map(str::trim);
         let own = own.filter(|line| !line.is_empty() && !line.starts_with(['+', '#']));
-        for question in own.step_by(step.unwrap_or(40)) {
+        for question in own.step_by(step) {
             let Some(plain) = ask(question) else { continue };
             let is_russian = question.chars().any(|letter| ('а'..='я').contains(&letter));
             for words in if is_russian { RUSSIAN } else { ENGLISH } {

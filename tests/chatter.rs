@@ -7,7 +7,7 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_map::Entity;
 
-use crate::files::project;
+use crate::files::{long, project};
 use crate::talk::engine;
 
 /// What is answered, without what was understood before it; none where it is not.
@@ -27,10 +27,9 @@ fn golden(case: &str) -> Vec<String> {
     lines.map(str::to_owned).collect()
 }
 
-/// Every `step`-th of them with `CHATTER_ALL`; else a fifth of those.
+/// Every `step`-th of them with `ORTHOFRAME_LONG`; else a fifth of those.
 fn some(questions: &[String], step: usize) -> impl Iterator<Item = &String> {
-    let all = std::env::var_os("CHATTER_ALL").is_some();
-    questions.iter().step_by(if all { step } else { 5 * step })
+    questions.iter().step_by(if long() { step } else { 5 * step })
 }
 
 /// What people say around a question: before it, and behind it.

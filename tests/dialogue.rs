@@ -304,7 +304,7 @@ fn a_dialogue_outlives_edits() {
         "What is next to it?",
     ];
     let mut heard_before: Vec<Heard> = Vec::new();
-    let seeds = std::env::var("ORTHO_LONG").map_or(3, |_| 60);
+    let seeds = if crate::files::long() { 60 } else { 3 };
     let (mut told_gone, mut answered) = (0, 0);
     for seed in 0..seeds {
         let mut random = Random::new(seed);

@@ -196,9 +196,11 @@ fn the_wardrobes_open_door_stands_in_the_way() {
     assert_eq!(leaf, Some(Blocker::ReplicaLeaf { replica: wardrobe, door, leaf: 0 }));
 }
 
-/// What a leaf strikes is found by trying every leaf pose between: it stops at the first that meets a thing.
+/// What a leaf strikes is found by trying every leaf pose between: it stops at the first that meets a thing. The
+/// ordinary run puts the thing at one place of five.
 #[test]
 fn a_leaf_stops_where_the_first_of_many_poses_meets_a_thing() {
+    let step = if crate::files::long() { 1 } else { 5 };
     let mut struck = 0;
     for leaves in DOORS {
         let (b, door) = of_kind(leaves, 14.0, 100.0);
@@ -206,7 +208,7 @@ fn a_leaf_stops_where_the_first_of_many_poses_meets_a_thing() {
         let doorway = plan.doorways_of(door).next().expect("it joins the rooms");
         let hung = doorway.leaves(&b.world.doors[&door]);
         let (t0, t1) = doorway.span();
-        for k in 0..60 {
+        for k in (0..60).step_by(step) {
             let (i, j) = (f64::from(k % 12), f64::from(k / 12));
             // From the depth of the wall well into the room towards which it opens.
             let s = [-110.0 + 25.0 * j, doorway.gap + 110.0 - 25.0 * j][doorway.opens_to];
@@ -244,7 +246,7 @@ fn a_leaf_stops_where_the_first_of_many_poses_meets_a_thing() {
             }
         }
     }
-    assert!(struck > 80, "{struck}");
+    assert!(struck > 80 / step, "{struck}");
 }
 
 #[test]

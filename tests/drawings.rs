@@ -378,7 +378,7 @@ fn large(columns: usize, rows: usize) -> World {
 fn worlds() -> Vec<(String, World)> {
     let mut worlds = vec![("rb2".to_owned(), rb2()), ("large".to_owned(), large(20, 8))];
     let mut files = vec!["cases/office-two-storeys.toml", "procthor/house_4.json"];
-    if std::env::var_os("ORTHOFRAME_LONG").is_some() {
+    if crate::files::long() {
         files.extend([
             "rmf/clinic.building.yaml",
             "rmf/office.building.yaml",

@@ -7,6 +7,11 @@ pub(crate) fn project(path: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
+/// Whether tests that can go on for long do so: with `ORTHOFRAME_LONG` set they try all that they know, else a sample of it.
+pub(crate) fn long() -> bool {
+    std::env::var_os("ORTHOFRAME_LONG").is_some()
+}
+
 /// A file or folder of the data that others made, in `../shared/data`. None, with a word, where it is not there; where
 /// `CI` is set that is a failure.
 #[expect(clippy::print_stdout, reason = "a test that was not made should say so")]

@@ -197,7 +197,7 @@ fn heard(engine: &Engine, order: &str) -> Option<String> {
 
 /// Of every order of the golden texts: with a number, a word that nobody knows, a value or a name more, it is not
 /// carried out as if that had not been said. What is said not to be meant, and what depends on the world, is left aside.
-/// `ORDERS_ALL` tries every order and every place of a sentence instead of some.
+/// `ORTHOFRAME_LONG` tries every order and every place of a sentence instead of some.
 #[test]
 fn no_word_of_an_order_is_passed_over() {
     const NOT_MEANT: [&str; 18] = [
@@ -226,7 +226,7 @@ fn no_word_of_an_order_is_passed_over() {
         (flat, include_str!("golden/commands/spoken-rb2.txt"), "Стеллаж-1"),
         (lab(), include_str!("golden/commands/orders-lab.txt"), "Shelf 1"),
     ];
-    let all = std::env::var_os("ORDERS_ALL").is_some();
+    let all = crate::files::long();
     let mut roll = dice(24);
     let (mut tried, mut passed_over) = (0, String::new());
     for (world, text, name) in golden {
@@ -417,7 +417,7 @@ fn read(engine: &Engine, text: &str) -> Result<(), String> {
 }
 
 /// Two orders in one sentence are both done, or the sentence is refused; where one half cannot be followed, nothing is
-/// begun, and what is said names that half. `ORDERS_ALL` tries all pairs instead of some.
+/// begun, and what is said names that half. `ORTHOFRAME_LONG` tries all pairs instead of some.
 #[test]
 fn neither_half_of_an_order_is_passed_over() {
     const BAD_RUSSIAN: &[&str] = &[
@@ -440,7 +440,7 @@ fn neither_half_of_an_order_is_passed_over() {
     ];
     /// Of these words one is said where a half is refused.
     const NAMED: [&str; 4] = ["77", "зюзю", "frobnicator", "zorble"];
-    let all = std::env::var_os("ORDERS_ALL").is_some();
+    let all = crate::files::long();
     let orders: [(World, &[&str], &[&str]); 3] = [
         (
             lab(),

@@ -262,10 +262,12 @@ fn the_slow_ways_agree_with_what_is_known() {
     assert!(can_be_cut_into(&ring, 4) && !can_be_cut_into(&ring, 3));
 }
 
+/// Of random worlds, in the ordinary run of a third of them.
 #[test]
 fn passframes_are_few() {
+    let worlds = if crate::files::long() { 6 } else { 2 };
     let (mut looked_at, mut exact, mut least) = (0, 0, 0);
-    for seed in 0..6 {
+    for seed in 0..worlds {
         let mut closed = random_world(seed + 500);
         closed.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED);
         let mut long = random_world(seed + 20);
@@ -291,7 +293,7 @@ fn passframes_are_few() {
         }
     }
     eprintln!("{looked_at} floors; of small ones {exact} Passframes, {least} pieces at least");
-    assert!(looked_at > 25 && exact as f64 <= 1.1 * least as f64, "{exact} of {least}");
+    assert!(looked_at > 4 * worlds && exact as f64 <= 1.1 * least as f64, "{exact} of {least}");
 }
 
 /// A hall of these corners with things of these corners in it, turned as a whole; the robot is small.

@@ -398,7 +398,7 @@ fn a_support_does_not_hang_on_fractions_of_a_millimetre() {
 #[test]
 fn a_flat_measured_again_has_the_same_supports() {
     let Some(folder) = shared("virtualhome") else { return };
-    let all = std::env::var_os("ORTHOFRAME_LONG").is_some();
+    let all = crate::files::long();
     for n in if all { 1..=3 } else { 2..=2 } {
         let text = file_text(&folder.join(format!("TestScene{n}_graph.json"))).unwrap();
         let graph: serde_json::Value = serde_json::from_str(text.text()).unwrap();

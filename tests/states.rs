@@ -48,10 +48,10 @@ fn asked(state: &State, question: usize) -> String {
 }
 
 /// Eight threads ask, find ways and derive on states, while a ninth edits: every answer is that of an engine that has the
-/// map of that state alone. `STATES_ALL` takes thousands of steps instead of some.
+/// map of that state alone. `ORTHOFRAME_LONG` takes thousands of steps instead of some.
 #[test]
 fn every_answer_is_right_for_its_revision() {
-    let edits = if std::env::var_os("STATES_ALL").is_some() { 300 } else { 12 };
+    let edits = if crate::files::long() { 300 } else { 12 };
     let dir = tempfile::tempdir().unwrap();
     let mut engine = Engine::open(&dir.path().join("store"), None).unwrap();
     let change = change_now("test", "");

@@ -173,11 +173,11 @@ fn a_surprise_is_told_through_the_protocol() {
 }
 
 /// Raised at each event of a task in turn, a stop leaves what is so, and the next task comes to its end. Events of the way
-/// are many: each so-many-th is taken, all with `EVERY_EVENT` set.
+/// are many: each so-many-th is taken, all with `ORTHOFRAME_LONG` set.
 #[test]
 fn a_task_stopped_at_any_event_leaves_what_the_next_begins_from() {
     let tasks = [(RB2, TASK, TASK, 29), (HOUSE, "Bring the book", "Bring the book", 97)];
-    let all = std::env::var_os("EVERY_EVENT").is_some();
+    let all = crate::files::long();
     for (map, task, next, sampled) in tasks {
         let (_dir, mut engine) = engine(map);
         // Numbers of the events at which to stop.

@@ -1,7 +1,7 @@
 //! Ways between all rooms, on the maps of `../shared/data`: that the search ends, that there and back agree, that a smaller robot
 //! goes wherever a larger one does, and that "no way" is what a fill of the floor says, which knows the map file alone.
 //!
-//! The ordinary run takes small maps and a sample of pairs by seed; with `WAYS_ALL=1` all maps and all pairs are tried.
+//! The ordinary run takes small maps and a sample of pairs by seed; with `ORTHOFRAME_LONG` all maps and all pairs are tried.
 //! A map that is not there is passed over and said so.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use orthoframe_geometry::{Barrier, DoorStates, FloorPlan, Method, NoRoute, Route
 use orthoframe_map::{DoorKind, DoorState, Permeability, World};
 use orthoframe_units::{AreaId, Cm, DoorId, Frame, MapId, Point, Vector};
 
-use crate::files::shared;
+use crate::files::{long, shared};
 use crate::floor_properties::Random;
 
 const SMALL: [&str; 7] = [
@@ -40,12 +40,8 @@ const OTHERS: [&str; 14] = [
     "virtualhome/TestScene3_graph.json",
 ];
 
-fn all() -> bool {
-    std::env::var_os("WAYS_ALL").is_some()
-}
-
 fn names() -> Vec<&'static str> {
-    let others = OTHERS.iter().filter(|_| all());
+    let others = OTHERS.iter().filter(|_| long());
     SMALL.iter().chain(others).copied().collect()
 }
 
@@ -89,7 +85,7 @@ fn there_and_back_are_one_way() {
             let stands = stands(&plan);
             let pairs = (0..stands.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
             let pairs: Vec<(usize, usize)> = pairs.collect();
-            let share = if all() { 1.0 } else { 40.0 / pairs.len().max(1) as f64 };
+            let share = if long() { 1.0 } else { 40.0 / pairs.len().max(1) as f64 };
             for (i, j) in pairs.into_iter().filter(|_| random.unit() < share) {
                 let ((one, p), (other, q)) = (stands[i], stands[j]);
                 let told =
@@ -155,10 +151,10 @@ fn a_way_past_the_end_of_a_doorways_line_is_found_from_both_sides() {
 #[test]
 fn where_a_robot_goes_a_smaller_one_goes() {
     let mut random = Random(25);
-    for (name, world) in worlds().filter(|w| all() || w.0 != "osmag/SIST_1.osm") {
+    for (name, world) in worlds().filter(|w| long() || w.0 != "osmag/SIST_1.osm") {
         for &map in world.maps.keys() {
             let mut radii = vec![25.0, 24.9, 24.8];
-            let more = if all() { 6 } else { 1 };
+            let more = if long() { 6 } else { 1 };
             radii.extend((0..more).map(|_| random.between(12.0, 40.0)));
             radii.sort_by(|a, b| b.total_cmp(a));
             let plans: Vec<FloorPlan> = radii.iter().map(|&r| plan(&world, map, r)).collect();
@@ -442,7 +438,7 @@ impl Raster {
 fn no_way_is_where_a_fill_of_the_floor_finds_none() {
     let mut random = Random(26);
     // A raster of a university is of 20 million cells.
-    for (name, mut world) in worlds().filter(|w| all() || w.0 != "osmag/SIST_1.osm") {
+    for (name, mut world) in worlds().filter(|w| long() || w.0 != "osmag/SIST_1.osm") {
         // Leaves are another test's; here doors are openings.
         for door in world.doors.values_mut() {
             (door.kind, door.state) = (DoorKind::Passage, DoorState::OPEN);
@@ -452,7 +448,7 @@ fn no_way_is_where_a_fill_of_the_floor_finds_none() {
         for &map in world.maps.keys() {
             let ground = Ground::of(&world, map);
             let mut radii = vec![25.0];
-            radii.extend((0..if all() { 5 } else { 1 }).map(|_| random.between(14.0, 45.0)));
+            radii.extend((0..if long() { 5 } else { 1 }).map(|_| random.between(14.0, 45.0)));
             let raster = Raster::of(&ground, 60.0);
             for radius in radii {
                 let plan = plan(&world, map, radius);
@@ -516,7 +512,7 @@ fn a_way_to_a_room_ends_in_the_room() {
             let plan = plan(&world, map, world.robot.radius.get());
             let stands = stands(&plan);
             let share =
-                if all() { 1.0 } else { 60.0 / (stands.len() * stands.len()).max(1) as f64 };
+                if long() { 1.0 } else { 60.0 / (stands.len() * stands.len()).max(1) as f64 };
             for &(from, p) in &stands {
                 for &(to, _) in stands.iter().filter(|_| random.unit() < share) {
                     let told = || {

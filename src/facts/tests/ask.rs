@@ -10,11 +10,13 @@ use orthoframe_facts::{
 };
 use orthoframe_units::Source;
 
-/// The seeds of a test: `count` from 0, or as many from the number that `ORTHO_SEED` says, for a longer search.
-fn seeds(count: u64) -> std::ops::Range<u64> {
+/// The seeds of a test: `count` of them with `ORTHOFRAME_LONG`, else a quarter; from 0, or `ORTHO_SEEDS` of them from
+/// `ORTHO_SEED`, for a longer search.
+pub(crate) fn seeds(count: u64) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
     let from = number("ORTHO_SEED").unwrap_or(0);
-    from..from + number("ORTHO_SEEDS").unwrap_or(count)
+    let usual = if std::env::var_os("ORTHOFRAME_LONG").is_some() { count } else { count / 4 };
+    from..from + number("ORTHO_SEEDS").unwrap_or(usual)
 }
 
 fn parse(model: &Model) -> Program {

@@ -83,8 +83,7 @@ fn rows(derived: &orthoframe_facts::Derived, program: &Program) -> Vec<(String, 
 
 #[test]
 fn edits_lead_where_evaluation_from_scratch_leads() {
-    let seeds = std::env::var("ORTHO_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(300);
-    for seed in 0..seeds {
+    for seed in crate::ask::seeds(300) {
         let mut dice = Dice::new(seed + 5);
         let picked: BTreeSet<usize> =
             (0..1 + dice.roll(6)).map(|_| dice.roll(PIECES.len())).collect();
