@@ -7,6 +7,8 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::Language;
 use orthoframe_language::question::{Answer, Said};
+use orthoframe_language::words::russian::{self, Preposition};
+use orthoframe_language::words::{Case, NounPhrase, WordHints};
 
 use crate::talk::engine;
 
@@ -85,6 +87,26 @@ fn the_person_stays_where_it_said_to_be() {
         }
     }
     ways.mostly_understood();
+}
+
+/// «Что рядом с диваном?» – «А с кроватью?»: beside that, whatever it has on it.
+#[test]
+fn with_alone_is_beside_where_beside_was_asked() {
+    let rb2 = rb2();
+    let mut beside = Family::default();
+    let names: Vec<&str> =
+        rb2.world().unwrap().replicas.values().map(|replica| replica.name.as_str()).collect();
+    let with = |name: &str| {
+        let form = NounPhrase::parse(name, &WordHints::default());
+        russian::with(Preposition::S, Case::Instrumental, &form)
+    };
+    for pair in names.windows(2).step_by(3) {
+        let (first, then) = (format!("Что рядом {}?", with(pair[0])), with(pair[1]));
+        let things = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+        let asked = format!("Что рядом {then}?");
+        beside.hear(&rb2, &[&first, &format!("А {then}?")], &asked, things);
+    }
+    beside.mostly_understood();
 }
 
 /// «А что внутри?», "What's inside that?", "What's on top?" of whatever was spoken of: what is in it or on it.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use orthoframe::engine::{Change, Dialogue, Engine, Format, Method, Mode, Timestamp};
-use orthoframe_language::question::{Answer, Memory};
+use orthoframe_language::question::{Answer, Memory, Said};
 use orthoframe_map::{Edits, Entity};
 use orthoframe_units::Source;
 
@@ -75,6 +75,62 @@ fn a_way_that_is_told_by_its_rooms_is_the_way_that_is_driven() {
         let told = ask(&engine, "Сколько комнат на пути из Комнаты-В в Комнату-Y?");
         assert_eq!(told.number, Some(passed as f64), "{zone}: {}", told.text);
         assert_eq!(told.symbols, [room], "{zone}: {}", told.text);
+    }
+}
+
+/// How far it is without entering a room: as far as without a word of it where the way does not lead there, else farther or
+/// not at all.
+#[test]
+fn a_way_round_a_room_is_no_shorter_than_the_way() {
+    let (_dir, engine) = map("rb2", |text| text);
+    let rooms = ["Комнаты-В", "Комнаты-Y", "Комнаты-Z", "Коридора"];
+    let names = ["Комнату-В", "Комнату-Y", "Комнату-Z", "Коридор"];
+    let (mut round, mut as_far) = (0, 0);
+    for (from, to) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))).filter(|(a, b)| a != b) {
+        let plain = ask(&engine, &format!("Сколько метров от {} до {}?", rooms[from], rooms[to]));
+        let plain = plain.number.expect("there is a way");
+        let way = ask(&engine, &format!("Как дойти от {} до {}?", rooms[from], rooms[to])).text;
+        for avoided in (0..4).filter(|n| *n != from && *n != to) {
+            let ends = format!("от {} до {}", rooms[from], rooms[to]);
+            let told = ask(&engine, &format!("Сколько метров {ends}, минуя {}?", names[avoided]));
+            let Some(length) = told.number else {
+                assert_eq!(told.said, Said::No, "{}", told.text);
+                continue;
+            };
+            // A way that must be opened is taken only where none is open.
+            let opens = told.text.contains("закрыта");
+            assert!(opens || length > plain - 1.0, "{}: {plain}", told.text);
+            match (length - plain).abs() < 1.0 {
+                true => as_far += 1,
+                false => round += 1,
+            }
+            let says = told.text.contains(names[avoided]) || told.text.contains(rooms[avoided]);
+            assert!(!says, "{}; {way}", told.text);
+        }
+    }
+    assert!(round > 2 && as_far > 2, "{round} {as_far}");
+}
+
+/// «В гостиной, то есть на кухне» is no place: nothing is told of what would be in both.
+#[test]
+fn what_is_said_to_be_in_two_rooms_is_not_understood() {
+    let Some(house) = shared("procthor/house_6.json") else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
+    engine.import(&house, &change()).expect("the house reads");
+    let rooms = ["в гостиной", "на кухне", "в спальне", "в ванной"];
+    for (one, other) in rooms.iter().flat_map(|one| rooms.map(|other| (*one, other))) {
+        for between in [", ну то есть", ", то есть", ", вернее", ", ой,"] {
+            let asked = format!("Сколько стульев {one}{between} {other}?");
+            if one == other {
+                continue;
+            }
+            let corrected = format!("Сколько стульев {other}?");
+            let meant = ask(&engine, &corrected).number;
+            if let Ok(told) = engine.ask(&asked, &mut Memory::default()).unwrap() {
+                assert_eq!(told.number, meant, "{asked} {}", told.text);
+            }
+        }
     }
 }
 

@@ -340,7 +340,12 @@ impl Asker<'_> {
     pub(super) fn fragment(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Noun> {
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
-        assemble::fragment(sentence, &self.mind.lexicon, &referent)
+        let mut noun = assemble::fragment(sentence, &self.mind.lexicon, &referent)?;
+        let waiting = memory.pending.as_ref().map(|pending| &pending.query);
+        if let Some(last) = waiting.or(memory.query.as_ref()) {
+            repeat_with(sentence, last, &mut noun);
+        }
+        Some(noun)
     }
 
     /// «А всего?», "And in the whole flat?": the last question without its place.
@@ -517,6 +522,29 @@ impl Asker<'_> {
         });
         Some(query)
     }
+}
+
+/// «Что рядом с диваном? – … – А с кроватью?»: «с» repeats the «рядом с» before, and has nothing.
+fn repeat_with(sentence: &Sentence<'_>, last: &Query, noun: &mut Noun) {
+    let mut keys =
+        sentence.keys.iter().map(String::as_str).skip_while(|key| ["а", "и"].contains(key));
+    let with = matches!(keys.next(), Some("с" | "со"));
+    let [place] = &mut noun.restrictions[..] else { return };
+    if !with || !matches!(place.rel, Rel::Has | Rel::Bears) {
+        return;
+    }
+    let beside = |rel: Rel| matches!(rel, Rel::NextTo | Rel::Near).then_some(rel);
+    let mut before = None;
+    if let Query::Holds { claims, .. } = last {
+        before = claims.iter().find_map(|claim| match claim {
+            Claim::Related(place) => beside(place.rel),
+            _ => None,
+        });
+    }
+    query_nouns(last, &mut |old| {
+        before = before.or_else(|| old.restrictions.iter().find_map(|r| beside(r.rel)));
+    });
+    place.rel = before.unwrap_or(place.rel);
 }
 
 fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {

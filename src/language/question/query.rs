@@ -233,6 +233,10 @@ pub enum Passing {
     Doors,
     /// How many rooms lie between its ends.
     Rooms,
+    /// How long it is.
+    Far,
+    /// How long it takes.
+    Long,
 }
 
 /// What is asked of things that serve for a deed.

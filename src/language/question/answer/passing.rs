@@ -10,7 +10,7 @@ use crate::question::senses::{Crossing, RoomPath};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
 use crate::units::AreaId;
-use crate::words::english;
+use crate::words::{english, length};
 
 impl Knowledge<'_> {
     pub(super) fn passing(
@@ -53,23 +53,29 @@ impl Knowledge<'_> {
         let yes = self.pick("да", "yes");
         let no = self.pick("нет", "no");
         // A door that is shut joins two rooms all the same, whichever way is driven.
-        let leads = self.pick("путь ведёт", "the way leads");
+        let led = |way: &RoomPath| match (way.crossings.is_empty(), self.is_russian()) {
+            (true, _) => self.told(way),
+            (false, true) => format!("путь ведёт {}", self.told(way)),
+            (false, false) => format!("the way leads {}", self.told(way)),
+        };
         if let (Passing::Directly, Some(next)) = (asks, next.filter(|n| n.crossings.len() <= 1)) {
-            let text = format!("{yes}, {leads} {}", self.told(&next));
+            let text = format!("{yes}, {}", led(&next));
             return Ok(Draft::new(Said::Yes, text).about(&[goal]));
         }
         let any = match self.by_rooms(start, goal, &[], &[]) {
             Ok(any) => any,
             Err(why) => {
                 let text = match (asks, self.is_russian()) {
-                    (Passing::How | Passing::Doors | Passing::Rooms, true) => {
-                        format!("проехать туда нельзя: {why}")
+                    (Passing::Whether | Passing::Must | Passing::Directly, true)
+                    | (Passing::Unopened | Passing::Opens, true) => {
+                        format!("проехать туда нельзя вовсе: {why}")
                     }
-                    (Passing::How | Passing::Doors | Passing::Rooms, false) => {
-                        format!("there is no way: {why}")
+                    (Passing::Whether | Passing::Must | Passing::Directly, false)
+                    | (Passing::Unopened | Passing::Opens, false) => {
+                        format!("there is no way at all: {why}")
                     }
-                    (_, true) => format!("проехать туда нельзя вовсе: {why}"),
-                    (_, false) => format!("there is no way at all: {why}"),
+                    (_, true) => format!("проехать туда нельзя: {why}"),
+                    (_, false) => format!("there is no way: {why}"),
                 };
                 return Ok(Draft::new(Said::No, text).about(&[goal]));
             }
@@ -89,12 +95,15 @@ impl Knowledge<'_> {
         // Who comes through a room twice on the way does not need to pass where he turns round.
         let way = way.filter(|way| asks == Passing::How || way.is_straight());
         let (said, text) = match (asks, way) {
+            (Passing::Far | Passing::Long, _) => {
+                return Ok(self.way_round(start, goal, &avoided, asks).about(&[goal]));
+            }
             (Passing::Doors | Passing::Rooms, Some(way)) => {
                 return Ok(self.passed(&way, asks).about(&[goal]));
             }
             (Passing::How, Some(way)) => (Said::Found, self.told(&way)),
-            (Passing::Directly, _) => (Said::No, format!("{no}, {leads} {}", self.told(&any))),
-            (Passing::Must, Some(way)) => (Said::No, format!("{no}, {leads} {}", self.told(&way))),
+            (Passing::Directly, _) => (Said::No, format!("{no}, {}", led(&any))),
+            (Passing::Must, Some(way)) => (Said::No, format!("{no}, {}", led(&way))),
             (Passing::Must, None) => {
                 let text = self.pick("да, другого пути нет", "yes, there is no other way");
                 (Said::Yes, format!("{text}: {}", self.told(&any)))
@@ -105,7 +114,7 @@ impl Knowledge<'_> {
             }
             (Passing::Opens, None) => (Said::Yes, format!("{yes}: {}", self.told(&any))),
             (Passing::Whether | Passing::Unopened, Some(way)) => {
-                (Said::Yes, format!("{yes}, {leads} {}", self.told(&way)))
+                (Said::Yes, format!("{yes}, {}", led(&way)))
             }
             (_, None) => {
                 let text = self.pick("нет, путь только такой", "no, this is the only way");
@@ -113,6 +122,28 @@ impl Knowledge<'_> {
             }
         };
         Ok(Draft::new(said, text).about(&[goal]))
+    }
+
+    /// How long the way is, or takes, that goes round what is avoided.
+    fn way_round(&self, start: Thing, goal: Thing, avoided: &[Thing], asks: Passing) -> Draft {
+        let from = Some(start).filter(|start| *start != Thing::Robot);
+        let way = match self.senses.way_without(from, goal, avoided, self.language) {
+            Ok(way) => way,
+            Err(why) => {
+                let text = match self.is_russian() {
+                    true => format!("так проехать туда нельзя: {why}"),
+                    false => format!("there is no such way: {why}"),
+                };
+                return Draft::new(Said::No, text);
+            }
+        };
+        if asks == Passing::Long {
+            let (seconds, text) = self.takes(&way);
+            return Draft::new(Said::Found, text).number(seconds);
+        }
+        let far = length(way.length, self.language);
+        let text = format!("{far}: {}", self.told(&way.rooms));
+        Draft::new(Said::Found, text).number(way.length)
     }
 
     /// The way that is driven, by its rooms: through these rooms and doors in their order, and without those.

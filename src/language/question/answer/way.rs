@@ -6,7 +6,7 @@ use super::Draft;
 use crate::map::{DoorStatus, Entity};
 use crate::question::knowledge::Knowledge;
 use crate::question::query::{Extreme, Noun, Rel, Thing};
-use crate::question::{Doubt, Fact, Said};
+use crate::question::{Doubt, Fact, Said, Way};
 use crate::report::Detail;
 use crate::words::{Case, russian};
 use crate::words::{duration, length};
@@ -119,6 +119,12 @@ impl Knowledge<'_> {
                 return Ok(Draft::new(Said::No, format!("{no}: {why}")).about(&[to]));
             }
         };
+        let (seconds, text) = self.takes(&way);
+        Ok(Draft::new(Said::Found, text).about(&[to]).number(seconds))
+    }
+
+    /// How many seconds a way takes, and the words for it.
+    pub(super) fn takes(&self, way: &Way) -> (f64, String) {
         let speed = self.world.robot.speed;
         let seconds = way.length / speed + way.riding;
         let (far, lang) = (length(way.length, self.language), self.language);
@@ -139,7 +145,7 @@ impl Knowledge<'_> {
                 "about {takes}: {far} of way at {at} a second, and about {rides} of waiting for lifts and riding"
             ),
         };
-        Ok(Draft::new(Said::Found, text).about(&[to]).number(seconds.round()))
+        (seconds.round(), text)
     }
 
     /// Which of two ways is the shorter, or the longer.

@@ -4,11 +4,10 @@
 //! not to be understood, however well the rest of the sentence was read.
 
 use super::Frame;
-use crate::map::Entity;
 use crate::question::grammar::points;
 use crate::question::mark::Mark;
 use crate::question::query::{
-    Best, Claim, Extreme, Noun, Quantity, Query, Rel, Restriction, Thing,
+    Best, Claim, Extreme, Noun, Passing, Quantity, Query, Rel, Restriction, Thing,
 };
 use crate::question::values::Property;
 use crate::words::Language;
@@ -34,8 +33,6 @@ struct Told {
     itself: bool,
     /// Something is "from" a thing that was spoken of, as no thing is.
     parted: bool,
-    /// Something is in two rooms: «в гостиной, то есть в спальне».
-    torn: bool,
 }
 
 impl Told {
@@ -76,15 +73,6 @@ impl Told {
                 && head.named.is_empty()
         };
         self.itself |= noun.restrictions.iter().any(|r| r.anchors.iter().any(alike));
-        let room = |r: &Restriction| match (&r.anchors[..], r.rel, r.negated) {
-            ([only], Rel::In, false) => match only.head.named[..] {
-                [Entity::Area(room)] => Some(room),
-                _ => None,
-            },
-            _ => None,
-        };
-        let mut rooms = noun.restrictions.iter().filter_map(room);
-        self.torn |= rooms.next().is_some_and(|one| rooms.any(|other| other != one));
         let thing = |noun: &Noun| {
             let things = noun.head.things.as_deref().unwrap_or_default();
             !things.is_empty() && things.iter().all(|t| t.replica().is_some())
@@ -187,7 +175,7 @@ impl Frame<'_, '_> {
         leads
             || told.parted
             || told.itself
-            || told.torn
+            || self.is_torn(query)
             || many
             || why
             || twofold
@@ -208,6 +196,24 @@ impl Frame<'_, '_> {
             || self.loses_what_governs(query)
             || self.loses_the_property(query)
             || self.loses_what_is_shown(query)
+    }
+
+    /// Whether something is in two rooms: «в гостиной, то есть в спальне».
+    fn is_torn(&self, query: &Query) -> bool {
+        let room = |r: &Restriction| match (&r.anchors[..], r.rel, r.negated) {
+            ([only], Rel::In | Rel::On, false)
+                if self.is_area(only) && !self.is_building(only) && !self.is_storey(only) =>
+            {
+                Some(only.head.clone())
+            }
+            _ => None,
+        };
+        let mut torn = false;
+        query.clone().each_noun(&mut |noun| {
+            let mut rooms = noun.restrictions.iter().filter_map(room);
+            torn |= rooms.next().is_some_and(|one| rooms.any(|other| other != one));
+        });
+        torn
     }
 
     /// «Какая это комната?», "How many do they have?", "The one in the hall" by itself: what was spoken of is neither
@@ -428,9 +434,15 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         ),
         Mark::HowFar => matches!(
             query,
-            Q::Distance { .. } | Q::WhichWay { .. } | Q::Way { .. } | Q::Duration { .. }
+            Q::Passing { asks: Passing::Far, .. }
+                | Q::Distance { .. }
+                | Q::WhichWay { .. }
+                | Q::Way { .. }
+                | Q::Duration { .. }
         ),
-        Mark::HowLong => matches!(query, Q::Duration { .. } | Q::Passing { .. }),
+        Mark::HowLong => {
+            matches!(query, Q::Duration { .. } | Q::Passing { asks: Passing::Long, .. })
+        }
         Mark::When => matches!(query, Q::LastSeen(_) | Q::Before(_)),
         Mark::LastSeen => matches!(query, Q::LastSeen(_)),
         Mark::Before => matches!(query, Q::Before(_) | Q::LastSeen(_)),

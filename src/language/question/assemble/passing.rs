@@ -45,6 +45,13 @@ impl Frame<'_, '_> {
                 Passing::Rooms
             }
             Some(doors) if self.is_doors(&doors.noun) && told => Passing::Doors,
+            // How far it is through something is asked of two ways.
+            _ if self.has(Mark::HowFar) && through.is_empty() && !avoiding.is_empty() => {
+                Passing::Far
+            }
+            _ if self.has(Mark::HowLong) && through.is_empty() && !avoiding.is_empty() => {
+                Passing::Long
+            }
             _ if self.asks() => return None,
             _ if self.has(Mark::Unopened) => Passing::Unopened,
             _ if self.has(Mark::MustOpen) => Passing::Opens,
