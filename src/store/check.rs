@@ -18,7 +18,7 @@ use super::reader::replica_index;
 use super::schema::key_of;
 use super::snapshot::{check_snapshot, write_snapshot_of};
 use super::tables::Table;
-use super::trees::{HISTORY, REPLICAS, RUNS, State, Trees, digests};
+use super::trees::{HISTORY, REPLICAS, RUNS, Records, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
 use crate::units::{Bilingual, InEnglish};
@@ -189,7 +189,7 @@ fn check_past(past: &Past, report: &mut FsckReport) {
 }
 
 /// Every version of every record: checksum, cells, key.
-fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
+fn check_records(trees: &dyn Records, report: &mut FsckReport) -> Result<()> {
     let mut astray = 0;
     let mut check = |table: Table, key: &[u8], bytes: &[u8]| {
         let fault = match Version::decode(table, key, bytes) {

@@ -11,7 +11,7 @@ use super::frame::Op;
 use super::keep::Store;
 use super::reader::replica_index;
 use super::tables::{self as t, Table};
-use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
+use super::trees::{CHANGES, HISTORY, REPLICAS, Records};
 use super::vault::Change as Write;
 use super::version::{Stamp, Version};
 
@@ -90,7 +90,7 @@ impl Store {
 }
 
 /// The old versions after which another one was valid by that revision.
-fn superseded(trees: &dyn Trees, revision: u64) -> Result<Vec<(Vec<u8>, Vec<u8>)>> {
+fn superseded(trees: &dyn Records, revision: u64) -> Result<Vec<(Vec<u8>, Vec<u8>)>> {
     let mut found = Vec::new();
     let mut before: Option<(Vec<u8>, Vec<u8>)> = None;
     trees.scan(HISTORY, &[], &mut |key, bytes| {
@@ -118,7 +118,7 @@ fn parts(key: &[u8]) -> (&[u8], u64) {
 }
 
 /// The revision of the version that stands in the record's own table.
-fn current_revision(trees: &dyn Trees, history_key: &[u8]) -> Result<u64> {
+fn current_revision(trees: &dyn Records, history_key: &[u8]) -> Result<u64> {
     let Some((code, key)) = parts(history_key).0.split_first() else { return Ok(u64::MAX) };
     match (Table::from_code(*code), trees.get(*code, key)?) {
         (Some(table), Some(bytes)) => Ok(Version::decode(table, key, &bytes)?.stamp.revision),

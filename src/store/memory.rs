@@ -8,7 +8,7 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 
 use super::error::Result;
 use super::frame::{Digest, Digests, Op};
-use super::trees::{State, Trees, Visit};
+use super::trees::{Pair, Records, State, Trees, Visit};
 
 type Tree = BTreeMap<Vec<u8>, Vec<u8>>;
 
@@ -115,11 +115,20 @@ impl MemoryTrees {
     }
 }
 
-impl Trees for MemoryTrees {
+impl Records for MemoryTrees {
     fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
         Ok(self.read().trees[usize::from(tree)].get(key).cloned())
     }
 
+    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<Pair>> {
+        let inner = self.read();
+        let range = (Bound::Included(prefix), Bound::Included(limit));
+        let last = inner.trees[usize::from(tree)].range::<[u8], _>(range).next_back();
+        Ok(last.map(|(key, value)| (key.clone(), value.clone())))
+    }
+}
+
+impl Trees for MemoryTrees {
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
         let mut piece = Piece::default();
         let mut most = FIRST_PIECE;
@@ -141,13 +150,6 @@ impl Trees for MemoryTrees {
             after = piece.records().last().map(|(key, _)| key.to_vec());
             most = LATER_PIECE;
         }
-    }
-
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
-        let inner = self.read();
-        let range = (Bound::Included(prefix), Bound::Included(limit));
-        let last = inner.trees[usize::from(tree)].range::<[u8], _>(range).next_back();
-        Ok(last.map(|(key, value)| (key.clone(), value.clone())))
     }
 
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {

@@ -147,7 +147,8 @@ impl SledShelf {
         let probe = self.dir.join("room");
         let asked = RealDisk.remove_if_there(&probe).and_then(|()| {
             let mut file = RealDisk.appender(&probe)?;
-            (0..ROOM >> 16).try_for_each(|_| file.append(&[0x5A; 1 << 16]))
+            let piece = vec![0x5A; 1 << 16];
+            (0..ROOM >> 16).try_for_each(|_| file.append(&piece))
         });
         let removed = RealDisk.remove_if_there(&probe);
         asked.and(removed).map_err(StoreError::io(doing::FIND_ROOM, &self.dir.join("sled")))

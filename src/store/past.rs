@@ -19,7 +19,7 @@ use super::frame::Op;
 use super::memory::MemoryTrees;
 use super::run::{self, Cursor, Run};
 use super::tables::Table;
-use super::trees::{CHANGES, HISTORY, Pair, RUNS, State, Trees, Visit};
+use super::trees::{CHANGES, HISTORY, Pair, RUNS, Records, State, Trees, Visit};
 use crate::units::Bilingual;
 
 /// So many runs of like size are made one.
@@ -219,7 +219,7 @@ impl Layered {
     }
 }
 
-impl Trees for Layered {
+impl Records for Layered {
     fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
         let young = self.young.get(tree, key)?;
         if !is_past(tree) {
@@ -236,20 +236,6 @@ impl Trees for Layered {
             }
         }
         Ok(found.filter(|value| !value.is_empty()))
-    }
-
-    fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
-        if !is_past(tree) {
-            return self.young.scan(tree, prefix, visit);
-        }
-        let young = self.young(tree, prefix)?;
-        let from = full(tree, prefix);
-        merged(&self.past.runs(), &from, young, &mut |key, value| {
-            if !key.starts_with(&from) {
-                return Ok(false);
-            }
-            if value.is_empty() { Ok(true) } else { visit(&key[1..], value) }
-        })
     }
 
     fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<Pair>> {
@@ -279,6 +265,22 @@ impl Trees for Layered {
             // It is gone: the one before it may be there.
             (most, within) = (key, false);
         }
+    }
+}
+
+impl Trees for Layered {
+    fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
+        if !is_past(tree) {
+            return self.young.scan(tree, prefix, visit);
+        }
+        let young = self.young(tree, prefix)?;
+        let from = full(tree, prefix);
+        merged(&self.past.runs(), &from, young, &mut |key, value| {
+            if !key.starts_with(&from) {
+                return Ok(false);
+            }
+            if value.is_empty() { Ok(true) } else { visit(&key[1..], value) }
+        })
     }
 
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {

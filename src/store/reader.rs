@@ -14,14 +14,14 @@ use super::error::{Result, StoreError};
 use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
-use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
+use super::trees::{CHANGES, HISTORY, REPLICAS, Records};
 use super::version::{Version, VersionHead};
 use crate::units::Timestamp;
 
 /// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
 #[derive(Clone)]
 pub struct Reader {
-    trees: Arc<dyn Trees>,
+    trees: Arc<dyn Records>,
     revision: u64,
 }
 
@@ -45,7 +45,7 @@ fn history_prefix(table: Table, key: &[u8]) -> Vec<u8> {
 }
 
 impl Reader {
-    pub(crate) fn new(trees: Arc<dyn Trees>, revision: u64) -> Self {
+    pub(crate) fn new(trees: Arc<dyn Records>, revision: u64) -> Self {
         Self { trees, revision }
     }
 

@@ -27,14 +27,8 @@ fn no_room<T>() -> Result<T> {
 }
 
 impl Trees for FailingTrees {
-    fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
-        self.inner.get(tree, key)
-    }
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
         self.inner.scan(tree, prefix, visit)
-    }
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
-        self.inner.last(tree, prefix, limit)
     }
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
         if self.fails == FailsTo::Apply { no_room() } else { self.inner.apply(ops, state) }

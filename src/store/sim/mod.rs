@@ -329,14 +329,8 @@ struct SimTrees {
 }
 
 impl Trees for SimTrees {
-    fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
-        self.now.get(tree, key)
-    }
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
         self.now.scan(tree, prefix, visit)
-    }
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
-        self.now.last(tree, prefix, limit)
     }
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
         self.log.lock().expect("no panic with the lock held").push((ops.clone(), state.clone()));

@@ -33,7 +33,7 @@ use super::memory::MemoryTrees;
 use super::past::{Layered, Past, is_past};
 use super::snapshot::write_snapshot;
 
-use super::trees::{State, Trees};
+use super::trees::{Records, State, Trees};
 use crate::units::Bilingual;
 
 use recover::{Brought, Files, Found, Recovered, find, journal_fault, recover};
@@ -102,7 +102,7 @@ pub(crate) struct Vault {
     /// The young records, in memory.
     memory: Arc<MemoryTrees>,
     /// The same with the past behind them, which readers read.
-    trees: Arc<dyn Trees>,
+    trees: Arc<dyn Records>,
     past: Arc<Past>,
     /// Files of runs that are not in use any more, each with the transaction since when: older snapshots may need them.
     retired: Vec<(u64, u64)>,
@@ -337,7 +337,7 @@ impl Vault {
         Ok(())
     }
 
-    pub(crate) fn trees(&self) -> &Arc<dyn Trees> {
+    pub(crate) fn trees(&self) -> &Arc<dyn Records> {
         &self.trees
     }
 

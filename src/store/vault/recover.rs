@@ -19,7 +19,7 @@ use super::super::head::{Known, Mark};
 use super::super::journal::{Log, snapshot_files};
 use super::super::memory::MemoryTrees;
 use super::super::snapshot::load_snapshot;
-use super::super::trees::{State, Trees, digests};
+use super::super::trees::{Records, State, Trees, digests};
 use super::{OpenReport, Shelf};
 use crate::units::Bilingual;
 

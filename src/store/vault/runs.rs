@@ -7,7 +7,7 @@ use super::super::frame::Op;
 use super::super::journal::numbered_files;
 use super::super::past::{describe, is_past, past_dir, write_merged, write_young};
 use super::super::run::{self, Run};
-use super::super::trees::{RUNS, Trees, tree_names};
+use super::super::trees::{RUNS, Records, Trees, tree_names};
 use super::{Change, OpenReport, Vault};
 use crate::units::Bilingual;
 
