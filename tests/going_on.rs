@@ -89,6 +89,36 @@ fn the_person_stays_where_it_said_to_be() {
     ways.mostly_understood();
 }
 
+/// «Где стул? – Стул-1 или Стул-2?» – «А другой?»: of those that were asked back, and not of what was told before.
+#[test]
+fn the_other_one_is_none_of_what_was_told_before_it_was_asked_back() {
+    let rb2 = rb2();
+    let chair = |t: &orthoframe_language::question::Thing| {
+        let replica = t.replica().expect("a chair is on the map");
+        let name = &rb2.world().unwrap().replicas[&replica].name;
+        name.starts_with("Стул")
+    };
+    let mut asked_back = 0;
+    for before in ["Сколько ламп в доме?", "What is on Table 1?", "Какие комнаты есть?"]
+    {
+        for ambiguous in ["Где стул?", "What colour is the chair?"] {
+            let lines = ["А другой?", "А остальные?", "Где остальные?", "The other one?"];
+            for line in lines.into_iter().chain(["And the others?", "Where are the others?"]) {
+                let mut memory = Memory::default();
+                ask(&rb2, before, &mut memory);
+                if ask(&rb2, ambiguous, &mut memory).is_some() {
+                    continue;
+                }
+                asked_back += 1;
+                let told = ask(&rb2, line, &mut memory);
+                let things = told.as_ref().map(|told| &told.things[..]).unwrap_or_default();
+                assert!(things.iter().all(chair), "{before} {ambiguous} {line} {told:?}");
+            }
+        }
+    }
+    assert!(asked_back > 12, "{asked_back}");
+}
+
 /// «Что рядом с диваном?» – «А с кроватью?»: beside that, whatever it has on it.
 #[test]
 fn with_alone_is_beside_where_beside_was_asked() {

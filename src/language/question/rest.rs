@@ -73,6 +73,9 @@ impl Asker<'_> {
 
     /// "Where are the others?" of several that were told, where there are others.
     pub(super) fn rest_of_kind(&self, memory: &Memory) -> Option<Noun> {
+        if memory.pending.is_some() {
+            return None;
+        }
         let rest = self.left_of_kind(memory).filter(|_| memory.last.len() > 1)?;
         let left = self.knowledge(memory.language, memory).find(&rest, true).ok()?;
         (!left.is_empty()).then_some(rest)
