@@ -89,6 +89,27 @@ fn the_person_stays_where_it_said_to_be() {
     ways.mostly_understood();
 }
 
+/// «В какой комнате больше всего ламп? – … – А меньше всего?»: the fewest lamps, and no room's size.
+#[test]
+fn the_fewest_goes_on_from_the_most() {
+    let rb2 = rb2();
+    let mut fewest = Family::default();
+    let things = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    for (russian, english) in
+        [("ламп", "lamps"), ("стульев", "chairs"), ("столов", "tables"), ("ваз", "vases")]
+    {
+        let most = format!("В какой комнате больше всего {russian}?");
+        let asked = format!("В какой комнате меньше всего {russian}?");
+        fewest.hear(&rb2, &[&most, "А меньше всего?"], &asked, things);
+        fewest.hear(&rb2, &[&asked, "А больше всего?"], &most, things);
+        let most = format!("Which room has the most {english}?");
+        let asked = format!("Which room has the fewest {english}?");
+        fewest.hear(&rb2, &[&most, "And the fewest?"], &asked, things);
+        fewest.hear(&rb2, &[&asked, "And the most?"], &most, things);
+    }
+    fewest.mostly_understood();
+}
+
 /// «Где стул? – Стул-1 или Стул-2?» – «А другой?»: of those that were asked back, and not of what was told before.
 #[test]
 fn the_other_one_is_none_of_what_was_told_before_it_was_asked_back() {

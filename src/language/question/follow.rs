@@ -158,6 +158,24 @@ impl Asker<'_> {
                 other => other,
             };
         }
+        // «В какой комнате больше всего картин? А меньше всего?» goes on about how many.
+        let mut counted = None;
+        query_nouns(last, &mut |old| {
+            let many = |best: &&Best| matches!(best.extreme, Extreme::Most | Extreme::Fewest);
+            counted = counted.take().or_else(|| old.best.as_ref().filter(many).cloned());
+        });
+        if let (Some(best), Some(counted)) =
+            (noun.best.as_mut().filter(|b| b.anchor.is_none()), counted)
+        {
+            let extreme = match best.extreme {
+                Extreme::Biggest | Extreme::Most => Some(Extreme::Most),
+                Extreme::Smallest | Extreme::Fewest => Some(Extreme::Fewest),
+                _ => None,
+            };
+            if let Some(extreme) = extreme {
+                *best = Best { extreme, anchor: counted.anchor };
+            }
+        }
         // "Which one is the smallest?"
         if noun.head.anything && noun.best.is_some() && noun.restrictions.is_empty() {
             noun.head = Head::default();

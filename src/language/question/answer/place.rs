@@ -483,7 +483,9 @@ impl Knowledge<'_> {
             Rel::From | Rel::Of | Rel::To => self.related(Rel::Near, thing),
             rel => self.related_of(rel, thing),
         };
-        let floor = rel == Rel::On && found.is_empty();
+        let unborne = rel == Rel::On && found.is_empty();
+        let floor = unborne && self.stands_so("STANDS_ON_FLOOR", thing);
+        let hangs = unborne && self.stands_so("ON_WALL", thing);
         if let Some(what) = what.filter(|w| !w.head.kinds.is_empty() && !self.is_floor(w)) {
             let kinds =
                 self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
@@ -515,6 +517,11 @@ impl Knowledge<'_> {
             };
             let said = if found.is_empty() { Said::Unknown } else { Said::Found };
             return Ok(Draft::new(said, text).with(found).about(&[thing]));
+        }
+        if found.is_empty() && hangs {
+            let mut facts = Vec::new();
+            let text = self.where_one(thing, &mut facts);
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text) }.about(&[thing]));
         }
         if found.is_empty() {
             let text = match (floor, self.is_russian()) {

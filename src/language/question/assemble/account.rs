@@ -176,6 +176,8 @@ impl Frame<'_, '_> {
             || told.parted
             || told.itself
             || self.is_torn(query)
+            || self.is_misplaced(query)
+            || self.only_denies(query)
             || many
             || why
             || twofold
@@ -196,6 +198,40 @@ impl Frame<'_, '_> {
             || self.loses_what_governs(query)
             || self.loses_the_property(query)
             || self.loses_what_is_shown(query)
+    }
+
+    /// Whether a room would be on, in or under something: "I'm in the kitchen, is it on the table?" is not of the kitchen.
+    fn is_misplaced(&self, query: &Query) -> bool {
+        let room = |noun: &Noun| self.is_area(noun) && !self.is_storey(noun);
+        let named = |noun: &Noun| !noun.head.named.is_empty() || noun.head.things.is_some();
+        let bears = |place: &Restriction| {
+            let thing = |anchor: &Noun| {
+                let kinds = !anchor.head.kinds.is_empty() || named(anchor);
+                kinds && !self.is_area(anchor) && !self.is_building(anchor)
+            };
+            matches!(place.rel, Rel::On | Rel::In | Rel::Under) && place.anchors.iter().all(thing)
+        };
+        match query {
+            Query::Holds { subject, claims, .. } | Query::Choice { subject, claims } => {
+                let of = |claim: &Claim| matches!(claim, Claim::Related(place) if bears(place));
+                room(subject) && named(subject) && claims.iter().any(of)
+            }
+            _ => false,
+        }
+    }
+
+    /// «Не то, что на столе»: what something is not, where nothing is asked.
+    fn only_denies(&self, query: &Query) -> bool {
+        let Query::Find(noun) = query else { return false };
+        let denied = noun.restrictions.iter().all(|place| place.negated);
+        // «не то что на столешнице»
+        let that = self.sentence.keys.windows(2).any(|two| two == ["то", "что"]);
+        let asks = self.asks() && !that || self.has(Mark::Where) || self.has(Mark::List);
+        noun.head.anything
+            && denied
+            && !noun.restrictions.is_empty()
+            && noun.filters.is_empty()
+            && !asks
     }
 
     /// Whether something is in two rooms: «в гостиной, то есть в спальне».

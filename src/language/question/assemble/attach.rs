@@ -17,7 +17,21 @@ impl Frame<'_, '_> {
         }
         noun.filters.extend(self.filters());
         noun.sizes.extend(self.sizes.iter().copied());
-        noun.except.extend(self.except.iter().cloned());
+        for except in self.except.iter().cloned() {
+            // "How many plants are there, not counting the bathroom?": those that are elsewhere.
+            let elsewhere = self.is_area(&except)
+                && !noun.head.anything
+                && !self.is_area(&noun)
+                && !self.is_doors(&noun);
+            match elsewhere {
+                true => noun.restrictions.push(Restriction {
+                    rel: Rel::In,
+                    anchors: vec![except],
+                    negated: true,
+                }),
+                false => noun.except.push(except),
+            }
+        }
         // «Что ещё на нём стоит?»
         noun.other |= noun.head.anything && self.has(Mark::Other);
         if noun.other {

@@ -101,7 +101,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a thing stands so in some room, by a relation of the rules.
-    fn stands_so(&self, relation: &str, thing: Thing) -> bool {
+    pub(in crate::question) fn stands_so(&self, relation: &str, thing: Thing) -> bool {
         self.pairs(relation).is_some_and(|pairs| pairs.forward.contains_key(&thing))
     }
 
