@@ -1,7 +1,8 @@
 //! A plan soon, not the shortest: for tasks on which the proof of optimality is out of reach.
 //!
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
-//! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
+//! solution, which takes each fact from what is cheapest with all that leads to it, estimates the distance to the goal
+//! and names the operators worth trying first. Enforced hill climbing
 //! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
 //! strategy"); where it gets stuck, states are looked at by width for a while, and landmarks followed one by one. Then
 //! [search by width](super::novelty) and best-first search, which counts landmarks besides, take turns; both miss
@@ -76,7 +77,6 @@ pub(crate) fn step_by_step(
 ) -> Result<Option<Plan>, Limit> {
     let mut forward = Forward::new(task, limits, Effort::Small);
     forward.looks_ahead = false;
-    forward.relaxed = Relaxed::by_sum(task);
     forward.most_effort = effort;
     let landmarks = Landmarks::of(task);
     let state = initial(task);
@@ -108,7 +108,7 @@ impl<'a> Forward<'a> {
         Self {
             task,
             limits,
-            relaxed: Relaxed::new(task),
+            relaxed: Relaxed::by_sum(task),
             evaluated: 0,
             until: u64::MAX,
             most_effort: u64::MAX,
@@ -139,10 +139,14 @@ impl<'a> Forward<'a> {
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
                 return Ok(found);
             }
-            if self.effort == Effort::Small
-                && let Some(operators) = self.descend()?
-            {
-                return Ok(Searched::Path(operators));
+            if self.effort == Effort::Small {
+                // Where relaxed plans by sums got stuck, those by layers may not.
+                let by_sum = std::mem::replace(&mut self.relaxed, Relaxed::new(self.task));
+                let descended = self.descend();
+                self.relaxed = by_sum;
+                if let Some(operators) = descended? {
+                    return Ok(Searched::Path(operators));
+                }
             }
         }
         if self.effort == Effort::Least {
@@ -340,8 +344,9 @@ impl<'a> Forward<'a> {
     }
 
     /// Two measures take turns: the length of a relaxed plan, and the landmarks ahead; with each, helpful operators
-    /// have a queue of their own that goes first while progress is made (S. Richter, M. Westphal, 2010). The end of
-    /// the relaxed plan counts as helpful. A successor is made when its turn comes: most never come to it.
+    /// have a queue of their own that goes first while progress is made (S. Richter, M. Westphal, 2010). Those of the
+    /// relaxed plan itself are helpful, its end, and what brings the next landmarks: as a successor is looked at only
+    /// when its turn comes, each that is tried in vain costs an estimate.
     ///
     /// The end is the goal, or with `nearer` already fewer landmarks ahead than at first.
     fn best_first(
@@ -366,7 +371,9 @@ impl<'a> Forward<'a> {
                     if estimate.distance == 0 || nearer && values[1] < at_first {
                         return Ok(Some((seen.path(number), stage)));
                     }
-                    let mut helpful = estimate.helpful;
+                    let possible = |id: &OperatorId| self.is_applicable(&stage.state, *id);
+                    let mut helpful: Vec<OperatorId> =
+                        estimate.relaxed_plan.iter().copied().filter(possible).collect();
                     if let Some(landmarks) = landmarks {
                         self.add_bringers(
                             &landmarks.next(&stage.attained, &stage.state),

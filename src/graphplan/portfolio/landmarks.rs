@@ -81,6 +81,7 @@ impl Landmarks {
         let mut landmarks =
             Self { facts, is_goal, before, needs, needs_again, in_order: Vec::new() };
         let undoing = landmarks.order(&ways, &goals);
+        landmarks.order_needs(task, &ways, |fact| sets.of_fact[fact.index()].as_deref());
         landmarks.in_order =
             in_order(&goals, &undoing).map(|goal| landmarks.facts[goal as usize]).collect();
         Some(landmarks)
@@ -100,7 +101,7 @@ impl Landmarks {
         let mut pairs = Vec::new();
         for &later in goals {
             for &earlier in goals.iter().filter(|&&earlier| earlier != later) {
-                let undoes = self.undoes(ways, later, earlier);
+                let undoes = self.undoes(ways, &ways[later as usize], earlier);
                 if undoes && !leads_to(&self.before, earlier, later) {
                     self.before[later as usize].push(earlier);
                     pairs.push((later, earlier));
@@ -110,10 +111,55 @@ impl Landmarks {
         pairs
     }
 
+    /// What a landmark directly needs is had last if it takes what comes back only when it is given up: whatever else
+    /// comes before the landmark and rests on that comes first (reasonable orders). The place for a block is cleared
+    /// before the block takes the hand.
+    fn order_needs<'s>(
+        &mut self,
+        task: &Task,
+        ways: &[Ways],
+        own: impl Fn(FactId) -> Option<&'s [u64]>,
+    ) {
+        let taken: Vec<Ways> = (0..self.facts.len()).map(|n| self.taken(task, ways, n)).collect();
+        for landmark in 0..self.facts.len() {
+            let Some(own) = own(self.facts[landmark]) else { continue };
+            for need in self.needs[landmark].clone() {
+                let taken = &taken[need as usize];
+                if self.is_goal[need as usize] || taken.deletes.is_empty() {
+                    continue;
+                }
+                let is_other = |n: usize| n != landmark && n != need as usize;
+                let others = (0..self.facts.len())
+                    .filter(|&n| is_other(n) && has(own, self.facts[n].index()))
+                    .map(|n| n as u32);
+                for earlier in others {
+                    let is_new = !self.before[need as usize].contains(&earlier)
+                        && self.undoes(ways, taken, earlier)
+                        && !leads_to(&self.before, earlier, need);
+                    if is_new {
+                        self.before[need as usize].push(earlier);
+                    }
+                }
+            }
+        }
+    }
+
+    /// What is gone as long as a landmark holds: all ways to it delete it, and whatever deletes the landmark brings it back.
+    fn taken(&self, task: &Task, ways: &[Ways], landmark: usize) -> Ways {
+        let fact = self.facts[landmark];
+        let mut deletes = ways[landmark].deletes.clone();
+        if !deletes.is_empty() {
+            let ending =
+                task.operators.iter().filter(|o| o.del_effects.binary_search(&fact).is_ok());
+            let given = common(ending.map(|operator| operator.add_effects.as_slice()));
+            deletes.retain(|fact| given.binary_search(fact).is_ok());
+        }
+        Ways { needs: ways[landmark].needs.clone(), deletes }
+    }
+
     /// Whether a goal would be undone on the way to another that is attained after it: the other's last ways need
     /// what every way to the goal deletes, be it through facts that cannot hold beside the goal.
-    fn undoes(&self, ways: &[Ways], goal: u32, other: u32) -> bool {
-        let goal = &ways[goal as usize];
+    fn undoes(&self, ways: &[Ways], goal: &Ways, other: u32) -> bool {
         let mut open = vec![other];
         let mut seen = vec![other];
         while let Some(landmark) = open.pop() {
@@ -510,6 +556,21 @@ mod tests {
         assert_eq!(ahead_after(&cleared), ahead_after(&put_down));
         // Б must be held once more, and free for that.
         assert!(ahead_after(&covered) > ahead_after(&put_down));
+    }
+
+    #[test]
+    fn a_place_is_cleared_before_what_goes_there_is_taken() {
+        let mut task = towers();
+        let named = |name: &str| task.fact_ids().find(|&f| task.fact(f).to_string() == name);
+        let [goal, held, free] = ["НА_(Б, В)", "ДЕРЖИТ_(Б)", "СВОБОДЕН_(В)"]
+            .map(|name| named(name).expect("a fact of the towers"));
+        task.goal = vec![goal];
+        let landmarks = Landmarks::of(&task).unwrap();
+        let (covered, _) = after(&task, &landmarks, &["Снять_(А, Б)", "Поставить_(А, В)"]);
+        let anew = Landmarks::from(&task, &covered).unwrap();
+        let number = |wanted| anew.facts.iter().position(|&fact| fact == wanted).unwrap();
+        assert!(anew.before[number(held)].contains(&(number(free) as u32)));
+        assert!(!anew.before[number(free)].contains(&(number(held) as u32)));
     }
 
     #[test]
