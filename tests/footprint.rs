@@ -103,6 +103,11 @@ fn gap(width: f64, turned: f64) -> Builder {
     b.moved(0.0, 0.0, turned)
 }
 
+/// Of random worlds every one with `ORTHOFRAME_LONG`, else every other.
+fn step() -> usize {
+    if crate::files::long() { 1 } else { 2 }
+}
+
 #[test]
 fn a_long_robot_passes_a_gap_lengthwise() {
     for turned in [0.0, 17.3, 90.0, 211.0] {
@@ -345,7 +350,7 @@ fn some_pose_covers(
 fn what_some_pose_covers_is_free_and_nothing_else() {
     let (mut freed, mut driven, mut dead) = (0, 0, 0);
     let mut wrong = [Vec::new(), Vec::new()];
-    for seed in 0..6 {
+    for seed in (0..6).step_by(step()) {
         let mut random = Random(seed + 900);
         let mut b = random_world(seed + 20);
         shaped(&mut b, seed as usize, &mut random);
@@ -397,7 +402,7 @@ fn what_some_pose_covers_is_free_and_nothing_else() {
             }
         }
     }
-    assert!(freed > 30 && dead > 30 && driven > 10, "{freed} {dead} {driven}");
+    assert!(freed > 15 && dead > 15 && driven > 5, "{freed} {dead} {driven}");
     assert!(wrong.iter().all(Vec::is_empty), "{freed} {dead}: {wrong:?}");
 }
 
@@ -420,7 +425,7 @@ fn a_strait_comes_and_goes_with_what_makes_it() {
 #[test]
 fn no_route_of_a_long_robot_touches_anything() {
     let (mut found, mut narrow) = (0, 0);
-    for seed in 0..14 {
+    for seed in (0..14).step_by(step()) {
         let mut b = random_world(seed);
         let mut random = Random(seed + 7);
         let (length, width) = (random.between(50.0, 110.0), random.between(20.0, 50.0));
@@ -444,7 +449,7 @@ fn no_route_of_a_long_robot_touches_anything() {
             }
         }
     }
-    assert!(found > 20 && narrow > 3, "{found} {narrow}");
+    assert!(found > 10 && narrow > 1, "{found} {narrow}");
 }
 
 const STUDY: &str = r#"
@@ -593,7 +598,7 @@ fn spots(plan: &FloorPlan, random: &mut Random) -> Vec<Point> {
 #[test]
 fn no_straight_strait_is_missed() {
     let mut apart_still = 0;
-    for seed in 0..12 {
+    for seed in (0..12).step_by(step()) {
         let mut random = Random(seed + 4000);
         let mut b = random_world(seed + 20);
         shaped(&mut b, (seed % 6) as usize, &mut random);
@@ -620,7 +625,7 @@ fn no_straight_strait_is_missed() {
             assert!(is_barred, "seed {seed}: nothing stands between {from:?} and {to:?}");
         }
     }
-    assert!(apart_still > 100, "{apart_still}");
+    assert!(apart_still > 50, "{apart_still}");
 }
 
 /// A closet as deep as a wall between two rooms: the robot passes two doorways on one line.

@@ -173,7 +173,7 @@ fn what_follows_edits_is_what_would_be_derived() {
         let Entity::Replica(id) = rb2().find(name)[0] else { panic!() };
         id
     });
-    for step in 0..60 {
+    for step in 0..if crate::files::long() { 60 } else { 24 } {
         let state = engine.state().unwrap();
         let said = all(&state);
         // Some let go at once, some held for long: copies, spares and changes in place all come up.

@@ -152,7 +152,7 @@ fn what_is_not_counted_is_left_out() {
             for but in ["not counting", "except", "excluding"] {
                 let asked = format!("How many {kind} are there, {but} {room}?");
                 let told = ask(&engine, &asked);
-                assert!(number(&asked) == all - there, "{asked} {}", told.text);
+                assert!((number(&asked) - (all - there)).abs() < 0.5, "{asked} {}", told.text);
             }
         }
     }
