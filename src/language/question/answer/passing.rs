@@ -65,17 +65,20 @@ impl Knowledge<'_> {
         let any = match self.by_rooms(start, goal, &[], &[]) {
             Ok(any) => any,
             Err(why) => {
-                let text = match (asks, self.is_russian()) {
-                    (Passing::Whether | Passing::Must | Passing::Directly, true)
-                    | (Passing::Unopened | Passing::Opens, true) => {
-                        format!("проехать туда нельзя вовсе: {why}")
-                    }
-                    (Passing::Whether | Passing::Must | Passing::Directly, false)
-                    | (Passing::Unopened | Passing::Opens, false) => {
-                        format!("there is no way at all: {why}")
-                    }
-                    (_, true) => format!("проехать туда нельзя: {why}"),
-                    (_, false) => format!("there is no way: {why}"),
+                // What is asked of all ways is answered of all.
+                let at_all = matches!(
+                    asks,
+                    Passing::Whether
+                        | Passing::Must
+                        | Passing::Directly
+                        | Passing::Unopened
+                        | Passing::Opens
+                );
+                let text = match (at_all, self.is_russian()) {
+                    (true, true) => format!("проехать туда нельзя вовсе: {why}"),
+                    (true, false) => format!("there is no way at all: {why}"),
+                    (false, true) => format!("проехать туда нельзя: {why}"),
+                    (false, false) => format!("there is no way: {why}"),
                 };
                 return Ok(Draft::new(Said::No, text).about(&[goal]));
             }
