@@ -16,6 +16,7 @@ use super::fault::Failure;
 use crate::facts::{self, FilesError, Program};
 use crate::semantics::STANDARD;
 use crate::strips::{self, Scenario};
+use crate::units::InOrder as _;
 use crate::units::{Source, name_key};
 
 /// A message that is longer is none.
@@ -215,7 +216,7 @@ impl Server {
             let mut beside: Vec<PathBuf> =
                 beside.into_iter().flatten().flatten().map(|entry| entry.path()).collect();
             beside.retain(|other| other.extension() == path.extension());
-            beside.sort();
+            beside.order();
             take(beside.into(), 2, &mut found);
         }
         if !is_robot_rules(uri) {

@@ -1,5 +1,6 @@
 //! What a shell and `man` know of the program, made from its own arguments.
 
+use crate::units::InOrder as _;
 use std::path::Path;
 
 use clap::CommandFactory;
@@ -29,7 +30,7 @@ pub(super) fn man(common: &Common, dir: &Path) -> Result<Answer, Failure> {
             written.push(path.display().to_string());
         }
     }
-    written.sort();
+    written.order();
     if common.json {
         return say(&json!({"outcome": "done", "written": written}).to_string());
     }

@@ -1,5 +1,6 @@
 //! `ortho watch MAP`: checks a map file and draws it again whenever it, or a rule file, has changed.
 
+use crate::units::InOrder as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -62,7 +63,7 @@ fn stand(map: &Path, rules: Option<&Path>) -> Stand {
             }
         }
     }
-    files.sort();
+    files.order();
     let of = |path: &PathBuf| {
         let found = std::fs::metadata(path).ok()?;
         Some((found.modified().ok()?, found.len()))

@@ -25,6 +25,7 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Language, Source, nearest_name};
 
 use super::arms;
@@ -89,7 +90,7 @@ impl CorridorSystem {
         match system {
             Some(system) if faults.is_empty() => Ok(system),
             _ => {
-                faults.sort_by_key(CorridorFault::offset);
+                faults.order_by_key(CorridorFault::offset);
                 Err(CorridorFileError { source_text: source.clone(), faults })
             }
         }

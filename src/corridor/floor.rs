@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::geometry::Openings;
 use crate::map::World;
+use crate::units::InOrder as _;
 use crate::units::{Cm, Deg, MapId, Point};
 
 use super::CorridorError;
@@ -82,7 +83,7 @@ impl CorridorSystem {
         let mut order: Vec<VertexIx> = Vec::new();
         let mut seen = BTreeSet::new();
         let mut ends: Vec<VertexIx> = self.vertices().map(|(v, _)| v).collect();
-        ends.sort_by_key(|&v| self.departures(v).count() > 1);
+        ends.order_by_key(|&v| self.departures(v).count() > 1);
         for start in ends {
             let mut queue = VecDeque::from([(start, None)]);
             while let Some((mut vertex, mut arrived)) = queue.pop_front() {
@@ -336,7 +337,7 @@ fn nodes_of(lanes: &Lanes) -> (Vec<Point>, Vec<Vec<(f64, usize)>>) {
         }
     }
     for lane in &mut stops {
-        lane.sort_by(|a, b| a.0.total_cmp(&b.0));
+        lane.order_by(|a, b| a.0.total_cmp(&b.0));
     }
     (points, stops)
 }
@@ -488,7 +489,7 @@ fn settle_doors(segment: &mut Segment) {
             (true, false) => 1,
         }
     };
-    segment.doors.sort_by(|a, b| {
+    segment.doors.order_by(|a, b| {
         inner(a)
             .cmp(&inner(b))
             .then(a.t.total_cmp(&b.t))

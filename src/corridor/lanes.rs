@@ -10,6 +10,7 @@
 //!
 //! **Invariant**: lanes of one floor shape are connected: where they do not cross, a link joins the nearest two.
 
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 /// A wall of the floor shape, the floor on its left.
@@ -155,7 +156,7 @@ impl Lanes {
                 }
             }
         }
-        near.sort_by(|x, y| x.0.total_cmp(&y.0));
+        near.order_by(|x, y| x.0.total_cmp(&y.0));
         for (gap, [a, b], t) in near {
             if find(&group, a) == find(&group, b) {
                 continue;
@@ -305,7 +306,7 @@ fn join_pieces(pieces: &[Piece], walls: &[Wall], shape: &Shape) -> Vec<Lane> {
         .filter_map(|(lane, covered)| (covered >= shape.covered * lane.length()).then_some(lane))
         .filter(|lane| lane.length() >= shape.shortest.max(shape.slender * lane.width))
         .collect();
-    lanes.sort_by(|a, b| (b.length() / b.width).total_cmp(&(a.length() / a.width)));
+    lanes.order_by(|a, b| (b.length() / b.width).total_cmp(&(a.length() / a.width)));
     let mut kept: Vec<Lane> = Vec::new();
     for lane in lanes {
         if !kept.iter().any(|other| runs_across(&lane, other)) {
@@ -331,7 +332,7 @@ fn lane_of(members: &[Piece]) -> (Lane, f64) {
         .map(|p| (lane.locate(p.a).0, lane.locate(p.b).0))
         .map(|(a, b)| (a.min(b), a.max(b)))
         .collect();
-    spans.sort_by(|a, b| a.0.total_cmp(&b.0));
+    spans.order_by(|a, b| a.0.total_cmp(&b.0));
     let (mut covered, mut end) = (0.0, f64::NEG_INFINITY);
     for (low, high) in spans {
         covered += (high - low.max(end)).max(0.0);

@@ -8,6 +8,7 @@
 
 use std::borrow::Cow;
 
+use crate::units::InOrder as _;
 use crate::units::{Cm, Deg, Point};
 
 /// Index of a vertex in its system.
@@ -188,10 +189,10 @@ impl Junction {
             .filter(|&arm| arm != from)
             .map(|arm| ((self.arms[arm] - heading).signed(), arm))
             .collect();
-        others.sort_by(|a, b| a.0.total_cmp(&b.0));
+        others.order_by(|a, b| a.0.total_cmp(&b.0));
         let turns = turns_of(&others.iter().map(|(angle, _)| *angle).collect::<Vec<_>>());
         let mut ways: Vec<_> = others.iter().map(|(_, arm)| *arm).zip(turns).collect();
-        ways.sort_by_key(|(_, turn)| *turn);
+        ways.order_by_key(|(_, turn)| *turn);
         ways
     }
 }

@@ -10,6 +10,7 @@
 use std::collections::BTreeSet;
 
 use crate::geometry::{Bounds, Polygon};
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -377,7 +378,7 @@ fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &Corr
 fn shorten(points: &mut [Point], along: fn(&mut Point) -> &mut f64) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let mut value: Vec<f64> = points.iter_mut().map(|p| *along(p)).collect();
-    order.sort_by(|&i, &j| value[i].total_cmp(&value[j]));
+    order.order_by(|&i, &j| value[i].total_cmp(&value[j]));
     let drawn = value.clone();
     let mut by = 0.0;
     for pair in order.windows(2) {

@@ -5,6 +5,7 @@
 
 use crate::geometry::{PlacedReplica, Prism};
 use crate::map::{Object, World};
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::canvas::{Canvas, Style};
@@ -314,7 +315,7 @@ pub(super) fn draw<'a>(
 ) {
     let mut prisms: Vec<(&PlacedReplica, &Prism)> =
         things.flat_map(|r| r.prisms.iter().map(move |p| (r, p))).collect();
-    prisms.sort_by(|(r, a), (s, b)| {
+    prisms.order_by(|(r, a), (s, b)| {
         a.top.total_cmp(&b.top).then(b.bottom.total_cmp(&a.bottom)).then(r.id.cmp(&s.id))
     });
     let last: std::collections::HashMap<_, usize> =

@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use crate::geometry::{Bounds, Polygon};
+use crate::units::InOrder as _;
 use crate::units::{Frame, Point, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
@@ -410,7 +411,7 @@ fn spots(room: &Polygon, bounds: Bounds) -> Vec<(Point, f64)> {
     } else {
         on_floor.map(|p| (p, (p - centre).norm() / extent.norm())).collect()
     };
-    spots.sort_by(|a, b| a.1.total_cmp(&b.1));
+    spots.order_by(|a, b| a.1.total_cmp(&b.1));
     spots
 }
 

@@ -10,6 +10,7 @@
 
 use crate::geometry::{Bounds, Polygon, nearest_on_segment};
 use crate::map::{Object, Permeability, World};
+use crate::units::InOrder as _;
 use crate::units::{Language, Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -268,7 +269,7 @@ fn draw_view(
     let key = |s: &Silhouette<'_>| if is_open(s) { s.far } else { s.near };
     let area = |s: &Silhouette<'_>| s.outline.signed_area().abs();
     // Of two that begin at one depth the larger holds the smaller.
-    silhouettes.sort_by(|a, b| key(b).total_cmp(&key(a)).then(area(a).total_cmp(&area(b))));
+    silhouettes.order_by(|a, b| key(b).total_cmp(&key(a)).then(area(a).total_cmp(&area(b))));
     let line = 1.5 * pen;
     for s in silhouettes.iter() {
         let fill = if is_open(s) { "#f3ead8" } else { "#e6d3b1" };
@@ -347,7 +348,7 @@ fn lettered(silhouettes: &[Silhouette<'_>]) -> Vec<(String, Bounds)> {
         }
     }
     let letters = |(mut group, bounds): (Vec<&Silhouette<'_>>, Bounds)| {
-        group.sort_by(|a, b| a.near.total_cmp(&b.near).then(a.body.id.cmp(&b.body.id)));
+        group.order_by(|a, b| a.near.total_cmp(&b.near).then(a.body.id.cmp(&b.body.id)));
         let ids: Vec<&str> = group.iter().map(|s| s.body.id.as_str()).collect();
         (ids.join(", "), bounds)
     };

@@ -7,6 +7,7 @@ use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, Language, PlaceId, Point, Pose, ReplicaId, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -448,7 +449,7 @@ impl PlanDrawing<'_> {
         let crowded = if pen < LARGE { self.crowded() } else { BTreeSet::new() };
         let mut things: Vec<_> = self.things().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
-        things.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
+        things.order_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
         let mut nameless = Vec::new();
         for (k, thing) in things.iter().enumerate() {
             let upon = things[k + 1..].iter().map(|t| t.bounds).filter(|b| b.meets(&thing.bounds));
@@ -472,7 +473,7 @@ impl PlanDrawing<'_> {
             return numbered;
         }
         let row = |b: &Bounds| (-b.max.y / (40.0 * pen)).floor();
-        nameless.sort_by(|(a, ..), (b, ..)| {
+        nameless.order_by(|(a, ..), (b, ..)| {
             let down = row(&a.bounds).total_cmp(&row(&b.bounds));
             let right = a.bounds.min.x.total_cmp(&b.bounds.min.x);
             a.area.cmp(&b.area).then(down).then(right).then(a.id.cmp(&b.id))

@@ -7,6 +7,7 @@ use crate::language::Language;
 use crate::language::words::russian;
 use crate::map::Entity;
 use crate::semantics::{predicate, storey_name};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, capitalized};
 
 use super::lexicon::named;
@@ -59,7 +60,7 @@ impl State {
                 }
             }
         }
-        apart.sort_unstable();
+        apart.order();
         apart.dedup();
         apart
     }

@@ -5,6 +5,7 @@ use crate::language::command::{Command, Placement, Relation};
 use crate::map::{Entity, World};
 use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, MapId, ReplicaId};
 
 use super::{Error, Method, RequestError, State};
@@ -232,7 +233,7 @@ impl State {
         };
         let mut rooms: Vec<AreaId> = world.areas.keys().copied().filter(on_storey).collect();
         rooms.retain(|area| !stops.contains(area));
-        rooms.sort_by_key(|area| !beside_lift(*area));
+        rooms.order_by_key(|area| !beside_lift(*area));
         for area in rooms {
             match self.laid_in_area(thing, area, relations) {
                 Err(Error::Request(RequestError::NoSpace { .. })) => {}

@@ -18,6 +18,7 @@ use crate::language::names::named;
 use crate::language::report::{Named, OpeningKind};
 use crate::map::{Entity, World};
 use crate::semantics::{Relations, Thresholds};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Deg, Point, Vector};
 
 use super::known::Known;
@@ -314,9 +315,9 @@ fn passed(
             (away <= reach && along > 0.0 && along < length).then_some((away, along, side, name))
         })
         .collect();
-    beside.sort_by(|x, y| x.0.total_cmp(&y.0));
+    beside.order_by(|x, y| x.0.total_cmp(&y.0));
     beside.truncate(LANDMARKS);
-    beside.sort_by(|x, y| x.1.total_cmp(&y.1));
+    beside.order_by(|x, y| x.1.total_cmp(&y.1));
     beside.into_iter().map(|(_, _, side, name)| (side, name.clone())).collect()
 }
 

@@ -1,5 +1,6 @@
 //! A map file looked at closely: what reads well and cannot be.
 
+use crate::units::InOrder as _;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +23,7 @@ pub fn check_map_closely(
         map::locate(source, Format::of_text(file, source.text()), &mut doubts);
     }
     told.faults.extend(doubts);
-    told.faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+    told.faults.order_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
     Ok((world, told))
 }
 

@@ -9,6 +9,7 @@ use crate::draw::{
 use crate::geometry::{FloorPlan, Opening, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, bilingual, nearest_name};
 
 use super::{Error, RequestError, State};
@@ -90,7 +91,7 @@ impl State {
             return Ok(vec![self.sheet_named(name)?]);
         }
         let mut storeys: Vec<_> = world.domain.maps.iter().collect();
-        storeys.sort_by(|a, b| a.frame.z.get().total_cmp(&b.frame.z.get()));
+        storeys.order_by(|a, b| a.frame.z.get().total_cmp(&b.frame.z.get()));
         Ok(storeys.into_iter().map(|placed| (placed.map, None)).collect())
     }
 

@@ -8,6 +8,7 @@ use crate::language::Language;
 use crate::language::question::{Asker, Fact};
 use crate::map::Entity;
 use crate::semantics::{MEASURED, Subject};
+use crate::units::InOrder as _;
 use crate::units::{MapId, Point};
 
 use super::talk::RobotSenses;
@@ -84,7 +85,7 @@ impl State {
         let mut measurements: Vec<Measurement> = measurements.collect();
         measurements.dedup();
         found.about.extend(of.iter().map(|name| (*name).to_owned()));
-        found.about.sort();
+        found.about.order();
         found.about.dedup();
         let text = asker.because(&fact, language);
         Ok(Reason { because, text, about: found.about, measurements })

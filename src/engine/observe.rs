@@ -4,6 +4,7 @@ use crate::map::{Entity, Replica};
 use crate::store::{
     Belief, Change, ImportReport, Key, Observation, Reader, Seen, Stamp, Store, Table, Timestamp,
 };
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Frame, MapId, ReplicaId};
 
 use super::history::in_memory;
@@ -99,7 +100,7 @@ impl State {
             let source = Source::Seen { observer: seen.observer, sure: seen.sure };
             story.push(Station { at: seen.at, place: seen.seen, source });
         }
-        story.sort_by_key(|s| s.at);
+        story.order_by_key(|s| s.at);
         Ok(story)
     }
 

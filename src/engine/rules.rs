@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use crate::meaning::{FILES, Grammar, words_beside};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
+use crate::units::InOrder as _;
 use crate::units::Source;
 
 use super::{Error, RequestError};
@@ -123,7 +124,7 @@ fn more_relations(dir: &Path) -> Result<Vec<PathBuf>, RequestError> {
             files.push(path);
         }
     }
-    files.sort();
+    files.order();
     Ok(files)
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::draw::{SeenDrawing, SeenSegment, SeenSign, TreeNode, seen_svg, tree_svg};
 use crate::language::Language;
+use crate::units::InOrder as _;
 use crate::units::{Deg, FileFault, Point, Pose, Vector, is_input, read_file};
 use crate::vectors::picture::Picture;
 use crate::vectors::read::{LONGEST, Log, LogError, Scan, read_log, unpacked};
@@ -370,7 +371,7 @@ fn branch(node: &Branch<2>, language: Language) -> TreeNode {
     };
     let mut order: Vec<&Branch<2>> = node.below.iter().collect();
     if matches!(node.node, Node::Scene) {
-        order.sort_by_key(|thing| std::cmp::Reverse(leaves(thing)));
+        order.order_by_key(|thing| std::cmp::Reverse(leaves(thing)));
     }
     let mut below: Vec<TreeNode> =
         order.iter().take(most).map(|child| branch(child, language)).collect();

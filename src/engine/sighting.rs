@@ -6,6 +6,7 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::{Entity, World};
 use crate::sensing::{Bound, Chart, Localiser, Operative, Options};
+use crate::units::InOrder as _;
 use crate::units::{MapId, Point, Pose};
 
 use super::{Drawing, Error, RequestError, Sighted, State};
@@ -91,7 +92,7 @@ impl State {
         };
         let outline: Vec<_> = seen.operative.outline().map(line).collect();
         // Of each thing its longest face bears the name.
-        names.sort_by(|a, b| b.0.total_cmp(&a.0));
+        names.order_by(|a, b| b.0.total_cmp(&a.0));
         let mut told: Vec<(Point, String)> = Vec::new();
         for (_, at, name) in names {
             if told.iter().all(|(_, known)| *known != name) {

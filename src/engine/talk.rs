@@ -14,6 +14,7 @@ use crate::meaning;
 use crate::robot::starting_pose;
 use crate::semantics::{Relations, Subject, derive, robot_eye, things_in_view};
 use crate::store::Seen;
+use crate::units::InOrder as _;
 use crate::units::{MapId, Pose, ReplicaId};
 
 use super::barriers::no_way_in_words;
@@ -270,7 +271,7 @@ impl State {
         let english = world.names().map(|(entity, _)| english_name(world, entity).to_owned());
         let mut names: Vec<String> = self.mind()?.lexicon.names().map(str::to_owned).collect();
         names.extend(english.filter(|name| !name.is_empty()));
-        names.sort();
+        names.order();
         names.dedup();
         Ok(names)
     }

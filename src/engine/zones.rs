@@ -11,6 +11,7 @@ use crate::language::report::Detail;
 use crate::language::zones::{when, zone_in_words};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, Zone, ZoneKind, plane};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, ZoneId, capitalized, name_key};
 
 use super::known::Known;
@@ -100,7 +101,7 @@ impl<'t> Words<'t> {
             .flat_map(|from| (from..count).map(move |to| (from, to)))
             .filter(|(from, to)| *from <= first && *to >= last)
             .collect();
-        rows.sort_by_key(|(from, to)| std::cmp::Reverse(to - from));
+        rows.order_by_key(|(from, to)| std::cmp::Reverse(to - from));
         rows.into_iter()
             .find_map(|(from, to)| find(&self.text[self.ranges[from].start..self.ranges[to].end]))
     }

@@ -6,6 +6,7 @@
 //! What the strata read is shared: their indexes are made before, each in a thread of its own. A join goes on in more
 //! threads once others have nothing left to do.
 
+use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
@@ -125,7 +126,7 @@ impl Evaluation<'_> {
         drop(shared);
         self.finished.watch.kept_is_held();
         let mut done: Vec<Done> = done.into_iter().flatten().collect();
-        done.sort_by_key(|done| done.stratum);
+        done.order_by_key(|done| done.stratum);
         done.into_iter().try_for_each(|done| {
             let n = done.stratum;
             self.take(&strata[n], done, goes_by_given_order(&plans[n]))

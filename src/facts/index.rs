@@ -4,6 +4,7 @@
 //! Key and columns may be computed from a row's words: `AZ = BZ + BH` joins on the sum, and
 //! `AX <= BX + 50` compares with a column that holds `BX + 50`, computed once for each row.
 
+use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -164,7 +165,7 @@ fn columns(
         // What is computed takes longest.
         let mut tasks: Vec<(&Expr, &mut Option<Vec<Word>>)> =
             exprs.iter().copied().zip(&mut made).collect();
-        tasks.sort_by_key(|(expr, _)| matches!(expr, Expr::Call(..)));
+        tasks.order_by_key(|(expr, _)| matches!(expr, Expr::Call(..)));
         let tasks = Mutex::new(tasks);
         let next = || tasks.lock().ok().and_then(|mut tasks| tasks.pop());
         let work = || {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::parse;
 use super::syntax::{Atom, Body, Component, Expr, Item, Name, Span};
+use crate::units::InOrder as _;
 use crate::units::Source;
 
 /// What a name is one of.
@@ -34,7 +35,7 @@ pub fn outline(source: &Source) -> Vec<Mark> {
     let items = parse::items(source, 0, &mut Vec::new());
     let mut marks = Marks { text: source.text(), found: Vec::new() };
     items.iter().for_each(|item| marks.item(item));
-    marks.found.sort_by_key(|mark| (mark.range.start, mark.range.end));
+    marks.found.order_by_key(|mark| (mark.range.start, mark.range.end));
     marks.found.dedup();
     marks.found
 }

@@ -12,6 +12,7 @@ use super::limits::Ceilings;
 pub use super::syntax::Kind;
 use super::syntax::{Aggregation, Comparison, Functor, Span};
 use super::word::{Value, Word, Words};
+use crate::units::InOrder as _;
 use crate::units::{Source, name_key};
 
 /// A relation of a program, by position.
@@ -323,7 +324,7 @@ impl Found {
 }
 
 pub(super) fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
-    faults.sort_by_key(|(file, fault)| (*file, fault.span().offset()));
+    faults.order_by_key(|(file, fault)| (*file, fault.span().offset()));
     let mut files: Vec<(u32, FileFaults)> = Vec::new();
     for (file, fault) in faults {
         match files.last_mut() {

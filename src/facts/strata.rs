@@ -11,6 +11,7 @@ use super::fault::RuleError;
 use super::program::{Clause, Found, Literal, RelationId, Stratum, Subsumption};
 use super::syntax::Span;
 use crate::units::Bilingual;
+use crate::units::InOrder as _;
 
 /// Relations in groups that depend on each other, each group after those it reads.
 pub(super) fn strata(
@@ -47,7 +48,7 @@ pub(super) fn strata(
     for members in groups {
         let mut relations: Vec<_> =
             members.iter().map(|node| RelationId(node.index() as u32)).collect();
-        relations.sort();
+        relations.order();
         strata.push(Stratum { relations, clauses: Vec::new(), subsumptions: Vec::new() });
     }
     for (n, clause) in clauses.iter().enumerate() {
@@ -83,7 +84,7 @@ fn by_level(groups: Vec<Vec<NodeIndex>>, graph: &DiGraph<(), ()>) -> Vec<Vec<Nod
         members.iter().for_each(|node| level_of[node.index()] = Some(level));
         levels.push((level, members));
     }
-    levels.sort_by_key(|(level, _)| *level);
+    levels.order_by_key(|(level, _)| *level);
     levels.into_iter().map(|(_, members)| members).collect()
 }
 

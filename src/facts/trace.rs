@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use super::syntax::Span;
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Language};
 
 /// One rule's part in an evaluation; a recursive rule has a line for each premise that it starts with.
@@ -89,6 +90,6 @@ impl fmt::Display for RuleTrace {
 /// Lines, the longest time first.
 #[must_use]
 pub(super) fn sorted(mut all: Vec<RuleTrace>) -> Vec<RuleTrace> {
-    all.sort_by_key(|line| std::cmp::Reverse(line.time));
+    all.order_by_key(|line| std::cmp::Reverse(line.time));
     all
 }

@@ -10,6 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, ZoneId};
 
 use super::blocker::Blocker;
@@ -125,11 +126,11 @@ pub(super) fn single(
     let mut between = Between::of(plan, world);
     let mut ends = [BTreeSet::from([plan.region(from)]), goals];
     let weight = |end: &BTreeSet<u32>| end.iter().map(|r| between.pieces[r].len()).sum::<usize>();
-    ends.sort_by_key(weight);
+    ends.order_by_key(weight);
     let around = ends[0].iter().flat_map(|&region| between.all_around(region));
     let single = around.filter(|(other, _)| ends[1].contains(other));
     let mut barriers: Vec<Barrier> = single.map(|(_, barrier)| barrier).collect();
-    barriers.sort_by(|a, b| a.lack(plan, world).total_cmp(&b.lack(plan, world)));
+    barriers.order_by(|a, b| a.lack(plan, world).total_cmp(&b.lack(plan, world)));
     barriers
 }
 

@@ -3,6 +3,7 @@
 //! A way is followed from Passframe to Passframe over the edges by which it leaves them: what that costs depends on the
 //! way alone. Where it leaves the Passframes, as in a strait, it is cut at all Passframes near it instead.
 
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Point};
 
 use super::floor::FragmentFloor;
@@ -120,7 +121,7 @@ impl FloorPlan {
                     }
                 }
             }
-            passed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            passed.order_by(|a, b| a.0.total_cmp(&b.0));
             for &(_, fragment, cell) in &passed {
                 last = Some((fragment, cell));
                 let frame = (fragment.area, fragment.ids[cell as usize]);
@@ -131,7 +132,7 @@ impl FloorPlan {
             crossed.clear();
             let crossing = |i: usize| crossing(leg[0], leg[1], &self.doorways()[i]);
             crossed.extend(near.iter().filter_map(|&i| Some((crossing(i)?, i))));
-            crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            crossed.order_by(|a, b| a.0.total_cmp(&b.0));
             for &(_, doorway) in &crossed {
                 if doorways.last() != Some(&doorway) {
                     doorways.push(doorway);

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
+use crate::units::InOrder as _;
 use crate::units::{AreaId, MapId};
 
 use super::opening::Opening;
@@ -23,7 +24,7 @@ impl Doorways {
     pub(super) fn of(openings: &Openings, map: MapId) -> Self {
         let own = openings.placed().map(|(_, opening)| opening).filter(|o| o.map == map).cloned();
         let (mut ways, blind): (Vec<_>, Vec<_>) = own.partition(|opening| opening.is_way());
-        ways.sort_by(|one, other| by_place(one, other));
+        ways.order_by(|one, other| by_place(one, other));
         let by_area = ByArea::of_ways(&ways);
         Self { ways, blind, by_area }
     }

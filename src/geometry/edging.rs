@@ -4,6 +4,7 @@
 //! which faces are not plain, that is, have names or let something through.
 
 use crate::map::{BaseVector, Permeability};
+use crate::units::InOrder as _;
 use crate::units::Point;
 
 use super::blocker::{Blocker, Obstacle};
@@ -73,7 +74,7 @@ impl Edging {
             }
         }
         let place = |m: &Mark| (m.blocker, m.side);
-        marks.sort_by_key(place);
+        marks.order_by_key(place);
         // A thing without thickness takes floor as several strips.
         marks.dedup_by_key(|m| place(m));
         marks.shrink_to_fit();

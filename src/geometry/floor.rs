@@ -19,6 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Point, Vector};
 
 use super::blocker::Obstacle;
@@ -297,7 +298,7 @@ fn main_axis(prisms: &[Prism]) -> f64 {
             (if FRAC_PI_2 - angle < PARALLEL { 0.0 } else { angle }, a, b - a)
         })
         .collect();
-    walls.sort_by(|a, b| a.0.total_cmp(&b.0));
+    walls.order_by(|a, b| a.0.total_cmp(&b.0));
     let mut best = (0, 0.0, 0.0);
     for parallel in walls.chunk_by(|a, b| b.0 - a.0 < PARALLEL) {
         let angle = parallel[0].0;
@@ -307,7 +308,7 @@ fn main_axis(prisms: &[Prism]) -> f64 {
             (is_along, if is_along { axis.perp(&at.coords) } else { axis.dot(&at.coords) })
         };
         let mut lines: Vec<(bool, f64)> = parallel.iter().map(line).collect();
-        lines.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        lines.order_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let is_same = |w: &&[(bool, f64)]| w[0].0 == w[1].0 && w[1].1 - w[0].1 < IN_LINE;
         let in_line = lines.windows(2).filter(is_same).count();
         let length: f64 = parallel.iter().map(|wall| wall.2.norm()).sum();

@@ -4,6 +4,7 @@
 //! between a goal and the face of a thing that it is before no wall and no leaf of a door, shut or open.
 
 use crate::map::{DoorKind, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
 
 use super::Bounds;
@@ -145,7 +146,7 @@ impl FloorPlan {
             .filter(|(d, s)| s.abs() <= 2.0 * d)
             .collect();
         // The nearer the better; a step aside costs a little more than one back.
-        spots.sort_by(|a, b| (a.0 + 1.2 * a.1.abs()).total_cmp(&(b.0 + 1.2 * b.1.abs())));
+        spots.order_by(|a, b| (a.0 + 1.2 * a.1.abs()).total_cmp(&(b.0 + 1.2 * b.1.abs())));
         let straight =
             spots.into_iter().find_map(|(d, s)| try_at(doorway.before(side, d) + along * s));
         if let Some((at, cell)) = straight {

@@ -3,6 +3,7 @@
 //! **Invariant**: cells are convex and counter-clockwise, do not overlap, and fill the floor; where two share a
 //! border, both have it as one edge with the same two corners.
 
+use crate::units::InOrder as _;
 use crate::units::Point;
 
 use super::buckets::Buckets;
@@ -442,7 +443,7 @@ impl Mesh {
         self.near_segment(a, b, near);
         stretches.clear();
         stretches.extend(near.iter().filter_map(|&c| self.clip(c, a, b)));
-        stretches.sort_by(|x, y| x.0.total_cmp(&y.0));
+        stretches.order_by(|x, y| x.0.total_cmp(&y.0));
         let close = 1e-4 / (b - a).norm().max(1e-4);
         stretches.dedup_by(|next, last| {
             let joins = next.0 <= last.1 + close;

@@ -22,6 +22,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::Permeability;
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::blocker::Blocker;
@@ -191,7 +192,7 @@ impl Narrows {
                 }
             }
         }
-        found.sort_by(|a, b| b.width.total_cmp(&a.width));
+        found.order_by(|a, b| b.width.total_cmp(&a.width));
         found
     }
 

@@ -19,6 +19,7 @@
 //! How the leaves of its door stand in it is told by [`super::leaf`].
 
 use crate::map::{Door, DoorMount, DoorState, OpensTo, Permeability, SideRef, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, MapId, OpeningId, Point, Vector};
 
 use super::leaf::{Bay, Leaves};
@@ -117,7 +118,7 @@ impl Opening {
 
     /// What a side, or two that have no width in common, make: nothing that a floor goes through.
     pub(super) fn blind(world: &World, map: MapId, mut sides: Vec<OpenSide>) -> Self {
-        sides.sort_by_key(|s| (s.mount.is_none(), s.area));
+        sides.order_by_key(|s| (s.mount.is_none(), s.area));
         let (start, end) = sides[0].ends;
         let along = (end - start).try_normalize(1e-9).unwrap_or_else(Vector::x);
         let width = (end - start).norm();

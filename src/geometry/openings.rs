@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::map::{Permeability, SideRef, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, Frame, MapId, OpeningId, Point, Vector};
 
 use super::buckets::Buckets;
@@ -93,7 +94,7 @@ impl Openings {
             sides.iter_mut().for_each(|(_, side)| floors.step_off(side, reach));
             found.extend(paired(world, map, sides, &areas, reach));
         }
-        stands.sort_by_key(|stand| (stand.area, stand.map));
+        stands.order_by_key(|stand| (stand.area, stand.map));
         let found = found.into_iter().map(|(first, opening)| (first, Arc::new(opening)));
         Self::numbered(found, stands, reach)
     }
@@ -219,7 +220,7 @@ pub(super) fn paired(
     maker.facing(reach);
     maker.meeting(reach);
     maker.blind(areas);
-    maker.found.sort_by_key(|(first, _)| *first);
+    maker.found.order_by_key(|(first, _)| *first);
     maker.found.into_iter().map(|(first, opening)| (places[first], opening)).collect()
 }
 

@@ -10,6 +10,7 @@ use std::collections::HashSet;
 use std::fmt;
 
 use crate::map::Permeability;
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, Language, Point};
 
 use super::blocker::Blocker;
@@ -257,7 +258,7 @@ fn cut(faces: &Faces, scratch: &mut Scratch, start: Point, end: Point) {
             cuts.push((t, start + along * t));
         }
     }
-    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    cuts.order_by(|a, b| a.0.total_cmp(&b.0));
     cuts.dedup_by(|a, b| a.0 - b.0 < TOUCH);
 }
 

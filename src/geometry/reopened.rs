@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::map::{Area, MapLink, SideRef, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, MapId};
 
 use super::Bounds;
@@ -55,7 +56,7 @@ impl Openings {
                 }
             }
         }
-        stands.sort_by_key(|stand| (stand.area, stand.map));
+        stands.order_by_key(|stand| (stand.area, stand.map));
         if stands_twice(&stands) {
             return None;
         }
@@ -119,7 +120,7 @@ impl Openings {
             let found = paired(world, map, sides, &placed, reach).into_iter();
             all.extend(found.map(|(first, opening)| (first, Arc::new(opening))));
         }
-        all.sort_by_key(|(first, _)| *first);
+        all.order_by_key(|(first, _)| *first);
         Some(Self::numbered(all.into_iter(), stands, reach))
     }
 }
@@ -138,7 +139,7 @@ fn ends<'w>(links: &[&'w Arc<MapLink>]) -> Vec<[End<'w>; 2]> {
         [[one, other], [other, one]]
     });
     let mut ends: Vec<_> = both.collect();
-    ends.sort_by_key(|[(area, _), _]| *area);
+    ends.order_by_key(|[(area, _), _]| *area);
     ends
 }
 

@@ -10,6 +10,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::map::{DoorState, World, Zone, ZoneKind};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
 
 use super::anchor::{Anchor, Moved};
@@ -188,7 +189,7 @@ impl FloorPlan {
                 }
             }
         }
-        exits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        exits.order_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(f64, Vec<Point>, Anchor)> = None;
         for (least, exit) in exits {
             if best.as_ref().is_some_and(|known| known.0 <= least) {
@@ -567,7 +568,7 @@ impl FloorPlan {
                 _ => {}
             }
         }
-        next.sort_by(|a, b| (b.0 - goal).norm().total_cmp(&(a.0 - goal).norm()));
+        next.order_by(|a, b| (b.0 - goal).norm().total_cmp(&(a.0 - goal).norm()));
         next
     }
 }

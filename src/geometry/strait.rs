@@ -32,6 +32,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use std::f64::consts::PI;
 
 use crate::map::RobotProfile;
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::anchor::Anchor;
@@ -457,7 +458,7 @@ impl<'a> Scan<'a> {
                 cells.push((s, e, (number, cell), piece));
             }
         }
-        cells.sort_by(|x, y| x.0.total_cmp(&y.0));
+        cells.order_by(|x, y| x.0.total_cmp(&y.0));
         for (from, to) in stretches {
             let within =
                 cells.iter().map(|&(s, e, cell, piece)| (s.max(from), e.min(to), cell, piece));

@@ -10,6 +10,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
 
+use crate::units::InOrder as _;
 use crate::units::{
     AreaId, Bilingual, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId, TypeId, name_key,
 };
@@ -217,7 +218,7 @@ impl Counterparts {
         let standing = |map: &Map, area: &dyn Fn(AreaId) -> Option<AreaId>| {
             let mut all: Vec<(Option<AreaId>, Frame)> =
                 map.items.iter().map(|item| (area(item.area), item.frame)).collect();
-            all.sort_by_key(|(area, _)| *area);
+            all.order_by_key(|(area, _)| *area);
             all
         };
         type Joined = (Option<AreaId>, SideRef, Option<AreaId>, SideRef);
@@ -240,8 +241,8 @@ impl Counterparts {
             .iter()
             .map(|m| storey(self.maps.get(&m.map).copied(), m.frame))
             .collect();
-        here.sort_by_key(|(map, _)| *map);
-        there.sort_by_key(|(map, _)| *map);
+        here.order_by_key(|(map, _)| *map);
+        there.order_by_key(|(map, _)| *map);
         let lifts = |world: &World, area: &dyn Fn(AreaId) -> Option<AreaId>| {
             let lift = |(name, stops): &(String, Vec<super::LiftStop>)| {
                 let stops: BTreeSet<Option<AreaId>> =

@@ -4,6 +4,7 @@
 
 use std::hash::Hasher;
 
+use crate::units::InOrder as _;
 use crate::units::name_key;
 use crate::{Entity, Records, World};
 
@@ -29,7 +30,7 @@ impl NameIndex {
             bearers.entry(hash(&name_key(name))).or_default().push(entity);
         }
         for all in bearers.values_mut() {
-            all.sort_unstable();
+            all.order();
             all.dedup();
         }
         Self { bearers: bearers.into() }

@@ -3,6 +3,7 @@
 //! A cover has no gaps: each word stands in a part of the frame, or is one that the language lists as passed over. In a
 //! language of free order a frame is a bag of parts, and an unusual order has its price.
 
+use crate::units::InOrder as _;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -57,7 +58,7 @@ pub(crate) fn readings(chart: &Chart<'_>, tongue: &Tongue, roles: &Signatures) -
             covers(chart, tongue, frame, roles, &mut found);
         }
     }
-    found.sort_by_key(|one| one.cost);
+    found.order_by_key(|one| one.cost);
     let mut distinct: Vec<Found> = Vec::new();
     for one in found {
         if distinct.iter().all(|other| other.form != one.form) {

@@ -6,6 +6,7 @@
 mod measures;
 mod values;
 
+use crate::units::InOrder as _;
 use std::fmt::Write as _;
 
 use super::answer::NoAnswer;
@@ -223,7 +224,7 @@ impl Asking<'_> {
         let rows = self.rows(rule)?;
         let first = |row: Vec<Value>| row.into_iter().next().map(|value| value.to_string());
         let mut found: Vec<String> = rows.into_iter().filter_map(first).collect();
-        found.sort();
+        found.order();
         found.dedup();
         Ok(found)
     }
@@ -280,7 +281,7 @@ impl Asking<'_> {
                 }
             }
         }
-        choices.sort();
+        choices.order();
         choices.dedup();
         body.premises.push(either(&choices));
         self.said(&desc.mods, x, desc.sorts, body)

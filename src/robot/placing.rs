@@ -2,6 +2,7 @@
 
 use crate::geometry::{Bounds, PlacedReplica, Polygon, Prism, Scene};
 use crate::map::{DoorStatus, Permeability, Replica, World, plane};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
@@ -32,7 +33,7 @@ pub fn spot_on(
         .filter(|p| p.roof_permeability == Permeability::Impermeable)
         .map(|p| Surface { polygon: &p.polygon, height: p.top, within: None })
         .collect();
-    roofs.sort_by(|a, b| b.height.total_cmp(&a.height));
+    roofs.order_by(|a, b| b.height.total_cmp(&a.height));
     spot(world, scene, thing, support, &roofs, from)
 }
 
@@ -95,7 +96,7 @@ pub fn spot_in(
             within: Some(around),
         }));
     }
-    surfaces.sort_by(|a, b| b.height.total_cmp(&a.height));
+    surfaces.order_by(|a, b| b.height.total_cmp(&a.height));
     spot(world, scene, thing, placed, &surfaces, from)
 }
 

@@ -3,6 +3,7 @@
 use crate::geometry::{Route, Target};
 use crate::semantics::planning::{PlaceSource, PlanPlace};
 use crate::units::AreaId;
+use crate::units::InOrder as _;
 
 use super::belief::Station;
 use super::mission::{Leg, Mission, Surprise, look_round};
@@ -72,7 +73,7 @@ impl Mission<'_> {
             .filter_map(|name| self.place_target(&name).ok().map(|target| (Some(name), target)))
             .collect();
         let mut cells: Vec<_> = self.belief.floor().passframes(area).iter().collect();
-        cells.sort_by(|a, b| {
+        cells.order_by(|a, b| {
             b.polygon.signed_area().total_cmp(&a.polygon.signed_area()).then(a.id.cmp(&b.id))
         });
         let middles = cells.iter().take(MOST).map(|cell| Target::Point(cell.polygon.centroid()));

@@ -4,6 +4,7 @@
 
 use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
 use crate::geometry::{Polygon, convex_hull};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, MapId, Point, ReplicaId, Vector};
 
 use super::body::Body;
@@ -171,7 +172,7 @@ impl Relations {
         // A table stands between, rather than all that is on it.
         let bearers = found.clone();
         found.retain(|id| !bearers.iter().any(|bearer| self.holds_up(*id, *bearer)));
-        found.sort_by(|x, y| {
+        found.order_by(|x, y| {
             let at = |id: &ReplicaId| (bodies[id].centre - from).dot(&along);
             at(x).total_cmp(&at(y))
         });

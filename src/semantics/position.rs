@@ -5,6 +5,7 @@
 
 use crate::geometry::contact::Footprint;
 use crate::map::World;
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Deg, DoorId, MapId, OpeningId, Point, Pose, ReplicaId, Vector};
 
 use super::body::Body;
@@ -71,7 +72,7 @@ pub fn whereabouts(
     let sides = on_map.flat_map(|o| o.sides.iter().map(move |side| (o, side)));
     // The sides of the lower Areas first.
     let mut sides: Vec<_> = sides.filter(|(_, side)| in_side(side, pose.at, here, near)).collect();
-    sides.sort_by_key(|(opening, side)| (side.area, opening.id));
+    sides.order_by_key(|(opening, side)| (side.area, opening.id));
     if let Some((opening, side)) = sides.first() {
         let area = here.unwrap_or(side.area);
         return Some(Whereabouts {

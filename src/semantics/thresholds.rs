@@ -11,6 +11,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::facts::{Program, Value};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Source, bilingual};
 
 /// What a number of the rule text counts, and what it may be.
@@ -392,7 +393,7 @@ impl Thresholds {
     /// values of one name, the greatest counts.
     pub(super) fn of(told: impl Iterator<Item = (String, i64)>) -> Self {
         let mut all: Vec<(String, i64)> = told.collect();
-        all.sort();
+        all.order();
         let mut found = Self::default();
         all.iter().for_each(|(name, value)| found.set(name, *value));
         found

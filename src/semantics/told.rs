@@ -3,6 +3,7 @@
 
 use crate::geometry::{Blocker, Eye, FloorPlan};
 use crate::map::World;
+use crate::units::InOrder as _;
 use crate::units::{AreaId, MapId, Pose, ReplicaId};
 
 use super::thresholds::Thresholds;
@@ -41,7 +42,7 @@ pub fn things_in_view(
         }
     }
     seen.retain(|(_, _, size)| *size >= near.robot_speck);
-    seen.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    seen.order_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     seen.into_iter().map(|(id, ..)| id).collect()
 }
 

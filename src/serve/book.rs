@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use crate::engine::{Dialogue, Queue, QueuedTask, State};
 use crate::robot::Answer;
 use crate::store::Timestamp;
+use crate::units::InOrder as _;
 use crate::units::Stop;
 
 use super::gate::{Role, Session};
@@ -207,7 +208,7 @@ impl Book {
             let number = task.noted.as_ref().map(|noted| noted.id);
             number.and_then(|n| order.iter().position(|o| *o == n)).unwrap_or(order.len())
         };
-        self.queue.make_contiguous().sort_by_key(place);
+        self.queue.make_contiguous().order_by_key(place);
     }
 
     pub(super) fn end(&mut self, view: &Value) {

@@ -9,6 +9,7 @@ use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
 use crate::map::{
     BaseVector, Door, DoorStatus, Entity, Extent, Item, Permeability, Replica, World, ZoneKind,
 };
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Language, MapId, Point};
 
 /// How much of a storey is wanted.
@@ -304,7 +305,7 @@ fn things(world: &World, scene: &Scene) -> Vec<Value> {
     };
     // The lowest first: what stands on it is drawn over it.
     let mut all: Vec<_> = scene.replicas.values().collect();
-    all.sort_by(|a, b| a.bottom.total_cmp(&b.bottom).then(a.top.total_cmp(&b.top)));
+    all.order_by(|a, b| a.bottom.total_cmp(&b.bottom).then(a.top.total_cmp(&b.top)));
     all.into_iter().map(thing).collect()
 }
 

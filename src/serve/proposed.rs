@@ -9,6 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde_json::{Map, Value};
 
+use crate::units::InOrder as _;
 use crate::units::write_file;
 
 /// So many wait at the most; beyond, the oldest is forgotten here, and its file is left.
@@ -86,7 +87,7 @@ impl Proposed {
         let waiting = self.waiting();
         let mut all: Vec<(String, Waits)> =
             waiting.iter().map(|(id, waits)| (id.clone(), waits.clone())).collect();
-        all.sort_by_key(|(id, _)| moment(id));
+        all.order_by_key(|(id, _)| moment(id));
         all
     }
 

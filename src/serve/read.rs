@@ -17,6 +17,7 @@ use crate::engine::{
 use crate::facts::{Because, Kind, Premise, WhyNot};
 use crate::map::{Entity, Replica};
 use crate::store::Seen;
+use crate::units::InOrder as _;
 use crate::units::{Language, MapId};
 
 use super::drawing::{self, Part};
@@ -108,7 +109,7 @@ fn resting(state: &State) -> Value {
         return json!({ "maps": [], "robot": null, "missing": ["map"] });
     };
     let mut maps: Vec<_> = world.domain.maps.iter().collect();
-    maps.sort_by(|a, b| a.frame.z.get().total_cmp(&b.frame.z.get()));
+    maps.order_by(|a, b| a.frame.z.get().total_cmp(&b.frame.z.get()));
     let storey = |placed: &&crate::map::DomainMap| {
         let map = &world.maps[&placed.map];
         json!({ "name": map.name, "name_en": map.name_en, "z": placed.frame.z.get() })

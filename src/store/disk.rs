@@ -2,6 +2,7 @@
 //!
 //! **Invariant**: no other file of this folder writes a file, but for sled's own.
 
+use crate::units::InOrder as _;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -148,7 +149,7 @@ impl Disk for RealDisk {
         let mut names = entries
             .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
             .collect::<io::Result<Vec<_>>>()?;
-        names.sort();
+        names.order();
         Ok(names)
     }
 

@@ -21,6 +21,7 @@ use super::run::{self, Cursor, Run};
 use super::tables::Table;
 use super::trees::{CHANGES, HISTORY, Pair, RUNS, Records, State, Trees, Visit};
 use crate::units::Bilingual;
+use crate::units::InOrder as _;
 
 /// So many runs of like size are made one.
 const MOST_ALIKE: usize = if cfg!(test) { 3 } else { 8 };
@@ -103,7 +104,7 @@ impl Past {
         let kept = all.iter().filter(|named| named.place < first || named.place > place);
         let mut runs: Vec<_> = kept.map(Named::again).collect();
         runs.push(Named { place, file: run.file, run: Ok(Arc::new(run)) });
-        runs.sort_by_key(|named| named.place);
+        runs.order_by_key(|named| named.place);
         *all = Arc::new(runs);
     }
 

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use crate::map::{Replica, World};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, DomainId, MapId, ReplicaId};
 
 use super::cell::{Key, Row};
@@ -279,7 +280,7 @@ impl Reader {
         for key in self.replica_keys(replica)? {
             versions.extend(self.history(Table::AreaObjects, &key)?);
         }
-        versions.sort_by_key(|v| (v.stamp.revision, v.stamp.deleted));
+        versions.order_by_key(|v| (v.stamp.revision, v.stamp.deleted));
         versions.dedup_by(|later, first| {
             later.stamp.deleted && later.stamp.revision == first.stamp.revision
         });

@@ -10,6 +10,7 @@ use std::rc::Rc;
 
 use super::domain::{Domain, Formula, KindSet, SchemaAtom, SchemaTerm};
 use super::resolve::{GroundAtom, Resolved, ThingId};
+use crate::units::InOrder as _;
 use crate::units::name_key;
 
 /// Into more cases than these no ground action is divided.
@@ -238,7 +239,7 @@ impl<'a> Cases<'a> {
 
     /// Without the cases that say more than another of them.
     pub(super) fn without_special(&self, mut cases: Vec<Case>) -> Found {
-        cases.sort_by(|a, b| (a.len(), a).cmp(&(b.len(), b)));
+        cases.order_by(|a, b| (a.len(), a).cmp(&(b.len(), b)));
         cases.dedup();
         self.spend(cases.len())?;
         let mut kept: Vec<Case> = Vec::new();

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use crate::rule_text;
 use crate::syntax::{Atom, Condition, Declaration, Name, Parameter, Term};
+use crate::units::InOrder as _;
 use crate::units::{Language, Source};
 
 /// What a name is one of.
@@ -95,7 +96,7 @@ pub fn outline(source: &Source) -> Vec<Mark> {
     let stated = document.facts.iter().chain(&document.assumptions).chain(document.wanted());
     stated.for_each(|condition| marks.condition(condition));
     let (mut found, english) = (marks.found, marks.english);
-    found.sort_by_key(|mark| (mark.range.start, mark.range.end));
+    found.order_by_key(|mark| (mark.range.start, mark.range.end));
     // What is said of an action as of a predicate is the action's.
     let actions: Vec<String> = found
         .iter()

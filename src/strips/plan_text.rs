@@ -12,6 +12,7 @@ use super::expression::{Expression, expressions};
 use super::fault::{RuleFault, RuleFaults};
 use super::load::read_source;
 use super::task::{OperatorId, Task};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Source};
 
 /// An action of a plan text and where it stands.
@@ -111,7 +112,7 @@ impl PlanText {
         for (directive, step) in directives.iter_mut().zip(steps(&times)) {
             directive.step = step;
         }
-        directives.sort_by_key(|directive| directive.step);
+        directives.order_by_key(|directive| directive.step);
         if faults.is_empty() {
             Ok(Self { source: source.clone(), directives })
         } else {

@@ -22,6 +22,7 @@ mod frame;
 mod id;
 mod language;
 mod name;
+mod order;
 mod quantity;
 mod source;
 mod stop;
@@ -37,6 +38,7 @@ pub use id::{
 };
 pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
+pub use order::InOrder;
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::{OwnText, Source};
 pub use stop::Stop;

@@ -10,6 +10,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{Bounds, Polygon, Scene};
 use crate::map::{DoorStatus, World};
+use crate::units::InOrder as _;
 use crate::units::{Language, Point, Pose, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -216,7 +217,7 @@ impl ViewDrawing<'_> {
             }
         }
         let mut seen: Vec<_> = seen.into_iter().collect();
-        seen.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(b.0)));
+        seen.order_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(b.0)));
         let mut labels =
             Labels::new(14.0).within(around(Point::origin(), WIDTH, HEIGHT).grown(-4.0));
         canvas.mark("name");

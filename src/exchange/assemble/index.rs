@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::map::plane::bounds;
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::ring::Region;
@@ -70,7 +71,7 @@ impl Index {
         } else {
             self.keys(area).filter_map(|key| self.cells.get(&key)).flatten().copied().collect()
         };
-        found.sort_unstable();
+        found.order();
         found.dedup();
         found
     }

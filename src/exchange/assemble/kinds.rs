@@ -6,6 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::map::plane::{bounds, doubled_area};
 use crate::map::{Face, Item, ItemLink, Permeability, SideRef};
 use crate::report::{What, Why};
+use crate::units::InOrder as _;
 use crate::units::{Cm, Deg, Frame, Point, Vector};
 use crate::{Kind, Part, Report};
 
@@ -141,7 +142,7 @@ fn flat_part(part: &Part, kind: &Kind, report: &mut Report) {
 fn part(bodies: &mut Vec<Body>, kind: &Kind, report: &mut Report) {
     let mut was_cut = false;
     let mut order: Vec<usize> = (0..bodies.len()).collect();
-    order.sort_by(|&i, &j| {
+    order.order_by(|&i, &j| {
         doubled_area(&bodies[j].corners).total_cmp(&doubled_area(&bodies[i].corners))
     });
     let mut gone = vec![false; bodies.len()];

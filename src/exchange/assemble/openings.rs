@@ -7,6 +7,7 @@
 use crate::map::OpensTo;
 use crate::map::plane::bounds;
 use crate::report::{What, Why};
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 use crate::{Level, Opening, OpeningKind, Report};
 
@@ -151,7 +152,7 @@ impl Site<'_> {
         }
         let [left_room, right_room] = [most(&seen[0]), most(&seen[1])];
         let mut all = seen.concat();
-        all.sort_unstable();
+        all.order();
         all.dedup();
         match (left_room, right_room) {
             (None, None) => Err(Why::NoRoom),

@@ -13,6 +13,7 @@ use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 use i_overlay::float::slice::FloatSlice;
 
 use crate::map::plane::{bounds, doubled_area, edges, meeting, near_pairs, segment_distance};
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 /// A closed chain of corners, without the closing one.
@@ -276,7 +277,7 @@ pub(crate) fn largest(regions: Vec<Region>) -> Option<Region> {
 pub(super) fn floors(regions: Vec<Region>) -> Vec<Region> {
     let sound = regions.into_iter().flat_map(unpinched);
     let mut floors: Vec<Region> = sound.filter(|r| r.area() >= LEAST_AREA).collect();
-    floors.sort_by(|a, b| b.area().total_cmp(&a.area()));
+    floors.order_by(|a, b| b.area().total_cmp(&a.area()));
     floors
 }
 
@@ -396,7 +397,7 @@ fn with_corners(ring: &[Point], corners: &[Point]) -> Ring {
             .filter(|&c| segment_distance(c, (p, q)) < 1e-3)
             .map(|c| ((c - p).norm(), c))
             .collect();
-        on.sort_by(|a, b| a.0.total_cmp(&b.0));
+        on.order_by(|a, b| a.0.total_cmp(&b.0));
         full.extend(on.into_iter().map(|(_, c)| c));
     }
     full
@@ -420,7 +421,7 @@ fn slits(
         .collect();
     xs.sort_by(f64::total_cmp);
     let mut gaps: Vec<(f64, f64)> = xs.windows(2).map(|w| (w[0], w[1])).collect();
-    gaps.sort_by(|a, b| (b.1 - b.0).total_cmp(&(a.1 - a.0)));
+    gaps.order_by(|a, b| (b.1 - b.0).total_cmp(&(a.1 - a.0)));
     let cut = |(from, to): (f64, f64)| {
         let is_wide = to - from > 2.0 * NEAR;
         let x = f64::midpoint(from, to);
@@ -429,7 +430,7 @@ fn slits(
             .filter(|(a, b)| (a.x > x) != (b.x > x))
             .map(|&(a, b)| (a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y), (a, b)))
             .collect();
-        hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        hits.order_by(|a, b| a.0.total_cmp(&b.0));
         let own = |hit: &(f64, (Point, Point))| edges(hole).any(|edge| edge == hit.1);
         let first = hits.iter().position(own)?;
         let last = hits.iter().rposition(own)?;

@@ -13,6 +13,7 @@
 //! longer than [`NEAR`] or nothing.
 
 use crate::map::plane::{doubled_area, segment_distance};
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::ring::{NEAR, Region, Ring};
@@ -259,7 +260,7 @@ impl Walls {
             .filter(|cut| cut.ring == r)
             .map(|cut| (cut.from.rem_euclid(measured.length), cut))
             .collect();
-        cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        cuts.order_by(|a, b| a.0.total_cmp(&b.0));
         let is_cut = |s: f64| {
             let before = cuts.partition_point(|cut| cut.0 <= s + 1e-6);
             // The cut that begins last before this corner, or the last of all, which may reach over the start.
@@ -280,7 +281,7 @@ impl Walls {
             .map(|(&p, &s)| (s, None, p))
             .collect();
         marks.extend(cuts.iter().map(|&(s, cut)| (s, Some(cut), cut.points[0])));
-        marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        marks.order_by(|a, b| a.0.total_cmp(&b.0));
         let mut outline: Vec<(Point, SideUse)> = Vec::with_capacity(marks.len());
         for (_, cut, p) in marks {
             match cut {

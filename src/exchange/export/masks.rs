@@ -7,6 +7,7 @@
 
 use crate::geometry::FloorPlan;
 use crate::map::{World, Zone, ZoneKind};
+use crate::units::InOrder as _;
 
 use super::grid::Grid;
 use super::{GridFiles, metre};
@@ -60,7 +61,7 @@ pub fn to_masks(
         // The slowest counts where zones overlap.
         let mut zones: Vec<_> =
             plan.zones().iter().filter_map(|zone| Some((speed(zone.kind)?, zone))).collect();
-        zones.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        zones.order_by(|(a, _), (b, _)| b.total_cmp(a));
         for (speed, zone) in zones {
             let value = (speed / step).floor().clamp(1.0, f64::from(MOST)) as u8;
             zone.polygons.iter().for_each(|polygon| grid.fill(polygon, value));

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Level;
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, bilingual};
 
 use super::classify::Class;
@@ -98,7 +99,7 @@ impl Levels {
             places.insert("0".to_owned(), 0);
         }
         let mut order: Vec<usize> = (0..list.len()).collect();
-        order.sort_by(|&a, &b| list[a].ordinal.total_cmp(&list[b].ordinal));
+        order.order_by(|&a, &b| list[a].ordinal.total_cmp(&list[b].ordinal));
         let mut rank = vec![0; list.len()];
         order.iter().enumerate().for_each(|(new, &old)| rank[old] = new);
         places.values_mut().for_each(|place| *place = rank[*place]);
@@ -119,7 +120,7 @@ impl Levels {
             let units = by_list.into_iter().flatten().chain(feature.properties.get("unit_id"));
             let mut of_units: Vec<usize> =
                 units.filter_map(|id| self.units.get(id.as_str()?).copied()).collect();
-            of_units.sort_unstable();
+            of_units.order();
             of_units.dedup();
             if !of_units.is_empty() {
                 return of_units;

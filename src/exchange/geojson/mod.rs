@@ -31,6 +31,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use crate::map::Properties;
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Language, Point, Source, bilingual};
 
 use super::{ReadError, Remark, Room, Spot, Survey, input, outline};
@@ -92,7 +93,7 @@ pub fn read_folder(dir: &Path) -> Result<Survey, ReadError> {
         }
     }
     // The order of a folder is the file system's; that of the names is the same everywhere.
-    files.sort();
+    files.order();
     let (mut all, mut remarks) = (Vec::new(), Vec::new());
     let (mut around, mut bytes) = (Surroundings::default(), 0);
     for path in files {

@@ -1,5 +1,6 @@
 //! Names in several languages: IMDF's labels `{"en": "Kitchen", "ru": "Кухня"}`, OpenStreetMap's `name:ru`.
 
+use crate::units::InOrder as _;
 use std::collections::BTreeMap;
 
 use serde_json::Value;
@@ -24,7 +25,7 @@ impl Tongue {
             Some("en") => 1,
             _ => 2,
         };
-        order.sort_by_key(|l| (rank(l), std::cmp::Reverse(counts[l])));
+        order.order_by_key(|l| (rank(l), std::cmp::Reverse(counts[l])));
         Self(order.into_iter().map(str::to_owned).collect())
     }
 

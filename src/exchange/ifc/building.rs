@@ -5,6 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Point, bilingual};
 use crate::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
 
@@ -222,7 +223,7 @@ impl<'a> Reader<'a> {
             }
         }
         self.world = Place::of_world(unit, shift);
-        storeys.sort_by(|a, b| a.1.total_cmp(&b.1));
+        storeys.order_by(|a, b| a.1.total_cmp(&b.1));
         let buildings: HashSet<_> = storeys.iter().map(|s| self.parents.get(&s.0)).collect();
         for (no, (id, z, storey)) in storeys.into_iter().enumerate() {
             let own = storey.at(2).text().or(storey.at(7).text());

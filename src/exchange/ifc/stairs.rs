@@ -18,6 +18,7 @@ use crate::assemble::ring::{
 };
 use crate::map::Properties;
 use crate::shafts::vertical;
+use crate::units::InOrder as _;
 use crate::units::{Cm, Point, Vector, bilingual};
 use crate::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
 
@@ -358,7 +359,7 @@ impl Reader<'_> {
         if let Some(lift) = lifts.iter_mut().find(|l| l.stops.iter().any(|s| stops.contains(s))) {
             let new = stops.into_iter().filter(|s| !lift.stops.contains(s)).collect::<Vec<_>>();
             lift.stops.extend(new);
-            lift.stops.sort_unstable();
+            lift.stops.order();
             let text = (
                 "вместе с другими маршами того же лестничного колодца",
                 "with other flights of the same shaft",

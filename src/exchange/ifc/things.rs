@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Deg, Point};
 use crate::{Deed, Kind, Part, Thing, What, outline};
 
@@ -149,7 +150,7 @@ impl Reader<'_> {
         ];
         for (counts, (found, taken), why) in told {
             let mut counts: Vec<_> = counts.into_iter().collect();
-            counts.sort_unstable();
+            counts.order();
             for (kind, n) in counts {
                 let (russian, english) = why;
                 let text = Bilingual::new(format!("{n} шт.: {russian}"), format!("{n}: {english}"));

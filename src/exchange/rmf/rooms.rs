@@ -6,6 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::assemble::ring::{self, Region, Ring};
 use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Point, bilingual};
 use crate::{Room, Spot};
 
@@ -175,7 +176,7 @@ pub(super) fn name(
         let beside =
             |room: usize| faces[room].is_some_and(|f| plan.faces[f].tags.contains(&(i + 1)));
         let mut beside: Vec<usize> = (0..rooms.len()).filter(|&r| beside(r)).collect();
-        beside.sort_by(|&a, &b| area(&rooms[a]).total_cmp(&area(&rooms[b])));
+        beside.order_by(|&a, &b| area(&rooms[a]).total_cmp(&area(&rooms[b])));
         // A door with one room only leads outside: its name may mean either.
         if let [smaller, _] = beside[..]
             && rooms[smaller].kind.is_empty()

@@ -1,5 +1,6 @@
 //! The border of a region of cells → a ring of straight walls.
 
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::grid::Grid;
@@ -52,7 +53,7 @@ pub(super) fn rings(
     let twice = |r: &Vec<(i64, i64)>| -> i64 {
         r.iter().zip(r.iter().cycle().skip(1)).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum()
     };
-    found.sort_by_key(|r| std::cmp::Reverse(twice(r)));
+    found.order_by_key(|r| std::cmp::Reverse(twice(r)));
     found
 }
 

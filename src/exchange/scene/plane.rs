@@ -4,6 +4,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
+use crate::units::InOrder as _;
 use crate::units::Point;
 
 type Contour = Vec<[f64; 2]>;
@@ -28,7 +29,7 @@ fn rings(shapes: Vec<Vec<Contour>>) -> Vec<Vec<Point>> {
     let outer = shapes.into_iter().filter_map(|shape| shape.into_iter().next());
     let mut rings: Vec<Vec<Point>> =
         outer.map(|ring| ring.into_iter().map(|[x, y]| Point::new(x, y)).collect()).collect();
-    rings.sort_by(|a, b| area(b).total_cmp(&area(a)));
+    rings.order_by(|a, b| area(b).total_cmp(&area(a)));
     rings
 }
 

@@ -10,6 +10,7 @@ use super::{fewer, shorten};
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Working, prove};
 use crate::strips::{FactId, Task};
+use crate::units::InOrder as _;
 use crate::{Learned, Limit, Limits, Outcome, Plan, Unfinished, solve, solve_learning, validate};
 
 /// What the first round may take for shortening, and for a proof.
@@ -191,7 +192,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             best.offer(working.own(plan.clone()));
         }
         // The others had their chance.
-        current.sort_by_key(|plan| (plan.steps.len(), plan.action_count()));
+        current.order_by_key(|plan| (plan.steps.len(), plan.action_count()));
         current.truncate(1);
         if best.is_proven() {
             break;

@@ -5,6 +5,7 @@
 //! and a totalizer (O. Bailleux, Y. Boufkhad, 2003; weights after S. Joshi, R. Martins, V. Manquinho, 2015) adds up
 //! the variables. The bound sinks below each plan found until the solver refutes it or the effort is used up.
 
+use crate::units::InOrder as _;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, VecDeque};
 
@@ -151,7 +152,7 @@ fn groups(task: &Task, graph: &PlanningGraph) -> Vec<usize> {
     }
     let mut facts: Vec<FactId> =
         task.fact_ids().filter(|fact| !takers[fact.index()].is_empty()).collect();
-    facts.sort_by_key(|fact| (Reverse(takers[fact.index()].len()), *fact));
+    facts.order_by_key(|fact| (Reverse(takers[fact.index()].len()), *fact));
     let mut cliques: Vec<Vec<FactId>> = Vec::new();
     for fact in facts {
         let fits = |clique: &&mut Vec<FactId>| {
@@ -162,7 +163,7 @@ fn groups(task: &Task, graph: &PlanningGraph) -> Vec<usize> {
             None => cliques.push(vec![fact]),
         }
     }
-    cliques.sort_by_key(|clique| {
+    cliques.order_by_key(|clique| {
         Reverse(clique.iter().map(|fact| takers[fact.index()].len()).sum::<usize>())
     });
     let mut group = vec![usize::MAX; task.operators.len()];

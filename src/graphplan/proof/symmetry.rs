@@ -4,6 +4,7 @@
 //! themselves. A set of facts out of reach then stays out of reach under every exchange of such objects (the goal
 //! plays no part), and [`super::no_good`] keeps one no-good for all of its images.
 
+use crate::units::InOrder as _;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
@@ -32,7 +33,7 @@ impl Symmetry {
         let mut taken: HashSet<&Arc<str>> = HashSet::new();
         let mut classes =
             index.classes(|a, b| limits.check(0).is_ok() && index.interchangeable(a, b));
-        classes.sort_by_key(|class| std::cmp::Reverse(class.len()));
+        classes.order_by_key(|class| std::cmp::Reverse(class.len()));
         for class in classes {
             // A fact may speak of one exchangeable object only: images of sets are then found object by object.
             let members: HashSet<&Arc<str>> = class.iter().copied().collect();

@@ -1,5 +1,6 @@
 //! The words of commands in both languages, and what each does in a sentence.
 
+use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
@@ -347,7 +348,7 @@ pub(super) fn longest<'k>(
             table.entry(words[0].clone()).or_default().push((words, meaning));
         }
         for phrases in table.values_mut() {
-            phrases.sort_by_key(|(words, _)| std::cmp::Reverse(words.len()));
+            phrases.order_by_key(|(words, _)| std::cmp::Reverse(words.len()));
         }
         table
     });

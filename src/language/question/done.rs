@@ -2,6 +2,7 @@
 //!
 //! Invariant: who did it, when and why are other questions, and so is what the robot itself did.
 
+use crate::units::InOrder as _;
 use std::ops::Range;
 
 use crate::words::{Language, word_keys, word_ranges};
@@ -70,7 +71,7 @@ fn russian(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
     let mut plain = text.to_owned();
     let mut changes = vec![(at[deed].clone(), state)];
     changes.extend(someone.map(|n| (at[n].start..at[n + 1].end, "")));
-    changes.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+    changes.order_by_key(|(range, _)| std::cmp::Reverse(range.start));
     for (range, by) in changes {
         plain.replace_range(range, by);
     }

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use super::lexicon::{Lexicon, Meaning};
 use super::vocabulary;
+use crate::units::InOrder as _;
 use crate::units::name_key;
 use crate::words::{Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges};
 
@@ -91,7 +92,7 @@ fn known(text: &str, words: &[Range<usize>], at: usize, lexicon: &Lexicon) -> us
 fn same_thing(said: &str, lexicon: &Lexicon) -> Option<String> {
     let mut alike = everyday::same_things(&name_key(said));
     let language = Language::of(said);
-    alike.sort_by_key(|word| Language::of(word) != language);
+    alike.order_by_key(|word| Language::of(word) != language);
     alike.into_iter().find(|word| is_name(word, lexicon))
 }
 
@@ -221,10 +222,10 @@ fn other_words(
     }
     // "teh": letters in another order are a slip of the keys.
     let mut letters: Vec<char> = key.chars().collect();
-    letters.sort_unstable();
+    letters.order();
     let swapped = |word: &&&str| {
         let mut own: Vec<char> = word.chars().collect();
-        own.sort_unstable();
+        own.order();
         own == letters && mistyped(word)
     };
     if let Some(word) = ASKING.iter().find(swapped) {

@@ -11,6 +11,7 @@ use super::memory::Memory;
 use super::purposes::{self, Role};
 use super::query::{Head, Noun, Thing};
 use super::values::Property;
+use crate::units::InOrder as _;
 use crate::units::ReplicaId;
 use crate::words::Language;
 use crate::words::things::things;
@@ -86,7 +87,7 @@ impl Asker<'_> {
                 all
             })
             .collect();
-        uses.sort_by_key(Vec::len);
+        uses.order_by_key(Vec::len);
         uses
     }
 }

@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::constructions;
+use crate::units::InOrder as _;
 use crate::units::name_key;
 use crate::words::{Language, phrase_at, word_ranges};
 
@@ -92,7 +93,7 @@ impl<'t> Words<'t> {
 
     /// The text with some words replaced, the last first.
     pub(super) fn replaced(&self, mut changes: Vec<(Range<usize>, String)>) -> String {
-        changes.sort_by_key(|(words, _)| std::cmp::Reverse(words.start));
+        changes.order_by_key(|(words, _)| std::cmp::Reverse(words.start));
         let mut text = self.text.to_owned();
         for (words, by) in changes {
             text.replace_range(self.at[words.start].start..self.at[words.end - 1].end, &by);

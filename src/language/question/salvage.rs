@@ -9,6 +9,7 @@ use super::told_aside::{Named, is_polite, only_begs, tells};
 use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, opening, premise, several, vocabulary,
 };
+use crate::units::InOrder as _;
 use crate::words::{Language, word_keys, word_ranges};
 
 /// What the parts of a line tell that do not ask.
@@ -44,7 +45,7 @@ impl Asker<'_> {
         }
         let spans = (0..parts.len()).flat_map(|from| (from..parts.len()).map(move |to| (from, to)));
         let mut spans: Vec<(usize, usize)> = spans.collect();
-        spans.sort_by_key(|(from, to)| (parts.len() - (to - from), *from));
+        spans.order_by_key(|(from, to)| (parts.len() - (to - from), *from));
         // Where a part ends as questions do, that is what asks; but for one by which a person is polite or begs.
         let marked = |n: usize| {
             let part = &text[parts[n].0..parts[n].1];

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use crate::map::{DoorStatus, World};
+use crate::units::InOrder as _;
 use crate::units::name_key;
 use crate::words::things::things;
 use crate::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
@@ -346,7 +347,7 @@ fn adjective_forms(adjective: &str) -> Vec<String> {
         }
         forms.push(russian::agreeing(&lower, case, Number::Plural, Gender::Masculine));
     }
-    forms.sort_unstable();
+    forms.order();
     forms.dedup();
     forms
 }

@@ -7,6 +7,7 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Closeness, Dimension, Extreme, Rel};
 use super::uses;
 use crate::report::Detail;
+use crate::units::InOrder as _;
 use crate::units::name_key;
 use crate::words::things;
 
@@ -197,7 +198,7 @@ fn table() -> &'static HashMap<String, Phrases> {
             table.entry(words[0].clone()).or_default().push((words, mark));
         }
         for phrases in table.values_mut() {
-            phrases.sort_by_key(|(words, _)| std::cmp::Reverse(words.len()));
+            phrases.order_by_key(|(words, _)| std::cmp::Reverse(words.len()));
         }
         table
     })

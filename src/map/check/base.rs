@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, Cm, Point};
 use crate::{BaseVector, Orthoframe, TypeKind};
 
@@ -158,7 +159,7 @@ impl Checker<'_> {
                 ControlFlow::Break(())
             }
         });
-        crossings.sort_by_key(|&(i, j, _)| (i, j));
+        crossings.order_by_key(|&(i, j, _)| (i, j));
         for (i, j, p) in crossings {
             let error = MapError::BaseCrossesItself {
                 name: frame.name.clone(),

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 use miette::Diagnostic;
 
 use crate::fault::{Fault, MapError, Record, Spot};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
 use crate::{
     Area, Mark, Orthoframe, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark,
@@ -381,7 +382,7 @@ impl Doubter<'_> {
                 taken
                     .extend(tall.filter_map(|b| doorway.taken(b)).map(|(from, to)| (from, to, no)));
             }
-            taken.sort_by(|a, b| a.0.total_cmp(&b.0));
+            taken.order_by(|a, b| a.0.total_cmp(&b.0));
             let (mut free, mut reached) = (0.0_f64, 0.0_f64);
             let mut in_the_way: BTreeSet<usize> = BTreeSet::new();
             for (from, to, no) in taken {

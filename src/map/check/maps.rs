@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::fault::{MapError, Record, Spot};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, OrFrId, Vector};
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
@@ -307,7 +308,7 @@ impl<'w> Checker<'w> {
         // Of one that stands twice the last place counts.
         let mut indices: Vec<(AreaId, usize)> =
             map.items.iter().enumerate().map(|(i, item)| (item.area, i)).collect();
-        indices.sort_unstable();
+        indices.order();
         let index = |area: AreaId| {
             let (own, i) = indices[..indices.partition_point(|(own, _)| *own <= area)].last()?;
             (*own == area).then_some(*i)
@@ -323,7 +324,7 @@ impl<'w> Checker<'w> {
                 mounts.extend(index(item.area).map(|i| (mount.door, i)));
             }
         }
-        mounts.sort_by_key(|(door, _)| *door);
+        mounts.order_by_key(|(door, _)| *door);
         for mounted in mounts.chunk_by(|a, b| a.0 == b.0) {
             if let [(_, one), (_, other)] = mounted {
                 parts.join(*one, *other);

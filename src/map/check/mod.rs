@@ -17,6 +17,7 @@ mod zones;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
 
 pub use doubts::doubts;
@@ -97,7 +98,7 @@ impl<'w> Checker<'w> {
             let items =
                 |map: &'w Map| map.items.iter().enumerate().map(|(n, i)| (i.area, (map.id, n)));
             let mut all: Vec<_> = self.world.maps.values().flat_map(items).collect();
-            all.sort_by_key(|(area, _)| *area);
+            all.order_by_key(|(area, _)| *area);
             all
         });
         let at = placed.partition_point(|(other, _)| *other < area);

@@ -3,6 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, name_key};
 use crate::{Entity, TypeKind, World};
 
@@ -44,7 +45,7 @@ impl Checker<'_> {
             }
         }
         // In the order of the whole check.
-        twice.sort_unstable();
+        twice.order();
         for (entity, _, name, first) in twice {
             self.borne_twice(name, first, entity);
         }

@@ -25,6 +25,7 @@ use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
+use crate::units::InOrder as _;
 use crate::units::{Bilingual, FileFault, Source};
 
 pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, RobotSaid, edit, kinds};
@@ -154,7 +155,7 @@ pub fn locate(source: &Source, format: Format, faults: &mut [Fault]) {
     let Draft { origins, left_out, .. } = read::build(&root);
     let origin = |record| origins.get(&record).cloned();
     faults.iter_mut().for_each(|fault| fault.locate(origin, &left_out));
-    faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+    faults.order_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
 }
 
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
@@ -191,12 +192,12 @@ fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
 
 /// In the order of the text, without repetitions, at most [`MOST_FAULTS`].
 fn report(source: &Source, mut faults: Vec<Fault>) -> MapErrors {
-    faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+    faults.order_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
     faults.dedup();
     if faults.len() > MOST_FAULTS {
         let count = faults.len() - MOST_FAULTS;
         // Errors are kept before warnings, else a map could fail without a reason given.
-        faults.sort_by_key(Fault::is_warning);
+        faults.order_by_key(Fault::is_warning);
         let hides_errors = !faults[MOST_FAULTS].is_warning();
         faults.truncate(MOST_FAULTS);
         if hides_errors {

@@ -12,6 +12,7 @@ use super::Format;
 use super::misprint::in_both;
 use crate::fault::MapError;
 use crate::units::Bilingual;
+use crate::units::InOrder as _;
 
 /// Bytes of the text.
 pub(super) type Span = Range<usize>;
@@ -157,7 +158,7 @@ fn toml_table(table: DeTable<'_>) -> Value {
         })
         .collect();
     // The parser sorts keys by their letters; ids follow the order of the text.
-    entries.sort_by_key(|entry| entry.key_span.start);
+    entries.order_by_key(|entry| entry.key_span.start);
     Value::Table(entries)
 }
 

@@ -3,6 +3,7 @@
 //! The types are the one source of the format: reading refuses what they do not name, writing prints them in the
 //! order of their fields, and [`json_schema`] is made from them. What they mean is decided in `read` and `write`.
 
+use crate::units::InOrder as _;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -126,7 +127,7 @@ macro_rules! tables {
                 )*];
                 // What is said in a word stands before what takes many lines.
                 let takes_many = |line: &String| line.matches('\n').count() > 1;
-                lines.sort_by_key(|line| line.as_ref().is_some_and(takes_many));
+                lines.order_by_key(|line| line.as_ref().is_some_and(takes_many));
                 lines.into_iter().flatten().collect()
             }
         }

@@ -8,6 +8,7 @@ use super::schema::{
     SideFile, SideTraitsFile, Table, TypeFile, TypesFile, ZoneFile, ZoneWord,
 };
 use super::text::{Lines, key};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
 use crate::{
     Area, BaseVector, DomainMap, Door, DoorMount, DoorState, DoorStatus, Extent, Face, Item,
@@ -347,11 +348,11 @@ impl Writer<'_> {
     fn areas(&self) -> Table<AreaFile> {
         let w = self.world;
         let mut replicas: Vec<_> = w.replicas.values().collect();
-        replicas.sort_by_key(|r| (r.area, r.id));
+        replicas.order_by_key(|r| (r.area, r.id));
         let replica_ids = self.ids(replicas.iter().map(|r| r.id.0));
         let replicas: Vec<_> = replicas.iter().zip(replica_ids).collect();
         let mut places: Vec<_> = w.places.values().collect();
-        places.sort_by_key(|p| (p.area, p.id));
+        places.order_by_key(|p| (p.area, p.id));
         let place_ids = self.ids(places.iter().map(|p| p.id.0));
         let places: Vec<_> = places.iter().zip(place_ids).collect();
         let area = |(area, id): (&Area, Option<u32>)| {

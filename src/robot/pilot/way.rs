@@ -4,6 +4,7 @@
 use crate::geometry::{PlacedReplica, Polygon, convex_hull, nearest_on_segment};
 use crate::map::DoorKind;
 use crate::sensing::ThingSeen;
+use crate::units::InOrder as _;
 use crate::units::{Deg, Frame, Point, Pose, ReplicaId, Vector};
 use crate::vehicle::{Bump, Gathered, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
 
@@ -229,7 +230,7 @@ impl Pilot<'_, '_> {
         // One return by itself is noise.
         let second = |p: Point| {
             let mut off: Vec<Vector> = near.iter().map(|end| p - end).collect();
-            off.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+            off.order_by(|a, b| a.norm().total_cmp(&b.norm()));
             off.get(1).copied()
         };
         let Some(off) = second(p).filter(|off| off.norm() < keep) else { return p };

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::{DOORWAY, Graph, LEAST_ROOM, MOST_EDGES, MOST_LEADS, OPEN, REACH, TURN, WELD};
 use crate::map::plane::{doubled_area, meeting};
+use crate::units::InOrder as _;
 use crate::units::Point;
 
 impl Graph {
@@ -32,7 +33,7 @@ impl Graph {
                 gaps.extend(nearest.map(|q| ((q - p).norm(), end, q)));
             }
         }
-        gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        gaps.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         // From both its ends it is one gap.
         let mut known: Vec<(Point, Point)> = Vec::new();
         let near = |a: Point, b: Point| (a - b).norm() <= WELD;

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 
 use crate::geometry::nearest_on_segment;
 use crate::map::plane::{bounds, contains, doubled_area, meeting, near_pairs};
+use crate::units::InOrder as _;
 use crate::units::Point;
 
 mod gaps;
@@ -211,7 +212,7 @@ impl Graph {
         for (i, mut points) in cuts {
             let (a, b, tag) = self.edges[i];
             let from = self.points[a];
-            points.sort_by(|p, q| (p - from).norm().total_cmp(&(q - from).norm()));
+            points.order_by(|p, q| (p - from).norm().total_cmp(&(q - from).norm()));
             let mut chain = vec![a];
             for p in points {
                 let node = self.node(p);
@@ -300,7 +301,7 @@ impl Graph {
                     }
                 }
             }
-            chords.sort_by(|a, b| a.0.total_cmp(&b.0));
+            chords.order_by(|a, b| a.0.total_cmp(&b.0));
             chords.into_iter().map(|(_, a, b)| (a, b)).find(|&(a, b)| self.is_clear(a, b))
         })
     }
@@ -335,7 +336,7 @@ impl Graph {
             leads.extend(nearest.map(|foot| ((foot - p).norm(), end, foot)));
         }
         leads.retain(|lead| lead.0 <= REACH);
-        leads.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        leads.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         leads.truncate(MOST_LEADS);
         let led = |leads: &[(f64, usize, Point)]| {
             let gaps: Vec<(usize, Point)> =
@@ -409,7 +410,7 @@ impl Graph {
             v.y.atan2(v.x)
         };
         for (&node, ends) in &mut out {
-            ends.sort_by(|a, b| angle(node, a.0).total_cmp(&angle(node, b.0)));
+            ends.order_by(|a, b| angle(node, a.0).total_cmp(&angle(node, b.0)));
         }
         let mut seen = BTreeSet::new();
         let mut cycles = Vec::new();

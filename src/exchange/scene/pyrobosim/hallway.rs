@@ -7,6 +7,7 @@ use crate::map::{DoorKind, DoorStatus};
 use crate::scene::json::{length, list, text};
 use crate::scene::plane;
 use crate::scene::procthor::contains;
+use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 use super::record::{centroid, pair};
@@ -96,7 +97,7 @@ pub(super) fn crossing(way: &[Point], outline: &[Point]) -> Option<Crossing> {
                 }
             }
         }
-        here.sort_by(|x, y| x.0.total_cmp(&y.0));
+        here.order_by(|x, y| x.0.total_cmp(&y.0));
         last = here.pop().map(|(_, c)| c).or(last);
     }
     last

@@ -10,6 +10,7 @@ use crate::question::lexicon::Extension;
 use crate::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
 use crate::question::values::{Property, ValueId};
 use crate::question::{Doubt, Fact, Said};
+use crate::units::InOrder as _;
 use crate::words::{Case, Number, enumerate};
 
 impl Knowledge<'_> {
@@ -228,7 +229,7 @@ impl Knowledge<'_> {
         };
         let said = if yes { Said::Yes } else { Said::No };
         topic.truncate(4);
-        facts.sort_by_key(|f| f.holds == all);
+        facts.order_by_key(|f| f.holds == all);
         facts.reverse();
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(found) }.about(&topic))
     }

@@ -8,6 +8,7 @@ use crate::question::lexicon::lower_first;
 use crate::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
 use crate::question::values::Property;
 use crate::question::{Doubt, Said};
+use crate::units::InOrder as _;
 use crate::words::russian::{self, Counted};
 use crate::words::{Case, area, length};
 
@@ -286,7 +287,7 @@ impl Knowledge<'_> {
         let each = compared.each.iter().copied();
         let mut measured: Vec<(f64, Thing)> = each.zip(things.iter().copied()).collect();
         let sign = if extreme.is_less() { 1.0 } else { -1.0 };
-        measured.sort_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
+        measured.order_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
         let [(best, winner), rest @ ..] = &measured[..] else { return Ok(self.apart(&things)) };
         // What is told to be as much is not more.
         let told = |measure: f64, thing: Thing| self.compared_words(&compared, thing, measure);

@@ -8,6 +8,7 @@ use crate::question::knowledge::{Frame, Held, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Said};
+use crate::units::InOrder as _;
 use crate::words::length;
 use crate::words::{Language, enumerate, russian};
 
@@ -264,7 +265,7 @@ impl Knowledge<'_> {
         let from = from.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
         let mut found = found.to_vec();
         if let Some(anchor) = anchor {
-            found.sort_by(|a, b| {
+            found.order_by(|a, b| {
                 let away = |t: &Thing| self.distance(*t, anchor).unwrap_or(f64::INFINITY);
                 away(a).total_cmp(&away(b)).then(a.cmp(b))
             });

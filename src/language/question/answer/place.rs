@@ -9,6 +9,7 @@ use crate::question::query::{Extreme, Filter, Noun, Rel, Thing};
 use crate::question::{Doubt, Fact, Said};
 use crate::report::{Detail, Named};
 use crate::units::AreaId;
+use crate::units::InOrder as _;
 use crate::words::length;
 use crate::words::{Case, enumerate, russian};
 
@@ -187,7 +188,7 @@ impl Knowledge<'_> {
             })
             .filter_map(|t| Some((self.distance(thing, t)?, t)))
             .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let Some(&(distance, anchor)) = near.first() else {
             return match held.filter(|_| self.is_portable(thing)) {
                 Some(Held::InCorner) => self.pick(", в углу", ", in the corner").to_owned(),
@@ -229,7 +230,7 @@ impl Knowledge<'_> {
         match rel {
             Rel::In if thing.replica().is_some() => {
                 let mut found = self.related(Rel::Has, thing);
-                found.sort_unstable();
+                found.order();
                 found
             }
             Rel::On => self
@@ -455,7 +456,7 @@ impl Knowledge<'_> {
             whole.topic.extend(draft.topic);
             whole.things.extend(draft.things);
         }
-        whole.things.sort_unstable();
+        whole.things.order();
         whole.things.dedup();
         Ok(whole)
     }
@@ -615,7 +616,7 @@ impl Knowledge<'_> {
             .filter(|t| t.replica().is_some_and(|r| !self.world.has_trait(r, "portable")))
             .filter_map(|t| Some((self.distance(thing, t)?, t)))
             .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         near.truncate(12);
         for (n, (_, b)) in near.iter().enumerate() {
             for (_, a) in &near[..n] {

@@ -7,6 +7,7 @@ use crate::question::knowledge::Knowledge;
 use crate::question::query::{Noun, Rel, Thing};
 use crate::question::values::ValueId;
 use crate::question::{Doubt, Said};
+use crate::units::InOrder as _;
 use crate::words::enumerate;
 
 impl Knowledge<'_> {
@@ -46,7 +47,7 @@ impl Knowledge<'_> {
     pub(super) fn say_empty(&self, thing: Thing, negated: bool) -> Draft {
         let mut held = self.related(Rel::In, thing);
         held.extend(self.related(Rel::On, thing));
-        held.sort_unstable();
+        held.order();
         held.dedup();
         let yes = held.is_empty() != negated;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };

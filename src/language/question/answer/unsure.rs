@@ -7,6 +7,7 @@ use crate::map::Entity;
 use crate::question::Said;
 use crate::question::knowledge::Knowledge;
 use crate::question::query::{Query, Thing};
+use crate::units::InOrder as _;
 use crate::words::enumerate;
 
 /// So many facts of an answer are looked at.
@@ -61,7 +62,7 @@ impl Knowledge<'_> {
             subjects.extend(draft.things.iter().chain(&draft.topic));
         }
         subjects.retain(is_thing);
-        subjects.sort_unstable();
+        subjects.order();
         subjects.dedup();
         let share = |thing: &Thing| self.senses.doubted(thing.replica()?);
         let doubted: Vec<(Thing, f64)> =

@@ -8,6 +8,7 @@ use crate::question::knowledge::Knowledge;
 use crate::question::query::{Extreme, Noun, Rel, Thing};
 use crate::question::{Doubt, Fact, Said, Way};
 use crate::report::Detail;
+use crate::units::InOrder as _;
 use crate::words::{Case, russian};
 use crate::words::{duration, length};
 
@@ -175,7 +176,7 @@ impl Knowledge<'_> {
                 }
             }
         }
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ways.order_by(|a, b| a.0.total_cmp(&b.0));
         if extreme == Extreme::Farthest {
             ways.reverse();
         }

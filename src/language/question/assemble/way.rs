@@ -11,6 +11,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Closeness, Extreme, Head, Noun, Query, Reach, Rel, Restriction, Thing,
 };
+use crate::units::InOrder as _;
 use crate::words::{Case, Language};
 
 impl Frame<'_, '_> {
@@ -228,7 +229,7 @@ impl Frame<'_, '_> {
         let mut from = None;
         let mut ways: Vec<(Option<Noun>, Noun)> = Vec::new();
         let mut spots: Vec<&Spot> = self.spots.iter().collect();
-        spots.sort_by_key(|spot| spot.at);
+        spots.order_by_key(|spot| spot.at);
         for spot in spots {
             match spot.rel {
                 Rel::From => from = spot.nouns.first().cloned(),

@@ -8,6 +8,7 @@ use crate::question::Doubt;
 use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::query::{Best, Extreme, Head, Noun, Reach, Rel, Restriction, Thing};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -170,7 +171,7 @@ impl Knowledge<'_> {
                     if told.is_empty() {
                         told = rooms.collect();
                     }
-                    told.sort_unstable();
+                    told.order();
                     found = told;
                     continue;
                 }
@@ -320,7 +321,7 @@ impl Knowledge<'_> {
         if found.iter().any(|t| height(t) >= ground) {
             found.retain(|t| height(t) >= ground);
         }
-        found.sort_by(|a, b| height(a).total_cmp(&height(b)).then(a.cmp(b)));
+        found.order_by(|a, b| height(a).total_cmp(&height(b)).then(a.cmp(b)));
         let at = usize::try_from(rank.max(1) - 1).unwrap_or(usize::MAX);
         found.get(at).copied().into_iter().collect()
     }
@@ -577,7 +578,7 @@ impl Knowledge<'_> {
                 found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()
             }
         };
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        ranked.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         if best.extreme == Extreme::Midmost {
             let middle = ranked.len() / 2;
             let one = (ranked.len() % 2 == 1).then(|| ranked[middle].1);
@@ -629,7 +630,7 @@ impl Knowledge<'_> {
         };
         let mut bounded: Vec<(f64, Thing)> =
             found.into_iter().filter(|t| *t != anchor).map(|t| (at_least(t), t)).collect();
-        bounded.sort_by(|a, b| a.0.total_cmp(&b.0));
+        bounded.order_by(|a, b| a.0.total_cmp(&b.0));
         let wanted = usize::try_from(count).unwrap_or(usize::MAX).max(1);
         let mut measured: Vec<(f64, Thing)> = Vec::new();
         for (least, thing) in bounded {

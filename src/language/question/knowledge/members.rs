@@ -6,6 +6,7 @@ use super::Knowledge;
 use crate::map::Entity;
 use crate::question::lexicon::{Extension, Lexicon};
 use crate::question::query::Thing;
+use crate::units::InOrder as _;
 use crate::units::{ObjectId, ReplicaId};
 
 impl Knowledge<'_> {
@@ -20,7 +21,7 @@ impl Knowledge<'_> {
             let kinds = self.by_type().iter();
             let kinds = kinds.filter(|(kind, _)| self.world.types.object.has_trait(**kind, wanted));
             let mut found: Vec<Thing> = kinds.flat_map(|(_, all)| all).map(replica).collect();
-            found.sort_unstable();
+            found.order();
             found
         };
         match extension {

@@ -19,6 +19,7 @@ use super::query::{Rel, Thing};
 use super::{Memory, Senses};
 use crate::map::{DoorKind, Entity, World};
 use crate::semantics::{Relations, Subject};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, OpeningId, Point, ReplicaId, TypeId};
 use crate::words::Language;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -316,7 +317,7 @@ impl Knowledge<'_> {
             let tuples = self.relations.derived().tuples("IS_FURNITURE").into_iter().flatten();
             let mut found: Vec<ReplicaId> =
                 tuples.filter_map(|t| self.thing(t.symbol(0)?)?.replica()).collect();
-            found.sort_unstable();
+            found.order();
             found
         })
     }

@@ -8,6 +8,7 @@ use super::bases;
 use crate::map::{Entity, Mark};
 use crate::question::lexicon::Extension;
 use crate::question::query::{Rel, Thing};
+use crate::units::InOrder as _;
 use crate::units::{AreaId, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
@@ -99,7 +100,7 @@ impl Knowledge<'_> {
                 // A chest has things in it and on it.
                 let mut found = self.by_relation(Rel::In, anchor);
                 found.extend(self.by_relation(Rel::On, anchor));
-                found.sort_unstable();
+                found.order();
                 found.dedup();
                 found
             }
@@ -146,7 +147,7 @@ impl Knowledge<'_> {
     fn in_middle(&self, anchor: Thing) -> Vec<Thing> {
         let all = self.pairs("IN_MIDDLE_OF").and_then(|pairs| pairs.backward.get(&anchor));
         let mut found = all.cloned().unwrap_or_default();
-        found.sort_unstable();
+        found.order();
         found
     }
 
@@ -191,7 +192,7 @@ impl Knowledge<'_> {
         if matches!(rel, Rel::On | Rel::In) {
             found.extend(self.aboard(anchor));
         }
-        found.sort_unstable();
+        found.order();
         found
     }
 
@@ -278,7 +279,7 @@ impl Knowledge<'_> {
             found.push(Thing::Entity(Entity::Area(item.area)));
             found.extend(self.in_area(item.area));
         }
-        found.sort_unstable();
+        found.order();
         found.dedup();
         found
     }
@@ -359,7 +360,7 @@ impl Knowledge<'_> {
                 found.push((distance, thing));
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         found.into_iter().map(|(_, t)| t).collect()
     }
 
@@ -408,7 +409,7 @@ fn nearest_first(
 ) -> Vec<Thing> {
     let away = things.filter_map(|t| Some((distance(t.replica()?)?, t)));
     let mut near: Vec<(f64, Thing)> = away.collect();
-    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     near.dedup_by_key(|(_, t)| *t);
     near.into_iter().map(|(_, t)| t).collect()
 }

@@ -7,6 +7,7 @@ use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::question::query::{Filter, Rel, Thing};
 use crate::question::values::{Property, ValueId};
 use crate::units::DoorId;
+use crate::units::InOrder as _;
 use std::collections::BTreeSet;
 
 impl Knowledge<'_> {
@@ -171,7 +172,7 @@ impl Knowledge<'_> {
             .filter(|v| values.meaning(v).is_some_and(|own| values.is(own, value)))
             .cloned()
             .collect();
-        found.sort_unstable();
+        found.order();
         found.dedup();
         found
     }

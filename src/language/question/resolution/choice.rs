@@ -8,6 +8,7 @@ use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
+use crate::units::InOrder as _;
 
 impl Settler<'_, '_> {
     pub(super) fn candidates(
@@ -220,7 +221,7 @@ impl Settler<'_, '_> {
                 (away, knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY), *t)
             })
             .collect();
-        ranked.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        ranked.order_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         ranked.into_iter().take(wanted).map(|(_, _, t)| t).collect()
     }
 }

@@ -29,6 +29,7 @@ use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::units::AreaId;
+use crate::units::InOrder as _;
 use crate::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
@@ -119,7 +120,7 @@ impl Asker<'_> {
         };
         match settled {
             Ok(mut edits) => {
-                edits.sort_by_key(|edit| edit.at.start);
+                edits.order_by_key(|edit| edit.at.start);
                 if !edits.iter().any(|edit| edit.object)
                     && let Some(doubt) = self.one_of_listed(&text, &sentence, memory)
                 {

@@ -25,6 +25,7 @@ use super::english;
 use super::grammar::{Case, Number, WordHints};
 use super::list::Language;
 use super::phrase::NounPhrase;
+use crate::units::InOrder as _;
 use spelled::Spelled;
 use spelled::split_tag;
 use std::collections::HashMap;
@@ -356,7 +357,7 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         let mut hits: Vec<Hit<'_, T>> = Vec::new();
         let mut place: HashMap<&T, usize> = HashMap::new();
         found.retain(|m| m.spelling == best);
-        found.sort_by_key(|m| m.name);
+        found.order_by_key(|m| m.name);
         for Match { name, readings, spelling } in found {
             let Name { text, id, .. } = &self.names[name as usize];
             let at = *place.entry(id).or_insert(hits.len());

@@ -4,6 +4,7 @@
 
 use super::FormIndex;
 use super::spelled::Spelled;
+use crate::units::InOrder as _;
 use std::hash::Hash;
 
 impl<T: Clone + Eq + Hash> FormIndex<T> {
@@ -84,7 +85,7 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             let ends = key.chars().last() == wanted.key.chars().last();
             (ends, key.chars().next() == wanted.key.chars().next())
         };
-        found.sort_by(|a, b| {
+        found.order_by(|a, b| {
             let likest = alike(b.0).cmp(&alike(a.0)).then(a.0.cmp(b.0));
             let plainest = a.1.len().cmp(&b.1.len()).then(b.1.cmp(a.1));
             likest.then(plainest).then(a.2.cmp(&b.2))
@@ -103,7 +104,7 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             None => {}
         }
         best.push((likeness, name));
-        best.sort_by(|(a, x), (b, y)| b.total_cmp(a).then(x.cmp(y)));
+        best.order_by(|(a, x), (b, y)| b.total_cmp(a).then(x.cmp(y)));
         best.truncate(limit);
     }
 }

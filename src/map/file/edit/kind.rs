@@ -2,6 +2,7 @@
 
 use crate::World;
 use crate::fault::Record;
+use crate::units::InOrder as _;
 
 /// The kinds of records that bear names. The order is that in which a name is understood that several kinds bear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -102,7 +103,7 @@ impl Kind {
             };
             ($records:ident, $record:ident by area) => {{
                 let mut all: Vec<_> = world.$records.values().map(|r| (r.area, r.id)).collect();
-                all.sort_unstable();
+                all.order();
                 all.into_iter().map(|(_, id)| Record::$record(id)).collect()
             }};
         }
