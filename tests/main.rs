@@ -83,6 +83,7 @@ mod views;
 mod ways;
 mod words;
 mod worlds;
+mod wrapped;
 mod zones;
 
 /// The program, in Russian unless its arguments say otherwise: what it prints here does not hang on the locale.

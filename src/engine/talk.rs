@@ -6,7 +6,7 @@ use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Said, Senses, Settled,
-    Sighting, Thing, Unanswered, Way,
+    Sighting, Thing, Unanswered, Way, unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -39,6 +39,7 @@ impl State {
     ) -> Result<Result<Answer, Unanswered>, Error> {
         self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
+        let question = &*unaddressed(question);
         if let Some(answer) = self.ask_of_zones(question, &senses)? {
             memory.learn(&answer);
             return Ok(Ok(answer.of(memory)));

@@ -219,7 +219,7 @@ impl Dialogue {
         tell: &mut Tell<'_>,
     ) -> Result<Heard, Error> {
         let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
-        hearing.order(task)?;
+        hearing.order(&unaddressed(task))?;
         Ok(hearing.heard)
     }
 }

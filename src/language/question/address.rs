@@ -1,39 +1,50 @@
-//! How somebody is spoken to within a line: "Where is it, dear?", «Скажи, дружок, где чашка?»
+//! What is said to whom one speaks with and nothing of the world: "Where is it, dear?", «Короче, где чашка?», "Is it, like,
+//! red?"
 //!
-//! Invariant: commas or the ends of the line part it from everything else; what is named within a sentence is no address.
+//! Invariant: commas or the ends of the line part it from everything else; what is named within a sentence is no address, and
+//! what puts right what was said before it («кружка, то есть, чашка») stays.
 
 use std::borrow::Cow;
 
 use super::mark::Mark;
-use super::several::is_tag;
+use super::several::{self, is_tag};
 use super::vocabulary;
-use crate::words::word_keys;
+use crate::words::{is_first_person, word_keys};
 
-/// A line without the words by which somebody is spoken to.
+/// A line without the words by which somebody is spoken to, and without particles of speech.
 #[must_use]
 pub fn unaddressed(line: &str) -> Cow<'_, str> {
     let mut cuts = Vec::new();
     let mut from = 0;
+    let asks = line.trim_end().ends_with('?');
     let marks = line.char_indices().filter(|(_, c)| MARKS.contains(c));
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
-        let asks = line.trim_end().ends_with('?');
-        let parted = vocabulary::parted(&word_keys(&line[from..at]));
-        if parted == Some(Mark::Called) || asks && parted == Some(Mark::Hesitates) {
-            cuts.push((from, at, at + mark));
-        }
-        from = at + mark;
+        let end = at + mark;
+        let cut = match vocabulary::parted(&word_keys(&line[from..at])) {
+            Some(Mark::Called) => Some(Cut::Comma),
+            Some(Mark::Hesitates) => asks.then_some(Cut::Comma),
+            Some(Mark::Particle) => Some(Cut::within(&line[..from], &line[end..])),
+            Some(Mark::Corrects) => {
+                let outside = line[..from].trim().is_empty() || line[end..].trim().is_empty();
+                (outside || begins_clause(&line[..from], &line[end..])).then_some(Cut::Comma)
+            }
+            _ => None,
+        };
+        cuts.extend(cut.map(|cut| (from, at, end, cut)));
+        from = end;
     }
-    let alone = cuts.iter().map(|(from, at, _)| word_keys(&line[*from..*at]).len()).sum::<usize>();
+    let alone = cuts.iter().map(|(from, at, ..)| word_keys(&line[*from..*at]).len()).sum::<usize>();
     if cuts.is_empty() || alone == word_keys(line).len() {
         return Cow::Borrowed(line);
     }
     let mut kept = String::new();
     let mut from = 0;
-    for (begin, end, next) in cuts {
+    for (begin, end, next, cut) in cuts {
         let before = line[from..begin].trim_end();
         let within = !line[next..].trim().is_empty() && !before.is_empty();
-        // "…, dear?" keeps the mark that ends the line; «Скажи, дружок, где …» one comma.
-        kept.push_str(if within { before } else { before.trim_end_matches(COMMAS) });
+        // "…, dear?" keeps the mark that ends the line; «Скажи, дружок, где …» one comma; «Где, короче, чашка?» none.
+        let joined = within && matches!(cut, Cut::Both);
+        kept.push_str(if within && !joined { before } else { before.trim_end_matches(COMMAS) });
         from = if within || before.is_empty() && kept.is_empty() { next } else { end };
     }
     let rest = &line[from..];
@@ -42,6 +53,32 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     }
     kept.push_str(rest);
     Cow::Owned(kept.trim().to_owned())
+}
+
+/// What goes with words that are left out within a line.
+enum Cut {
+    /// One of the two marks: the other parts a clause.
+    Comma,
+    /// Both: they part one clause.
+    Both,
+}
+
+impl Cut {
+    fn within(before: &str, behind: &str) -> Self {
+        let joined = before.trim_end().ends_with(',') && !begins_clause(before, behind);
+        if joined { Self::Both } else { Self::Comma }
+    }
+}
+
+/// Whether what stands behind words that say nothing is a clause of its own, and not the rest of the one before them.
+fn begins_clause(before: &str, behind: &str) -> bool {
+    let keys = word_keys(behind);
+    let of_me = |key: &String| matches!(key.as_str(), "я" | "мы" | "i" | "we");
+    let tells = word_keys(before).iter().any(|key| of_me(key) || is_first_person(key));
+    let whether = keys.get(1).is_some_and(|key| key == "ли");
+    let asks = vocabulary::longest(&keys)
+        .is_some_and(|(_, mark)| several::is_asking(mark) && keys[0] != "есть");
+    !several::asks_in(before) && (tells || asks || whether)
 }
 
 /// A line without an "isn't it" in its midst, which denies nothing: "It's in there, isn't it, but where?"
@@ -94,6 +131,23 @@ mod tests {
             ("Ok wait, is it red?", "is it red?"),
             ("Подожди, пока я не приду", "Подожди, пока я не приду"),
             ("Mum?", "Mum?"),
+            ("Короче, есть чем поиграть?", "есть чем поиграть?"),
+            ("Ну короче, где чашка?", "где чашка?"),
+            ("Где, короче, чашка?", "Где чашка?"),
+            ("Сколько, значит, стульев на кухне?", "Сколько стульев на кухне?"),
+            ("Which cups are, like, red?", "Which cups are red?"),
+            ("Which cups, you know, are red?", "Which cups are red?"),
+            (
+                "I'm in the kitchen, you know, where is the bin?",
+                "I'm in the kitchen, where is the bin?",
+            ),
+            ("Скажи, ну, где чашка?", "Скажи, где чашка?"),
+            ("What is above the kitchen, like, counter?", "What is above the kitchen counter?"),
+            ("Where is the cup, I mean, the mug?", "Where is the cup, I mean, the mug?"),
+            ("I mean, where is the cup?", "where is the cup?"),
+            ("Что короче, стол или шкаф?", "Что короче, стол или шкаф?"),
+            ("Is there milk, like?", "Is there milk?"),
+            ("Короче", "Короче"),
         ] {
             assert_eq!(unaddressed(line), plain, "{line}");
         }

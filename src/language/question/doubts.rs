@@ -143,6 +143,9 @@ impl Knowledge<'_> {
                 true => format!("что вы хотите узнать про «{}»?", tidy(about)),
                 false => format!("what would you like to know about \"{}\"?", tidy(about)),
             },
+            Doubt::NoReferent { word } if word.trim().is_empty() => {
+                self.pick("не понимаю, о чём речь", "I do not know what is meant here").to_owned()
+            }
             Doubt::NoReferent { word } => match russian {
                 true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
                 false => format!("I do not know what \"{}\" means here", tidy(word)),

@@ -160,6 +160,10 @@ pub(super) enum Mark {
     Called,
     /// "Wait", «постой»: who says so before a question is about to ask.
     Hesitates,
+    /// «короче», "you know": a particle of speech that says nothing, where commas part it from the rest.
+    Particle,
+    /// "I mean", «то есть»: the same, but within a clause what follows takes the place of what stands before.
+    Corrects,
     Filler,
 }
 

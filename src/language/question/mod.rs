@@ -35,6 +35,7 @@ mod nearest;
 mod notation;
 mod noun;
 mod of_those;
+mod one_of_two;
 mod opening;
 mod orders;
 mod outlive;
@@ -276,6 +277,10 @@ impl Asker<'_> {
             memory.language = Language::of(text);
         }
         let language = memory.language;
+        let text = match is_too_long(text) {
+            true => text,
+            false => self.without_idle_head(text).unwrap_or(text),
+        };
         // What is too long is not even read.
         if is_too_long(text) {
             let length = text.chars().take(1_000_000).count();
@@ -429,27 +434,6 @@ impl Asker<'_> {
             _ => &[],
         });
         phrases.filter_map(|phrase| phrase.pronoun).collect()
-    }
-
-    /// "Is there a microwave or a toaster?" where the map has no word for the one: that is said, and the other looked for.
-    fn without_unknown(
-        &self,
-        text: &str,
-        language: Language,
-        memory: &Memory,
-        doubt: &Doubt,
-    ) -> Option<Answer> {
-        let Doubt::Unknown { reference, .. } = doubt else { return None };
-        let (rest, either) = several::without(text, reference)?;
-        let answer = self.answer(&rest, language, memory).ok()?;
-        // Of two that are joined by "and" both are asked after, and of a comparison both are needed.
-        if either != matches!(answer.said, Said::Yes | Said::No) {
-            return None;
-        }
-        let unknown = Doubt::Unknown { reference: reference.clone(), near: Vec::new() };
-        let unknown = self.knowledge(language, memory).unanswered(unknown).text;
-        let text = format!("{unknown} {}", answer.text);
-        Some(Answer { text, ..answer })
     }
 
     /// The query that a text asks, without answering it.

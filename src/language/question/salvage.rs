@@ -247,6 +247,33 @@ impl Asker<'_> {
         })
     }
 
+    /// A line without an "or" before which a person only doubts of itself: "Is it me or …?", «Мне кажется или …?»
+    pub(super) fn without_idle_head<'t>(&self, text: &'t str) -> Option<&'t str> {
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let or = keys.iter().position(|key| matches!(key.as_str(), "или" | "or"))?;
+        let (head, tail) = (&text[..words[or].start], &text[words.get(or + 1)?.start..]);
+        let plain = self.plain(head);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let of_me = |item: &Item| match item {
+            Item::Mark(mark) => *mark == Mark::Me,
+            Item::Noun(phrase) => phrase.person == Some(Mark::Me),
+            _ => false,
+        };
+        let idle = |item: &Item| match item {
+            Item::Unknown(words) => !self.is_word(sentence.said(words)),
+            Item::Noun(phrase) => phrase.pronoun == Some(Pronoun::Any),
+            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::The | Mark::Be | Mark::Lead),
+            _ => false,
+        };
+        let items = sentence.items();
+        let doubts = items.iter().any(of_me) && items.iter().all(|item| of_me(item) || idle(item));
+        let asks = match sentence.language {
+            Language::English => opening::begins_question(&word_keys(tail)),
+            Language::Russian => word_keys(tail).len() > 1,
+        };
+        (doubts && asks).then_some(tail)
+    }
+
     fn asks(&self, text: &str) -> bool {
         let words = word_keys(text);
         let whether =
@@ -307,6 +334,8 @@ impl Asker<'_> {
             small(item)
                 || nobody && *item == Item::Mark(Mark::Who)
                 || says && matches!(item, Item::Noun(phrase) if phrase.pronoun.is_some())
+                // "I was told that …", "I have heard that …"
+                || says && matches!(item, Item::Mark(Mark::Be | Mark::Have | Mark::See))
         };
         let governs = matches!(items.last(), Some(Item::Link(_)));
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))
@@ -326,7 +355,10 @@ fn without_joint(text: &str) -> &str {
 
 /// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".
 pub(super) fn is_reported(keys: &[String]) -> bool {
-    const SAYING: [&str; 33] = [
+    const SAYING: [&str; 36] = [
+        "mentioned",
+        "mentions",
+        "казалось",
         "says",
         "said",
         "say",
@@ -363,15 +395,27 @@ pub(super) fn is_reported(keys: &[String]) -> bool {
     ];
     const STEMS: [&str; 8] =
         ["говор", "сказал", "утвержда", "уверя", "считае", "думае", "твердит", "спорит"];
-    const KNOWING: [&str; 6] = ["know", "ask", "asks", "wonders", "wondering", "check"];
+    const KNOWING: [&str; 10] = [
+        "know",
+        "ask",
+        "asks",
+        "wonders",
+        "wondering",
+        "check",
+        "checking",
+        "see",
+        "verify",
+        "confirm",
+    ];
     let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
     let (before, joined) = keys.split_at(keys.len() - joints);
     let Some(last) = before.last() else { return false };
     let whether = joined.iter().any(|key| key == "if" || key == "whether");
     let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
+    let confirms = matches!(last.as_str(), "verify" | "confirm");
     match whether {
         true => says || KNOWING.contains(&last.as_str()),
-        false => says,
+        false => says || confirms && !joined.is_empty(),
     }
 }
 

@@ -125,7 +125,7 @@ fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }
 
-fn is_asking(mark: Mark) -> bool {
+pub(super) fn is_asking(mark: Mark) -> bool {
     matches!(
         mark,
         Mark::Where
@@ -199,7 +199,7 @@ fn begins(words: &[String]) -> bool {
 /// Whether words hung on a question ask only whether what stands before is so, or beg: "isn't it", "is she right", «не так
 /// ли», «она права», "could you".
 pub(super) fn is_tag(tag: &str) -> bool {
-    const BEGGING: [&str; 9] = [
+    const BEGGING: [&str; 10] = [
         "won t you",
         "will you",
         "would you",
@@ -209,6 +209,7 @@ pub(super) fn is_tag(tag: &str) -> bool {
         "please",
         "не подскажешь",
         "нет",
+        "разве нет",
     ];
     const TRUE: [&str; 14] = [
         "right",

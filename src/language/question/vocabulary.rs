@@ -184,6 +184,8 @@ const MARKS: &[Mark] = &[
     Mark::The,
     Mark::Called,
     Mark::Hesitates,
+    Mark::Particle,
+    Mark::Corrects,
     Mark::Filler,
 ];
 
@@ -232,8 +234,8 @@ pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
     }
 }
 
-/// What words that a comma parts from a line do in it: how somebody is spoken to ("my dear"), or that one is about to ask
-/// ("ok wait"). Small words may stand before.
+/// What words that commas part from a line do in it: how somebody is spoken to ("my dear"), that one is about to ask ("ok
+/// wait"), or nothing («ну короче»). Small words may stand before, and particles one after the other.
 pub(super) fn parted(words: &[String]) -> Option<Mark> {
     static PARTED: OnceLock<HashMap<String, Mark>> = OnceLock::new();
     let parted = PARTED.get_or_init(|| {
@@ -246,12 +248,31 @@ pub(super) fn parted(words: &[String]) -> Option<Mark> {
     };
     let before = words.iter().take_while(small).count();
     let keys = |from: usize| words.get(from..).unwrap_or_default().join(" ");
-    (0..=before).find_map(|from| parted.get(&keys(from)).copied())
+    (0..=before).find_map(|from| parted.get(&keys(from)).copied()).or_else(|| {
+        let particle = |said: &[String]| {
+            let mark = parted.get(&said.join(" ")).copied();
+            mark.filter(|mark| matches!(mark, Mark::Particle | Mark::Corrects))
+        };
+        let (mut at, mut all) = (0, None);
+        while at < words.len() {
+            let own =
+                (at + 1..=words.len()).rev().find_map(|to| Some((to, particle(&words[at..to])?)));
+            let (to, mark) = own.or_else(|| {
+                let (taken, mark) = longest(&words[at..])?;
+                (mark == Mark::Filler).then_some((at + taken, mark))
+            })?;
+            if mark != Mark::Filler && all != Some(Mark::Corrects) {
+                all = Some(mark);
+            }
+            at = to;
+        }
+        all
+    })
 }
 
-/// Within a sentence "honey" is a thing, and "wait" an order.
+/// Within a sentence "honey" is a thing, "wait" an order, and «короче» compares.
 fn is_parted(mark: Mark) -> bool {
-    matches!(mark, Mark::Called | Mark::Hesitates)
+    matches!(mark, Mark::Called | Mark::Hesitates | Mark::Particle | Mark::Corrects)
 }
 
 /// Whether a word is in any phrase of the vocabulary: it is a word, whatever it does there.

@@ -93,18 +93,22 @@ impl Knowledge<'_> {
             let shut = self.openings().iter().map(|gate| gate.thing);
             avoided.extend(shut.filter(|gate| self.is_shut(*gate)));
         }
+        if matches!(asks, Passing::Far | Passing::Long)
+            && let Some(told) = self.way_round(start, goal, &avoided, asks)
+        {
+            return Ok(told.about(&[goal]));
+        }
         let through = if must { &[][..] } else { &through[..] };
         let way = self.by_rooms(start, goal, through, &avoided).ok();
         // Who comes through a room twice on the way does not need to pass where he turns round.
         let way = way.filter(|way| asks == Passing::How || way.is_straight());
         let (said, text) = match (asks, way) {
-            (Passing::Far | Passing::Long, _) => {
-                return Ok(self.way_round(start, goal, &avoided, asks).about(&[goal]));
-            }
             (Passing::Doors | Passing::Rooms, Some(way)) => {
                 return Ok(self.passed(&way, asks).about(&[goal]));
             }
-            (Passing::How, Some(way)) => (Said::Found, self.told(&way)),
+            (Passing::How | Passing::Far | Passing::Long, Some(way)) => {
+                (Said::Found, self.told(&way))
+            }
             (Passing::Directly, _) => (Said::No, format!("{no}, {}", led(&any))),
             (Passing::Must, Some(way)) => (Said::No, format!("{no}, {}", led(&way))),
             (Passing::Must, None) => {
@@ -127,26 +131,23 @@ impl Knowledge<'_> {
         Ok(Draft::new(said, text).about(&[goal]))
     }
 
-    /// How long the way is, or takes, that goes round what is avoided.
-    fn way_round(&self, start: Thing, goal: Thing, avoided: &[Thing], asks: Passing) -> Draft {
+    /// How long the way is, or takes, that goes round what is avoided; none where all ways lead through it.
+    fn way_round(
+        &self,
+        start: Thing,
+        goal: Thing,
+        avoided: &[Thing],
+        asks: Passing,
+    ) -> Option<Draft> {
         let from = Some(start).filter(|start| *start != Thing::Robot);
-        let way = match self.senses.way_without(from, goal, avoided, self.language) {
-            Ok(way) => way,
-            Err(why) => {
-                let text = match self.is_russian() {
-                    true => format!("так проехать туда нельзя: {why}"),
-                    false => format!("there is no such way: {why}"),
-                };
-                return Draft::new(Said::No, text);
-            }
-        };
+        let way = self.senses.way_without(from, goal, avoided, self.language).ok()?;
         if asks == Passing::Long {
             let (seconds, text) = self.takes(&way);
-            return Draft::new(Said::Found, text).number(seconds);
+            return Some(Draft::new(Said::Found, text).number(seconds));
         }
         let far = length(way.length, self.language);
         let text = format!("{far}: {}", self.told(&way.rooms));
-        Draft::new(Said::Found, text).number(way.length)
+        Some(Draft::new(Said::Found, text).number(way.length))
     }
 
     /// The way that is driven, by its rooms: through these rooms and doors in their order, and without those.

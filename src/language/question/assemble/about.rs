@@ -43,8 +43,13 @@ impl Frame<'_, '_> {
         }
         // «Где я?», "Which floor am I on?"
         let me = self.me && !self.you && self.spots.is_empty() && !self.has(Mark::Can);
-        let nowhere =
-            self.nouns.iter().all(|s| self.is_area(&s.noun) && s.noun.head.named.is_empty());
+        // «Скажи мне, какая комната самая большая?» asks of the rooms.
+        let plain = |noun: &Noun| {
+            noun.head.named.is_empty() && noun.filters.is_empty() && noun.best.is_none()
+        };
+        let nowhere = self.values.is_empty()
+            && !self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Best(_) | Mark::More(_)))
+            && self.nouns.iter().all(|s| self.is_area(&s.noun) && plain(&s.noun));
         let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
         if me
             && asks
