@@ -10,6 +10,7 @@ mod commands;
 mod corridor;
 mod corridor_floors;
 mod corridor_lattice;
+mod counted_before;
 mod datalog_files;
 mod deeds;
 mod dialogue;

@@ -2,7 +2,7 @@
 
 use super::another_place::{another_placed, near_another};
 use super::bare::{by_how_much, room_alone, where_alone, where_such};
-use super::grammar::{Item, Sentence};
+use super::grammar::{Item, Sentence, number_of};
 use super::mark::{Mark, Pronoun};
 use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
@@ -42,6 +42,9 @@ impl Asker<'_> {
             return Some(query);
         }
         if let Some(query) = self.other_side(text, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.more_than_there(text, memory) {
             return Some(query);
         }
         if let Some(query) = self.more_of_those(text, memory) {
@@ -450,15 +453,30 @@ impl Asker<'_> {
             .collect();
         let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
         let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();
-        let [only] = rest[..] else { return None };
+        let (only, many) = match rest[..] {
+            [only] => (only, None),
+            // «А другие два?», "The other three?": just so many.
+            [only, many] => (only, Some(number_of(many)?)),
+            _ => return None,
+        };
         if !OTHER.contains(only) {
             return None;
         }
+        let others = || self.others_of_last(memory);
         let noun = match ["others", "остальные", "rest", "остальное", "другие"].contains(only)
         {
-            true => self.rest_of_kind(memory).or_else(|| self.others_of_last(memory))?,
-            false => self.others_of_last(memory)?,
+            true => self.rest_of_kind(memory).or_else(others)?,
+            false if many.is_some() => self.rest_of_kind(memory).or_else(others)?,
+            false => others()?,
         };
+        let so_many = |many: u64| {
+            let found = self.knowledge(memory.language, memory).find(&noun, true);
+            let others = |found: &Vec<Thing>| found.iter().all(|t| !memory.last.contains(t));
+            found.is_ok_and(|found| found.len() as u64 == many && others(&found))
+        };
+        if many.is_some_and(|many| !so_many(many)) {
+            return None;
+        }
         if asks_where {
             return Some(Query::Where(noun));
         }

@@ -189,6 +189,74 @@ impl Asker<'_> {
         Some(Query::MoreOf { of, extreme, asks: true, by: false })
     }
 
+    /// «Сколько стульев на кухне? Их больше, чем в гостиной?», "Are there fewer in the hall?": there, and where they were asked
+    /// after. "Are there more in the hall?" may ask for others, and is not understood.
+    pub(super) fn more_than_there(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let (mut extreme, mut than, mut meant) = (None, false, sentence.points());
+        let (mut own, mut other) = (None, None);
+        let place = |nouns: &[Phrase], rel: Rel| match nouns {
+            [only] if only.pronoun.is_none() && only.person.is_none() => {
+                let anchors = vec![only.noun.clone()];
+                Some(Restriction { rel, anchors, negated: false })
+            }
+            _ => None,
+        };
+        let they = |phrase: &Phrase| phrase.pronoun == Some(Pronoun::They);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::More(of)) if extreme.is_none() => extreme = Some(of),
+                // «больше, чем» has the word of «под чем».
+                Item::Mark(Mark::Than | Mark::What) if extreme.is_some() && !than => than = true,
+                Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Exists | Mark::Have) => {}
+                Item::Noun(phrase) if they(&phrase) => meant = true,
+                Item::Noun(phrase) if phrase.person == Some(Mark::There) => meant = true,
+                Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if nouns.iter().all(they) => {
+                    meant = true;
+                }
+                Item::Place { rel: rel @ (Rel::In | Rel::On), nouns, either: false } => {
+                    let told = if than { &mut other } else { &mut own };
+                    if told.is_some() {
+                        return None;
+                    }
+                    *told = Some(place(&nouns, rel)?);
+                }
+                _ => return None,
+            }
+        }
+        let extreme = match extreme? {
+            Extreme::Biggest | Extreme::Most => Extreme::Most,
+            Extreme::Smallest | Extreme::Fewest => Extreme::Fewest,
+            _ => return None,
+        };
+        // More than there may be any more there.
+        let compares = than || sentence.language == Language::Russian || extreme == Extreme::Fewest;
+        let before = match memory.query.as_ref()? {
+            Query::Count(noun) | Query::Find(noun) => noun,
+            _ => return None,
+        };
+        let [there] = &before.restrictions[..] else { return None };
+        let placed = matches!(there.rel, Rel::In | Rel::On) && !there.negated;
+        if !compares || !placed || before.head.kinds.is_empty() || before.best.is_some() {
+            return None;
+        }
+        let at = |place: Restriction| {
+            let restrictions = vec![place];
+            Noun { restrictions, plural: true, indefinite: true, ..before.clone() }
+        };
+        let of = match (than, own, other) {
+            (true, own, Some(other)) if meant || own.is_none() => {
+                [at(own.unwrap_or_else(|| there.clone())), at(other)]
+            }
+            (false, Some(own), None) if own.anchors != there.anchors => {
+                [at(own), at(there.clone())]
+            }
+            _ => return None,
+        };
+        Some(Query::MoreOf { of, extreme, asks: false, by: false })
+    }
+
     /// «Где ближайший стул? А в гостиной их сколько?»: of the kind of the one thing that was told, there.
     pub(super) fn count_of_kind(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Query> {
         let they = |phrase: &Phrase| phrase.pronoun == Some(Pronoun::They);

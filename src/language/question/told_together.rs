@@ -104,6 +104,10 @@ impl Knowledge<'_> {
             let rest: Vec<Thing> = all.into_iter().filter(|t| t != thing).collect();
             (!rest.is_empty()).then_some(rest)
         };
+        // "Where is the television? – On Cabinet 2. – And the other one?": no cabinet, where there is one television.
+        if let [only] = told[..] {
+            return others(&only);
+        }
         let topics = self.memory.exchanges.first()?.topics();
         if let Some(rest) = topics.iter().find_map(others) {
             return Some(rest);
