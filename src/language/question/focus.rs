@@ -423,6 +423,8 @@ impl Knowledge<'_> {
     pub(super) fn referent(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
         let last = &self.memory.last;
         match pronoun {
+            // "Is there a towel in the bathroom? – No such thing. – How many paintings are there?": in the bathroom.
+            Pronoun::There if self.memory.is_lost => self.memory.told_place.into_iter().collect(),
             _ if self.memory.is_lost => Vec::new(),
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),

@@ -354,7 +354,9 @@ impl Asker<'_> {
                 let is_deaf = memory.exchanges == before && !self.has_pronoun(text);
                 let names_nothing = is_deaf && self.introduces(text);
                 let asked = memory.query.take_if(|_| is_only_named(text, &doubt));
+                let place = memory.told_place.filter(|_| matches!(doubt, Doubt::Unknown { .. }));
                 memory.miss(&doubt, names_nothing);
+                memory.told_place = place;
                 // «А полотенце? – Такого нет. – А мыло?»: the same is asked of each.
                 memory.query = memory.query.take().or(asked);
                 // «Это Часы-1 или Часы-2? – Где вторые?»
@@ -604,6 +606,16 @@ impl Asker<'_> {
                 }
             },
         };
+        // "If I sit on the sofa, can I see the TV?" asks of no robot where it stands.
+        const OF_ME: [&str; 8] = ["i", "me", "we", "us", "я", "мне", "мы", "нам"];
+        let of_robot = matches!(query, Query::Sees(_) | Query::WhatDoYouSee);
+        if of_robot
+            && place.is_some()
+            && word_keys(text).iter().any(|key| OF_ME.contains(&key.as_str()))
+        {
+            let words = text.to_owned();
+            return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
+        }
         if let Some(place) = place {
             query = query.asked_at(place);
             if elsewhere.is_some() && !query.narrow(place) {

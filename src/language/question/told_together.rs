@@ -137,6 +137,13 @@ impl Knowledge<'_> {
         // «Это Часы-1, Часы-2 или Часы-3?» – «Сколько в спальне?»
         if let Some(pending) = &self.memory.pending {
             let things = pending.candidates.clone();
+            // "Which room is the biggest? How many windows has it? – A or B? – And which is the smallest?": of all, or of
+            // those two, nothing says.
+            let asked = self.memory.query.as_ref().and_then(Query::sought);
+            let of_all = |noun: &Noun| noun.best.is_some() && noun.head.things.is_none();
+            if asked.is_some_and(of_all) {
+                return None;
+            }
             return self.alike(&things).map(|_| Head { things: Some(things), ..Head::default() });
         }
         let query = self.memory.query.as_ref()?;

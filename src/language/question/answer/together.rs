@@ -26,6 +26,9 @@ impl Knowledge<'_> {
     /// «да, Тумбочка-1 и Тумбочка-2 находятся в Комнате-Y»
     pub(super) fn together(&self, of: &[Noun], rel: Rel, place: &Noun) -> Result<Draft, Doubt> {
         let found = self.all_meant(of)?;
+        if let ([only], [_]) = (of, &found[..]) {
+            return Err(Doubt::NoReferent { word: only.text.clone() });
+        }
         let of_kind = Noun { plural: true, indefinite: true, ..place.clone() };
         let places = self.find(&of_kind, true)?;
         let mut by_place: Vec<(Option<Thing>, String, Vec<Thing>)> = Vec::new();

@@ -101,23 +101,10 @@ impl Knowledge<'_> {
             self.leave_toilets(&mut found);
         }
         let all = found.clone();
-        /// One sits beside what lies on a seat where so much of it is free, cm² and of 1.
-        const ROOM_TO_SIT: (f64, f64) = (1600.0, 0.6);
         // What something stands on is no seat now.
         let found: Vec<Thing> = match use_for {
             Use::Put => found,
-            _ => {
-                let roomy = |(area, free): (f64, f64)| {
-                    use_for == Use::Sit && free >= ROOM_TO_SIT.0 && free >= ROOM_TO_SIT.1 * area
-                };
-                let empty = |t: &Thing| {
-                    t.replica().is_none_or(|id| {
-                        !self.relations.bears_something(id)
-                            || self.relations.free_top(id).is_some_and(roomy)
-                    })
-                };
-                found.into_iter().filter(empty).collect()
-            }
+            _ => found.into_iter().filter(|t| self.has_room_for_one(use_for, *t)).collect(),
         };
         let place = self.restrictions(&noun).trim().to_owned();
         let text = match (use_for, found.is_empty(), self.is_russian()) {
@@ -163,6 +150,18 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }
 
+    /// Whether nothing is on a seat or a bed, or so little that one sits or lies beside it.
+    fn has_room_for_one(&self, use_for: Use, thing: Thing) -> bool {
+        /// So much has to be free, cm² and of 1: of a seat a square of 40 cm, of a bed two metres by half a metre.
+        const SITTING: (f64, f64) = (1600.0, 0.6);
+        const LYING: (f64, f64) = (10_000.0, 0.8);
+        let (least, share) = if use_for == Use::Lie { LYING } else { SITTING };
+        let roomy = |(area, free): (f64, f64)| free >= least && free >= share * area;
+        thing.replica().is_none_or(|id| {
+            !self.relations.bears_something(id) || self.relations.free_top(id).is_some_and(roomy)
+        })
+    }
+
     /// «на Столе-1», "on the tables"
     fn general_on(&self, noun: &Noun) -> String {
         let anchors = vec![noun.clone()];
@@ -190,9 +189,8 @@ impl Knowledge<'_> {
             _ => self.definite(anchor)?,
         };
         let fits = |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, wanted));
-        let bears = |t: &Thing| t.replica().is_some_and(|id| self.relations.bears_something(id));
         let (good, bad): (Vec<Thing>, Vec<Thing>) =
-            found.iter().copied().partition(|t| fits(t) && !bears(t));
+            found.iter().copied().partition(|t| fits(t) && self.has_room_for_one(use_for, *t));
         let text = match (good.is_empty(), self.is_russian()) {
             (false, true) => format!("да, {russian} можно {}", self.onto(&good)),
             (false, false) => format!("yes, one can {english} {}", self.list(&good)),

@@ -56,7 +56,9 @@ impl Frame<'_, '_> {
         }
         // «что-нибудь из еды»: what is of a class.
         let class = |class: &Noun| {
-            let sorts = |e: &Extension| matches!(e, Extension::Sort(_) | Extension::Furniture);
+            let sorts = |e: &Extension| {
+                matches!(e, Extension::Sort(_) | Extension::Furniture | Extension::Trait("device"))
+            };
             class.head.named.is_empty() && class.head.things.is_none() && self.is_kind(class, sorts)
         };
         if let ([of], Rel::From, false) = (&spot.nouns[..], spot.rel, spot.negated)

@@ -67,6 +67,17 @@ impl Frame<'_, '_> {
     /// «Диван и кресло стоят рядом?», "Are the sofa and the armchair next to each other?"
     pub(super) fn side_by_side(&self) -> Option<Query> {
         let (rel, _) = *self.links.iter().find(|(r, _)| matches!(r, Rel::NextTo | Rel::Near))?;
+        // «Они рядом?» of two that were told.
+        if let [pair] = &self.nouns[..]
+            && let Some([one, other]) = pair.noun.head.things.as_deref()
+            && !self.asks()
+            && self.spots.is_empty()
+        {
+            let [one, other] = [one, other].map(|thing| Noun::of(vec![*thing]));
+            let place = Restriction { rel, anchors: vec![other], negated: false };
+            let claims = vec![Claim::Related(place)];
+            return Some(Query::Holds { subject: one, claims, negated: self.negated });
+        }
         let [first, second] = &self.nouns[..] else { return None };
         if self.asks() || !self.has(Mark::And) || self.has(Mark::Where) || !self.spots.is_empty() {
             return None;
