@@ -144,9 +144,10 @@ impl Knowledge<'_> {
         let russian = names.map_or("", |sort| &*sort.russian[0]);
         let english = names.map_or("", |sort| &*sort.english[0]);
         let plain = of.filters.is_empty() && of.head.named.is_empty();
+        let but = of.other || !of.except.is_empty();
         let text = match (self.is_russian(), plain) {
-            (true, _) if of.other => format!("{place} больше ничего для этого нет"),
-            (false, _) if of.other => format!("there is nothing else for that {place}"),
+            (true, _) if but => format!("{place} больше ничего для этого нет"),
+            (false, _) if but => format!("there is nothing else for that {place}"),
             (true, true) if let Some(rest) = russian.strip_prefix("вещь ") => {
                 format!("{place} нет ничего {rest}")
             }

@@ -159,6 +159,18 @@ impl Frame<'_, '_> {
         let kind = |claim: &Claim| matches!(claim, Claim::Kind(_));
         let its = self.sentence.keys.iter().any(|key| key == "its")
             && matches!(query, Query::Holds { claims, .. } if claims.iter().any(kind));
+        // "The plunger and the toilet, same room?": of one room, and not whether they are rooms.
+        let rooms = |query: &Query| match query {
+            Query::Holds { subject, claims, .. } => claims.iter().any(|claim| match claim {
+                Claim::Kind(room) => self.is_area(room) && !self.is_area(subject),
+                _ => false,
+            }),
+            _ => false,
+        };
+        let same = match query {
+            Query::Several(each) => each.iter().any(rooms),
+            one => rooms(one),
+        };
         // "What is the robot's name?" asks for a name, and for no list.
         let named = self.has(Mark::What)
             && self.has(Mark::List)
@@ -189,6 +201,7 @@ impl Frame<'_, '_> {
             || named
             || has_more
             || its
+            || same
             || fewest
             || self.marks.iter().any(asks)
             || self.points(&told, query)

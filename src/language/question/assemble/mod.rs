@@ -115,7 +115,11 @@ fn each_of(
         let kept =
             items.iter().enumerate().filter(|(n, _)| n == own || !(*n >= nouns[0] && *n <= at + 2));
         let kept: Vec<Item> = kept.map(|(_, item)| item.clone()).collect();
-        let query = Frame::of(sentence, lexicon, &kept, referent).ok()?.read()?;
+        let own = Frame::of(sentence, lexicon, &kept, referent).ok()?;
+        let mut query = own.read()?;
+        if own.asks_more_than(&mut query) {
+            return None;
+        }
         let single = matches!(
             query,
             Query::Where(_)

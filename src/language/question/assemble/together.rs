@@ -10,7 +10,9 @@ impl Frame<'_, '_> {
     /// «Лекарство и кровать в одной комнате?», "Is the battery on the same desk as the lamp?", "What else is in the
     /// same room as the fridge?"
     pub(super) fn together(&self) -> Option<Query> {
-        let spot = self.spots.iter().find(|s| s.nouns[0].same)?;
+        let Some(spot) = self.spots.iter().find(|s| s.nouns[0].same) else {
+            return self.same_room();
+        };
         if !matches!(spot.rel, Rel::In | Rel::On | Rel::Under | Rel::NextTo) {
             return None;
         }
@@ -44,6 +46,18 @@ impl Frame<'_, '_> {
         let several = |noun: &Noun| noun.plural || noun.all || noun.head.things.is_some();
         let enough = of.len() > 1 || of.iter().any(several);
         (enough && !self.asks()).then_some(Query::Together { of, rel: spot.rel, place })
+    }
+
+    /// "The plunger and the toilet, same room?"
+    fn same_room(&self) -> Option<Query> {
+        let (room, of) = self.nouns.split_last()?;
+        let plain = self.spots.is_empty() && self.values.is_empty() && !self.asks();
+        let same = room.noun.same
+            || self.marks.iter().any(|(mark, at)| *mark == Mark::Same && at + 1 == room.at);
+        let only = plain && same && self.is_rooms(&room.noun);
+        let of: Vec<Noun> = of.iter().map(|s| s.noun.clone()).collect();
+        let place = Noun { same: false, ..room.noun.clone() };
+        (only && of.len() > 1).then_some(Query::Together { of, rel: Rel::In, place })
     }
 
     /// What is in the room, or on the table, where its partner is.
