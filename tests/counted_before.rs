@@ -1,6 +1,7 @@
-//! What goes on from a count or a list that was told: "the other two", "are there more of them than in the hall?"
+//! Questions of several things, and what goes on from a count or a list that was told: "the other two", "are there more of
+//! them than in the hall?"
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
 use orthoframe::engine::Memory;
@@ -141,4 +142,70 @@ fn a_count_is_compared_with_another_place() {
     }
     println!("{same} of {asked}");
     assert!(same * 100 >= asked * 95 && asked > 50, "{same} of {asked}");
+}
+
+/// «В какой комнате полотенца?» asks of all of them, as «В каких комнатах есть полотенца?» does.
+#[test]
+fn the_room_of_several_is_that_of_each() {
+    let mut asked = 0;
+    for engine in maps() {
+        for ((name, name_en), things) in kinds(&engine) {
+            let kind = NounPhrase::parse(&name, &WordHints::default());
+            let kinds = kind.form(Case::Nominative, Number::Plural).to_lowercase();
+            let many = english::plural(&name_en).to_lowercase();
+            for (line, plain) in [
+                (format!("В какой комнате {kinds}?"), format!("В каких комнатах есть {kinds}?")),
+                (format!("Which room are the {many} in?"), format!("Which rooms have {many}?")),
+            ] {
+                let rooms = |line: &str| {
+                    let answer = ask(&engine, line, &mut Memory::default())?;
+                    Some(answer.things.into_iter().collect::<BTreeSet<_>>())
+                };
+                let Some(plain) = rooms(&plain) else { continue };
+                let told = rooms(&line);
+                assert!(
+                    told.is_none() || told.as_ref() == Some(&plain),
+                    "{line} {told:?} {plain:?}"
+                );
+                asked += usize::from(told.is_some() && things.len() > 1);
+            }
+        }
+    }
+    assert!(asked > 10, "{asked}");
+}
+
+/// "How many benches are there? What are they next to? Which of them is nearest to the fridge?": one of them, or nothing.
+#[test]
+fn which_of_them_is_one_of_those_that_were_asked_after() {
+    let mut asked = 0;
+    for engine in maps() {
+        let world = engine.world().unwrap();
+        let Some(anchor) = world.replicas.values().find(|r| !r.name_en.is_empty()) else {
+            continue;
+        };
+        for ((_, name_en), things) in kinds(&engine) {
+            if things.len() < 2 {
+                continue;
+            }
+            let kinds = english::plural(&name_en).to_lowercase();
+            for between in
+                ["What are they on?", "What are they next to?", "Which rooms are they in?"]
+            {
+                let mut memory = Memory::default();
+                let all = ask(&engine, &format!("How many {kinds} are there?"), &mut memory);
+                let all = all.map_or_else(Vec::new, |all| all.things);
+                ask(&engine, between, &mut memory);
+                let line = format!("Which of them is the nearest to {}?", anchor.name_en);
+                let Some(answer) = ask(&engine, &line, &mut memory) else { continue };
+                let of_them = |thing: &Thing| all.contains(thing);
+                assert!(
+                    answer.things.iter().all(of_them),
+                    "{kinds}: {between} {line} {}",
+                    answer.text
+                );
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 5, "{asked}");
 }

@@ -2,7 +2,7 @@
 //! no answer, and what is refused stays refused.
 
 use orthoframe::Engine;
-use orthoframe::engine::Memory;
+use orthoframe::engine::{Dialogue, Memory, Outcome};
 
 use orthoframe_language::question::Said;
 use orthoframe_language::{NounPhrase, WordHints, russian};
@@ -341,4 +341,40 @@ fn a_way_that_goes_round_nothing_names_what_bars_it() {
         }
     }
     assert!(asked > 5 && barred > 0, "{asked}, {barred}");
+}
+
+/// A question that begins with its word orders nothing, though nothing marks its end and a verb of orders stands in it.
+#[test]
+fn a_question_without_its_mark_orders_nothing() {
+    let mut heard = 0;
+    for case in cases().into_iter().filter(|case| case.name.starts_with("rb2") || long()) {
+        let mut engine = case.engine;
+        for (n, thing) in ["чашку", "книгу", "a cup", "the book"].iter().enumerate() {
+            let lines = match n < 2 {
+                true => [
+                    format!("где взять {thing}"),
+                    format!("ну а где мне тут {thing} взять"),
+                    format!("я в коридоре, где поближе {thing} взять"),
+                    format!("куда поставить {thing}"),
+                ],
+                false => [
+                    format!("where can I take {thing}"),
+                    format!("so where do I get {thing}"),
+                    format!("I'm in the corridor, where can I grab {thing}"),
+                    format!("where should I put {thing}"),
+                ],
+            };
+            for line in lines {
+                let mut dialogue = Dialogue::default();
+                let told = dialogue.hear(&mut engine, &line, &mut |_, _| {}).unwrap();
+                let orders = told
+                    .replies
+                    .iter()
+                    .any(|reply| matches!(reply.outcome, Outcome::Task(_) | Outcome::Misheard(_)));
+                assert!(!orders, "{line}: {}", told.text());
+                heard += 1;
+            }
+        }
+    }
+    assert!(heard > 10, "{heard}");
 }

@@ -217,6 +217,15 @@ impl State {
             && self.ask(text, &mut memory.clone())?.is_ok())
     }
 
+    /// Whether a text asks by a word of its own, and so orders nothing.
+    ///
+    /// # Errors
+    /// As [`State::ask`].
+    pub(super) fn asks_by_a_word(&self, text: &str) -> Result<bool, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.asks_by_a_word(text))
+    }
+
     /// Whether a text begins as a question does.
     ///
     /// # Errors

@@ -367,7 +367,10 @@ impl Hearing<'_, '_> {
         // "I need to read something. Where are the books?" asks, whatever is said before.
         let asks = match &sentences(line)[..] {
             [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
-            _ => self.engine.asks_behind_what_is_told(line, &self.dialogue.memory)?,
+            _ => {
+                self.engine.asks_behind_what_is_told(line, &self.dialogue.memory)?
+                    || self.engine.asks_by_a_word(line)?
+            }
         };
         // "Two spoons to the table, please" asks nothing, though a question may begin so.
         let begs =
@@ -397,11 +400,12 @@ impl Hearing<'_, '_> {
             Ok(_) => true,
         };
         // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
-        let orders = not_understood && !asks_whether(line);
+        let asks = self.engine.asks_by_a_word(line)?;
+        let orders = not_understood && !asks_whether(line) && !asks;
         if orders && (commands() || self.engine.orders_tersely(line)?) {
             return self.command(line, awaited);
         }
-        let Some((at, verb)) = likely_verb(line).filter(|_| !asked) else {
+        let Some((at, verb)) = likely_verb(line).filter(|_| !asked && !asks) else {
             return self.reply(Reply::unanswered(unanswered));
         };
         let (said, language) = (&line[at.clone()], Language::of(line));

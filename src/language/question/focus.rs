@@ -424,7 +424,10 @@ impl Knowledge<'_> {
         let last = &self.memory.last;
         match pronoun {
             // "Is there a towel in the bathroom? – No such thing. – How many paintings are there?": in the bathroom.
-            Pronoun::There if self.memory.is_lost => self.memory.told_place.into_iter().collect(),
+            // Nor is anywhere "there" while it is asked back which of several was meant.
+            Pronoun::There if self.memory.is_lost || self.memory.pending.is_some() => {
+                self.memory.told_place.into_iter().collect()
+            }
             _ if self.memory.is_lost => Vec::new(),
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),

@@ -279,7 +279,7 @@ impl Asker<'_> {
         let language = memory.language;
         let text = match is_too_long(text) {
             true => text,
-            false => self.without_idle_head(text).unwrap_or(text),
+            false => self.without_self_doubt(text).unwrap_or(text),
         };
         // What is too long is not even read.
         if is_too_long(text) {

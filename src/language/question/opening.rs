@@ -48,6 +48,26 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     false
 }
 
+/// Whether a word for what is not known stands first, after small ones: «ну где», "how many".
+pub(super) fn asks_by_a_word(words: &[String]) -> bool {
+    let mut at = 0;
+    while let Some((taken, mark)) = longest(&words[at..]) {
+        match mark {
+            Mark::Filler | Mark::The | Mark::And => at += taken,
+            Mark::Where
+            | Mark::What
+            | Mark::Which
+            | Mark::HowMany
+            | Mark::HowFar
+            | Mark::HowGet
+            | Mark::When
+            | Mark::Whither => return true,
+            _ => return false,
+        }
+    }
+    false
+}
+
 /// Whether the first of these words asks by itself: no small word stands before it.
 pub(super) fn asks_at_once(words: &[String]) -> bool {
     let small = |mark| {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::Asker;
 use super::several::sentences;
+use super::{Asker, opening};
 use crate::command::{self, is_command, is_order};
 use crate::words::{Language, is_first_person, phrase_at, word_keys, word_ranges};
 
@@ -66,17 +66,25 @@ impl Asker<'_> {
         let Some((told, asked)) = text.trim_end().rsplit_once([',', ';', '–', '—']) else {
             return false;
         };
-        let of_me = told.split([',', ';', '.', '!']).any(|part| {
-            const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
-            let first = word_keys(part).into_iter().next();
-            first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
-        });
+        let of_me = told.split([',', ';', '.', '!']).any(is_told_of_me);
         asked.ends_with('?')
             && of_me
             && word_keys(asked).len() > 2
             && !is_command(asked)
             && !self.orders(asked.trim_end_matches('?'))
             && !self.orders(told)
+    }
+
+    /// «Где взять нож», "I'm at the fridge, where can I grab a knife": whether a word asks at the beginning of a text, or behind
+    /// what the person tells of itself. Such a text orders nothing, whatever its verbs and its last mark.
+    #[must_use]
+    pub fn asks_by_a_word(&self, text: &str) -> bool {
+        let asks = |text: &str| opening::asks_by_a_word(&word_keys(text));
+        let behind = text.rsplit_once([',', ';', '–', '—']).is_some_and(|(told, asked)| {
+            let tells = told.split([',', ';', '.', '!']).any(is_told_of_me);
+            tells && !self.orders(told) && asks(asked)
+        });
+        behind || asks(text)
     }
 
     /// Whether a text begins with a verb that orders, and not to be told something.
@@ -110,6 +118,13 @@ impl Asker<'_> {
         }
         Some(parts.into_iter().map(|(part, _)| part).collect())
     }
+}
+
+/// Whether a part of a line begins with the person who speaks: "I am …", «стою у окна».
+fn is_told_of_me(part: &str) -> bool {
+    const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
+    let first = word_keys(part).into_iter().next();
+    first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
 }
 
 /// What is told to be found out, as a question: «скажи, выключена ли лампа», "tell me whether the fridge is on".

@@ -247,31 +247,51 @@ impl Asker<'_> {
         })
     }
 
-    /// A line without an "or" before which a person only doubts of itself: "Is it me or …?", «Мне кажется или …?»
-    pub(super) fn without_idle_head<'t>(&self, text: &'t str) -> Option<&'t str> {
+    /// A line without an "or" before or behind which a person only doubts of itself: "Is it me or …?", «Мне кажется или …?»,
+    /// "… or am I seeing things?"
+    pub(super) fn without_self_doubt<'t>(&self, text: &'t str) -> Option<&'t str> {
         let (words, keys) = (word_ranges(text), word_keys(text));
-        let or = keys.iter().position(|key| matches!(key.as_str(), "или" | "or"))?;
-        let (head, tail) = (&text[..words[or].start], &text[words.get(or + 1)?.start..]);
-        let plain = self.plain(head);
+        let or = |key: &String| matches!(key.as_str(), "или" | "or");
+        let (first, last) = (keys.iter().position(or)?, keys.iter().rposition(or)?);
+        let behind = |at: usize| words.get(at + 1).map_or("", |word| &text[word.start..]);
+        let tail = behind(first);
+        let asks = match Language::of(text) {
+            Language::English => opening::begins_question(&word_keys(tail)),
+            Language::Russian => word_keys(tail).len() > 1,
+        };
+        if asks && self.doubts_of_me(&text[..words[first].start]) {
+            return Some(tail);
+        }
+        let head = text[..words[last].start].trim_end_matches([' ', ',', '–', '—']);
+        (last > 1 && self.doubts_of_me(behind(last))).then_some(head)
+    }
+
+    /// «мне кажется», "am I seeing things": of the person and of nothing that the map may have.
+    fn doubts_of_me(&self, text: &str) -> bool {
+        let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let of_me = |item: &Item| match item {
             Item::Mark(mark) => *mark == Mark::Me,
             Item::Noun(phrase) => phrase.person == Some(Mark::Me),
             _ => false,
         };
+        let memory = Memory::default();
+        let knowledge = self.knowledge(sentence.language, &memory);
         let idle = |item: &Item| match item {
             Item::Unknown(words) => !self.is_word(sentence.said(words)),
-            Item::Noun(phrase) => phrase.pronoun == Some(Pronoun::Any),
-            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::The | Mark::Be | Mark::Lead),
+            Item::Noun(phrase) => {
+                let bare = phrase.noun.restrictions.is_empty() && phrase.noun.filters.is_empty();
+                phrase.pronoun == Some(Pronoun::Any)
+                    || bare && knowledge.is_anything(&phrase.noun.head)
+            }
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Filler | Mark::The | Mark::Be | Mark::Lead | Mark::See | Mark::Not
+            ),
             _ => false,
         };
         let items = sentence.items();
-        let doubts = items.iter().any(of_me) && items.iter().all(|item| of_me(item) || idle(item));
-        let asks = match sentence.language {
-            Language::English => opening::begins_question(&word_keys(tail)),
-            Language::Russian => word_keys(tail).len() > 1,
-        };
-        (doubts && asks).then_some(tail)
+        items.iter().any(of_me) && items.iter().all(|item| of_me(item) || idle(item))
     }
 
     fn asks(&self, text: &str) -> bool {

@@ -254,6 +254,19 @@ impl Knowledge<'_> {
     /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.
     pub(super) fn several_meant(&self, rel: Option<Rel>) -> Vec<Thing> {
         let last = &self.memory.last;
+        // "What are they next to? – Table 1 and Table 2. – Which of them is nearer?": they, or the tables.
+        let those = match &self.memory.query {
+            Some(Query::Anchor { of, .. } | Query::RoomOf(of)) => Some(of),
+            Some(Query::Find(noun)) => {
+                let has = noun.restrictions.iter().find(|r| matches!(r.rel, Rel::Has | Rel::Bears));
+                has.and_then(|has| has.anchors.first())
+            }
+            _ => None,
+        };
+        let those = those.and_then(|those| those.head.things.as_ref());
+        if those.is_some_and(|those| those.len() > 1 && those != last) {
+            return Vec::new();
+        }
         let fit = |things: &[Thing]| {
             things.len() > 1
                 && rel.is_none_or(|rel| things.iter().all(|t| self.may_be_anchor(rel, *t)))

@@ -340,7 +340,11 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn room_of(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let found = self.definite(noun)?;
+        let mut found = self.definite(noun)?;
+        // "Which room is it in?" of a thing and a room that were named asks of the thing.
+        if found.iter().any(|thing| thing.area().is_none()) {
+            found.retain(|thing| thing.area().is_none());
+        }
         let mut rooms: Vec<Thing> = Vec::new();
         let mut parts: Vec<String> = Vec::new();
         let mut placed: Vec<Thing> = Vec::new();

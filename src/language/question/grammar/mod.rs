@@ -270,7 +270,14 @@ impl<'t> Sentence<'t> {
             let own = self.properties[n as usize].noun(Language::Russian);
             said.is_none_or(|said| said != name_key(&own))
         });
+        // «В какой комнате полотенца?»: what is asked for has no owner.
+        let asked = matches!(before.map(|t| t.kind), Some(Tok::Noun(_)))
+            && before.is_some_and(|noun| {
+                let which = self.tokens.iter().rev().find(|t| t.to <= noun.from);
+                which.is_some_and(|t| t.kind == Tok::Mark(Mark::Which))
+            });
         let governed = !of_what
+            && !asked
             && matches!(
                 before.map(|t| t.kind),
                 Some(
