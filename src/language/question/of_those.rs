@@ -232,9 +232,8 @@ impl Asker<'_> {
         };
         // More than there may be any more there.
         let compares = than || sentence.language == Language::Russian || extreme == Extreme::Fewest;
-        let before = match memory.query.as_ref()? {
-            Query::Count(noun) | Query::Find(noun) => noun,
-            _ => return None,
+        let (Query::Count(before) | Query::Find(before)) = memory.query.as_ref()? else {
+            return None;
         };
         let [there] = &before.restrictions[..] else { return None };
         let placed = matches!(there.rel, Rel::In | Rel::On) && !there.negated;
