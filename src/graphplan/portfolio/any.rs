@@ -2,11 +2,11 @@
 //!
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution, which takes each fact from what is cheapest with all that leads to it, estimates the distance to the goal
-//! and names the operators worth trying first. Enforced hill climbing
-//! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
-//! strategy"); where it gets stuck, states are looked at by width for a while, and landmarks followed one by one. Then
-//! [search by width](super::novelty) and best-first search, which counts landmarks besides, take turns; both miss
-//! nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
+//! and names the operators worth trying first. Enforced hill climbing goes first, and first of all as far along the
+//! relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead strategy"); where it gets stuck, states are
+//! looked at by width for a while, and landmarks followed one by one. Then [search by width](super::novelty), by relaxed
+//! plans of either kind, and best-first search, which counts landmarks besides, take turns; all miss nothing. The
+//! sequence found is rid of operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -39,8 +39,9 @@ pub(crate) enum Effort {
     All,
 }
 
-/// States looked at with small effort.
+/// States looked at with small effort, and what their relaxed plans may take in all where each looks at many operators.
 const FEW_STATES: u64 = 20_000;
+const FEW_RELAXED: u64 = 1 << 29;
 
 /// States looked at by width before landmarks are followed, with small effort, and most of all.
 const FEWEST_STATES_BY_WIDTH: usize = 10_000;
@@ -93,6 +94,8 @@ struct Forward<'a> {
     task: &'a Task,
     limits: &'a Limits,
     relaxed: Relaxed<'a>,
+    /// Relaxed plans by layers: where those by sums get stuck, these may not, and the other way round.
+    by_layers: Relaxed<'a>,
     evaluated: u64,
     /// Where best-first search ends for the time being.
     until: u64,
@@ -109,6 +112,7 @@ impl<'a> Forward<'a> {
             task,
             limits,
             relaxed: Relaxed::by_sum(task),
+            by_layers: Relaxed::new(task),
             evaluated: 0,
             until: u64::MAX,
             most_effort: u64::MAX,
@@ -141,9 +145,9 @@ impl<'a> Forward<'a> {
             }
             if self.effort == Effort::Small {
                 // Where relaxed plans by sums got stuck, those by layers may not.
-                let by_sum = std::mem::replace(&mut self.relaxed, Relaxed::new(self.task));
+                std::mem::swap(&mut self.relaxed, &mut self.by_layers);
                 let descended = self.descend();
-                self.relaxed = by_sum;
+                std::mem::swap(&mut self.relaxed, &mut self.by_layers);
                 if let Some(operators) = descended? {
                     return Ok(Searched::Path(operators));
                 }
@@ -153,16 +157,29 @@ impl<'a> Forward<'a> {
             return Ok(Searched::Open);
         }
         let first = if self.effort == Effort::Small { 0 } else { 1 };
-        // Both take turns, each with more effort than before: where one loses its way, the other may know it.
+        // All take turns, each with more effort than before: where one loses its way, another may know it. Width goes
+        // twice, by layers and by sums, which see different things as brought about.
         for round in first.. {
             let times = 4_usize.pow(round);
             let states = FEW_STATES_BY_WIDTH * times;
             let by_width = states <= MANY_STATES_BY_WIDTH;
-            if by_width && let Some(found) = self.by_width(landmarks.as_ref(), states, &half)? {
-                return Ok(found);
+            for _ in 0..2 {
+                let found = match by_width {
+                    true => self.by_width(landmarks.as_ref(), states, &half)?,
+                    false => None,
+                };
+                std::mem::swap(&mut self.relaxed, &mut self.by_layers);
+                if let Some(found) = found {
+                    return Ok(found);
+                }
             }
-            let more = FEW_STATES * times as u64;
-            self.until = if by_width { self.evaluated + more } else { u64::MAX };
+            (self.until, self.most_effort) = match by_width {
+                true => (
+                    self.evaluated + FEW_STATES * times as u64,
+                    self.relaxed.effort + FEW_RELAXED * times as u64,
+                ),
+                false => (u64::MAX, u64::MAX),
+            };
             let state = initial(self.task);
             let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
             let start = Stage { state, attained };
@@ -186,7 +203,7 @@ impl<'a> Forward<'a> {
         states: usize,
         limits: &Limits,
     ) -> Result<Option<Searched>, Limit> {
-        match novelty::search(self.task, &mut self.relaxed, landmarks, states, limits) {
+        match novelty::search(self.task, &mut self.by_layers, landmarks, states, limits) {
             Ok(Searched::Open) | Err(Limit::Memory) => Ok(None),
             found => found.map(Some),
         }
