@@ -1,12 +1,13 @@
 //! Where the scans of real logs were taken, without a guess:
-//! `cargo run --release -p orthoframe-sensing --example localisation -- halves|plan LOG.gz [EVERY [PEERS [FIRST]]]`, or `-- made [SCANS]`.
+//! `cargo run --release -p orthoframe-sensing --example localisation -- halves|plan|likeliest LOG.gz [EVERY [PEERS [FIRST]]]`, or `-- made [SCANS]`.
 //!
 //! `halves`: odd scans against the walls of the even ones. `plan`: all scans against the plan of their building that others
-//! drew (`plan`). `made`: a building of 40 000 lines (`made`). Every EVERYth scan from the FIRST on is asked for; so many PEERS scans and starts are given to the peers too (`peers`).
+//! drew (`plan`). `likeliest`: what one scan can tell at most there (`likeliest`). `made`: a building of 40 000 lines (`made`). Every EVERYth scan from the FIRST on is asked for; so many PEERS scans and starts are given to the peers too (`peers`).
 //! Times are processor time of this thread.
 
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
+mod likeliest;
 mod made;
 mod peers;
 mod plan;
@@ -29,7 +30,7 @@ type RoomOf = fn(&Fit) -> Option<u32>;
 
 fn main() {
     let mut args = std::env::args().skip(1);
-    let what = args.next().expect("halves, plan or made");
+    let what = args.next().expect("halves, plan, likeliest or made");
     if what == "made" {
         return in_a_made_building(args.next().map_or(40, |n| n.parse().expect("a number")));
     }
@@ -43,16 +44,20 @@ fn main() {
             let even = log.scans.iter().step_by(2).map(|scan| (log.sensor(scan), scan));
             (Chart::of_scans(even), None, log.scans.iter().skip(1).step_by(2).collect())
         }
-        "plan" => {
+        "plan" | "likeliest" => {
             let Plan { chart, rooms } = Plan::beside(Path::new(&path));
             (chart, Some(rooms), log.scans.iter().collect::<Vec<_>>())
         }
-        _ => panic!("halves or plan"),
+        _ => panic!("halves, plan or likeliest"),
     };
     let localiser = Localiser::new(&chart, Options::default());
     println!("{} lines, made ready in {:.0} ms", chart.lines().len(), processor() - started);
     let posed: Vec<&Scan> =
         asked.into_iter().filter(|scan| scan.pose.is_some()).skip(first).collect();
+    if what == "likeliest" {
+        let some: Vec<&Scan> = posed.iter().step_by(every).copied().collect();
+        return likeliest::tell(&log, &localiser, rooms.as_ref().expect("a plan has"), &some);
+    }
 
     let mut tally = Tally::default();
     for scan in posed.iter().step_by(every) {
