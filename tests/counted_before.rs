@@ -209,3 +209,36 @@ fn which_of_them_is_one_of_those_that_were_asked_after() {
     }
     assert!(asked > 5, "{asked}");
 }
+
+/// "How many cups are there? Is there one in the hall as well?": one of the kind, and not anything at all.
+#[test]
+fn one_is_of_the_kind_that_was_asked_after() {
+    let mut asked = 0;
+    for engine in maps() {
+        let world = engine.world().unwrap();
+        let rooms: Vec<_> = world.areas.values().take(6).collect();
+        for (n, (_, name_en)) in kinds(&engine).into_keys().enumerate() {
+            let room = &rooms[n % rooms.len()].name_en;
+            let kinds = english::plural(&name_en).to_lowercase();
+            for line in [
+                format!("Is there one in {room}?"),
+                format!("Is there one in {room} as well?"),
+                format!("And is there one in {room}?"),
+            ] {
+                let mut memory = Memory::default();
+                ask(&engine, &format!("How many {kinds} are there?"), &mut memory);
+                let Some(told) = ask(&engine, &line, &mut memory) else { continue };
+                let plain = format!("Are there any {kinds} in {room}?");
+                let Some(plain) = ask(&engine, &plain, &mut Memory::default()) else { continue };
+                // «And …» goes on to count.
+                let none = |said: Said| matches!(said, Said::No | Said::Nothing);
+                let same = none(told.said) == none(plain.said);
+                assert!(same, "{kinds}: {line} {} {}", told.text, plain.text);
+                asked += 1;
+            }
+            let anew = ask(&engine, &format!("Is there one in {room}?"), &mut Memory::default());
+            assert!(anew.is_none(), "{room}: of nothing there is none");
+        }
+    }
+    assert!(asked > 20, "{asked}");
+}

@@ -628,6 +628,15 @@ impl Asker<'_> {
         }
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);
+        // "Is there one in the office as well?", where nothing tells of what.
+        let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
+        if let Query::Exists { what, .. } = &query
+            && what.iter().all(bare)
+            && word_keys(text).iter().any(|key| key == "one")
+        {
+            let words = text.to_owned();
+            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
+        }
         let none = knowledge.points_at_nothing(&query).or_else(|| knowledge.is_at_itself(&query));
         if let Some(word) = none {
             return Err(Box::new((Doubt::NoReferent { word }, None)));

@@ -2,7 +2,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Answer, Asker, Doubt, Memory, Said, several};
+use super::{Answer, Asker, Doubt, Memory, Said, several, vocabulary};
 use crate::words::Language;
 
 impl Asker<'_> {
@@ -45,8 +45,13 @@ impl Asker<'_> {
                 None => false,
             }
         };
+        // "a favor and check if …": what asks is no second thing.
+        let begs = |end: usize| {
+            let behind = vocabulary::longest(sentence.keys.get(end + 1..).unwrap_or_default());
+            matches!(behind, Some((_, Mark::Filler)))
+        };
         let is_it = |item: &Item| match item {
-            Item::Unknown(words) => unknown.contains(sentence.said(words)),
+            Item::Unknown(words) => unknown.contains(sentence.said(words)) && !begs(words.end),
             _ => false,
         };
         items.iter().enumerate().any(|(n, item)| {
