@@ -124,7 +124,7 @@ mod tests {
             ("Where is the cup, dear?", "Where is the cup?"),
             ("Скажи, дружок, где чашка?", "Скажи, где чашка?"),
             ("Сынок, сколько у нас стульев?", "сколько у нас стульев?"),
-            ("Hey, buddy! Bring me the cup.", "Hey, Bring me the cup."),
+            ("Hey, buddy! Bring me the cup.", "Bring me the cup."),
             ("My dear, which one is red", "which one is red"),
             ("Is there honey in the kitchen?", "Is there honey in the kitchen?"),
             ("Принеси чашку, блюдце и ложку", "Принеси чашку, блюдце и ложку"),
