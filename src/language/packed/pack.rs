@@ -1,6 +1,5 @@
 //! The automaton of words as the published dictionary has it, told anew in columns (see `automaton.rs`).
 
-use crate::units::InOrder as _;
 use std::collections::HashMap;
 
 use fst::raw::Fst;
@@ -34,7 +33,7 @@ fn minimal(automaton: &Fst<&[u8]>) -> Vec<Node> {
         }
     }
     // A node stands in the file after all that it leads to.
-    addresses.order();
+    addresses.sort_unstable();
     let mut numbers = HashMap::from([(END_ADDRESS, 0)]);
     let mut known: HashMap<Node, usize> = HashMap::new();
     let mut nodes = Vec::new();
