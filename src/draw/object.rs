@@ -269,7 +269,7 @@ fn draw_view(
     let key = |s: &Silhouette<'_>| if is_open(s) { s.far } else { s.near };
     let area = |s: &Silhouette<'_>| s.outline.signed_area().abs();
     // Of two that begin at one depth the larger holds the smaller.
-    silhouettes.order_by(|a, b| key(b).total_cmp(&key(a)).then(area(a).total_cmp(&area(b))));
+    silhouettes.sort_by(|a, b| key(b).total_cmp(&key(a)).then(area(a).total_cmp(&area(b))));
     let line = 1.5 * pen;
     for s in silhouettes.iter() {
         let fill = if is_open(s) { "#f3ead8" } else { "#e6d3b1" };

@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 use crate::map::{Area, Door, DoorState, Item, Object, World, Zone};
-use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, ObjectId, OrFrId, ReplicaId};
 
 use super::Bounds;
@@ -246,7 +245,7 @@ impl FloorPlan {
         let kept = std::mem::take(&mut self.fragments).into_iter();
         let kept = kept.filter(|f| !stale.contains(&f.area) && number(&f.area).is_some());
         self.fragments = kept.chain(built).collect();
-        self.fragments.order_by_key(|f| f.area);
+        self.fragments.sort_by_key(|f| f.area);
         self.covered = vec![OnceLock::new(); areas.len()];
         self.straits = vec![Vec::new(); areas.len() + self.doorways.ways.len()];
         let mut admitted = vec![None; is_new.len()];

@@ -17,7 +17,6 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::{DoorState, RobotProfile, World, Zone};
-use crate::units::InOrder as _;
 use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::buckets::Buckets;
@@ -124,7 +123,7 @@ impl FloorPlan {
             let missing = |a: &&AreaId| floors.binary_search_by_key(*a, |f| f.area).is_err();
             let stale: Vec<AreaId> = areas.iter().filter(missing).copied().collect();
             floors.extend(build_all(site, &stale));
-            floors.order_by_key(|f| f.area);
+            floors.sort_by_key(|f| f.area);
             (floors, stale.len())
         });
         plan.fragments = fragments;
@@ -503,7 +502,7 @@ impl FloorPlan {
                 }
             }
         }
-        portals.order_by_key(|p| (p.from, p.edge, p.to));
+        portals.sort_by_key(|p| (p.from, p.edge, p.to));
         portals
     }
 }
@@ -538,6 +537,6 @@ pub(super) fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFl
         }
         floors
     });
-    floors.order_by_key(|f| f.area);
+    floors.sort_by_key(|f| f.area);
     floors
 }

@@ -11,7 +11,6 @@ use crate::map::{
     Permeability, Place, Profile, Properties, Replica, RobotProfile, SideRef, TypeEntry, TypeList,
     TypeLists, World, Zone, ZoneKind,
 };
-use crate::units::InOrder as _;
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
     Timestamp, TypeId, ZoneId,
@@ -98,7 +97,7 @@ fn grouped<T: Record>(
     for record in sheet.all::<T>()? {
         groups.entry(parent(&record)).or_default().push(record);
     }
-    groups.values_mut().for_each(|group| group.order_by_key(&no));
+    groups.values_mut().for_each(|group| group.sort_by_key(&no));
     Ok(groups)
 }
 

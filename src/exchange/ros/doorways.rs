@@ -4,7 +4,6 @@
 //! doorway when it is no wider than a door and clearly narrower than both basins; else the lower basin was only a
 //! corner of the other. The cut runs across it, from jamb to jamb.
 
-use crate::units::InOrder as _;
 use crate::units::Vector;
 
 use super::Sheet;
@@ -48,7 +47,9 @@ pub(super) fn doorways(grid: &Grid, sheet: &Sheet, free: &[bool], distances: &[f
     let widest = (WIDEST_DOOR / sheet.resolution / 2.0) as f32;
     // Highest first; equal heights in the order of the grid.
     let mut order: Vec<u32> = (0..free.len() as u32).filter(|c| free[*c as usize]).collect();
-    order.order_by(|a, b| distances[*b as usize].total_cmp(&distances[*a as usize]).then(a.cmp(b)));
+    order.sort_unstable_by(|a, b| {
+        distances[*b as usize].total_cmp(&distances[*a as usize]).then(a.cmp(b))
+    });
     let mut basin = vec![u32::MAX; free.len()];
     let mut basins = Basins { parent: Vec::new(), peak: Vec::new() };
     // Where two basins met first: their saddle.

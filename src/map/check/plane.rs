@@ -7,7 +7,6 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 use robust::{Coord, orient2d};
 
-use crate::units::InOrder as _;
 use crate::units::{Point, Vector};
 
 /// An axis-parallel box: least and greatest corner.
@@ -25,7 +24,7 @@ pub fn near_pairs(
     mut visit: impl FnMut(usize, usize) -> ControlFlow<()>,
 ) {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.order_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x));
+    order.sort_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x));
     for (n, &i) in order.iter().enumerate() {
         let (low, high) = boxes[i];
         for &j in order[n + 1..].iter().take_while(|&&j| boxes[j].0.x <= high.x + margin) {

@@ -348,7 +348,7 @@ impl Writer<'_> {
     fn areas(&self) -> Table<AreaFile> {
         let w = self.world;
         let mut replicas: Vec<_> = w.replicas.values().collect();
-        replicas.order_by_key(|r| (r.area, r.id));
+        replicas.sort_by_key(|r| (r.area, r.id));
         let replica_ids = self.ids(replicas.iter().map(|r| r.id.0));
         let replicas: Vec<_> = replicas.iter().zip(replica_ids).collect();
         let mut places: Vec<_> = w.places.values().collect();

@@ -10,7 +10,6 @@ use super::super::run::{self, Run};
 use super::super::trees::{RUNS, Records, Trees, tree_names};
 use super::{Change, OpenReport, Vault};
 use crate::units::Bilingual;
-use crate::units::InOrder as _;
 
 /// Less than this is not worth a run of its own. Tests see to it that there are runs.
 const LEAST_RUN: usize = if cfg!(test) { 1 } else { 1 << 20 };
@@ -27,7 +26,7 @@ impl Vault {
                 Ok(true)
             })?;
         }
-        young.order();
+        young.sort();
         let size: usize = young.iter().map(|(_, key, value)| key.len() + value.len()).sum();
         if size >= LEAST_RUN || (all && size > 0) {
             let place = self.state.lsn + 1;

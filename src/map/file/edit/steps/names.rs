@@ -7,7 +7,6 @@ use super::super::kind::names_of;
 use super::{Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::decode::{likely, shortened};
 use crate::file::read::{Behind, Names};
-use crate::units::InOrder as _;
 use crate::units::{
     AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key,
 };
@@ -106,7 +105,7 @@ impl Steps<'_> {
         let mut all: Vec<Record> = by_name.chain(by_key).chain(given).filter(of_kind).collect();
         all.retain(|record| self.names_of(*record).is_some());
         // In the order of a map file.
-        all.order_by_key(|record| (self.area_of(*record), *record));
+        all.sort_by_key(|record| (self.area_of(*record), *record));
         all.dedup();
         all
     }

@@ -4,7 +4,6 @@ use super::super::verbs::Edit;
 use super::{Done, Kind, MapError, Record, Span, Step, Steps, misprint, standing};
 use crate::file::decode::{likely, shortened};
 use crate::file::node::Entry;
-use crate::units::InOrder as _;
 use crate::units::{AreaId, Bilingual, name_key};
 use crate::{Extent, Forms};
 
@@ -125,7 +124,7 @@ impl Steps<'_> {
         match record {
             Record::Object(id) => {
                 let mut all: Vec<_> = self.world.replicas_of(|of| of == id).collect();
-                all.order_by_key(|r| (r.area, r.id));
+                all.sort_by_key(|r| (r.area, r.id));
                 all.into_iter().map(|r| quoted(&r.name)).collect()
             }
             Record::Orthoframe(id) => {
