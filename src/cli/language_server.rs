@@ -16,8 +16,7 @@ use super::fault::Failure;
 use crate::facts::{self, FilesError, Program};
 use crate::semantics::STANDARD;
 use crate::strips::{self, Scenario};
-use crate::units::InOrder as _;
-use crate::units::{Source, name_key};
+use crate::units::{InOrder as _, Source, name_key};
 
 /// A message that is longer is none.
 const MAX_MESSAGE: usize = 64 << 20;

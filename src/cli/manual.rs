@@ -1,6 +1,5 @@
 //! What a shell and `man` know of the program, made from its own arguments.
 
-use crate::units::InOrder as _;
 use std::path::Path;
 
 use clap::CommandFactory;
@@ -10,6 +9,7 @@ use serde_json::json;
 use super::args::{Arguments, Common};
 use super::fault::Failure;
 use super::{Answer, say};
+use crate::units::InOrder as _;
 
 /// The completion of a shell, on standard output.
 pub(super) fn completions(shell: Shell) -> Result<Answer, Failure> {

@@ -1,12 +1,12 @@
 //! `ortho watch MAP`: checks a map file and draws it again whenever it, or a rule file, has changed.
 
-use crate::units::InOrder as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use serde_json::json;
 
 use crate::engine::{Drawing, Engine, check_map_closely};
+use crate::units::InOrder as _;
 
 use super::args::Common;
 use super::commands::{described, note, rules_dir, warn};

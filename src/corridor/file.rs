@@ -25,8 +25,7 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Language, Source, nearest_name};
+use crate::units::{Bilingual, Cm, InOrder as _, Language, Source, nearest_name};
 
 use super::arms;
 use super::fault::{CorridorFault, CorridorFileError};

@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::geometry::Openings;
 use crate::map::World;
-use crate::units::InOrder as _;
-use crate::units::{Cm, Deg, MapId, Point};
+use crate::units::{Cm, Deg, InOrder as _, MapId, Point};
 
 use super::CorridorError;
 use super::lanes::{Lanes, Shape, find, unite};

@@ -10,8 +10,7 @@
 //!
 //! **Invariant**: lanes of one floor shape are connected: where they do not cross, a link joins the nearest two.
 
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 /// A wall of the floor shape, the floor on its left.
 #[derive(Debug, Clone, Copy)]

@@ -8,8 +8,7 @@
 
 use std::borrow::Cow;
 
-use crate::units::InOrder as _;
-use crate::units::{Cm, Deg, Point};
+use crate::units::{Cm, Deg, InOrder as _, Point};
 
 /// Index of a vertex in its system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

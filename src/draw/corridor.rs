@@ -10,8 +10,7 @@
 use std::collections::BTreeSet;
 
 use crate::geometry::{Bounds, Polygon};
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;

@@ -5,8 +5,7 @@
 
 use crate::geometry::{PlacedReplica, Prism};
 use crate::map::{Object, World};
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::canvas::{Canvas, Style};
 

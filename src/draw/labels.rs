@@ -8,8 +8,7 @@
 use std::collections::HashMap;
 
 use crate::geometry::{Bounds, Polygon};
-use crate::units::InOrder as _;
-use crate::units::{Frame, Point, Vector};
+use crate::units::{Frame, InOrder as _, Point, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
 use super::font::text_width;

@@ -10,8 +10,7 @@
 
 use crate::geometry::{Bounds, Polygon, nearest_on_segment};
 use crate::map::{Object, Permeability, World};
-use crate::units::InOrder as _;
-use crate::units::{Language, Point, Vector};
+use crate::units::{InOrder as _, Language, Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;

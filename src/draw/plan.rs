@@ -7,8 +7,9 @@ use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, Language, PlaceId, Point, Pose, ReplicaId, Vector};
+use crate::units::{
+    AreaId, DoorId, InOrder as _, Language, PlaceId, Point, Pose, ReplicaId, Vector,
+};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;

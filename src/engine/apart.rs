@@ -7,8 +7,7 @@ use crate::language::Language;
 use crate::language::words::russian;
 use crate::map::Entity;
 use crate::semantics::{predicate, storey_name};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, capitalized};
+use crate::units::{AreaId, InOrder as _, capitalized};
 
 use super::lexicon::named;
 use super::{State, TaskAnswer};

@@ -5,8 +5,7 @@ use crate::language::command::{Command, Placement, Relation};
 use crate::map::{Entity, World};
 use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, MapId, ReplicaId};
+use crate::units::{AreaId, InOrder as _, MapId, ReplicaId};
 
 use super::{Error, Method, RequestError, State};
 

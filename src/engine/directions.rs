@@ -18,8 +18,7 @@ use crate::language::names::named;
 use crate::language::report::{Named, OpeningKind};
 use crate::map::{Entity, World};
 use crate::semantics::{Relations, Thresholds};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Deg, Point, Vector};
+use crate::units::{AreaId, Deg, InOrder as _, Point, Vector};
 
 use super::known::Known;
 use super::route::{End, RouteAnswer};

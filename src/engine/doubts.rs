@@ -1,10 +1,10 @@
 //! A map file looked at closely: what reads well and cannot be.
 
-use crate::units::InOrder as _;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, Format, MapErrors};
+use crate::units::InOrder as _;
 
 use super::{World, check_map};
 

@@ -9,8 +9,9 @@ use crate::draw::{
 use crate::geometry::{FloorPlan, Opening, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, bilingual, nearest_name};
+use crate::units::{
+    AreaId, InOrder as _, Language, MapId, Point, Pose, Vector, bilingual, nearest_name,
+};
 
 use super::{Error, RequestError, State};
 

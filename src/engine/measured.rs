@@ -8,8 +8,7 @@ use crate::language::Language;
 use crate::language::question::{Asker, Fact};
 use crate::map::Entity;
 use crate::semantics::{MEASURED, Subject};
-use crate::units::InOrder as _;
-use crate::units::{MapId, Point};
+use crate::units::{InOrder as _, MapId, Point};
 
 use super::talk::RobotSenses;
 use super::{Error, State};

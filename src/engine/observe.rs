@@ -4,8 +4,7 @@ use crate::map::{Entity, Replica};
 use crate::store::{
     Belief, Change, ImportReport, Key, Observation, Reader, Seen, Stamp, Store, Table, Timestamp,
 };
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Frame, MapId, ReplicaId};
+use crate::units::{AreaId, Frame, InOrder as _, MapId, ReplicaId};
 
 use super::history::in_memory;
 use super::position::nowhere_on;

@@ -7,8 +7,7 @@ use std::sync::OnceLock;
 use crate::meaning::{FILES, Grammar, words_beside};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
-use crate::units::InOrder as _;
-use crate::units::Source;
+use crate::units::{InOrder as _, Source};
 
 use super::{Error, RequestError};
 

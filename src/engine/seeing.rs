@@ -5,8 +5,7 @@ use std::path::Path;
 
 use crate::draw::{SeenDrawing, SeenSegment, SeenSign, TreeNode, seen_svg, tree_svg};
 use crate::language::Language;
-use crate::units::InOrder as _;
-use crate::units::{Deg, FileFault, Point, Pose, Vector, is_input, read_file};
+use crate::units::{Deg, FileFault, InOrder as _, Point, Pose, Vector, is_input, read_file};
 use crate::vectors::picture::Picture;
 use crate::vectors::read::{LONGEST, Log, LogError, Scan, read_log, unpacked};
 use crate::vectors::scan::Extractor;

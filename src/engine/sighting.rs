@@ -6,8 +6,7 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::{Entity, World};
 use crate::sensing::{Bound, Chart, Localiser, Operative, Options};
-use crate::units::InOrder as _;
-use crate::units::{MapId, Point, Pose};
+use crate::units::{InOrder as _, MapId, Point, Pose};
 
 use super::{Drawing, Error, RequestError, Sighted, State};
 

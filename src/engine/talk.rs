@@ -14,8 +14,7 @@ use crate::meaning;
 use crate::robot::starting_pose;
 use crate::semantics::{Relations, Subject, derive, robot_eye, things_in_view};
 use crate::store::Seen;
-use crate::units::InOrder as _;
-use crate::units::{MapId, Pose, ReplicaId};
+use crate::units::{InOrder as _, MapId, Pose, ReplicaId};
 
 use super::barriers::no_way_in_words;
 use super::journey::Journey;

@@ -11,8 +11,7 @@ use crate::language::report::Detail;
 use crate::language::zones::{when, zone_in_words};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, Zone, ZoneKind, plane};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, ZoneId, capitalized, name_key};
+use crate::units::{AreaId, InOrder as _, ZoneId, capitalized, name_key};
 
 use super::known::Known;
 use super::lexicon::named;

@@ -6,7 +6,6 @@
 //! What the strata read is shared: their indexes are made before, each in a thread of its own. A join goes on in more
 //! threads once others have nothing left to do.
 
-use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
@@ -26,6 +25,7 @@ use super::spread::Makes;
 use super::strata::reads;
 use super::syntax::Span;
 use super::word::{LARGE, Note, Word, Words};
+use crate::units::InOrder as _;
 
 /// Fewer rows read are not worth a thread.
 const MANY: usize = 1 << 14;

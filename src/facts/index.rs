@@ -4,7 +4,6 @@
 //! Key and columns may be computed from a row's words: `AZ = BZ + BH` joins on the sum, and
 //! `AX <= BX + 50` compares with a column that holds `BX + 50`, computed once for each row.
 
-use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -16,6 +15,7 @@ use super::program::Expr;
 use super::rows::RowSet;
 use super::value;
 use super::word::{NO_WORD, Word, Words, is_in_place};
+use crate::units::InOrder as _;
 
 /// One column of an index, in the index's order.
 #[derive(Debug, Clone)]

@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use super::parse;
 use super::syntax::{Atom, Body, Component, Expr, Item, Name, Span};
-use crate::units::InOrder as _;
-use crate::units::Source;
+use crate::units::{InOrder as _, Source};
 
 /// What a name is one of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -12,8 +12,7 @@ use super::limits::Ceilings;
 pub use super::syntax::Kind;
 use super::syntax::{Aggregation, Comparison, Functor, Span};
 use super::word::{Value, Word, Words};
-use crate::units::InOrder as _;
-use crate::units::{Source, name_key};
+use crate::units::{InOrder as _, Source, name_key};
 
 /// A relation of a program, by position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

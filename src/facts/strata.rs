@@ -10,8 +10,7 @@ use super::declare::Declared;
 use super::fault::RuleError;
 use super::program::{Clause, Found, Literal, RelationId, Stratum, Subsumption};
 use super::syntax::Span;
-use crate::units::Bilingual;
-use crate::units::InOrder as _;
+use crate::units::{Bilingual, InOrder as _};
 
 /// Relations in groups that depend on each other, each group after those it reads.
 pub(super) fn strata(

@@ -4,8 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use super::syntax::Span;
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, InOrder as _, Language};
 
 /// One rule's part in an evaluation; a recursive rule has a line for each premise that it starts with.
 #[derive(Debug, Clone)]

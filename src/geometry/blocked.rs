@@ -10,8 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, ZoneId};
+use crate::units::{AreaId, DoorId, InOrder as _, ZoneId};
 
 use super::blocker::Blocker;
 use super::cells::CellKey;

@@ -3,8 +3,7 @@
 //! A way is followed from Passframe to Passframe over the edges by which it leaves them: what that costs depends on the
 //! way alone. Where it leaves the Passframes, as in a strait, it is cut at all Passframes near it instead.
 
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Point};
+use crate::units::{AreaId, InOrder as _, Point};
 
 use super::floor::FragmentFloor;
 use super::mesh::NONE;

@@ -3,8 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use crate::units::InOrder as _;
-use crate::units::{AreaId, MapId};
+use crate::units::{AreaId, InOrder as _, MapId};
 
 use super::opening::Opening;
 use super::openings::Openings;

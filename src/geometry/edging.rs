@@ -4,8 +4,7 @@
 //! which faces are not plain, that is, have names or let something through.
 
 use crate::map::{BaseVector, Permeability};
-use crate::units::InOrder as _;
-use crate::units::Point;
+use crate::units::{InOrder as _, Point};
 
 use super::blocker::{Blocker, Obstacle};
 use super::dead_zone::jamb;

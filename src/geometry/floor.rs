@@ -19,8 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Point, Vector};
+use crate::units::{AreaId, InOrder as _, Point, Vector};
 
 use super::blocker::Obstacle;
 use super::buckets::Buckets;

@@ -4,8 +4,7 @@
 //! between a goal and the face of a thing that it is before no wall and no leaf of a door, shut or open.
 
 use crate::map::{DoorKind, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
+use crate::units::{AreaId, Deg, DoorId, InOrder as _, Point, Pose, ReplicaId, Vector};
 
 use super::Bounds;
 use super::anchor::Anchor;

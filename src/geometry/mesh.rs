@@ -3,8 +3,7 @@
 //! **Invariant**: cells are convex and counter-clockwise, do not overlap, and fill the floor; where two share a
 //! border, both have it as one edge with the same two corners.
 
-use crate::units::InOrder as _;
-use crate::units::Point;
+use crate::units::{InOrder as _, Point};
 
 use super::buckets::Buckets;
 use super::grid::{Contour, Grid, Node, Region, Shapes, positive};

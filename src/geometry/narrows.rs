@@ -22,8 +22,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::Permeability;
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::blocker::Blocker;
 use super::buckets::Buckets;

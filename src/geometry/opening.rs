@@ -19,8 +19,7 @@
 //! How the leaves of its door stand in it is told by [`super::leaf`].
 
 use crate::map::{Door, DoorMount, DoorState, OpensTo, Permeability, SideRef, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, MapId, OpeningId, Point, Vector};
+use crate::units::{AreaId, DoorId, InOrder as _, MapId, OpeningId, Point, Vector};
 
 use super::leaf::{Bay, Leaves};
 use super::{Bounds, Polygon};

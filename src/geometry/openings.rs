@@ -18,8 +18,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::map::{Permeability, SideRef, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, Frame, MapId, OpeningId, Point, Vector};
+use crate::units::{AreaId, DoorId, Frame, InOrder as _, MapId, OpeningId, Point, Vector};
 
 use super::buckets::Buckets;
 use super::opening::{OpenSide, Opening};

@@ -10,8 +10,7 @@ use std::collections::HashSet;
 use std::fmt;
 
 use crate::map::Permeability;
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, Language, Point};
+use crate::units::{AreaId, DoorId, InOrder as _, Language, Point};
 
 use super::blocker::Blocker;
 use super::buckets::Buckets;

@@ -12,8 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::map::{Area, MapLink, SideRef, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DoorId, MapId};
+use crate::units::{AreaId, DoorId, InOrder as _, MapId};
 
 use super::Bounds;
 use super::opening::{OpenSide, Opening};

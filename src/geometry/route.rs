@@ -10,8 +10,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::map::{DoorState, World, Zone, ZoneKind};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, ReplicaId, ZoneId};
+use crate::units::{AreaId, Deg, DoorId, InOrder as _, PlaceId, Point, ReplicaId, ZoneId};
 
 use super::anchor::{Anchor, Moved};
 use super::blocked::{Barrier, NoRoute, explain, single};

@@ -32,8 +32,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use std::f64::consts::PI;
 
 use crate::map::RobotProfile;
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::anchor::Anchor;
 use super::apart::{distance, segment_distance};

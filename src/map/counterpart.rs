@@ -10,9 +10,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
 
-use crate::units::InOrder as _;
 use crate::units::{
-    AreaId, Bilingual, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId, TypeId, name_key,
+    AreaId, Bilingual, DoorId, Frame, InOrder as _, MapId, ObjectId, OrFrId, ReplicaId, TypeId,
+    name_key,
 };
 
 use super::fault::{Fault, MapError, Record, Spot};

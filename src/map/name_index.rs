@@ -4,8 +4,7 @@
 
 use std::hash::Hasher;
 
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::{Entity, Records, World};
 
 /// Everything that bears a name, found by it without a search through the world. A copy shares what it has in common.

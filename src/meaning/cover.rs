@@ -3,7 +3,6 @@
 //! A cover has no gaps: each word stands in a part of the frame, or is one that the language lists as passed over. In a
 //! language of free order a frame is a bag of parts, and an unusual order has its price.
 
-use crate::units::InOrder as _;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -14,6 +13,7 @@ use super::grammar::{Frame, Slot, Tongue};
 use super::sense::{Bound, Sense, Signatures};
 use super::term::Form;
 use super::words::Edge;
+use crate::units::InOrder as _;
 
 /// Covers that are kept at each state.
 const KEPT: usize = 4;

@@ -6,7 +6,6 @@
 mod measures;
 mod values;
 
-use crate::units::InOrder as _;
 use std::fmt::Write as _;
 
 use super::answer::NoAnswer;
@@ -18,6 +17,7 @@ use crate::facts::Value;
 use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
 use crate::map::Entity;
 use crate::semantics::Subject;
+use crate::units::InOrder as _;
 
 /// The rows of a question of the rules' language, or why there are none.
 pub type Rows = Result<Vec<Vec<Value>>, String>;

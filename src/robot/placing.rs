@@ -2,8 +2,7 @@
 
 use crate::geometry::{Bounds, PlacedReplica, Polygon, Prism, Scene};
 use crate::map::{DoorStatus, Permeability, Replica, World, plane};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId, Vector};
+use crate::units::{AreaId, Deg, Frame, InOrder as _, MapId, Point, Pose, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
 const MARGIN: f64 = 1.0;

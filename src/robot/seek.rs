@@ -2,8 +2,7 @@
 
 use crate::geometry::{Route, Target};
 use crate::semantics::planning::{PlaceSource, PlanPlace};
-use crate::units::AreaId;
-use crate::units::InOrder as _;
+use crate::units::{AreaId, InOrder as _};
 
 use super::belief::Station;
 use super::mission::{Leg, Mission, Surprise, look_round};

@@ -4,8 +4,7 @@
 
 use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
 use crate::geometry::{Polygon, convex_hull};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, MapId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, InOrder as _, MapId, Point, ReplicaId, Vector};
 
 use super::body::Body;
 use super::measure::surface_distance;

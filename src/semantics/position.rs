@@ -5,8 +5,9 @@
 
 use crate::geometry::contact::Footprint;
 use crate::map::World;
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Deg, DoorId, MapId, OpeningId, Point, Pose, ReplicaId, Vector};
+use crate::units::{
+    AreaId, Deg, DoorId, InOrder as _, MapId, OpeningId, Point, Pose, ReplicaId, Vector,
+};
 
 use super::body::Body;
 use super::relations::Relations;

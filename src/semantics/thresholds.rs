@@ -11,8 +11,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::facts::{Program, Value};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Source, bilingual};
+use crate::units::{Bilingual, InOrder as _, Source, bilingual};
 
 /// What a number of the rule text counts, and what it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 
 use crate::geometry::{Blocker, Eye, FloorPlan};
 use crate::map::World;
-use crate::units::InOrder as _;
-use crate::units::{AreaId, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, InOrder as _, MapId, Pose, ReplicaId};
 
 use super::thresholds::Thresholds;
 

@@ -12,8 +12,7 @@ use serde_json::{Value, json};
 use crate::engine::{Dialogue, Queue, QueuedTask, State};
 use crate::robot::Answer;
 use crate::store::Timestamp;
-use crate::units::InOrder as _;
-use crate::units::Stop;
+use crate::units::{InOrder as _, Stop};
 
 use super::gate::{Role, Session};
 

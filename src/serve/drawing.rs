@@ -9,8 +9,7 @@ use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
 use crate::map::{
     BaseVector, Door, DoorStatus, Entity, Extent, Item, Permeability, Replica, World, ZoneKind,
 };
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Language, MapId, Point};
+use crate::units::{AreaId, InOrder as _, Language, MapId, Point};
 
 /// How much of a storey is wanted.
 #[derive(Debug, Clone, Copy)]

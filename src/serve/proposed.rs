@@ -9,8 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde_json::{Map, Value};
 
-use crate::units::InOrder as _;
-use crate::units::write_file;
+use crate::units::{InOrder as _, write_file};
 
 /// So many wait at the most; beyond, the oldest is forgotten here, and its file is left.
 const MOST: usize = 200;

@@ -17,8 +17,7 @@ use crate::engine::{
 use crate::facts::{Because, Kind, Premise, WhyNot};
 use crate::map::{Entity, Replica};
 use crate::store::Seen;
-use crate::units::InOrder as _;
-use crate::units::{Language, MapId};
+use crate::units::{InOrder as _, Language, MapId};
 
 use super::drawing::{self, Part};
 use super::fault::Fault;

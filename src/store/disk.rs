@@ -2,10 +2,11 @@
 //!
 //! **Invariant**: no other file of this folder writes a file, but for sled's own.
 
-use crate::units::InOrder as _;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+
+use crate::units::InOrder as _;
 
 /// A file that is only appended to.
 pub(crate) trait Appender: Send {

@@ -20,8 +20,7 @@ use super::memory::MemoryTrees;
 use super::run::{self, Cursor, Run};
 use super::tables::Table;
 use super::trees::{CHANGES, HISTORY, Pair, RUNS, Records, State, Trees, Visit};
-use crate::units::Bilingual;
-use crate::units::InOrder as _;
+use crate::units::{Bilingual, InOrder as _};
 
 /// So many runs of like size are made one.
 const MOST_ALIKE: usize = if cfg!(test) { 3 } else { 8 };

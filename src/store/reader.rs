@@ -6,8 +6,7 @@
 use std::sync::Arc;
 
 use crate::map::{Replica, World};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, DomainId, MapId, ReplicaId};
+use crate::units::{AreaId, DomainId, InOrder as _, MapId, ReplicaId};
 
 use super::cell::{Key, Row};
 use super::edits::{Revision, revision};

@@ -10,8 +10,7 @@ use std::rc::Rc;
 
 use super::domain::{Domain, Formula, KindSet, SchemaAtom, SchemaTerm};
 use super::resolve::{GroundAtom, Resolved, ThingId};
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 
 /// Into more cases than these no ground action is divided.
 pub(super) const MOST_CASES: usize = 4096;

@@ -5,8 +5,7 @@ use std::ops::Range;
 
 use crate::rule_text;
 use crate::syntax::{Atom, Condition, Declaration, Name, Parameter, Term};
-use crate::units::InOrder as _;
-use crate::units::{Language, Source};
+use crate::units::{InOrder as _, Language, Source};
 
 /// What a name is one of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

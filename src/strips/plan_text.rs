@@ -12,8 +12,7 @@ use super::expression::{Expression, expressions};
 use super::fault::{RuleFault, RuleFaults};
 use super::load::read_source;
 use super::task::{OperatorId, Task};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, InOrder as _, Source};
 
 /// An action of a plan text and where it stands.
 #[derive(Debug, Clone)]

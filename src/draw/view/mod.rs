@@ -10,8 +10,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{Bounds, Polygon, Scene};
 use crate::map::{DoorStatus, World};
-use crate::units::InOrder as _;
-use crate::units::{Language, Point, Pose, Vector};
+use crate::units::{InOrder as _, Language, Point, Pose, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;

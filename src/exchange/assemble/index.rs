@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use crate::map::plane::bounds;
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::ring::Region;
 

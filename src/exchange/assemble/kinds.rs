@@ -6,8 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::map::plane::{bounds, doubled_area};
 use crate::map::{Face, Item, ItemLink, Permeability, SideRef};
 use crate::report::{What, Why};
-use crate::units::InOrder as _;
-use crate::units::{Cm, Deg, Frame, Point, Vector};
+use crate::units::{Cm, Deg, Frame, InOrder as _, Point, Vector};
 use crate::{Kind, Part, Report};
 
 use super::names::letters;

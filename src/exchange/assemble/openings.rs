@@ -7,8 +7,7 @@
 use crate::map::OpensTo;
 use crate::map::plane::bounds;
 use crate::report::{What, Why};
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 use crate::{Level, Opening, OpeningKind, Report};
 
 use super::index::Index;

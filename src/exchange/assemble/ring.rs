@@ -13,8 +13,7 @@ use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 use i_overlay::float::slice::FloatSlice;
 
 use crate::map::plane::{bounds, doubled_area, edges, meeting, near_pairs, segment_distance};
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 /// A closed chain of corners, without the closing one.
 pub(crate) type Ring = Vec<Point>;

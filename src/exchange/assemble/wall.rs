@@ -13,8 +13,7 @@
 //! longer than [`NEAR`] or nothing.
 
 use crate::map::plane::{doubled_area, segment_distance};
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::ring::{NEAR, Region, Ring};
 

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Level;
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, bilingual};
 
 use super::classify::Class;
 use super::feature::{Feature, leading_number};

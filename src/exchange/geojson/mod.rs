@@ -31,8 +31,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use crate::map::Properties;
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Language, Point, Source, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Language, Point, Source, bilingual};
 
 use super::{ReadError, Remark, Room, Spot, Survey, input, outline};
 use classify::{Class, class};

@@ -1,11 +1,11 @@
 //! Names in several languages: IMDF's labels `{"en": "Kitchen", "ru": "Кухня"}`, OpenStreetMap's `name:ru`.
 
-use crate::units::InOrder as _;
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
 use super::feature::Feature;
+use crate::units::InOrder as _;
 
 /// Which language of a label is shown: Russian, else the one that most labels of the file have, English before others.
 #[derive(Debug, Clone)]

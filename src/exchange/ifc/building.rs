@@ -5,8 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Point, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Point, bilingual};
 use crate::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
 
 use super::classes::{self, Becomes};

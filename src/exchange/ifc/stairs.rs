@@ -18,8 +18,7 @@ use crate::assemble::ring::{
 };
 use crate::map::Properties;
 use crate::shafts::vertical;
-use crate::units::InOrder as _;
-use crate::units::{Cm, Point, Vector, bilingual};
+use crate::units::{Cm, InOrder as _, Point, Vector, bilingual};
 use crate::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
 
 use super::body::{Body, rings, together};

@@ -9,8 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Deg, Point};
+use crate::units::{Bilingual, Cm, Deg, InOrder as _, Point};
 use crate::{Deed, Kind, Part, Thing, What, outline};
 
 use super::body::{Body, area, hull, rings, together};

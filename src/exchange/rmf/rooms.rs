@@ -6,8 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::assemble::ring::{self, Region, Ring};
 use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Point, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Point, bilingual};
 use crate::{Room, Spot};
 
 use super::faces::{Face, Plan};

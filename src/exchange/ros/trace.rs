@@ -1,7 +1,6 @@
 //! The border of a region of cells → a ring of straight walls.
 
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::grid::Grid;
 use crate::geometry::nearest_on_segment;

@@ -4,8 +4,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
-use crate::units::InOrder as _;
-use crate::units::Point;
+use crate::units::{InOrder as _, Point};
 
 type Contour = Vec<[f64; 2]>;
 

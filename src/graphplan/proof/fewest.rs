@@ -5,7 +5,6 @@
 //! and a totalizer (O. Bailleux, Y. Boufkhad, 2003; weights after S. Joshi, R. Martins, V. Manquinho, 2015) adds up
 //! the variables. The bound sinks below each plan found until the solver refutes it or the effort is used up.
 
-use crate::units::InOrder as _;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, VecDeque};
 
@@ -14,6 +13,7 @@ use super::sat::{Encoding, Verdict};
 use super::solver::{Literal, Solver};
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::units::InOrder as _;
 use crate::{Limit, Limits};
 
 /// A counter with more clauses than this costs more than it saves.

@@ -4,12 +4,12 @@
 //! themselves. A set of facts out of reach then stays out of reach under every exchange of such objects (the goal
 //! plays no part), and [`super::no_good`] keeps one no-good for all of its images.
 
-use crate::units::InOrder as _;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::Limits;
 use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
+use crate::units::InOrder as _;
 
 /// For each fact, the object of it that may be exchanged, and the fact's image for the first of its kin.
 #[derive(Debug)]

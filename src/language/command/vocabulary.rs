@@ -1,10 +1,10 @@
 //! The words of commands in both languages, and what each does in a sentence.
 
-use crate::units::InOrder as _;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::Relation;
+use crate::units::InOrder as _;
 use crate::words::ordering_verb;
 
 /// What a word or phrase does in a command.

@@ -2,9 +2,9 @@
 //!
 //! Invariant: who did it, when and why are other questions, and so is what the robot itself did.
 
-use crate::units::InOrder as _;
 use std::ops::Range;
 
+use crate::units::InOrder as _;
 use crate::words::{Language, word_keys, word_ranges};
 
 /// Russian verbs up to the ending of their past, and the state that they bring about.

@@ -7,8 +7,7 @@ use std::ops::Range;
 
 use super::lexicon::{Lexicon, Meaning};
 use super::vocabulary;
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges};
 
 /// Words that ask and are often mistyped; a letter off is still that word.

@@ -7,8 +7,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::names::{english_name, hints, hints_of_type};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
+use crate::units::{AreaId, InOrder as _, ObjectId, Point, TypeId, name_key};
 use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 

@@ -11,8 +11,7 @@ use super::memory::Memory;
 use super::purposes::{self, Role};
 use super::query::{Head, Noun, Thing};
 use super::values::Property;
-use crate::units::InOrder as _;
-use crate::units::ReplicaId;
+use crate::units::{InOrder as _, ReplicaId};
 use crate::words::Language;
 use crate::words::things::things;
 

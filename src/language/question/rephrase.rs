@@ -6,8 +6,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::constructions;
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::{Language, phrase_at, word_ranges};
 
 /// A text with its everyday constructions put plainly.

@@ -4,8 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use crate::map::{DoorStatus, World};
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::things::things;
 use crate::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
 

@@ -7,8 +7,7 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Closeness, Dimension, Extreme, Rel};
 use super::uses;
 use crate::report::Detail;
-use crate::units::InOrder as _;
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::things;
 
 static TEXT: &str = include_str!("marks.txt");

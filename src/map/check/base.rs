@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, Cm, Point};
+use crate::units::{Bilingual, Cm, InOrder as _, Point};
 use crate::{BaseVector, Orthoframe, TypeKind};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};

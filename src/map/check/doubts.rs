@@ -12,8 +12,7 @@ use std::ops::ControlFlow;
 use miette::Diagnostic;
 
 use crate::fault::{Fault, MapError, Record, Spot};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, InOrder as _, Point, name_key, nearest_name};
 use crate::{
     Area, Mark, Orthoframe, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark,
     is_on, is_open,

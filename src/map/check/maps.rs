@@ -6,8 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, OrFrId, Vector};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, InOrder as _, OrFrId, Vector};
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
 use super::group::{

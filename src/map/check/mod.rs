@@ -17,8 +17,7 @@ mod zones;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
+use crate::units::{AreaId, Bilingual, Cm, Frame, InOrder as _, MapId, OrFrId, Point, TypeId};
 
 pub use doubts::doubts;
 pub use news::news;

@@ -3,8 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, name_key};
+use crate::units::{Bilingual, InOrder as _, name_key};
 use crate::{Entity, TypeKind, World};
 
 use super::{Checker, Scope};

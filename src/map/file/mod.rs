@@ -25,8 +25,7 @@ use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
-use crate::units::InOrder as _;
-use crate::units::{Bilingual, FileFault, Source};
+use crate::units::{Bilingual, FileFault, InOrder as _, Source};
 
 pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, RobotSaid, edit, kinds};
 pub use schema::json_schema;

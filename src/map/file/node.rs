@@ -11,8 +11,7 @@ use toml::de::{DeTable, DeValue};
 use super::Format;
 use super::misprint::in_both;
 use crate::fault::MapError;
-use crate::units::Bilingual;
-use crate::units::InOrder as _;
+use crate::units::{Bilingual, InOrder as _};
 
 /// Bytes of the text.
 pub(super) type Span = Range<usize>;

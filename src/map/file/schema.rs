@@ -3,7 +3,6 @@
 //! The types are the one source of the format: reading refuses what they do not name, writing prints them in the
 //! order of their fields, and [`json_schema`] is made from them. What they mean is decided in `read` and `write`.
 
-use crate::units::InOrder as _;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -18,6 +17,7 @@ use super::decode::word;
 use super::text::{Lines, Printed, line};
 pub use super::values::{At, Coordinates, Number, pair};
 use crate::fault::MapError;
+use crate::units::InOrder as _;
 use crate::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 
 /// The only format that this version reads and writes.

@@ -8,8 +8,7 @@ use super::schema::{
     SideFile, SideTraitsFile, Table, TypeFile, TypesFile, ZoneFile, ZoneWord,
 };
 use super::text::{Lines, key};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
+use crate::units::{AreaId, Cm, Deg, Frame, InOrder as _, Point, TypeId};
 use crate::{
     Area, BaseVector, DomainMap, Door, DoorMount, DoorState, DoorStatus, Extent, Face, Item,
     ItemLink, Map, MapLink, Object, Orthoframe, Place, Replica, SideRef, TypeEntry, TypeKind,

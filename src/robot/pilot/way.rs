@@ -4,8 +4,7 @@
 use crate::geometry::{PlacedReplica, Polygon, convex_hull, nearest_on_segment};
 use crate::map::DoorKind;
 use crate::sensing::ThingSeen;
-use crate::units::InOrder as _;
-use crate::units::{Deg, Frame, Point, Pose, ReplicaId, Vector};
+use crate::units::{Deg, Frame, InOrder as _, Point, Pose, ReplicaId, Vector};
 use crate::vehicle::{Bump, Gathered, Notice, Obstruction, Outlines, Sighting, Unfinished, Watch};
 
 use super::{Pilot, SURE, UNKNOWN};

@@ -4,8 +4,7 @@ use std::collections::HashMap;
 
 use super::{DOORWAY, Graph, LEAST_ROOM, MOST_EDGES, MOST_LEADS, OPEN, REACH, TURN, WELD};
 use crate::map::plane::{doubled_area, meeting};
-use crate::units::InOrder as _;
-use crate::units::Point;
+use crate::units::{InOrder as _, Point};
 
 impl Graph {
     /// Where a wall that ends in the open goes on in its own line, or meets another wall, no farther than `reach`: the

@@ -12,8 +12,7 @@ use std::ops::ControlFlow;
 
 use crate::geometry::nearest_on_segment;
 use crate::map::plane::{bounds, contains, doubled_area, meeting, near_pairs};
-use crate::units::InOrder as _;
-use crate::units::Point;
+use crate::units::{InOrder as _, Point};
 
 mod gaps;
 

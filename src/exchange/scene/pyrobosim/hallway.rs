@@ -7,8 +7,7 @@ use crate::map::{DoorKind, DoorStatus};
 use crate::scene::json::{length, list, text};
 use crate::scene::plane;
 use crate::scene::procthor::contains;
-use crate::units::InOrder as _;
-use crate::units::{Point, Vector};
+use crate::units::{InOrder as _, Point, Vector};
 
 use super::record::{centroid, pair};
 

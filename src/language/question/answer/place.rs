@@ -8,8 +8,7 @@ use crate::question::knowledge::{Held, Knowledge};
 use crate::question::query::{Extreme, Filter, Noun, Rel, Thing};
 use crate::question::{Doubt, Fact, Said};
 use crate::report::{Detail, Named};
-use crate::units::AreaId;
-use crate::units::InOrder as _;
+use crate::units::{AreaId, InOrder as _};
 use crate::words::length;
 use crate::words::{Case, enumerate, russian};
 

@@ -8,8 +8,7 @@ use crate::question::Doubt;
 use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::query::{Best, Extreme, Head, Noun, Reach, Rel, Restriction, Thing};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, Vector};
+use crate::units::{AreaId, InOrder as _, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// To more things than this ways are not looked for at once.

@@ -6,8 +6,7 @@ use super::Knowledge;
 use crate::map::Entity;
 use crate::question::lexicon::{Extension, Lexicon};
 use crate::question::query::Thing;
-use crate::units::InOrder as _;
-use crate::units::{ObjectId, ReplicaId};
+use crate::units::{InOrder as _, ObjectId, ReplicaId};
 
 impl Knowledge<'_> {
     /// Everything of a kind.

@@ -8,8 +8,7 @@ use super::bases;
 use crate::map::{Entity, Mark};
 use crate::question::lexicon::Extension;
 use crate::question::query::{Rel, Thing};
-use crate::units::InOrder as _;
-use crate::units::{AreaId, MapId, ReplicaId, Vector};
+use crate::units::{AreaId, InOrder as _, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
 impl Knowledge<'_> {

@@ -6,8 +6,7 @@ use super::{Knowledge, KnownOpening};
 use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::question::query::{Filter, Rel, Thing};
 use crate::question::values::{Property, ValueId};
-use crate::units::DoorId;
-use crate::units::InOrder as _;
+use crate::units::{DoorId, InOrder as _};
 use std::collections::BTreeSet;
 
 impl Knowledge<'_> {

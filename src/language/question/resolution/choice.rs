@@ -7,8 +7,7 @@ use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
-use crate::units::AreaId;
-use crate::units::InOrder as _;
+use crate::units::{AreaId, InOrder as _};
 
 impl Settler<'_, '_> {
     pub(super) fn candidates(

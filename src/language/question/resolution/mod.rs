@@ -28,8 +28,7 @@ use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::command::{self, Sort};
 use crate::map::Entity;
-use crate::units::AreaId;
-use crate::units::InOrder as _;
+use crate::units::{AreaId, InOrder as _};
 use crate::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
