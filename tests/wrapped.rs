@@ -1,6 +1,8 @@
 //! What is wrapped around a question and says nothing of the world: particles, and the ways to lead in what is asked. It changes
 //! no answer, and what is refused stays refused.
 
+use std::fmt::{Display, Formatter};
+
 use orthoframe::Engine;
 use orthoframe::engine::{Dialogue, Memory, Outcome};
 
@@ -44,6 +46,35 @@ fn cases() -> Vec<Case> {
         Some(Case { name, engine: engine(map.trim())?, questions })
     };
     NAMES.into_iter().filter_map(read).collect()
+}
+
+/// How lines that should be answered as plain ones are were answered.
+#[derive(Default)]
+struct Tally {
+    asked: usize,
+    same: usize,
+    changed: Vec<String>,
+}
+
+impl Tally {
+    /// What was told, if anything was, and what the plain line tells.
+    fn add<T: PartialEq + Display>(&mut self, name: &str, line: &str, told: Option<T>, plain: &T) {
+        self.asked += 1;
+        match told {
+            None => {}
+            Some(told) if told == *plain => self.same += 1,
+            Some(told) => self.changed.push(format!("{name}: {line}\n  {told}\n  {plain}")),
+        }
+    }
+
+    /// No answer is another, and so many of a hundred are answered.
+    #[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
+    fn end(self, least: usize) {
+        let Self { asked, same, changed } = self;
+        println!("{same} of {asked} as the plain ones");
+        assert!(changed.is_empty(), "{}", changed.join("\n"));
+        assert!(same * 100 >= asked * least, "{same} of {asked}");
+    }
 }
 
 /// The ordinary run takes one question of six.
@@ -127,9 +158,8 @@ fn a_particle_before_a_question_changes_no_answer() {
 
 /// The same between any two words: the same answer, or none; and mostly there is one.
 #[test]
-#[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
 fn a_particle_within_a_question_changes_no_answer() {
-    let (mut asked, mut same, mut changed) = (0, 0, Vec::new());
+    let mut tally = Tally::default();
     for case in cases() {
         for (n, question) in some(&case) {
             let Some(plain) = answered(&case.engine, question) else { continue };
@@ -148,25 +178,15 @@ fn a_particle_within_a_question_changes_no_answer() {
                 let (before, behind) = (words[..at].join(" "), words[at..].join(" "));
                 let before = before.trim_end_matches(',');
                 let line = format!("{before}, {particle}, {behind}");
-                asked += 1;
-                match answered(&case.engine, &line) {
-                    None => {}
-                    Some(told) if told == plain => same += 1,
-                    Some(told) => {
-                        changed.push(format!("{}: {line}\n  {told}\n  {plain}", case.name))
-                    }
-                }
+                tally.add(case.name, &line, answered(&case.engine, &line), &plain);
             }
         }
     }
-    println!("{same} of {asked} as without the particle");
-    assert!(changed.is_empty(), "{}", changed.join("\n"));
-    assert!(same * 100 >= asked * 95, "{same} of {asked}");
+    tally.end(95);
 }
 
 /// What is led in by words that ask for nothing themselves is answered as it is without them, or not at all; mostly it is.
 #[test]
-#[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
 fn what_leads_a_question_in_changes_no_answer() {
     const RUSSIAN: [&str; 8] = [
         "Это мне кажется или {}?",
@@ -188,7 +208,7 @@ fn what_leads_a_question_in_changes_no_answer() {
         "I was just wondering, {}",
         "Maybe you know, {}",
     ];
-    let (mut asked, mut same, mut changed) = (0, 0, Vec::new());
+    let mut tally = Tally::default();
     for case in cases() {
         for (n, question) in some(&case) {
             let Some(plain) = answered(&case.engine, question) else { continue };
@@ -205,20 +225,11 @@ fn what_leads_a_question_in_changes_no_answer() {
                     false => question,
                 };
                 let line = frame.replace("{}", &uncapitalized(bare));
-                asked += 1;
-                match answered(&case.engine, &line) {
-                    None => {}
-                    Some(told) if told == plain => same += 1,
-                    Some(told) => {
-                        changed.push(format!("{}: {line}\n  {told}\n  {plain}", case.name))
-                    }
-                }
+                tally.add(case.name, &line, answered(&case.engine, &line), &plain);
             }
         }
     }
-    println!("{same} of {asked} as without what leads in");
-    assert!(changed.is_empty(), "{}", changed.join("\n"));
-    assert!(same * 100 >= asked * 80, "{same} of {asked}");
+    tally.end(80);
 }
 
 /// No refusal speaks of a word without saying it.
@@ -244,10 +255,24 @@ fn no_refusal_quotes_nothing() {
     assert!(refused > 100, "{refused}");
 }
 
+/// Whether a claim is so, and the words for it.
+struct Claimed(Said, String);
+
+impl PartialEq for Claimed {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl Display for Claimed {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        self.1.fmt(f)
+    }
+}
+
 /// What others claim is answered as the question is whether it is so, whichever words tell of the claim and whichever ask; and
 /// mostly it is answered.
 #[test]
-#[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
 fn a_claim_is_asked_after_however_it_was_heard() {
     const FRAMES: [(&str, &str); 16] = [
         ("I was told that {}, correct?", "Is {}?"),
@@ -267,7 +292,7 @@ fn a_claim_is_asked_after_however_it_was_heard() {
         ("Уверяют, будто {}. Это правда?", "{}?"),
         ("Подтверди, что {}", "{}?"),
     ];
-    let (mut asked, mut same, mut changed) = (0, 0, Vec::new());
+    let mut tally = Tally::default();
     for case in cases().into_iter().step_by(2) {
         let world = case.engine.world().unwrap();
         let rooms: Vec<_> = world.areas.values().collect();
@@ -294,23 +319,14 @@ fn a_claim_is_asked_after_however_it_was_heard() {
                         Said::Nothing => Said::No,
                         said => said,
                     };
-                    Some((so, answer.text))
+                    Some(Claimed(so, answer.text))
                 };
-                let Some((plain, _)) = said(&plain) else { continue };
-                asked += 1;
-                match said(&line) {
-                    None => {}
-                    Some((told, _)) if told == plain => same += 1,
-                    Some((_, text)) => {
-                        changed.push(format!("{}: {line}\n  {text}\n  {plain:?}", case.name))
-                    }
-                }
+                let Some(plain) = said(&plain) else { continue };
+                tally.add(case.name, &line, said(&line), &plain);
             }
         }
     }
-    println!("{same} of {asked} claims as they are asked after");
-    assert!(changed.is_empty(), "{}", changed.join("\n"));
-    assert!(same * 100 >= asked * 85, "{same} of {asked}");
+    tally.end(85);
 }
 
 /// A way that cannot go round what is to be left out is told so, with all names in it.

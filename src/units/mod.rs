@@ -1,4 +1,5 @@
-//! Lengths, angles, frames, ids, names and places in a text: the words that every other folder speaks.
+//! Lengths, angles, frames, ids, names, places in a text and the order of a few things: the words that every other folder
+//! speaks.
 //!
 //! Lengths are centimetres, angles degrees counter-clockwise from +x (SPEC M1). Outside numbers are
 //! checked once, where they become a [`Cm`] or a [`Deg`]; past that edge they are finite.

@@ -140,7 +140,9 @@ impl<'a> Forward<'a> {
             {
                 return Ok(Searched::Path(operators));
             }
-            if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
+            if let Some(found) =
+                self.by_width(false, Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)?
+            {
                 return Ok(found);
             }
             if self.effort == Effort::Small {
@@ -163,13 +165,10 @@ impl<'a> Forward<'a> {
             let times = 4_usize.pow(round);
             let states = FEW_STATES_BY_WIDTH * times;
             let by_width = states <= MANY_STATES_BY_WIDTH;
-            for _ in 0..2 {
-                let found = match by_width {
-                    true => self.by_width(landmarks.as_ref(), states, &half)?,
-                    false => None,
-                };
-                std::mem::swap(&mut self.relaxed, &mut self.by_layers);
-                if let Some(found) = found {
+            for by_sum in [false, true] {
+                if by_width
+                    && let Some(found) = self.by_width(by_sum, landmarks.as_ref(), states, &half)?
+                {
                     return Ok(found);
                 }
             }
@@ -196,14 +195,16 @@ impl<'a> Forward<'a> {
         Ok(Searched::Open)
     }
 
-    /// Search by width over so many states; none where it comes to nothing.
+    /// Search by width over so many states, by relaxed plans of either kind; none where it comes to nothing.
     fn by_width(
         &mut self,
+        by_sum: bool,
         landmarks: Option<&Landmarks>,
         states: usize,
         limits: &Limits,
     ) -> Result<Option<Searched>, Limit> {
-        match novelty::search(self.task, &mut self.by_layers, landmarks, states, limits) {
+        let relaxed = if by_sum { &mut self.relaxed } else { &mut self.by_layers };
+        match novelty::search(self.task, relaxed, landmarks, states, limits) {
             Ok(Searched::Open) | Err(Limit::Memory) => Ok(None),
             found => found.map(Some),
         }

@@ -277,16 +277,13 @@ impl Asker<'_> {
             memory.language = Language::of(text);
         }
         let language = memory.language;
-        let text = match is_too_long(text) {
-            true => text,
-            false => self.without_self_doubt(text).unwrap_or(text),
-        };
         // What is too long is not even read.
         if is_too_long(text) {
             let length = text.chars().take(1_000_000).count();
             memory.miss(&Doubt::TooLong { length }, false);
             return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
         }
+        let text = self.without_self_doubt(text).unwrap_or(text);
         if let Some(answer) = self.told_where(text, language, memory) {
             return Ok(answer);
         }
@@ -607,12 +604,8 @@ impl Asker<'_> {
             },
         };
         // "If I sit on the sofa, can I see the TV?" asks of no robot where it stands.
-        const OF_ME: [&str; 8] = ["i", "me", "we", "us", "я", "мне", "мы", "нам"];
         let of_robot = matches!(query, Query::Sees(_) | Query::WhatDoYouSee);
-        if of_robot
-            && place.is_some()
-            && word_keys(text).iter().any(|key| OF_ME.contains(&key.as_str()))
-        {
+        if of_robot && place.is_some() && word_keys(text).iter().any(opening::is_me) {
             let words = text.to_owned();
             return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
         }

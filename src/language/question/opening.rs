@@ -2,6 +2,7 @@
 
 use super::mark::Mark;
 use super::query::Rel;
+use super::several::is_asking;
 use super::vocabulary::longest;
 use crate::words::word_keys;
 
@@ -54,15 +55,8 @@ pub(super) fn asks_by_a_word(words: &[String]) -> bool {
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
             Mark::Filler | Mark::The | Mark::And => at += taken,
-            Mark::Where
-            | Mark::What
-            | Mark::Which
-            | Mark::HowMany
-            | Mark::HowFar
-            | Mark::HowGet
-            | Mark::When
-            | Mark::Whither => return true,
-            _ => return false,
+            // What there is may be told as well: «есть кофе, принеси».
+            mark => return is_asking(mark) && mark != Mark::Exists,
         }
     }
     false
@@ -81,6 +75,11 @@ pub(super) fn begs_to_tell(text: &str) -> bool {
     let first = word_keys(text).into_iter().next().unwrap_or_default();
     let tells = ["скажи", "подскажи"].iter().any(|stem| first.starts_with(stem));
     tells && text.trim_end().ends_with('?')
+}
+
+/// Whether a word is of the person who speaks: "I", «нам».
+pub(super) fn is_me(key: &String) -> bool {
+    is_of_me(std::slice::from_ref(key))
 }
 
 /// "I am hungry", «мне холодно»: what a person tells of itself.

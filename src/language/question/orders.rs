@@ -122,9 +122,8 @@ impl Asker<'_> {
 
 /// Whether a part of a line begins with the person who speaks: "I am …", «стою у окна».
 fn is_told_of_me(part: &str) -> bool {
-    const ME: [&str; 8] = ["i", "we", "я", "мы", "мне", "нам", "меня", "нас"];
     let first = word_keys(part).into_iter().next();
-    first.is_some_and(|key| ME.contains(&key.as_str()) || is_first_person(&key))
+    first.is_some_and(|key| opening::is_me(&key) || is_first_person(&key))
 }
 
 /// What is told to be found out, as a question: «скажи, выключена ли лампа», "tell me whether the fridge is on".

@@ -41,6 +41,11 @@ impl Knowledge<'_> {
                 self.pick("где это, на карте не указано", "the map does not tell where it is");
             return Ok(Draft::new(Said::Unknown, text.to_owned()).about(&[goal]));
         }
+        if matches!(asks, Passing::Far | Passing::Long)
+            && let Some(told) = self.way_round(start, goal, &avoided, asks)
+        {
+            return Ok(told.about(&[goal]));
+        }
         let next = self.passage(&ends, &goals);
         if next.is_none() {
             let (from, to) = (self.place(Rel::From, &[start]), self.place(Rel::To, &[goal]));
@@ -92,11 +97,6 @@ impl Knowledge<'_> {
         if opens {
             let shut = self.openings().iter().map(|gate| gate.thing);
             avoided.extend(shut.filter(|gate| self.is_shut(*gate)));
-        }
-        if matches!(asks, Passing::Far | Passing::Long)
-            && let Some(told) = self.way_round(start, goal, &avoided, asks)
-        {
-            return Ok(told.about(&[goal]));
         }
         let through = if must { &[][..] } else { &through[..] };
         let way = self.by_rooms(start, goal, through, &avoided).ok();
