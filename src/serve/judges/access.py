@@ -22,6 +22,8 @@ FOCUS = """(target) => { const one = document.activeElement; if (!one?.matches(t
 
 def reach(page, target, most=250):
     """Goes by Tab alone until what has the focus is this; where it is to be seen, and is."""
+    # The page draws with its next event: what is to be there is waited for.
+    expect(page.locator(target).first).to_be_attached()
     for _ in range(most):
         is_seen = page.evaluate(FOCUS, target)
         if is_seen is not None:

@@ -108,6 +108,26 @@ def idle(page):
     raise AssertionError("it drives for ever")
 
 
+def held(page, part):
+    """Holds the answers to all requests whose address has this part, until they are let through."""
+    page.evaluate("""part => {
+        window.foreign ??= window.fetch;
+        let open;
+        const gate = new Promise((done) => { open = done; });
+        window.letThrough = () => { window.fetch = window.foreign; open(); };
+        window.fetch = async (path, ...more) => {
+            const answer = await window.foreign(path, ...more);
+            if (String(path).includes(part)) await gate;
+            return answer;
+        };
+    }""", part)
+
+
+def let_through(page):
+    """Lets the answers that are held through, and waits until the page has done what it does with them."""
+    page.evaluate("() => { letThrough(); return new Promise((done) => setTimeout(done, 100)); }")
+
+
 def drag(page, name, dx, dy):
     box = page.locator(f'#map .thing[data-name="{name}"]').bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

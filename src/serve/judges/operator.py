@@ -4,8 +4,9 @@ One line for each thing done; the first that fails ends it.
 """
 
 import time
+from urllib.parse import quote
 
-from console import drag, drawn, expect, get, get_posted, idle, judge, no_overflow, opened, picture, say, watched, where
+from console import drag, drawn, expect, get, get_posted, held, idle, judge, let_through, no_overflow, opened, picture, say, watched, where
 
 
 def run(browser, server, faults):
@@ -57,6 +58,25 @@ def run(browser, server, faults):
     expect(page.locator("#say")).to_have_value("что-то недописанное")
     page.fill("#say", "")
     print("stops, while typing")
+
+    # What answers late is older than what was heard meanwhile.
+    held(page, "/confirm")
+    say(page, "Поезжай в Комнату-В")
+    page.locator("#confirm").click()
+    page.wait_for_function("() => document.querySelector('.live').textContent.includes('едет')")
+    page.press("#say", "Control+.")
+    assert idle(page)["ended"][-1]["state"] == "stopped"
+    expect(page.locator("#goon")).to_be_visible()
+    let_through(page)
+    page.locator(".lang button").first.click()
+    expect(page.locator("#goon")).to_be_visible()
+    held(page, f"/api/thing?name={quote('Стул-1')}")
+    page.locator('#map .thing[data-name="Стул-1"]').click()
+    page.locator('#map .thing[data-name="Стул-2"]').click()
+    expect(page.locator("#panel .title").first).to_have_text("Стул-2")
+    let_through(page)
+    expect(page.locator("#panel .title").first).to_have_text("Стул-2")
+    print("keeps to the newest, whatever answers late")
 
     other = watched(browser, server, faults, color_scheme="dark", locale="en-GB")
     token = get_posted(page, "/api/invite", {"role": "edit", "name": "Борис"})["token"]

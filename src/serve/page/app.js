@@ -167,8 +167,9 @@ async function everything() {
 async function select(name, open = true) {
   if (S.selected !== name) reasons();
   S.selected = name; S.marked = []; S.barred = null;
-  S.thing = name ? await ask('/api/thing', { name, lang: S.lang }).catch(() => null) : null;
-  S.reason = null;
+  const thing = name ? await ask('/api/thing', { name, lang: S.lang }).catch(() => null) : null;
+  if (S.selected !== name) return;
+  S.thing = thing; S.reason = null;
   if (S.edit?.tool === 'shape' && named(name)?.frame) tools.choose(name);
   else if (S.edit && !S.edit.tool && name && !S.edit.steps) edit.choose(name);
   if (open && name) S.tab = S.edit ? 'map' : 'thing';
@@ -189,8 +190,9 @@ const change = (path, more = {}) => attempt(() => api(path, { on: S.state.revisi
 const acts = {
   confirm: async () => {
     const plan = S.plan; if (!plan) return;
-    S.plan = null; render();
-    try { await api(`/api/tasks/${plan.task}/confirm`, {}); S.stoppedBy = null; S.barred = null; if (S.tab === 'talk') render(); } catch (error) {
+    // Before it is sent: its answer may come after the robot has been stopped.
+    S.plan = null; S.stoppedBy = null; S.barred = null; render();
+    try { await api(`/api/tasks/${plan.task}/confirm`, {}); } catch (error) {
       if (error instanceof Refused && error.body.task) { S.plan = error.body.task; note({ q: plan.text, cls: 'order', lines: [error.message] }); } else { note({ q: plan.text, cls: 'bad', lines: [reason(error)] }); }
       render();
     }

@@ -107,8 +107,9 @@ export function close() {
 export async function choose(name) {
   const edit = S.edit, room = named(name);
   if (!room?.frame) return;
+  edit.awaited = name;
   const about = await ask('/api/thing', { name, lang: S.lang }).catch(() => null);
-  if (S.edit !== edit || !about) return;
+  if (S.edit !== edit || edit.awaited !== name || !about) return;
   Object.assign(edit, { name, kind: 'room', room, parts: about.parts.map((part) => ({ id: part.id, points: part.sides.map((side) => [...side.from]), was: part.sides.map((side) => side.from) })), shift: null, steps: null, tried: null, wrong: null });
   render(); paint();
 }
