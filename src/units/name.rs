@@ -7,9 +7,37 @@ use unicode_normalization::UnicodeNormalization;
 /// Two names with one key are the same name everywhere: in maps, rule files and questions.
 #[must_use]
 pub fn name_key(name: &str) -> String {
-    let folded = name.nfc().flat_map(char::to_lowercase).map(|c| if c == 'ё' { 'е' } else { c });
-    let mut key = String::with_capacity(name.len());
-    for c in folded {
+    // Most names are of plain letters, each of which stands for itself whatever is beside it.
+    match name.chars().all(is_plain) {
+        true => spaced(name.chars().map(plain_key), name.len()),
+        false => spaced(name.nfc().flat_map(char::to_lowercase).map(without_dots), name.len()),
+    }
+}
+
+fn without_dots(c: char) -> char {
+    if c == 'ё' { 'е' } else { c }
+}
+
+/// ASCII and Russian letters, and the signs between words.
+fn is_plain(c: char) -> bool {
+    c.is_ascii() || matches!(c, 'а'..='я' | 'А'..='Я' | 'ё' | 'Ё' | '«' | '»' | '–' | '—' | '…')
+}
+
+/// What becomes of a plain character.
+fn plain_key(c: char) -> char {
+    match c {
+        'А'..='Я' => {
+            char::from_u32(u32::from(c) + 32).expect("the small letters stand 32 further")
+        }
+        'ё' | 'Ё' => 'е',
+        _ => c.to_ascii_lowercase(),
+    }
+}
+
+/// The characters, white space folded to single blanks.
+fn spaced(of: impl Iterator<Item = char>, bytes: usize) -> String {
+    let mut key = String::with_capacity(bytes);
+    for c in of {
         if c.is_whitespace() {
             if !key.is_empty() && !key.ends_with(' ') {
                 key.push(' ');
@@ -52,6 +80,23 @@ mod tests {
         assert_eq!(name_key("  Ёлка \t у  ОКНА "), "елка у окна");
         // и + combining breve, as some keyboards send it
         assert_eq!(name_key("и\u{306}од"), name_key("йод"));
+    }
+
+    /// Each plain character alone, and between letters and marks that join what they can.
+    #[test]
+    fn plain_names_have_the_key_of_all_others() {
+        let whole = |name: &str| {
+            let folded = name.nfc().flat_map(char::to_lowercase).map(without_dots);
+            spaced(folded, name.len())
+        };
+        for c in ('\0'..=char::MAX).filter(|c| is_plain(*c)) {
+            assert_eq!(plain_key(c).to_string().trim(), whole(&c.to_string()), "{c:?}");
+            for text in
+                [format!("и{c}Е"), format!("{c}{c}"), format!("и{c}\u{306}"), format!("ж{c} é")]
+            {
+                assert_eq!(name_key(&text), whole(&text), "{text:?}");
+            }
+        }
     }
 
     #[test]
