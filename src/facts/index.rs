@@ -7,12 +7,12 @@
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Mutex;
-use std::thread;
 
 use foldhash::fast::RandomState;
 
 use super::program::Expr;
 use super::rows::RowSet;
+use super::shares::worked_off;
 use super::value;
 use super::word::{NO_WORD, Word, Words, is_in_place};
 use crate::units::InOrder as _;
@@ -177,12 +177,7 @@ fn columns(
                 *out = Some(column).filter(|_| is_quiet);
             }
         };
-        thread::scope(|scope| {
-            (1..threads.min(exprs.len())).for_each(|_| {
-                scope.spawn(work);
-            });
-            work();
-        });
+        worked_off(threads.min(exprs.len()), &work);
     }
     let left = exprs.iter().zip(made);
     left.map(|(expr, made)| made.unwrap_or_else(|| column(rows, order, expr, words))).collect()

@@ -36,7 +36,7 @@ pub(super) enum Version {
 macro_rules! at_width {
     ($columns:expr, $n:ident => $body:expr) => {
         at_width!(@arms $columns, $n, $body, 0..=1 => 1, 2 => 2, 3 => 3, 4 => 4, 5 => 5, 6 => 6, 7..=8 => 8,
-            9..=12 => 12, 13..=16 => 16, _ => 32)
+            9..=16 => 16, _ => 32)
     };
     (@arms $columns:expr, $n:ident, $body:expr, $($columns_of:pat => $width:literal),+) => {
         match $columns {

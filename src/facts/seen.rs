@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
 
 use super::row::Row;
+use super::shares::{Task, apart};
 use super::word::Word;
 
 /// The bits may take so many for each row: twice the space of the row itself.
@@ -93,23 +93,22 @@ impl Seen {
         // Zeroes cost nothing until they are written to, each thread's by itself.
         let mut rows = vec![[0; N]; self.len];
         let size = self.bits.len().div_ceil(threads);
-        thread::scope(|scope| {
-            let mut rest = rows.as_mut_slice();
-            for (n, bits) in self.bits.chunks(size).enumerate() {
-                let ones = bits.iter().map(|word| word.load(Ordering::Relaxed).count_ones());
-                let count: usize = ones.map(|ones| ones as usize).sum();
-                let (mine, others) = std::mem::take(&mut rest).split_at_mut(count);
-                rest = others;
-                scope.spawn(move || {
-                    let mut places = mine.iter_mut();
-                    self.each(n * size, bits, |row: Row<N>| {
-                        if let Some(place) = places.next() {
-                            *place = row.0;
-                        }
-                    });
+        let mut rest = rows.as_mut_slice();
+        let tasks = self.bits.chunks(size).enumerate().map(|(n, bits)| {
+            let ones = bits.iter().map(|word| word.load(Ordering::Relaxed).count_ones());
+            let count: usize = ones.map(|ones| ones as usize).sum();
+            let (mine, others) = std::mem::take(&mut rest).split_at_mut(count);
+            rest = others;
+            Box::new(move || {
+                let mut places = mine.iter_mut();
+                self.each(n * size, bits, |row: Row<N>| {
+                    if let Some(place) = places.next() {
+                        *place = row.0;
+                    }
                 });
-            }
+            }) as Task<'_>
         });
+        apart(tasks.collect());
         rows.into_iter().map(Row).collect()
     }
 

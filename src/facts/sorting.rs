@@ -1,10 +1,9 @@
 //! Rows into ascending order, each once, by whichever way their kind allows; and without those that others hold.
 
-use std::thread;
-
 use datafrog::Relation;
 
 use super::row::Row;
+use super::shares::{Task, apart};
 use super::word::Word;
 
 /// Rows from which on it pays to sort them in several threads.
@@ -18,23 +17,18 @@ pub(super) fn sort_runs<const N: usize>(rows: &mut [Row<N>], threads: usize) {
     }
     let size = rows.len().div_ceil(threads);
     let mut rest = rows;
-    thread::scope(|scope| {
-        while !rest.is_empty() {
-            let near = size.min(rest.len());
-            let last = rest[near - 1].0[0];
-            let end = near + rest[near..].partition_point(|row| row.0[0] == last);
-            let (mine, others) = std::mem::take(&mut rest).split_at_mut(end);
-            rest = others;
-            let mut sort = move || {
-                mine.chunk_by_mut(|a, b| a.0[0] == b.0[0]).for_each(<[_]>::sort_unstable);
-            };
-            if rest.is_empty() {
-                sort();
-            } else {
-                scope.spawn(sort);
-            }
-        }
-    });
+    let mut tasks: Vec<Task<'_>> = Vec::with_capacity(threads);
+    while !rest.is_empty() {
+        let near = size.min(rest.len());
+        let last = rest[near - 1].0[0];
+        let end = near + rest[near..].partition_point(|row| row.0[0] == last);
+        let (mine, others) = std::mem::take(&mut rest).split_at_mut(end);
+        rest = others;
+        tasks.push(Box::new(move || {
+            mine.chunk_by_mut(|a, b| a.0[0] == b.0[0]).for_each(<[_]>::sort_unstable);
+        }));
+    }
+    apart(tasks);
 }
 
 /// Ascending rows, each once.

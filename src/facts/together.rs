@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 use std::sync::Mutex;
-use std::thread;
 
 use datafrog::Relation;
 
 use super::row::Row;
 use super::seen::Seen;
+use super::shares::worked_off;
 use super::word::Word;
 
 /// What a thread has derived.
@@ -80,12 +80,7 @@ fn filled<const N: usize, T: Send>(
             fill(of, out);
         }
     };
-    thread::scope(|scope| {
-        (1..threads).for_each(|_| {
-            scope.spawn(work);
-        });
-        work();
-    });
+    worked_off(threads, &work);
     rows.into_iter().map(Row).collect()
 }
 
