@@ -298,19 +298,19 @@ mod tests {
 
     #[test]
     fn edits_beside_the_base_read_as_one_sorted_set() {
-        let mut rows = stored(2);
+        let mut rows = StoredRows::<2>::over(Arc::new(Relation { elements: Vec::new() }));
         rows.extend(&[1, 5, 1, 2, 3, 1, 2, 2], 2);
         assert!(rows.insert(&[1, 2]).is_none() && rows.remove(&[9, 9]).is_none());
         let later = rows.insert(&[1, 3]).unwrap();
         assert_eq!(rows.row(later), [1, 3]);
         let gone = rows.remove(&[1, 5]).unwrap();
-        assert_eq!(all(&*rows, &[1]), [[1, 2], [1, 3]]);
+        assert_eq!(all(&rows, &[1]), [[1, 2], [1, 3]]);
         assert_eq!(rows.insert(&[1, 5]), Some(gone));
-        assert_eq!(all(&*rows, &[]), [[1, 2], [1, 3], [1, 5], [2, 2], [3, 1]]);
+        assert_eq!(all(&rows, &[]), [[1, 2], [1, 3], [1, 5], [2, 2], [3, 1]]);
         assert_eq!(rows.remove(&[1, 3]), Some(later));
         assert_eq!(rows.insert(&[0, 7]), Some(later));
         assert_eq!((rows.len(), rows.rows().len()), (5, 5));
         rows.settle();
-        assert_eq!(all(&*rows, &[]), [[0, 7], [1, 2], [1, 5], [2, 2], [3, 1]]);
+        assert_eq!(all(&rows, &[]), [[0, 7], [1, 2], [1, 5], [2, 2], [3, 1]]);
     }
 }
