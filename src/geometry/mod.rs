@@ -90,8 +90,6 @@ mod half_edge;
 mod kept;
 mod kept_value;
 mod lawful;
-#[cfg(test)]
-mod lawful_tests;
 mod leaf;
 mod lift;
 mod mesh;

@@ -228,6 +228,12 @@ impl FloorPlan {
         paces(&self.zones, points)
     }
 
+    /// Whether the robot's centre may be at a place.
+    #[must_use]
+    pub fn fits(&self, p: Point) -> bool {
+        self.fitting(p).is_some()
+    }
+
     /// The robot's centre in the cell that holds it, if it fits there.
     pub(super) fn fitting(&self, p: Point) -> Option<CellKey> {
         let holds = |&n: &u32| Some((n, self.floor(n).cells.locate(p, 1e-6)?));

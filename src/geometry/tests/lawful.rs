@@ -3,9 +3,9 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::{DoorStates, FloorPlan, Method, NoRoute, Target};
-use crate::map::{Extent, Forms, World, Zone, ZoneKind};
-use crate::units::{Deg, MapId, Point, Vector, ZoneId};
+use orthoframe_geometry::{Bounds, DoorStates, FloorPlan, Method, NoRoute, Target};
+use orthoframe_map::{Extent, Forms, World, Zone, ZoneKind};
+use orthoframe_units::{Deg, MapId, Point, Vector, ZoneId};
 
 /// A row of numbers that looks like chance.
 fn dice(mut state: u64) -> impl FnMut(u64) -> f64 {
@@ -95,9 +95,8 @@ struct Raster {
 
 impl Raster {
     fn of(plan: &FloorPlan, spacing: f64) -> Self {
-        let bounds = plan
-            .fragments()
-            .fold(super::Bounds::EMPTY, |bounds, fragment| bounds.union(&fragment.bounds));
+        let bounds =
+            plan.fragments().fold(Bounds::EMPTY, |bounds, fragment| bounds.union(&fragment.bounds));
         let size = bounds.max - bounds.min;
         let (width, height) = ((size.x / spacing) as i64, (size.y / spacing) as i64);
         let mut numbers = BTreeMap::new();
@@ -105,7 +104,7 @@ impl Raster {
         for y in 0..=height {
             for x in 0..=width {
                 let at = bounds.min + Vector::new(x as f64, y as f64) * spacing;
-                if plan.fitting(at).is_some() {
+                if plan.fits(at) {
                     numbers.insert((x, y), places.len());
                     places.push(at);
                 }
@@ -120,7 +119,7 @@ impl Raster {
                 let way = samples(&[places[from], places[to]]);
                 // Two pieces of floor may lie nearer to each other than the samples.
                 let is_one = plan.are_joined(places[from], places[to]);
-                if is_one && way.iter().all(|p| plan.fitting(*p).is_some()) {
+                if is_one && way.iter().all(|p| plan.fits(*p)) {
                     steps[from].push(to);
                 }
             }
@@ -158,7 +157,7 @@ impl Raster {
 }
 
 /// A zone with the corners of a turned rectangle, or of an L.
-fn thrown(id: u32, map: MapId, within: &super::Bounds, throw: &mut impl FnMut(u64) -> f64) -> Zone {
+fn thrown(id: u32, map: MapId, within: &Bounds, throw: &mut impl FnMut(u64) -> f64) -> Zone {
     let size = within.max - within.min;
     let at = within.min + Vector::new(size.x * throw(1000) / 1000.0, size.y * throw(1000) / 1000.0);
     let (w, h) = (40.0 + throw(200), 40.0 + throw(200));
@@ -213,7 +212,7 @@ fn ways_keep_to_zones_and_there_is_one_where_a_grid_has_one() {
         let raster = Raster::of(&plain, 10.0);
         let bounds = plain
             .fragments()
-            .fold(super::Bounds::EMPTY, |bounds, fragment| bounds.union(&fragment.bounds));
+            .fold(Bounds::EMPTY, |bounds, fragment| bounds.union(&fragment.bounds));
         let (reach, speed) = (plain.reach(), world.robot.speed);
         for seed in 0..40 {
             let mut throw = dice(seed * 2 + number as u64 + 5);
@@ -264,7 +263,7 @@ fn ways_keep_to_zones_and_there_is_one_where_a_grid_has_one() {
                         out += usize::from(left > 0);
                         assert!(!way[left..].iter().any(touches), "{}", case());
                         assert!(
-                            way.iter().all(|p| plain.fitting(*p).is_some()
+                            way.iter().all(|p| plain.fits(*p)
                                 || plain.standing_at(*p).is_some_and(|q| (q - p).norm() < 0.01)),
                             "{}",
                             case()
