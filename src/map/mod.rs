@@ -46,8 +46,6 @@ use orthoframe_units as units;
 mod check;
 mod counterpart;
 mod device;
-#[cfg(test)]
-mod dice;
 mod door;
 mod doorway;
 mod fault;

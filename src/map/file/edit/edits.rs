@@ -53,6 +53,12 @@ impl Edits {
         self.told.iter().map(|told| &told.edit)
     }
 
+    /// Whether all that stands in the text could be read.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.misprints.is_empty()
+    }
+
     /// The same, told in a text of this name where something is at fault.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {

@@ -23,8 +23,6 @@ mod in_file;
 mod kind;
 mod said;
 mod steps;
-#[cfg(test)]
-mod tests;
 mod verbs;
 mod word;
 

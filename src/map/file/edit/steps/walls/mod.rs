@@ -6,8 +6,6 @@
 //! where a corner leaves the origin.
 
 mod relink;
-#[cfg(test)]
-mod tests;
 
 use std::collections::BTreeSet;
 

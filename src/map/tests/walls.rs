@@ -1,8 +1,7 @@
 //! Walls cut, and corners put elsewhere, on maps of ours and on made ones.
 
-use crate::file::edit::{Edits, NextIds, edit};
-use crate::units::{AreaId, Point, Source};
-use crate::{Format, NameIndex, Naming, Permeability, World};
+use orthoframe_map::{Edits, Format, NameIndex, Naming, NextIds, Permeability, World, edit};
+use orthoframe_units::{AreaId, Point, Source};
 
 fn rb2() -> World {
     World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/rb2.toml"))
@@ -156,7 +155,7 @@ fn is_same(was: &[(String, [f64; 4])], is: &[(String, [f64; 4])]) -> bool {
 /// The corners of the parts of an Area as they stand in it, by the item's id.
 fn corners(world: &World, area: AreaId) -> Vec<(String, Vec<Point>)> {
     let items = world.areas[&area].items.iter();
-    let of = |item: &crate::Item| {
+    let of = |item: &orthoframe_map::Item| {
         let corners = world.orthoframe_of(item).corners();
         (item.id.clone(), corners.map(|p| item.frame.apply(p)).collect())
     };

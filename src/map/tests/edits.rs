@@ -2,11 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::*;
+use orthoframe_map::schema::{OrthoframeFile, SideTraitsFile, Table};
+use orthoframe_map::{
+    Area, BaseVector, Edit, EditReading, Edits, Fault, Format, NameIndex, Naming, NewRecord,
+    NextIds, World, edit,
+};
+use orthoframe_units::Source;
+
 use crate::dice::dice;
-use crate::file::schema::{OrthoframeFile, SideTraitsFile, Table};
-use crate::units::Source;
-use crate::{Area, BaseVector, Format, NameIndex};
 
 /// A step of some sort, sound or not.
 fn step(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {
@@ -92,7 +95,7 @@ fn rebuild(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {
             let ends: Vec<[String; 2]> = links
                 .map(|l| {
                     let [a, b] = [&world.areas[&l.area], &world.areas[&l.to_area]];
-                    let end = |area: &Area, side: &crate::SideRef| match &area.items[..] {
+                    let end = |area: &Area, side: &orthoframe_map::SideRef| match &area.items[..] {
                         [_] => format!("{}.{}", area.name, side.side),
                         _ => format!("{}.{}.{}", area.name, side.item, side.side),
                     };
@@ -151,7 +154,7 @@ fn rewall(world: &World, throw: &mut impl FnMut(usize) -> usize) -> String {
             )
         }
         5 => {
-            let inner = |p: crate::units::Point| item.frame.apply(p);
+            let inner = |p: orthoframe_units::Point| item.frame.apply(p);
             let shifted = |(k, v): (usize, &BaseVector)| {
                 let (p, by) = (inner(v.start), if k == n % base.len() { 3.0 } else { 0.0 });
                 format!("[{}, {}]", p.x + by, p.y)
@@ -277,7 +280,7 @@ fn tell(map: &str, seed: u64, turns: usize, texts: Texts) {
         let text = texts(&world, &mut throw);
         let edits = Edits::read(&Source::new("edit.toml", text.clone()), Format::Toml);
         let whole = done(&world, &edits);
-        if edits.misprints.is_empty() {
+        if edits.is_whole() {
             let values: Vec<Edit> = edits.values().cloned().collect();
             let as_values = done(&world, &values.clone().into());
             let told = |reading: &EditReading| {
