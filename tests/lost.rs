@@ -3,7 +3,7 @@
 use orthoframe_sensing::{Belief, Localiser, Options, Tracker};
 use orthoframe_vectors::read::{Scan, read_log, read_source};
 
-use crate::files::shared;
+use crate::files::{long, shared};
 
 #[expect(dead_code, reason = "which room lies where is for the example alone")]
 #[path = "../src/sensing/examples/localisation/plan.rs"]
@@ -11,10 +11,7 @@ mod plan;
 #[path = "../src/sensing/examples/localisation/ways.rs"]
 mod ways;
 
-/// Of every so many scans a way begins at one.
-const EVERY: usize = 300;
-
-/// After five metres it knows the place or says that it does not.
+/// After five metres it knows the place or says that it does not: of every so many scans a way begins at one.
 #[test]
 fn no_way_ends_at_a_wrong_place_with_confidence() {
     let Some(path) = shared("lidar/freiburg-079-corrected.log.gz") else { return };
@@ -22,7 +19,7 @@ fn no_way_ends_at_a_wrong_place_with_confidence() {
     let log = read_log(&read_source(&path).expect("the log can be read")).log;
     let posed: Vec<&Scan> = log.scans.iter().filter(|scan| scan.pose.is_some()).collect();
     let localiser = Localiser::new(&chart, Options::default());
-    let starts = ways::starts(&posed, EVERY);
+    let starts = ways::starts(&posed, if long() { 300 } else { 900 });
     let mut right = 0;
     for way in &starts {
         let mut tracker = Tracker::new(&localiser);
