@@ -16,22 +16,3 @@ pub fn to_map_file(world: &World, format: Format) -> String {
         Format::Yaml => serde_saphyr::to_string(&table()).expect("YAML can say what TOML can"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::units::Source;
-
-    #[test]
-    fn every_notation_reads_back_as_the_same_world() {
-        for name in ["rb2", "box", "room"] {
-            let path = format!("{}/../../maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let world = World::load(path).expect("the examples are sound");
-            for format in [Format::Toml, Format::Json, Format::Yaml] {
-                let text = to_map_file(&world, format);
-                let again = World::parse(&Source::new("copy", &text), format);
-                assert_eq!(again.unwrap_or_else(|e| panic!("{e:#?}")), world, "{name} {format:?}");
-            }
-        }
-    }
-}
