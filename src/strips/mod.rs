@@ -76,8 +76,3 @@ pub use problem::{Preference, Problem, Standing, Stated};
 pub use replay::{Broken, Replayed};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
 pub use token::in_quotes;
-
-#[cfg(test)]
-mod adl_tests;
-#[cfg(test)]
-mod tests;

@@ -2,9 +2,8 @@
 
 use expect_test::{Expect, expect};
 use miette::Diagnostic;
-
-use super::*;
-use crate::units::Source;
+use orthoframe_strips::{FactId, RuleFault, Scenario, ground, ground_while};
+use orthoframe_units::Source;
 
 /// A task, or the faults of reading or grounding, as text.
 fn outcome(text: &str) -> String {

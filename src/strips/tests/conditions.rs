@@ -4,8 +4,8 @@
 use std::collections::{BTreeSet, HashSet, VecDeque};
 use std::fmt::Write as _;
 
-use super::*;
-use crate::units::Source;
+use orthoframe_strips::*;
+use orthoframe_units::Source;
 
 const OBJECTS: usize = 3;
 
