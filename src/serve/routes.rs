@@ -30,47 +30,57 @@ const PATIENCE: Duration = Duration::from_secs(120);
 
 type Routes = MethodRouter<Arc<House>>;
 
-/// Method, path, who may ask, and who answers.
-type Route = (&'static str, &'static str, Role, fn() -> Routes);
+/// A list of addresses and what answers them, of the same lines: who looks at the list alone need not have the answers.
+macro_rules! routes {
+    ($(($method:ident, $path:literal, $needs:ident, $answer:path)),+ $(,)?) => {
+        /// All that is answered under `/api`: method, path, and who may ask.
+        pub(super) const ROUTES: &[(&str, &str, Role)] =
+            &[$((stringify!($method), $path, Role::$needs)),+];
 
-/// All that is answered under `/api`.
-pub(super) const ROUTES: &[Route] = &[
-    ("get", "/api/state", Role::Look, || get(read::state)),
-    ("get", "/api/drawing", Role::Look, || get(read::drawing)),
-    ("get", "/api/floor", Role::Look, || get(read::floor)),
-    ("get", "/api/svg", Role::Look, || get(read::svg)),
-    ("get", "/api/thing", Role::Look, || get(read::thing)),
-    ("get", "/api/why", Role::Look, || get(read::why)),
-    ("get", "/api/kinds", Role::Look, || get(read::kinds)),
-    ("get", "/api/route", Role::Look, || get(read::route)),
-    ("get", "/api/complete", Role::Look, || get(read::complete)),
-    ("get", "/api/history", Role::Look, || get(read::history)),
-    ("get", "/api/diff", Role::Look, || get(read::diff)),
-    ("get", "/api/proposals", Role::Look, || get(read::proposals)),
-    ("get", "/api/tasks", Role::Look, || get(act::tasks)),
-    ("get", "/api/events", Role::Look, || get(happens)),
-    ("get", "/api/openapi.json", Role::Look, || get(described)),
-    ("post", "/api/say", Role::Look, || post(act::say)),
-    ("post", "/api/stop", Role::Look, || post(act::stop)),
-    ("post", "/api/pause", Role::Look, || post(act::pause)),
-    ("post", "/api/resume", Role::Drive, || post(act::resume)),
-    ("post", "/api/later", Role::Drive, || post(act::later)),
-    ("post", "/api/shortest", Role::Drive, || post(act::sort)),
-    ("post", "/api/leave", Role::Look, || post(act::leave)),
-    ("post", "/api/lease", Role::Drive, || post(act::lease)),
-    ("post", "/api/reset", Role::Drive, || post(act::reset)),
-    ("post", "/api/tasks/{id}/confirm", Role::Drive, || post(act::confirm)),
-    ("post", "/api/tasks/{id}/cancel", Role::Drive, || post(act::cancel)),
-    ("post", "/api/tasks/{id}/cleared", Role::Drive, || post(act::cleared)),
-    ("post", "/api/tasks/{id}/move", Role::Drive, || post(act::reorder)),
-    ("get", "/api/edits", Role::Look, || get(act::proposed)),
-    ("post", "/api/edits/{id}", Role::Edit, || post(act::judge)),
-    ("post", "/api/edits", Role::Edit, || post(act::edit)),
-    ("post", "/api/undo", Role::Edit, || post(act::undo)),
-    ("post", "/api/redo", Role::Edit, || post(act::redo)),
-    ("post", "/api/restore", Role::Edit, || post(act::restore)),
-    ("post", "/api/proposals/{name}", Role::Edit, || post(act::decide)),
-    ("post", "/api/invite", Role::Edit, || post(act::invite)),
+        /// What answers under every path of [`ROUTES`].
+        fn answers() -> Vec<Routes> {
+            vec![$($method($answer)),+]
+        }
+    };
+}
+
+routes![
+    (get, "/api/state", Look, read::state),
+    (get, "/api/drawing", Look, read::drawing),
+    (get, "/api/floor", Look, read::floor),
+    (get, "/api/svg", Look, read::svg),
+    (get, "/api/thing", Look, read::thing),
+    (get, "/api/why", Look, read::why),
+    (get, "/api/kinds", Look, read::kinds),
+    (get, "/api/route", Look, read::route),
+    (get, "/api/complete", Look, read::complete),
+    (get, "/api/history", Look, read::history),
+    (get, "/api/diff", Look, read::diff),
+    (get, "/api/proposals", Look, read::proposals),
+    (get, "/api/tasks", Look, act::tasks),
+    (get, "/api/events", Look, happens),
+    (get, "/api/openapi.json", Look, described),
+    (post, "/api/say", Look, act::say),
+    (post, "/api/stop", Look, act::stop),
+    (post, "/api/pause", Look, act::pause),
+    (post, "/api/resume", Drive, act::resume),
+    (post, "/api/later", Drive, act::later),
+    (post, "/api/shortest", Drive, act::sort),
+    (post, "/api/leave", Look, act::leave),
+    (post, "/api/lease", Drive, act::lease),
+    (post, "/api/reset", Drive, act::reset),
+    (post, "/api/tasks/{id}/confirm", Drive, act::confirm),
+    (post, "/api/tasks/{id}/cancel", Drive, act::cancel),
+    (post, "/api/tasks/{id}/cleared", Drive, act::cleared),
+    (post, "/api/tasks/{id}/move", Drive, act::reorder),
+    (get, "/api/edits", Look, act::proposed),
+    (post, "/api/edits/{id}", Edit, act::judge),
+    (post, "/api/edits", Edit, act::edit),
+    (post, "/api/undo", Edit, act::undo),
+    (post, "/api/redo", Edit, act::redo),
+    (post, "/api/restore", Edit, act::restore),
+    (post, "/api/proposals/{name}", Edit, act::decide),
+    (post, "/api/invite", Edit, act::invite),
 ];
 
 /// The description of [`ROUTES`].
@@ -111,12 +121,12 @@ const PAGE: &[(&str, &str, &[u8])] = &[
 /// The server's answers, behind its gate.
 pub(super) fn router(house: &Arc<House>, assistant: &Assistant) -> Router {
     let mut api = Router::new();
-    for (_, path, role, answer) in ROUTES {
-        let needs = *role;
+    for ((_, path, needs), answer) in ROUTES.iter().zip(answers()) {
+        let needs = *needs;
         let check = from_fn(move |session: Extension<Session>, request: Request, next: Next| {
             may(needs, session, request, next)
         });
-        api = api.route(path, answer().route_layer(check));
+        api = api.route(path, answer.route_layer(check));
     }
     let api = api.route_layer(from_fn_with_state(Arc::clone(house), known));
     let mut all = api.merge(assistants(house, assistant)).merge(of_centre(house));
@@ -327,8 +337,8 @@ mod tests {
             for (method, operation) in methods.as_object().expect("methods") {
                 told.insert((method.clone(), path.clone()));
                 let role = operation["x-role"].as_str().expect("who may ask").to_owned();
-                let route = ROUTES.iter().find(|(m, p, _, _)| m == method && p == path);
-                let (_, _, needs, _) = route.unwrap_or_else(|| panic!("{method} {path}"));
+                let route = ROUTES.iter().find(|(m, p, _)| m == method && p == path);
+                let (_, _, needs) = route.unwrap_or_else(|| panic!("{method} {path}"));
                 assert_eq!(serde_json::json!(needs), role, "{method} {path}");
                 assert!(operation["summary"].is_string(), "{method} {path}");
                 let named = path.matches('{').count();
@@ -338,7 +348,7 @@ mod tests {
             }
         }
         let answered: BTreeSet<(String, String)> =
-            ROUTES.iter().map(|(m, p, _, _)| ((*m).to_owned(), (*p).to_owned())).collect();
+            ROUTES.iter().map(|(m, p, _)| ((*m).to_owned(), (*p).to_owned())).collect();
         assert_eq!(told, answered);
     }
 }
