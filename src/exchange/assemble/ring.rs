@@ -487,14 +487,11 @@ mod tests {
     }
 
     #[test]
-    fn a_court_is_cut_into_pieces_that_share_their_cuts() {
+    fn a_court_keeps_its_holes() {
         let holes = vec![rect(100.0, 100.0, 50.0, 50.0), rect(300.0, 200.0, 50.0, 50.0)];
         let cleaned = clean(&rect(0.0, 0.0, 600.0, 400.0), &holes).expect("a room");
         assert_eq!(cleaned.region.holes.len(), 2);
-        let pieces = pieces(&cleaned.region, |_, _| false);
-        let area: f64 = pieces.iter().map(|p| doubled_area(p) / 2.0).sum();
-        assert!((area - cleaned.region.area()).abs() < 1.0, "{area}");
-        assert!(pieces.iter().all(|p| is_simple(p)));
+        assert!((cleaned.region.area() - 235_000.0).abs() < 1.0);
     }
 
     #[test]

@@ -4,7 +4,10 @@ use orthoframe_exchange::{
     Deed, Kind, Level, Lift, Opening, OpeningKind, Report, Room, Spot, Survey, Synonyms, Thing,
     assemble,
 };
-use orthoframe_map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Permeability, World};
+use orthoframe_map::plane::doubled_area;
+use orthoframe_map::{
+    DoorKind, DoorLeaf, DoorStatus, Fault, HingeSide, OpensTo, Permeability, World, check,
+};
 use orthoframe_units::{Cm, Deg, Point};
 
 fn rect(x: f64, y: f64, w: f64, h: f64) -> Vec<Point> {
@@ -226,4 +229,28 @@ fn things_places_courts_and_storeys() {
     assert!(codes(&report).contains(&"in-court import::outside".to_owned()), "{report}");
     assert_eq!(report.count(Deed::Skipped), 1);
     assert!(!codes(&report).iter().any(|c| c.ends_with("island")), "{report}");
+}
+
+#[test]
+fn a_court_is_cut_into_pieces_that_share_their_cuts() {
+    let mut court = room("court", "hall", rect(0.0, 0.0, 600.0, 400.0));
+    court.holes = vec![rect(100.0, 100.0, 50.0, 50.0), rect(300.0, 200.0, 50.0, 50.0)];
+    let (world, _) = made(Level { rooms: vec![court], ..Level::default() });
+    let [area] = *world.areas.values().collect::<Vec<_>>() else { panic!("{:?}", world.areas) };
+    let pieces = || area.items.iter().map(|item| (item, &world.orthoframes[&item.orthoframe]));
+    let floor: f64 =
+        pieces().map(|(_, piece)| doubled_area(&piece.corners().collect::<Vec<_>>()) / 2.0).sum();
+    assert!((floor - 235_000.0).abs() < 1.0, "{floor}");
+    // No base crosses itself, or the map has a fault.
+    assert!(check(&world).iter().all(Fault::is_warning));
+    let mut cuts = Vec::new();
+    for (item, piece) in pieces() {
+        let seams = piece.base.iter().filter(|v| v.permeability == Permeability::Permeable);
+        cuts.extend(seams.map(|v| [v.start, v.end].map(|end| item.frame.apply(end))));
+    }
+    assert!(!cuts.is_empty());
+    let near = |p: Point, q: Point| (p - q).norm() < 1e-6;
+    for [start, end] in &cuts {
+        assert!(cuts.iter().any(|[p, q]| near(*p, *end) && near(*q, *start)), "{start} {end}");
+    }
 }
