@@ -242,3 +242,41 @@ fn one_is_of_the_kind_that_was_asked_after() {
     }
     assert!(asked > 20, "{asked}");
 }
+
+/// The ways out of a room are its doors and its passages, and those of the building are what leads outside: "How many exits
+/// does the dining room have?" was answered with none, for there was no outer door.
+#[test]
+fn whatever_opens_on_a_room_is_a_way_out_of_it() {
+    let mut asked = 0;
+    for engine in maps() {
+        let number = |line: &str| {
+            let answer = ask(&engine, line, &mut Memory::default());
+            answer.unwrap_or_else(|| panic!("{line}")).number.unwrap_or_else(|| panic!("{line}"))
+        };
+        let mut outside = 0.0;
+        for room in engine.world().unwrap().areas.values() {
+            let noun = NounPhrase::parse(&room.name, &WordHints::default());
+            let of = noun.form(Case::Genitive, Number::Singular);
+            let name = &room.name_en;
+            let doors = number(&format!("How many doors does {name} have?"));
+            let passages = number(&format!("How many passages does {name} have?"));
+            let out = number(&format!("Сколько выходов на улицу у {of}?"));
+            for line in [
+                format!("How many exits does {name} have?"),
+                format!("How many ways out of {name} are there?"),
+                format!("How many entrances does {name} have?"),
+                format!("Сколько выходов у {of}?"),
+            ] {
+                let answer = ask(&engine, &line, &mut Memory::default());
+                let answer = answer.unwrap_or_else(|| panic!("{line}"));
+                assert_eq!(answer.number, Some(doors + passages), "{line} {}", answer.text);
+                let tells = answer.text.contains("outside") || answer.text.contains("наружу");
+                assert_eq!(tells, out > 0.0, "{line} {}", answer.text);
+                asked += 1;
+            }
+            outside += out;
+        }
+        assert_eq!(number("Сколько выходов на карте?"), outside);
+    }
+    assert!(asked > 30, "{asked}");
+}

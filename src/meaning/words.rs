@@ -127,6 +127,7 @@ pub(crate) fn sorts_of(extension: &Extension) -> Sorts {
         | Extension::Walls
         | Extension::Corners
         | Extension::Exits
+        | Extension::OuterDoors
         | Extension::Part(_)
         | Extension::Robot
         | Extension::Lifts => Sorts::NONE,

@@ -374,10 +374,14 @@ impl Rule<'_, '_> {
                 }
                 Extension::Doors => add(format!("opening({term}, \"door\", _, _)")),
                 Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
+                Extension::Exits if self.knowledge.is_of_rooms(noun) => {
+                    add(format!("opening({term}, _, _, _)"));
+                }
                 // Of these the facts know nothing.
                 Extension::Windows
                 | Extension::Lifts
                 | Extension::Exits
+                | Extension::OuterDoors
                 | Extension::Places
                 | Extension::Storeys
                 | Extension::Building

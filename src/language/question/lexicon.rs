@@ -41,8 +41,10 @@ pub enum Extension {
     Walls,
     /// Where two walls of a room meet.
     Corners,
-    /// Doors and passages that lead out of the map.
+    /// Ways out of what is spoken of: of a room, whatever opens on it; of the building, what leads out of the map.
     Exits,
+    /// Doors and passages that lead out of the map, whatever room they are of.
+    OuterDoors,
     /// Parts of objects of this type, which are no things by themselves: legs, armrests.
     Part(TypeId),
     Robot,
@@ -93,10 +95,11 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
         "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
         "house|building|flat|apartment|home|map|this place|the whole place|whole place|entire place|premises|clinic|hospital|school|hotel|museum",
     ),
+    (Extension::Exits, "выход|вход", "exit|way out|entrance"),
     (
-        Extension::Exits,
-        "выход|улица|наружная дверь|вход|входная дверь|уличная дверь",
-        "exit|way out|street|outdoors|entrance|front door|entrance door|main door|outside door|outer door|exterior door",
+        Extension::OuterDoors,
+        "наружный выход|улица|наружная дверь|входная дверь|уличная дверь",
+        "outer exit|street|outer door|outdoors|front door|entrance door|main door|outside door|exterior door",
     ),
     (Extension::Floor, "пол", "floor|ground"),
     (Extension::Walls, "стена|стенка", "wall"),

@@ -225,11 +225,11 @@ fn leads_outside(words: &Words<'_>) -> Option<String> {
     const LEADING: [&str; 5] = ["leading", "going", "ведущая", "ведущую", "ведущей"];
     let exit = |key: &str| {
         Some(match key {
-            "door" => "exit",
-            "doors" => "exits",
-            "дверь" => "выход",
-            "двери" => "выхода",
-            "дверью" => "выходом",
+            "door" => "outer door",
+            "doors" => "outer doors",
+            "дверь" => "наружный выход",
+            "двери" => "наружного выхода",
+            "дверью" => "наружным выходом",
             _ => return None,
         })
     };
@@ -634,10 +634,10 @@ mod tests {
             "Какого цвета дверь, соединяющая холл с кухней?",
             "Какого цвета дверь между холл и кухней?",
         );
-        check("Закрыта ли дверь, ведущая на улицу?", "Закрыта ли выход?");
+        check("Закрыта ли дверь, ведущая на улицу?", "Закрыта ли наружный выход?");
         check(
             "Is the door from the hall to the outside locked?",
-            "Is the exit from the hall locked?",
+            "Is the outer door from the hall locked?",
         );
         check("What is to its left?", "What is to the left of it?");
         check("Какая дверь соединяет холл с кухней?", "Какая дверь соединяет холл с кухней?");

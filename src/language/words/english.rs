@@ -68,6 +68,10 @@ pub fn plural(noun: &str) -> String {
     {
         return format!("{}{}", plural(&noun[..at]), &noun[at..]);
     }
+    // "way out"
+    if let Some(way) = noun.strip_suffix(" out") {
+        return format!("{} out", plural(way));
+    }
     // "TVs"
     if word.chars().count() > 1 && word.chars().all(char::is_uppercase) {
         return format!("{before}{word}s");

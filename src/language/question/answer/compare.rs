@@ -60,7 +60,7 @@ impl Knowledge<'_> {
             }
             Extreme::Most | Extreme::Fewest => match &best.anchor {
                 Some(counted) => {
-                    let all = self.find(counted, true).unwrap_or_default().into_iter().collect();
+                    let all = self.counted_at(counted, &found).unwrap_or_default();
                     let number = self.having(&all, first);
                     // «по 1 телевизору»
                     let each = self.is_russian()

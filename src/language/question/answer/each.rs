@@ -82,10 +82,10 @@ impl Knowledge<'_> {
 
     /// What fits a description, by room.
     fn by_room(&self, noun: &Noun, rel: Rel, rooms: &[Thing]) -> Vec<(Thing, Vec<Thing>)> {
-        let found = self.find(noun, true).unwrap_or_default();
+        let found = self.counted_at(noun, rooms).unwrap_or_default();
         let here = |room: &Thing| {
             let inside = self.related(rel, *room);
-            found.iter().copied().filter(|t| inside.contains(t)).collect()
+            inside.into_iter().filter(|t| found.contains(t)).collect()
         };
         rooms.iter().map(|room| (*room, here(room))).collect()
     }

@@ -297,6 +297,9 @@ impl Knowledge<'_> {
             let parts: Vec<String> = found.iter().map(|t| self.with_bearer(*t, &borne)).collect();
             return enumerate(&parts, self.language);
         }
+        if let Some(list) = self.ways_out_told(noun, &found) {
+            return list;
+        }
         if (anchor.is_none() && from.is_none()) || found.len() > 12 {
             return self.list(&found);
         }
@@ -433,8 +436,13 @@ impl Knowledge<'_> {
                 }
                 false => self.counted(noun, number),
             };
-            let list =
-                if number <= 12 { format!(": {}", self.list(&found)) } else { String::new() };
+            let list = match number <= 12 {
+                true => {
+                    let list = self.ways_out_told(noun, &found);
+                    format!(": {}", list.unwrap_or_else(|| self.list(&found)))
+                }
+                false => String::new(),
+            };
             let are = |number| if number == 1 { "is" } else { "are" };
             let of_told = noun.head.things.is_some() && !noun.filters.is_empty();
             match (self.is_russian(), place.is_empty()) {
@@ -584,7 +592,7 @@ impl Knowledge<'_> {
                 (false, false) => format!("there are no {none} {place}"),
             };
         }
-        let list = self.list(things);
+        let list = self.ways_out_told(noun, things).unwrap_or_else(|| self.list(things));
         let general = noun.head.anything || noun.head.kinds.is_empty();
         // "Is there a room without windows?"
         if self.is_having(noun) && things.iter().all(|t| t.area().is_some()) {

@@ -41,9 +41,6 @@ impl Knowledge<'_> {
         let is_of = |wanted: Extension| {
             noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == wanted)
         };
-        if is_of(Extension::Exits) && noun.filters.is_empty() && noun.best.is_none() {
-            return self.passages_away(noun, found);
-        }
         let doors = is_of(Extension::Doors);
         if doors && found.is_empty() && noun.filters.is_empty() {
             let joined = self.joined_by_passage(noun);
@@ -82,25 +79,14 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Who asks for the exits of one room is told what leads out of it, beside what leads out of the building.
-    fn passages_away(&self, noun: &Noun, found: &[Thing]) -> String {
-        let place = noun
-            .restrictions
-            .iter()
-            .find(|r| matches!(r.rel, Rel::From | Rel::Of | Rel::In | Rel::At) && !r.negated);
-        let anchor = place.and_then(|place| place.anchors.first());
-        let rooms = anchor.and_then(|anchor| self.find(anchor, true).ok()).unwrap_or_default();
-        let [room] = rooms[..] else { return String::new() };
-        let Some(area) = room.area() else { return String::new() };
-        let inner = self.openings().iter().filter(|gate| gate.areas.contains(&area));
-        let inner: Vec<Thing> =
-            inner.map(|gate| gate.thing).filter(|gate| !found.contains(gate)).collect();
-        let list = enumerate(&self.with_destinations(&inner, room), self.language);
-        match (inner.len(), self.is_russian()) {
-            (0, _) => String::new(),
-            (_, true) => format!("; в другие помещения ведут: {list}"),
-            (_, false) => format!("; to other rooms lead {list}"),
+    /// Ways out of one room, with where each leads.
+    pub(super) fn ways_out_told(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        if !self.is_of_rooms(noun) {
+            return None;
         }
+        let [room] = self.anchor_things(noun)[..] else { return None };
+        room.area()?;
+        Some(enumerate(&self.with_destinations(found, room), self.language))
     }
 
     /// «Какая дверь соединяет кухню и гостиную?» where there is none, but an open passage.

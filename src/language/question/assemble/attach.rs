@@ -71,11 +71,20 @@ impl Frame<'_, '_> {
             noun.other |= self.has(Mark::Other);
             return;
         }
+        // «выход из кухни на улицу»
+        if let ([out], Rel::To | Rel::In | Rel::On, false) =
+            (&spot.nouns[..], spot.rel, spot.negated)
+            && self.is_kind(out, |e| *e == Extension::OuterDoors)
+            && self.is_exits(noun)
+        {
+            noun.head.kinds = self.lexicon.kind_of(&Extension::OuterDoors).into_iter().collect();
+            return;
+        }
         // «двери у кухни»: its own.
         let windows = self.is_kind(noun, |e| *e == Extension::Windows);
         if spot.rel == Rel::NextTo
             && self.is_area(&spot.nouns[0])
-            && (self.is_doors(noun) || windows)
+            && (self.is_doors(noun) || self.is_exits(noun) || windows)
         {
             let own = Spot { rel: Rel::In, ..spot.clone() };
             noun.restrictions.extend(own.restrictions());

@@ -137,6 +137,7 @@ impl Frame<'_, '_> {
                     | Extension::Doors
                     | Extension::Passages
                     | Extension::Exits
+                    | Extension::OuterDoors
                     | Extension::Places
                     | Extension::Building
             )

@@ -243,7 +243,8 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn is_exits(&self, noun: &Noun) -> bool {
-        let exits = |k: &_| self.lexicon.kind(*k).extension == Extension::Exits;
+        let outside = |e: &Extension| matches!(e, Extension::Exits | Extension::OuterDoors);
+        let exits = |k: &_| outside(&self.lexicon.kind(*k).extension);
         noun.head.named.is_empty() && noun.head.kinds.iter().any(exits)
     }
 
@@ -364,7 +365,8 @@ impl Frame<'_, '_> {
                     || (matches!(s.rel, Rel::From | Rel::Outside) && self.is_building(&s.nouns[0]))
             };
             if let Some(out) = self.spots.iter().find(out) {
-                noun.head.kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
+                noun.head.kinds =
+                    self.lexicon.kind_of(&Extension::OuterDoors).into_iter().collect();
                 return Some(Query::Find(self.with_rest(noun, &[out.at])));
             }
             let to_or_from = |spot: &Spot| match spot.rel {

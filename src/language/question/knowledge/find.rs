@@ -59,6 +59,8 @@ impl Knowledge<'_> {
         if points(noun) && is_bare && noun.best.is_none() && noun.sizes.is_empty() {
             return Err(Doubt::NoReferent { word: noun.text.clone() });
         }
+        let opened = self.is_of_rooms(noun).then(|| self.opening_on_rooms(noun));
+        let noun = opened.as_ref().unwrap_or(noun);
         let mut found = self.base(&noun.head);
         // "Is anything made of steel?" asks of doors as well.
         if noun.head.anything && !noun.filters.is_empty() {
@@ -115,6 +117,13 @@ impl Knowledge<'_> {
                 let words = restriction.anchors.first().unwrap_or(noun).text.clone();
                 return Err(Doubt::NotUnderstood { words });
             }
+            // "exits to the outside of the kitchen": no place tells which doors are meant.
+            if restriction.rel == Rel::Outside
+                && !found.is_empty()
+                && found.iter().all(|t| self.opening(*t).is_some())
+            {
+                return Err(Doubt::NotUnderstood { words: noun.text.clone() });
+            }
             // «А оттуда на улицу?»: nothing lies on a door, in it or under it.
             if matches!(restriction.rel, Rel::On | Rel::In | Rel::Under | Rel::Above)
                 && let Some(anchor) = restriction.anchors.first()
@@ -146,6 +155,8 @@ impl Knowledge<'_> {
                 }
                 continue;
             }
+            let of_rooms = self.ways_out_had(restriction, &found);
+            let restriction = of_rooms.as_ref().unwrap_or(restriction);
             let related = match self.related_to(restriction, loose) {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
                 Ok(related) => related,
@@ -566,7 +577,7 @@ impl Knowledge<'_> {
             Extreme::LeftMost | Extreme::RightMost => self.outermost(&found, best.extreme),
             Extreme::Most | Extreme::Fewest => {
                 let Some(counted) = &best.anchor else { return Ok(found) };
-                let all: HashSet<Thing> = self.find(counted, true)?.into_iter().collect();
+                let all = self.counted_at(counted, &found)?;
                 let sign = if best.extreme == Extreme::Most { -1.0 } else { 1.0 };
                 let number = |t: Thing| self.having(&all, t) as f64;
                 found.iter().map(|t| (sign * number(*t), *t)).collect()

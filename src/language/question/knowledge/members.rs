@@ -76,7 +76,7 @@ impl Knowledge<'_> {
                 let stops = self.world.domain.lifts.iter().filter_map(|(_, stops)| stops.first());
                 stops.map(|stop| Thing::Entity(Entity::Area(stop.area))).collect()
             }
-            Extension::Exits => {
+            Extension::Exits | Extension::OuterDoors => {
                 self.openings().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
             }
             Extension::Floor

@@ -5,12 +5,66 @@
 use super::Knowledge;
 use super::KnownOpening;
 use crate::map::{DoorStatus, Entity};
-use crate::question::query::Thing;
+use crate::question::Doubt;
+use crate::question::lexicon::{Extension, KindId};
+use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::question::senses::{Crossing, RoomPath};
 use crate::units::AreaId;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 impl Knowledge<'_> {
+    /// Whether a description is of ways out, of which a room has others than the building.
+    pub(in crate::question) fn are_ways_out(&self, noun: &Noun) -> bool {
+        let exits = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Exits;
+        let is_bare = noun.head.things.is_none() && noun.head.named.is_empty();
+        is_bare && noun.head.kinds.iter().any(exits)
+    }
+
+    /// Whether a description is of the ways out of rooms.
+    pub(in crate::question) fn is_of_rooms(&self, noun: &Noun) -> bool {
+        let is_room = |anchor: &Noun| {
+            let rooms = self.base(&anchor.head);
+            !rooms.is_empty() && rooms.iter().all(|t| t.area().is_some())
+        };
+        self.are_ways_out(noun)
+            && noun.restrictions.iter().any(|r| {
+                let is_whose = matches!(r.rel, Rel::From | Rel::Of | Rel::In | Rel::At | Rel::To);
+                is_whose && !r.negated && !r.anchors.is_empty() && r.anchors.iter().all(is_room)
+            })
+    }
+
+    /// What a description of ways out is of rooms: whatever opens on one, and not only what leads out of the building.
+    pub(in crate::question) fn opening_on_rooms(&self, noun: &Noun) -> Noun {
+        let things = self.openings().iter().map(|gate| gate.thing).collect();
+        Noun { head: Head { things: Some(things), ..noun.head.clone() }, ..noun.clone() }
+    }
+
+    /// "Which rooms have two exits?": of the ways out of rooms.
+    pub(super) fn ways_out_had(
+        &self,
+        restriction: &Restriction,
+        of: &[Thing],
+    ) -> Option<Restriction> {
+        let [exits] = &restriction.anchors[..] else { return None };
+        let rooms = restriction.rel == Rel::Has && of.iter().all(|t| t.area().is_some());
+        (rooms && self.are_ways_out(exits)).then(|| Restriction {
+            anchors: vec![self.opening_on_rooms(exits)],
+            ..restriction.clone()
+        })
+    }
+
+    /// The things that are counted of some places: of rooms, all their ways out.
+    pub(in crate::question) fn counted_at(
+        &self,
+        counted: &Noun,
+        of: &[Thing],
+    ) -> Result<HashSet<Thing>, Doubt> {
+        let of_rooms = self.are_ways_out(counted) && of.iter().all(|t| t.area().is_some());
+        let opened = of_rooms.then(|| self.opening_on_rooms(counted));
+        let all = self.find(opened.as_ref().unwrap_or(counted), true)?;
+        Ok(all.into_iter().collect())
+    }
+
     /// Rooms in which a thing is, or which it joins.
     pub(in crate::question) fn rooms_of(&self, thing: Thing) -> Vec<AreaId> {
         if let Thing::Entity(Entity::Map(id)) = thing {

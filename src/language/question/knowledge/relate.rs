@@ -19,6 +19,12 @@ impl Knowledge<'_> {
             (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
                 self.on_map(map)
             }
+            // The ways out of a storey, or of the building.
+            (Rel::From, Thing::Entity(Entity::Map(map))) => {
+                let mut found = self.on_map(map);
+                found.retain(|t| self.opening(*t).is_some());
+                found
+            }
             (Rel::In | Rel::On | Rel::At, Thing::Entity(Entity::Area(area))) => self.in_area(area),
             (Rel::Of | Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Area(area))) => {
                 let mut found = self.in_area(area);
