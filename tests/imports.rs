@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use orthoframe::engine::Engine;
+use orthoframe::engine::{Change, Engine, Memory, Timestamp};
 use orthoframe_exchange::{
     Deed, ImportError, Imported, Options, Room, What, file_text, read, read_rmf,
 };
 use orthoframe_map::{DoorState, World, check};
 use orthoframe_units::{AreaId, Cm, MapId, Point};
 
-use crate::files::shared;
+use crate::files::{project, shared};
 
 /// Reads a building twice: it passes the checks, and both readings are the same world, ids included.
 fn imported(name: &str) -> Option<Imported> {
@@ -419,4 +419,50 @@ fn a_strict_import_refuses_what_had_to_be_mended() {
     let loose = read(&path, &Options::default()).expect("it goes through");
     assert_eq!(loose.report.count(Deed::Mended), 1);
     assert!(matches!(read(&path, &strict), Err(ImportError::Strict { .. })));
+}
+
+/// Juice, crackers and whipped cream were no food: whatever the table of imports has under food and drink is asked for as one
+/// of them, in both languages.
+#[test]
+fn what_is_imported_as_food_is_food_or_drink() {
+    let table = std::fs::read_to_string(project("rules/import-synonyms.toml")).unwrap();
+    let (_, foods) = table.split_once("# Еда и питьё").expect("a heading");
+    let (foods, _) = foods.split_once("  # ").expect("the next heading");
+    let english = |line: &str| {
+        Some(line.split_once("name_en = \"")?.1.split_once('"').expect("a string").0.to_owned())
+    };
+    let foods: Vec<String> = foods.lines().filter_map(english).collect();
+    assert!(foods.len() > 25, "{foods:?}");
+    let node = |id: usize, category: &str, class: &str, at: [f64; 3], size: [f64; 3]| {
+        let (center, class) = (at, class.replace(' ', ""));
+        serde_json::json!({
+            "id": id, "category": category, "class_name": class, "prefab_name": class,
+            "bounding_box": { "center": center, "size": size }, "properties": [], "states": [],
+        })
+    };
+    let mut nodes = vec![node(1, "Rooms", "kitchen", [10.0, 1.25, 10.0], [20.0, 2.5, 20.0])];
+    let mut edges = Vec::new();
+    for (n, food) in foods.iter().enumerate() {
+        let at = [1.0 + 2.0 * (n % 9) as f64, 0.05, 1.0 + 2.0 * (n / 9) as f64];
+        nodes.push(node(n + 2, "Food", food, at, [0.1, 0.1, 0.1]));
+        edges.push(serde_json::json!({ "from_id": n + 2, "relation_type": "INSIDE", "to_id": 1 }));
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("foods_graph.json");
+    let graph = serde_json::json!({ "nodes": nodes, "edges": edges });
+    std::fs::write(&path, graph.to_string()).unwrap();
+    let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
+    let change = Change::new("Мастер", Timestamp(1_790_000_000_000), "");
+    engine.import(&path, &change).expect("the scene is sound");
+    for [food, drink] in [
+        ["What food is there?", "What drinks are there?"],
+        ["Какая есть еда?", "Какие есть напитки?"],
+    ] {
+        let things = |line: &str| {
+            let answer = engine.ask(line, &mut Memory::default()).expect("there is a map");
+            answer.unwrap_or_else(|doubt| panic!("{line}: {doubt:?}")).things
+        };
+        let found: BTreeSet<_> = things(food).into_iter().chain(things(drink)).collect();
+        assert_eq!(found.len(), foods.len(), "{food}");
+    }
 }
