@@ -213,10 +213,7 @@ impl Knowledge<'_> {
                     (true, false, true) => format!("{place} ничего нет"),
                     (true, false, false) => format!("{place} нет {none}"),
                     (false, true, _) => format!("there is no such thing on the map: {none}"),
-                    (false, false, _) if noun.head.named.len() == 1 => {
-                        format!("{none} is not {place}")
-                    }
-                    (false, false, _) => format!("there are no {none} {place}"),
+                    (false, false, _) => self.there_is_no(noun, &place),
                 }
             }
             Doubt::Ambiguous { reference, candidates } => {

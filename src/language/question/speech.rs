@@ -377,6 +377,28 @@ impl Knowledge<'_> {
         }
     }
 
+    /// "there are no cups on the table", "there is no bread in it"; of what has a name of its own, that it is not there.
+    pub(super) fn there_is_no(&self, noun: &Noun, place: &str) -> String {
+        let named = match (&noun.head.named[..], &noun.head.things) {
+            ([only], _) => vec![Thing::Entity(*only)],
+            ([], Some(things)) => things.clone(),
+            _ => Vec::new(),
+        };
+        if !named.is_empty() {
+            return format!("{} {} not {place}", self.list(&named), self.is(&named));
+        }
+        if noun.head.anything && noun.filters.is_empty() {
+            return format!("there is nothing {place}");
+        }
+        let none = self.none_of(noun);
+        // "there are no scissors"
+        let is_mass = none == self.kind_phrase(noun).1 && !none.ends_with('s');
+        let is = if is_mass { "is" } else { "are" };
+        let but = noun.other || !noun.except.is_empty();
+        let other = if but { "other " } else { "" };
+        format!("there {is} no {other}{none} {place}")
+    }
+
     /// Where a description says its things are: «в Комнате-В на столах».
     pub(super) fn restrictions(&self, noun: &Noun) -> String {
         let mut parts: Vec<String> = noun.sizes.iter().map(|size| self.size_words(*size)).collect();

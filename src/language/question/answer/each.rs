@@ -74,7 +74,7 @@ impl Knowledge<'_> {
                 (true, true) if own.head.anything => format!("{here} ничего нет"),
                 (true, true) => format!("{here} нет {}", self.none_of(&own)),
                 (true, false) if own.head.anything => format!("there is nothing {here}"),
-                (true, false) => format!("there are no {} {here}", self.none_of(&own)),
+                (true, false) => self.there_is_no(&own, &here),
             });
         }
         Ok(Some(parts.join("; ")))
@@ -120,7 +120,7 @@ impl Knowledge<'_> {
             let none = self.none_of(noun);
             let lacking = match self.is_russian() {
                 true => format!("{place} {none} нет"),
-                false => format!("there are no {none} {place}"),
+                false => self.there_is_no(noun, &place),
             };
             text = if text.is_empty() { lacking } else { format!("{text}; {lacking}") };
         }
@@ -140,7 +140,9 @@ impl Knowledge<'_> {
             (_, true, true) => format!("да, {}", self.place(rel, &rooms(&with))),
             (_, true, false) => format!("yes, {}", self.place(rel, &rooms(&with))),
             (_, false, true) => format!("нет, не везде: {lacking} {none} нет"),
-            (_, false, false) => format!("no, not everywhere: there are no {none} {lacking}"),
+            (_, false, false) => {
+                format!("no, not everywhere: {}", self.there_is_no(noun, &lacking))
+            }
         };
         let said = if without.is_empty() { Said::Yes } else { Said::No };
         let things = with.into_iter().flat_map(|(_, found)| found).collect();

@@ -359,13 +359,10 @@ impl Knowledge<'_> {
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
             (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
             (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
-            (false, false) if noun.other => {
-                format!("there are no other {} {place}{frame}", self.none_of(noun))
+            (false, false) if place.is_empty() && !noun.other => {
+                self.there_is_no(noun, "on the map")
             }
-            (false, false) if place.is_empty() => {
-                format!("there are no {} on the map", self.none_of(noun))
-            }
-            (false, false) => format!("there are no {} {place}{frame}", self.none_of(noun)),
+            (false, false) => self.there_is_no(noun, &format!("{place}{frame}")),
         }
     }
 
@@ -588,8 +585,8 @@ impl Knowledge<'_> {
                 }
                 (true, false) if place.is_empty() => format!("на карте нет {none}"),
                 (true, false) => format!("{blank}нет {none}"),
-                (false, false) if place.is_empty() => format!("there are no {none} on the map"),
-                (false, false) => format!("there are no {none} {place}"),
+                (false, false) if place.is_empty() => self.there_is_no(noun, "on the map"),
+                (false, false) => self.there_is_no(noun, &place),
             };
         }
         let list = self.ways_out_told(noun, things).unwrap_or_else(|| self.list(things));

@@ -161,7 +161,7 @@ impl Knowledge<'_> {
                 format!("there is no {english} {place}")
             }
             (true, _) => format!("{place} нет {}", self.none_of(of)),
-            (false, _) => format!("there are no {} {place}", self.none_of(of)),
+            (false, _) => self.there_is_no(of, &place),
         };
         let anywhere = Noun { restrictions: Vec::new(), ..of.clone() };
         let elsewhere = self.find(&anywhere, true).unwrap_or_default();
