@@ -605,3 +605,56 @@ fn what_was_asked_back_is_what_is_counted() {
     }
     counts.mostly_understood();
 }
+
+/// «В какой комнате нет дивана? А телевизора?», "Which room has the most chairs? And paintings?": rooms again, and no list of
+/// televisions.
+#[test]
+fn what_rooms_have_goes_on_with_another_thing() {
+    let rooms = |answer: &Answer| answer.things.iter().copied().collect::<BTreeSet<_>>();
+    const ENGLISH: [&str; 4] = [
+        "Which rooms have no {}?",
+        "Which rooms have {}?",
+        "Which room has the most {}?",
+        "Which rooms are without {}?",
+    ];
+    const RUSSIAN: [&str; 4] = [
+        "В каких комнатах нет {}?",
+        "Где нет {}?",
+        "В какой комнате больше всего {}?",
+        "Какие комнаты без {}?",
+    ];
+    let mut told = Family::default();
+    for map in ["maps/rb2.toml", "../shared/data/procthor/house_4.json"] {
+        let Some(engine) = engine(map) else { continue };
+        let english = ["chairs", "tables", "lamps", "books", "windows"];
+        let russian = ["стульев", "столов", "ламп", "книг", "окон"];
+        for (frames, kinds, leads) in [
+            (ENGLISH, english, ["And {}?", "What about {}?"]),
+            (RUSSIAN, russian, ["А {}?", "А как же {}?"]),
+        ] {
+            for (n, (kind, other)) in kinds.iter().zip(kinds.iter().cycle().skip(1)).enumerate() {
+                for frame in frames {
+                    let opening = frame.replace("{}", kind);
+                    let line = leads[n % 2].replace("{}", other);
+                    told.hear(&engine, &[&opening, &line], &frame.replace("{}", other), rooms);
+                }
+            }
+        }
+    }
+    told.mostly_understood();
+}
+
+/// «Каких вещей больше всего?» asks for a kind: the biggest thing is no answer.
+#[test]
+fn the_most_of_all_things_is_not_the_biggest_of_them() {
+    let rb2 = rb2();
+    for line in [
+        "Каких вещей больше всего в Комнате-В?",
+        "Каких предметов в Комнате-В больше всего?",
+        "Чего больше всего в Комнате-В?",
+        "What is there most of in Room V?",
+    ] {
+        let told = whole(&rb2, line);
+        assert!(told.is_none(), "{line} {told:?}");
+    }
+}

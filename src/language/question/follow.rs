@@ -228,6 +228,9 @@ impl Asker<'_> {
         if counts {
             return None;
         }
+        if let Some(query) = self.another_had(last, &noun) {
+            return Some(query);
+        }
         // "How far is it from the charger? And the toolbox?": from there.
         if let Query::Way { to, .. }
         | Query::CanReach { to, .. }

@@ -5,6 +5,7 @@
 
 use super::Frame;
 use crate::question::grammar::points;
+use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Extreme, Noun, Passing, Quantity, Query, Rel, Restriction, Thing,
@@ -111,8 +112,12 @@ impl Frame<'_, '_> {
         let leads = matches!(query, Query::Anchor { rel: Rel::To | Rel::Through, .. });
         // "And which has the fewest?"
         let counts = |mark: &Mark| matches!(mark, Mark::Best(Extreme::Most | Extreme::Fewest));
+        // «Каких вещей больше всего?» asks for a kind, and not for the biggest thing.
+        let things =
+            |noun: &Noun| noun.head.anything || self.is_kind(noun, |e| *e == Extension::Things);
+        let of_kinds = matches!(query, Query::Find(noun) if things(noun));
         let fewest = matches!(query, Query::Find(_))
-            && self.has(Mark::Have)
+            && (self.has(Mark::Have) || of_kinds)
             && !told.most
             && self.marks.iter().any(|(mark, _)| counts(mark));
         // "Which room has more?" asks of what was counted, not for the biggest room.
