@@ -377,6 +377,16 @@ fn what_a_person_tells_of_itself_is_what_is_asked_of() {
             }
         }
     }
+    for thing in ["зонт", "чайник", "комод"] {
+        let place = format!("Где {thing}?");
+        for lead in ["Мне сказали, что", "Сосед говорит, что", "Слышал, что"]
+        {
+            let line = format!("{lead} {thing} сломался, где он?");
+            told.hear(&rb2, &[&line], &place, said);
+        }
+        let whether = format!("{thing} в Комнате-В?");
+        told.hear(&rb2, &[&format!("{thing} в Комнате-В или как?")], &whether, said);
+    }
     told.mostly_understood();
     let Some(house) = engine("../shared/data/procthor/house_8.json") else { return };
     let mut classes = Family::default();
@@ -642,6 +652,19 @@ fn what_rooms_have_goes_on_with_another_thing() {
         }
     }
     told.mostly_understood();
+}
+
+/// «Где яблоко? Что ещё на нём лежит?»: nothing lies on an apple, so that "it" is something else.
+#[test]
+fn what_else_is_on_it_is_asked_of_what_bears_something() {
+    let rb2 = rb2();
+    for thing in ["зонт", "чайник", "пульт"] {
+        let mut memory = Memory::default();
+        let Some(told) = ask(&rb2, &format!("Где {thing}?"), &mut memory) else { continue };
+        let [only] = told.things[..] else { continue };
+        let more = ask(&rb2, "Что ещё на нём?", &mut memory);
+        assert!(more.is_none_or(|answer| !answer.text.contains("больше ничего")), "{only:?}");
+    }
 }
 
 /// «Каких вещей больше всего?» asks for a kind: the biggest thing is no answer.

@@ -9,7 +9,6 @@ use std::borrow::Cow;
 use super::mark::Mark;
 use super::several::{self, is_tag};
 use super::vocabulary;
-use crate::command::is_order;
 use crate::words::{is_first_person, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
@@ -75,8 +74,8 @@ impl Cut {
     }
 }
 
-/// How far particles go at the beginning of a part of a line that no comma parts from the question or order behind them: «ну
-/// короче где чашка», "like bring me the cup".
+/// How far particles go at the beginning of a part of a line that no comma parts from the question behind them: «ну короче
+/// где чашка», "like where is the cup".
 fn led_in(part: &str, line: &str) -> Option<usize> {
     let (words, keys) = (word_ranges(part), word_keys(part));
     // «короче какой путь: через кухню или через коридор?» compares.
@@ -95,7 +94,7 @@ fn led_in(part: &str, line: &str) -> Option<usize> {
             mark.is_some_and(|mark| mark != Mark::Filler)
         };
         let only_said = || line.trim_end().ends_with('?') && !(0..n).any(means_else);
-        let goes_on = || asks(&keys[n..]) || is_order(&line[words[n].start..]) || only_said();
+        let goes_on = || asks(&keys[n..]) || only_said();
         let compares = |n: usize| {
             matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))
         };
@@ -170,7 +169,7 @@ mod tests {
             ("Короче, есть чем поиграть?", "есть чем поиграть?"),
             ("Ну короче, где чашка?", "где чашка?"),
             ("ну короче где чашка", "где чашка"),
-            ("like bring me the cup", "bring me the cup"),
+            ("like where is the cup", "where is the cup"),
             ("короче какой путь, через кухню или зал?", "короче какой путь, через кухню или зал?"),
             ("Где, короче, чашка?", "Где чашка?"),
             ("Сколько, значит, стульев на кухне?", "Сколько стульев на кухне?"),

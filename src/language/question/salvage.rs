@@ -168,7 +168,11 @@ impl Asker<'_> {
         let mut told = Told::default();
         for text in aside {
             for (from, to) in parts(text) {
-                let part = &text[from..to];
+                // «Мне сказали, что тостер сломался, где он?»: what somebody says is told, and asks for nothing.
+                let part = match is_reported(&word_keys(&text[..from])) {
+                    true => behind_joint(&text[from..to]),
+                    false => &text[from..to],
+                };
                 match self.premise(part) {
                     Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
@@ -241,7 +245,7 @@ impl Asker<'_> {
         };
         let items = sentence.items();
         let says = items.iter().any(|item| !matches!(item, Item::Mark(Mark::Filler | Mark::The)));
-        (says && items.iter().all(idle)).then(|| {
+        (or_what || says && items.iter().all(idle)).then(|| {
             let kept = text[..words[or].start].trim_end_matches([' ', ',', '–', '—', '.', '…']);
             format!("{kept}?")
         })
@@ -371,6 +375,15 @@ fn without_joint(text: &str) -> &str {
     let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
     let kept = words.len().checked_sub(joints + 1).and_then(|last| words.get(last));
     kept.map_or("", |last| &text[..last.end])
+}
+
+/// A part without the joint that begins it.
+fn behind_joint(part: &str) -> &str {
+    let keys = word_keys(part);
+    match (keys.first(), word_ranges(part).get(1)) {
+        (Some(first), Some(second)) if JOINTS.contains(&first.as_str()) => &part[second.start..],
+        _ => part,
+    }
 }
 
 /// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".

@@ -43,6 +43,9 @@ impl Knowledge<'_> {
                 return Ok(Draft::new(Said::Unknown, text).about(&[other]));
             }
         }
+        if let (true, Some(word)) = (found.is_empty(), self.bears_no_other(noun)) {
+            return Err(Doubt::NoReferent { word });
+        }
         let facts = self.facts_of(noun, &found);
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
@@ -122,6 +125,16 @@ impl Knowledge<'_> {
         };
         let topic: Vec<Thing> = anchors.into_iter().chain(beside).collect();
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&topic))
+    }
+
+    /// The pronoun of «Что ещё на нём?» where it came to a thing that bears nothing at all, so that another one is meant.
+    fn bears_no_other(&self, noun: &Noun) -> Option<String> {
+        let [place] = &noun.restrictions[..] else { return None };
+        let [anchor] = &place.anchors[..] else { return None };
+        let things = anchor.head.things.as_deref().filter(|_| noun.other && noun.head.anything)?;
+        let bears = |t: &Thing| !self.related(place.rel, *t).is_empty();
+        let on_or_in = matches!(place.rel, Rel::On | Rel::In);
+        (on_or_in && !things.iter().any(bears)).then(|| anchor.text.clone())
     }
 
     /// Whether what was found is one of several that differ by a value, or by what they have.
