@@ -23,8 +23,7 @@ pub fn near_pairs(
     margin: f64,
     mut visit: impl FnMut(usize, usize) -> ControlFlow<()>,
 ) {
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x));
+    let order = from_the_left(boxes);
     for (n, &i) in order.iter().enumerate() {
         let (low, high) = boxes[i];
         for &j in order[n + 1..].iter().take_while(|&&j| boxes[j].0.x <= high.x + margin) {
@@ -34,6 +33,13 @@ pub fn near_pairs(
             }
         }
     }
+}
+
+/// Apart from [`near_pairs`], so that the sort is not compiled anew for each of those who visit.
+fn from_the_left(boxes: &[Bounds]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x));
+    order
 }
 
 pub fn edges(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
