@@ -274,6 +274,10 @@ fn whatever_opens_on_a_room_is_a_way_out_of_it() {
                 assert_eq!(tells, out > 0.0, "{line} {}", answer.text);
                 asked += 1;
             }
+            let mut memory = Memory::default();
+            ask(&engine, &format!("Сколько выходов у {of}?"), &mut memory);
+            let led = ask(&engine, "Какие из них ведут наружу?", &mut memory).expect("understood");
+            assert_eq!(led.things.len(), out as usize, "{of} {}", led.text);
             outside += out;
         }
         assert_eq!(number("Сколько выходов на карте?"), outside);

@@ -365,8 +365,13 @@ impl Frame<'_, '_> {
                     || (matches!(s.rel, Rel::From | Rel::Outside) && self.is_building(&s.nouns[0]))
             };
             if let Some(out) = self.spots.iter().find(out) {
-                noun.head.kinds =
+                let outer: Vec<_> =
                     self.lexicon.kind_of(&Extension::OuterDoors).into_iter().collect();
+                // «Какие из них ведут наружу?»: those of them that do.
+                match noun.head.things.is_some() {
+                    true => noun.also.push(Head { kinds: outer, ..Head::default() }),
+                    false => noun.head.kinds = outer,
+                }
                 return Some(Query::Find(self.with_rest(noun, &[out.at])));
             }
             let to_or_from = |spot: &Spot| match spot.rel {
