@@ -147,7 +147,7 @@ fn namesakes_on_one_floor_are_told_apart() {
 
 #[test]
 fn namesakes_on_two_floors_are_told_apart() {
-    let poses = if crate::files::long() { 80 } else { 25 };
+    let poses = if crate::files::long() { 80 } else { 12 };
     check_some(doubled(&rb2()), poses);
     check_some(doubled(&unnumbered(&rb2())), poses);
 }
@@ -160,7 +160,7 @@ fn poses_in_imported_houses_are_told_apart() {
         let path = folder.join(format!("house_{n}.json"));
         read(&path, &Options::default()).expect("the house reads").world
     };
-    let poses = if crate::files::long() { 80 } else { 20 };
+    let poses = if crate::files::long() { 80 } else { 10 };
     check_some(house(4), poses);
     check_some(unnumbered(&house(1)), poses);
     check_some(doubled(&house(7)), poses);

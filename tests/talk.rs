@@ -634,7 +634,7 @@ fn whatever_is_typed_is_answered_politely() {
         let _ = engine.is_command(input);
     }
     let words: Vec<&str> = "где что на в под стол стулья не ближе чем к и или какой сколько почему она the where is on in than closer which how many чёрный открыта дверь комната-в 3 у от до есть ли самый большой можно сесть ? , «".split(' ').collect();
-    for seed in 0_usize..if long() { 3_000 } else { 400 } {
+    for seed in 0_usize..if long() { 3_000 } else { 200 } {
         let text: Vec<&str> = (0..seed % 11)
             .map(|at| words[(seed * 37 + at * at * 13 + at * seed) % words.len()])
             .collect();
@@ -656,7 +656,7 @@ fn orders_of_stirred_words_do_no_harm() {
     let mut random = crate::planning_properties::random::Random::new(11);
     let mut understood = 0;
     let mut memory = Memory::default();
-    let rounds = if long() { 4_000 } else { 600 };
+    let rounds = if long() { 4_000 } else { 300 };
     for _ in 0..rounds {
         let text: Vec<&str> =
             (0..1 + random.below(9)).map(|_| words[random.below(words.len())]).collect();

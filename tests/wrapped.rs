@@ -315,7 +315,7 @@ fn a_claim_is_asked_after_however_it_was_heard() {
         let world = case.engine.world().unwrap();
         let rooms: Vec<_> = world.areas.values().collect();
         let things = world.replicas.values().filter(|r| !r.name_en.is_empty());
-        for (n, thing) in things.step_by(if long() { 2 } else { 9 }).take(40).enumerate() {
+        for (n, thing) in things.step_by(if long() { 2 } else { 20 }).take(40).enumerate() {
             let room = rooms[(n * 7) % rooms.len()];
             let place = russian::where_at(&NounPhrase::parse(&room.name, &WordHints::default()));
             let english = format!("{} is in {}", thing.name_en, room.name_en);

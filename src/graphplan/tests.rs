@@ -358,7 +358,8 @@ fn without_fact(task: &Task, lost: FactId) -> Task {
 #[test]
 fn planning_anew_with_what_was_learned_comes_to_the_same() {
     let (mut inherited, mut plans, mut together) = (0, 0, 0);
-    for seed in 1..=4000 {
+    let seeds: usize = if std::env::var_os("ORTHOFRAME_LONG").is_some() { 4000 } else { 1200 };
+    for seed in 1..=seeds as u64 {
         let tasks = [random_task(seed), random_task_with_objects(seed)];
         for (kind, task) in tasks.iter().enumerate() {
             let (_, learned) = solve_learning(task, None, &Limits::default());
@@ -381,7 +382,8 @@ fn planning_anew_with_what_was_learned_comes_to_the_same() {
             }
         }
     }
-    assert!(inherited > 5000 && plans > 200 && together > 0, "{inherited} {plans} {together}");
+    let is_much = inherited * 4 > seeds * 5 && plans * 20 > seeds && together > 0;
+    assert!(is_much, "{inherited} {plans} {together}");
 }
 
 #[test]
