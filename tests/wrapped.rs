@@ -156,24 +156,6 @@ fn a_particle_before_a_question_changes_no_answer() {
     assert!(asked > 200, "{asked}");
 }
 
-/// The same where no comma parts it: «ну короче где чашка». The same answer, or none; and mostly there is one.
-#[test]
-fn a_particle_that_no_comma_parts_changes_no_answer() {
-    let mut tally = Tally::default();
-    for case in cases() {
-        for (n, question) in some(&case) {
-            let Some(plain) = answered(&case.engine, question) else { continue };
-            let particles: &[&str] = if is_russian(question) { &RUSSIAN } else { &ENGLISH };
-            for at in [n, n * 5 + 2] {
-                let particle = uncapitalized(particles[at % particles.len()]);
-                let line = format!("{particle} {}", uncapitalized(question));
-                tally.add(case.name, &line, answered(&case.engine, &line), &plain);
-            }
-        }
-    }
-    tally.end(90);
-}
-
 /// The same between any two words: the same answer, or none; and mostly there is one.
 #[test]
 fn a_particle_within_a_question_changes_no_answer() {
