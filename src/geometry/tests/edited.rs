@@ -6,21 +6,7 @@ use orthoframe_geometry::{Bounds, DoorStates, FloorPlan, Method, Openings, STEP_
 use orthoframe_map::{Area, Door, DoorState, Extent, Replica, World, Zone, ZoneKind};
 use orthoframe_units::{AreaId, Cm, DoorId, Frame, OrFrId, Point, ReplicaId, ZoneId};
 
-fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
-    move |below| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 33) as usize % below
-    }
-}
-
-/// The value under a random key.
-macro_rules! any {
-    ($throw:ident, $records:expr) => {{
-        let keys: Vec<_> = $records.keys().copied().collect();
-        let key = keys[$throw(keys.len())];
-        $records.get_mut(&key).expect("chosen among them")
-    }};
-}
+use crate::dice::{any, dice};
 
 fn shifted(frame: &Frame, (x, y): (f64, f64)) -> Frame {
     Frame::new(frame.x.get() + x, frame.y.get() + y, frame.z.get(), frame.angle)

@@ -7,3 +7,14 @@ pub(crate) fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
         (state >> 33) as usize % below
     }
 }
+
+/// The value under a random key.
+macro_rules! any {
+    ($throw:ident, $records:expr) => {{
+        let keys: Vec<_> = $records.keys().copied().collect();
+        let key = keys[$throw(keys.len())];
+        $records.get_mut(&key).expect("chosen among them")
+    }};
+}
+
+pub(crate) use any;

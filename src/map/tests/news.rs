@@ -9,16 +9,7 @@ use orthoframe_map::{
 };
 use orthoframe_units::{AreaId, Cm, Deg, DoorId, Frame, ObjectId, OrFrId, PlaceId, ReplicaId};
 
-use crate::dice::dice;
-
-/// The value under a random key.
-macro_rules! any {
-    ($throw:ident, $records:expr) => {{
-        let keys: Vec<_> = $records.keys().copied().collect();
-        let key = keys[$throw(keys.len())];
-        $records.get_mut(&key).expect("chosen among them")
-    }};
-}
+use crate::dice::{any, dice};
 
 /// One edit of the building, sound or not.
 fn rebuild(world: &mut World, throw: &mut impl FnMut(usize) -> usize) {

@@ -6,21 +6,7 @@ use orthoframe_map::{Area, DoorState, Object, Orthoframe, Place, TypeKind, World
 use orthoframe_semantics::{RelationRules, Relations, Subject, derive};
 use orthoframe_units::{AreaId, Cm, Deg, Frame, ObjectId, OrFrId, PlaceId, Point, ReplicaId};
 
-fn dice(mut state: u64) -> impl FnMut(usize) -> usize {
-    move |below| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 33) as usize % below
-    }
-}
-
-/// The value under a random key.
-macro_rules! any {
-    ($throw:ident, $records:expr) => {{
-        let keys: Vec<_> = $records.keys().copied().collect();
-        let key = keys[$throw(keys.len())];
-        $records.get_mut(&key).expect("chosen among them")
-    }};
-}
+use crate::dice::{any, dice};
 
 fn shifted(frame: &Frame, by: (f64, f64)) -> Frame {
     Frame::new(frame.x.get() + by.0, frame.y.get() + by.1, frame.z.get(), frame.angle)
