@@ -37,8 +37,3 @@ pub use locate::{Answer, Fit, Localiser, Options};
 pub use operative::{Bound, Operative};
 pub use raster::{CellState, Raster};
 pub use track::{Belief, Event, Tracker};
-
-#[cfg(test)]
-mod operative_tests;
-#[cfg(test)]
-mod tests;

@@ -10,8 +10,6 @@
 
 mod doors;
 mod moved;
-#[cfg(test)]
-mod tests;
 mod unmapped;
 
 use std::collections::BTreeMap;

@@ -2,11 +2,11 @@
 
 use nalgebra::{Isometry2, Vector2};
 
-use super::{Bound, Chart, Fit, Line, Localiser, Operative, Options, telling_move};
-use crate::geometry::{DoorStates, FloorPlan, Polygon};
-use crate::map::World;
-use crate::units::Point;
-use crate::vectors::scan::{Noise, Sensor};
+use orthoframe_geometry::{DoorStates, FloorPlan, Polygon};
+use orthoframe_map::World;
+use orthoframe_sensing::{Bound, Chart, Fit, Line, Localiser, Operative, Options, telling_move};
+use orthoframe_units::Point;
+use orthoframe_vectors::scan::{Noise, Sensor};
 
 fn sensor(field: f64) -> Sensor {
     let step = std::f64::consts::PI / 360.0;
@@ -38,7 +38,7 @@ fn the_seen_floor_is_free_floor_and_its_faces_are_those_of_the_map() {
                 sight.beam(at, direction, 3000.0).distance + noise
             })
             .collect();
-        let named_as = |blocker: crate::geometry::Blocker| blocker.name(&world);
+        let named_as = |blocker: orthoframe_geometry::Blocker| blocker.name(&world);
         let shown = Operative::of(&sensor, &ranges, &pose, &world.robot, &chart, &named_as)
             .expect("floor is seen");
         seen += 1;
@@ -57,7 +57,7 @@ fn the_seen_floor_is_free_floor_and_its_faces_are_those_of_the_map() {
         let outline = Polygon::from(&shown);
         let free: f64 = shown.passframes().iter().map(|f| f.polygon.signed_area()).sum();
         let floor = shown.plan().fragments().next().expect("one area");
-        let dead: f64 = floor.dead_zones().iter().map(crate::geometry::Region::area).sum();
+        let dead: f64 = floor.dead_zones().iter().map(orthoframe_geometry::Region::area).sum();
         let whole = outline.signed_area();
         assert!(
             whole > 0.0 && (free + dead - whole).abs() <= 0.02 * whole,

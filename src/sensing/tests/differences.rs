@@ -2,11 +2,11 @@
 
 use nalgebra::{Isometry2, Vector2};
 
-use super::{Differences, Inspector, ThingSeen};
-use crate::geometry::{DoorStates, FloorPlan, Sight};
-use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::{DoorId, MapId, Point, ReplicaId};
-use crate::vectors::scan::{Noise, Sensor};
+use orthoframe_geometry::{DoorStates, FloorPlan, Sight};
+use orthoframe_map::{DoorKind, DoorState, DoorStatus, World};
+use orthoframe_sensing::{Differences, Inspector, ThingSeen};
+use orthoframe_units::{DoorId, MapId, Point, ReplicaId};
+use orthoframe_vectors::scan::{Noise, Sensor};
 
 /// Of the laser above the floor, in cm.
 const HEIGHT: f64 = 30.0;
@@ -46,7 +46,7 @@ fn scan(sight: &Sight, pose: &Isometry2<f64>, random: &mut fastrand::Rng) -> Vec
 
 /// Poses where the robot fits in the true world.
 fn poses(truth: &FloorPlan, count: usize, random: &mut fastrand::Rng) -> Vec<Isometry2<f64>> {
-    let bounds = truth.fragments().fold(None, |all: Option<crate::geometry::Bounds>, floor| {
+    let bounds = truth.fragments().fold(None, |all: Option<orthoframe_geometry::Bounds>, floor| {
         Some(all.map_or(floor.bounds, |all| all.union(&floor.bounds)))
     });
     let Some(bounds) = bounds else { return Vec::new() };
@@ -171,7 +171,9 @@ fn stands_free(world: &World, id: MapId, thing: ReplicaId) -> bool {
     let corners: Vec<Point> = own.prisms.iter().flat_map(|p| p.polygon.corners.clone()).collect();
     let mut walls = floor.fragments().flat_map(|f| f.walls.clone());
     let clear = walls.all(|(a, b)| {
-        corners.iter().all(|c| (crate::geometry::nearest_on_segment(*c, a, b) - c).norm() > 12.0)
+        corners
+            .iter()
+            .all(|c| (orthoframe_geometry::nearest_on_segment(*c, a, b) - c).norm() > 12.0)
     });
     let area = scene.area_at(own.bounds.min);
     apart && clear && area.is_some() && area == scene.area_at(own.bounds.max)
@@ -192,11 +194,11 @@ fn things_that_were_moved_are_found_where_they_are_or_only_missed() {
             let before = truth.replicas[&thing].frame;
             let placed = (0..300).any(|_| {
                 let at = Vector2::new(random.f64() - 0.5, random.f64() - 0.5) * 400.0;
-                let moved = crate::units::Frame::new(
+                let moved = orthoframe_units::Frame::new(
                     before.x.get() + at.x,
                     before.y.get() + at.y,
                     before.z.get(),
-                    before.angle + crate::units::Deg::of(random.f64() * 360.0),
+                    before.angle + orthoframe_units::Deg::of(random.f64() * 360.0),
                 );
                 truth.replicas.get_mut(&thing).expect("it is one").frame = moved;
                 at.norm() > 60.0 && stands_free(&truth, id, thing)
@@ -216,7 +218,7 @@ fn things_that_were_moved_are_found_where_they_are_or_only_missed() {
                             let replica = told.replicas.get_mut(&thing).expect("it is one");
                             let (_, area) = map.placement(replica.area).expect("placed");
                             let at = area.invert(frame.origin());
-                            replica.frame = crate::units::Frame::new(
+                            replica.frame = orthoframe_units::Frame::new(
                                 at.x,
                                 at.y,
                                 before.z.get(),
@@ -258,11 +260,11 @@ fn what_was_put_there_is_seen_where_it_is_and_a_person_who_walks_on_is_not() {
             copy.id = new;
             copy.name = "Нечто".to_owned();
             let at = Vector2::new(random.f64() - 0.5, random.f64() - 0.5) * 600.0;
-            copy.frame = crate::units::Frame::new(
+            copy.frame = orthoframe_units::Frame::new(
                 copy.frame.x.get() + at.x,
                 copy.frame.y.get() + at.y,
                 copy.frame.z.get(),
-                crate::units::Deg::of(random.f64() * 360.0),
+                orthoframe_units::Deg::of(random.f64() * 360.0),
             );
             truth.replicas.insert(new, copy);
             stands_free(&truth, id, new)

@@ -3,8 +3,8 @@
 
 use nalgebra::{Isometry2, Point2};
 
-use super::{Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker};
-use crate::vectors::scan::{Noise, Sensor};
+use orthoframe_sensing::{Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker};
+use orthoframe_vectors::scan::{Noise, Sensor};
 
 fn sensor() -> Sensor {
     let half = std::f64::consts::FRAC_PI_2;

@@ -1,0 +1,5 @@
+//! What a laser sees of made buildings, held against them.
+
+mod differences;
+mod operative;
+mod poses;
