@@ -20,6 +20,7 @@ use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::teller::Teller;
 use super::{Answer, came_to, heeded, json, say, text};
+use crate::units::Gather as _;
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
 
@@ -274,8 +275,7 @@ pub(super) fn relations(
         Lang::Ru => rows,
         Lang::En => {
             let named = relations.counts().into_iter().filter(|row| !row.name_en.is_empty());
-            let names: BTreeMap<String, String> =
-                named.map(|row| (row.name, row.name_en)).collect();
+            let names: BTreeMap<String, String> = named.map(|row| (row.name, row.name_en)).gather();
             let called = |relation: String| names.get(&relation).cloned().unwrap_or(relation);
             rows.into_iter().map(|(relation, values)| (called(relation), values)).collect()
         }

@@ -25,7 +25,7 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::units::{Bilingual, Cm, InOrder as _, Language, Source, nearest_name};
+use crate::units::{Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name};
 
 use super::arms;
 use super::fault::{CorridorFault, CorridorFileError};
@@ -346,7 +346,7 @@ impl Reader {
             return None;
         }
         let index: BTreeMap<u32, VertexIx> =
-            vertices.iter().enumerate().map(|(i, v)| (v.number, VertexIx(i))).collect();
+            vertices.iter().enumerate().map(|(i, v)| (v.number, VertexIx(i))).gather();
         let mut layout = arms::Layout::new(vertices.len());
         for corridor in corridors {
             self.lay(corridor, &index, &vertices, &mut layout);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use crate::geometry::Openings;
 use crate::map::World;
-use crate::units::{Cm, Deg, InOrder as _, MapId, Point};
+use crate::units::{Cm, Deg, Gather as _, InOrder as _, MapId, Point};
 
 use super::CorridorError;
 use super::lanes::{Lanes, Shape, find, unite};
@@ -100,7 +100,7 @@ impl CorridorSystem {
             }
         }
         let place: BTreeMap<VertexIx, usize> =
-            order.iter().enumerate().map(|(at, &v)| (v, at)).collect();
+            order.iter().enumerate().map(|(at, &v)| (v, at)).gather();
         let vertices = order.iter().zip(0..).map(|(&v, number)| {
             let mut vertex = self.vertex(v).clone();
             vertex.number = number;

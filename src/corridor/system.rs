@@ -8,7 +8,7 @@
 
 use std::borrow::Cow;
 
-use crate::units::{Cm, Deg, InOrder as _, Point};
+use crate::units::{Cm, Deg, Gather as _, InOrder as _, Point};
 
 /// Index of a vertex in its system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -415,7 +415,7 @@ impl CorridorSystem {
             assert!(held.insert(end), "{end:?} holds two stretches");
         }
         let numbers: std::collections::BTreeSet<_> =
-            self.vertices.iter().map(|v| v.number).collect();
+            self.vertices.iter().map(|v| v.number).gather();
         assert_eq!(numbers.len(), self.vertices.len(), "a number stands for two vertices");
         for arc in self.arcs() {
             let _ = self.code(arc);

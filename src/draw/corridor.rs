@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 
 use crate::geometry::{Bounds, Polygon};
-use crate::units::{InOrder as _, Point, Vector};
+use crate::units::{Gather as _, InOrder as _, Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
@@ -252,7 +252,7 @@ impl Key {
         };
         let signs = drawing.signs.iter().filter(|(sign, _)| is_drawn(*sign));
         let signs = signs.map(|(sign, text)| (Some(*sign), String::new(), text.clone()));
-        let used: BTreeSet<&str> = drawing.arcs.iter().map(|a| a.label.as_str()).collect();
+        let used: BTreeSet<&str> = drawing.arcs.iter().map(|a| a.label.as_str()).gather();
         let codes = drawing.codes.iter().filter(|(code, _)| used.contains(code.as_str()));
         let codes = codes.map(|(code, text)| (None, code.clone(), text.clone()));
         let mut lines: Vec<Vec<KeyEntry>> = Vec::new();
@@ -278,7 +278,7 @@ impl Key {
 fn corridors(drawing: &CorridorDrawing) -> Vec<(usize, usize)> {
     let known = |i: usize| i < drawing.vertices.len();
     let arcs = drawing.arcs.iter().filter(|a| !a.faint && known(a.from) && known(a.to));
-    let ways: BTreeSet<_> = arcs.map(|a| (a.from, a.to)).collect();
+    let ways: BTreeSet<_> = arcs.map(|a| (a.from, a.to)).gather();
     ways.iter().copied().filter(|&(a, b)| a < b && ways.contains(&(b, a))).collect()
 }
 
@@ -292,7 +292,7 @@ fn placed(drawing: &CorridorDrawing) -> Vec<Point> {
         .iter()
         .filter(|a| a.from < count && a.to < count && a.from != a.to)
         .map(|a| (a.from.min(a.to), a.from.max(a.to)))
-        .collect();
+        .gather();
     // The usual arc gets the length that it needs.
     let lengths = joined.iter().map(|&(a, b)| (points[a] - points[b]).norm());
     let mut lengths: Vec<f64> = lengths.filter(|l| *l > 1e-6 && l.is_finite()).collect();

@@ -8,7 +8,7 @@ use crate::geometry::{
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{
-    AreaId, DoorId, InOrder as _, Language, PlaceId, Point, Pose, ReplicaId, Vector,
+    AreaId, DoorId, Gather as _, InOrder as _, Language, PlaceId, Point, Pose, ReplicaId, Vector,
 };
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -50,7 +50,7 @@ impl NetworkLayer {
         let mut by_doorway: BTreeMap<usize, Vec<(Point, Point)>> = BTreeMap::new();
         for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
             let centre: BTreeMap<_, _> =
-                fragment.passframes().iter().map(|p| (p.id, p.polygon.centroid())).collect();
+                fragment.passframes().iter().map(|p| (p.id, p.polygon.centroid())).gather();
             for frame in fragment.passframes() {
                 let from = centre[&frame.id];
                 layer.vertices.push(from);
@@ -515,7 +515,7 @@ impl PlanDrawing<'_> {
                 }
             }
         }
-        crowds.into_values().filter(|crowd| crowd.len() >= CROWD).flatten().collect()
+        crowds.into_values().filter(|crowd| crowd.len() >= CROWD).flatten().gather()
     }
 
     /// «23,5 м²»

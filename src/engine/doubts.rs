@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, Format, MapErrors};
-use crate::units::InOrder as _;
+use crate::units::{Gather as _, InOrder as _};
 
 use super::{World, check_map};
 
@@ -42,5 +42,5 @@ fn quoted_words(dir: &Path) -> BTreeSet<String> {
         let parts = text.lines().flat_map(|line| line.split('"').skip(1).step_by(2));
         parts.map(str::to_owned).collect::<Vec<_>>()
     };
-    texts.flat_map(words).collect()
+    texts.flat_map(words).gather()
 }

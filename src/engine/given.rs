@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::robot::facts_of_map;
 use crate::semantics::planning::InitialFact;
 use crate::strips::in_quotes;
-use crate::units::name_key;
+use crate::units::{Gather as _, name_key};
 
 use super::{Error, State};
 
@@ -36,7 +36,7 @@ pub fn facts_in_rule_text(facts: &[InitialFact]) -> String {
     let objects: BTreeSet<(&str, &str)> = facts
         .iter()
         .flat_map(|fact| fact.arguments.iter().map(|a| (a.kind, a.name.as_str())))
-        .collect();
+        .gather();
     let mut section = |head: &str, lines: Vec<String>| {
         if !lines.is_empty() {
             let gap = if text.is_empty() { "" } else { "\n" };

@@ -6,7 +6,7 @@ use crate::language::command::{Command, Relation};
 use crate::map::{DoorStatus, Entity};
 use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
-use crate::units::{AreaId, DoorId};
+use crate::units::{AreaId, DoorId, Gather as _};
 
 use super::directive_words::floor_place;
 use super::task::{OPERATOR, thing_of};
@@ -407,7 +407,7 @@ impl State {
         let world = self.world()?;
         let here = self.robot_area()?.ok_or(RequestError::RobotNowhere)?;
         let beside: BTreeSet<AreaId> =
-            relations.joins().iter().filter(|j| j.from == here).map(|j| j.to).collect();
+            relations.joins().iter().filter(|j| j.from == here).map(|j| j.to).gather();
         let far = |area: AreaId| (self.way_to(Entity::Area(area)), area);
         let next =
             beside.into_iter().map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -441,7 +441,7 @@ impl State {
                 let leafed = |d: &DoorId| world.doors.get(d).is_some_and(|d| !d.leaves.is_empty());
                 let joins = self.relations()?.joins();
                 let own = joins.iter().filter(|j| j.from == area).filter_map(|j| j.door);
-                let doors: BTreeSet<DoorId> = own.filter(leafed).collect();
+                let doors: BTreeSet<DoorId> = own.filter(leafed).gather();
                 doors.first().copied().filter(|_| doors.len() == 1)
             }
             _ => None,

@@ -7,7 +7,7 @@ use crate::language::Language;
 use crate::language::question::{Crossing, RoomPath, Thing};
 use crate::language::report::{Detail, Named};
 use crate::map::{DoorState, Entity, Extent, Forms, World, Zone, ZoneKind};
-use crate::units::{AreaId, Deg, DoorId, MapId, Point, ZoneId};
+use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId};
 
 use super::advice::Advice;
 use super::known::Known;
@@ -233,7 +233,7 @@ impl Known {
                 if shut.is_empty() { floor.clone() } else { floor.with_doors(&world, &shut) };
             (*map, floor.with_zones(&world, is_wanted))
         });
-        let floors: BTreeMap<MapId, FloorPlan> = floors.collect();
+        let floors: BTreeMap<MapId, FloorPlan> = floors.gather();
         Ok(self.driven_otherwise(world, floors))
     }
 

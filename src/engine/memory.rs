@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use crate::map::{DoorStatus, Entity, Replica, World, is_on, set_open, stands, switch};
 use crate::robot::{Belief, outline_of, starting_pose};
 use crate::store::{Change, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{AreaId, Deg, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, Gather as _, MapId, Pose, ReplicaId};
 
 use super::obstacles::{is_obstacle, put_up};
 use super::route::{is_pair, parse_pose};
@@ -214,8 +214,7 @@ impl Engine {
             // What is in the hand is noted as that; it is seen again where it is put down.
             seen.is_some() && kept.moved.get(*id) != Some(*seen)
         });
-        let moved: BTreeMap<ReplicaId, Option<Seen>> =
-            news.map(|(id, seen)| (*id, *seen)).collect();
+        let moved: BTreeMap<ReplicaId, Option<Seen>> = news.map(|(id, seen)| (*id, *seen)).gather();
         let pose = after.memory.pose;
         if moved.is_empty() && after.memory == (RobotMemory { pose, ..kept.memory.clone() }) {
             return Ok(false);

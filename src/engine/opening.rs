@@ -9,7 +9,7 @@ use crate::geometry::{DoorStates, FloorPlan, Leg, Method, NoWay, Target};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorKind, DoorState, DoorStatus, Entity, World};
 use crate::semantics::lifts;
-use crate::units::{AreaId, DoorId, MapId, Point};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
 use super::Error;
 use super::known::Known;
@@ -62,7 +62,7 @@ impl Known {
         let of_lifts: BTreeSet<DoorId> = lifts(world, self.relations()?)
             .iter()
             .flat_map(|lift| lift.doors.iter().filter_map(|join| join.door))
-            .collect();
+            .gather();
         let floors = self.floors()?;
         let between_rooms =
             |door: DoorId| floors.values().any(|floor| floor.doorways_of(door).next().is_some());

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::units::{is_input, write_file};
+use crate::units::{Gather as _, is_input, write_file};
 
 use super::{Error, RequestError};
 
@@ -87,7 +87,7 @@ pub(crate) fn question_beginnings() -> &'static [String] {
         // What stands in brackets has several beginnings, and is left out.
         let plain =
             bodies.flat_map(|(_, body)| body.split('|')).filter(|b| !b.contains(['(', ')']));
-        let all: BTreeSet<String> = plain.filter_map(beginning).collect();
+        let all: BTreeSet<String> = plain.filter_map(beginning).gather();
         all.into_iter().collect()
     })
 }

@@ -13,7 +13,8 @@ use crate::map::{Entity, World, Zone};
 use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{
-    AreaId, Bilingual, MapId, Point, Pose, ReplicaId, Timestamp, bilingual, nearest_name,
+    AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Timestamp, bilingual,
+    nearest_name,
 };
 
 use super::changes::Changes;
@@ -158,7 +159,7 @@ impl State {
             .iter()
             .filter(|(id, _)| world.replicas.contains_key(id))
             .map(|(id, holder)| (*id, holder.clone()))
-            .collect();
+            .gather();
         if holders.is_empty() && !in_time && world == *surveyed.world && !asked {
             return Ok(None);
         }

@@ -7,6 +7,7 @@ use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
 use super::{Error, RequestError, State};
+use crate::units::Gather as _;
 
 impl State {
     /// The things that are not where they belong, each with the name of its home, in the order of their names.
@@ -102,5 +103,5 @@ fn supports(world: &World, relations: &Relations) -> BTreeMap<String, String> {
             let [thing, on] = <[_; 2]>::try_from(fact.arguments).ok()?;
             Some((thing.name, on.name))
         })
-        .collect()
+        .gather()
 }

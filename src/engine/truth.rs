@@ -8,7 +8,7 @@ use std::path::Path;
 use crate::map::{self, Entity, Format, MapError, MapErrors, World};
 use crate::robot::Simulator;
 use crate::semantics::load;
-use crate::units::{Bilingual, FileFault, ReplicaId, Source};
+use crate::units::{Bilingual, FileFault, Gather as _, ReplicaId, Source};
 
 use super::lexicon::form_index;
 use super::{Error, RequestError, State};
@@ -44,7 +44,7 @@ impl State {
         let (known, (map, pose)) = (now.around()?, now.robot()?);
         // What is carried or was handed over is where it was last.
         let believed = known.world();
-        let away: BTreeSet<ReplicaId> = known.holders.keys().copied().collect();
+        let away: BTreeSet<ReplicaId> = known.holders.keys().copied().gather();
         let index = std::cell::OnceCell::new();
         let names = |name: &str| -> Vec<Entity> {
             let index = index.get_or_init(|| form_index(believed));

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Level, Lift, Room, Survey, outline};
+use crate::units::Gather as _;
 
 /// Words for rooms that lead to other storeys, and what they have in common.
 const VERTICAL: [(&str, &str); 14] = [
@@ -35,7 +36,7 @@ pub(super) fn vertical(room: &Room) -> Option<&'static str> {
 /// the other. What is joined already is left as it is.
 pub(super) fn join(survey: &mut Survey) {
     let joined: BTreeSet<(usize, usize)> =
-        survey.lifts.iter().flat_map(|l| l.stops.iter().copied()).collect();
+        survey.lifts.iter().flat_map(|l| l.stops.iter().copied()).gather();
     let of_level = |(level, l): (usize, &Level)| {
         let shafts = l.rooms.iter().enumerate().filter_map(|(no, room)| {
             Some((level, no, vertical(room).filter(|_| !joined.contains(&(level, no)))?))

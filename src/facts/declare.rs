@@ -7,7 +7,7 @@ use super::program::{Column, Found, Kind, Names, RelationId, RelationInfo};
 use super::record::{self, Shape};
 use super::syntax::{Item, Name, Role, Span};
 use super::word::NO_WORD;
-use crate::units::{bilingual, nearest_name};
+use crate::units::{Gather as _, bilingual, nearest_name};
 
 /// Tuples are kept in rows of at most so many words.
 pub(super) const MAX_COLUMNS: usize = 32;
@@ -275,9 +275,9 @@ fn declare_types(items: &[Item], declared: &mut Declared, faults: &mut Found) {
             }
         }
     }
-    let mut left: BTreeSet<usize> = (0..types.len()).collect();
+    let mut left: BTreeSet<usize> = (0..types.len()).gather();
     let mut ready: BTreeSet<usize> =
-        (0..types.len()).filter(|number| missing[*number] == 0).collect();
+        (0..types.len()).filter(|number| missing[*number] == 0).gather();
     while let Some(next) = ready.pop_first().or_else(|| left.first().copied()) {
         left.remove(&next);
         ready.remove(&next);

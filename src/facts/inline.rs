@@ -14,7 +14,7 @@ use super::fault::RuleError;
 use super::program::{Found, RelationId};
 use super::syntax::{Atom, Body, Comparison, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
-use crate::units::bilingual;
+use crate::units::{Gather as _, bilingual};
 
 /// Rules put into rules put into rules: more is a relation that reads itself.
 const MAX_DEPTH: usize = 16;
@@ -52,7 +52,7 @@ pub(super) fn unfold(
             unfolding.bodies.insert(relation, meant);
         }
     }
-    let gone: BTreeSet<RelationId> = unfolding.bodies.keys().copied().collect();
+    let gone: BTreeSet<RelationId> = unfolding.bodies.keys().copied().gather();
     let mut left = Vec::with_capacity(rules.len());
     for mut rule in rules {
         rule.heads

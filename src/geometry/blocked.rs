@@ -10,7 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::{AreaId, DoorId, InOrder as _, ZoneId};
+use crate::units::{AreaId, DoorId, Gather as _, InOrder as _, ZoneId};
 
 use super::blocker::Blocker;
 use super::cells::CellKey;
@@ -84,7 +84,7 @@ impl NoRoute {
 /// Names what stands between a cell and the nearest of some others.
 pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[CellKey]) -> NoRoute {
     let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component(c.1));
-    let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
+    let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).gather();
     let start = piece(from);
     let mut between = Between::of(plan, world);
     let ends = [
@@ -121,7 +121,7 @@ pub(super) fn single(
     from: CellKey,
     to: &[CellKey],
 ) -> Vec<Barrier> {
-    let goals: BTreeSet<u32> = to.iter().map(|&cell| plan.region(cell)).collect();
+    let goals: BTreeSet<u32> = to.iter().map(|&cell| plan.region(cell)).gather();
     let mut between = Between::of(plan, world);
     let mut ends = [BTreeSet::from([plan.region(from)]), goals];
     let weight = |end: &BTreeSet<u32>| end.iter().map(|r| between.pieces[r].len()).sum::<usize>();

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 use crate::map::{Area, Door, DoorState, Item, Object, World, Zone};
-use crate::units::{AreaId, DoorId, ObjectId, OrFrId, ReplicaId};
+use crate::units::{AreaId, DoorId, Gather as _, ObjectId, OrFrId, ReplicaId};
 
 use super::Bounds;
 use super::buckets::Buckets;
@@ -79,7 +79,7 @@ impl FloorPlan {
             };
             own.ways.iter().zip(places).map(|(doorway, place)| is_other(doorway, *place)).collect()
         };
-        let mut stale: BTreeSet<AreaId> = self.near(&boxes).into_iter().collect();
+        let mut stale: BTreeSet<AreaId> = self.near(&boxes).into_iter().gather();
         let olds = changed(&self.doorways, &doorways, &places);
         stale.extend(self.told_by(&touched, &olds));
         let news = changed(&doorways, &self.doorways, &doorways.places_in(&self.doorways));
@@ -131,14 +131,14 @@ impl FloorPlan {
 
     fn differing(&self, before: &World, after: &World) -> Touched {
         let parts: BTreeSet<OrFrId> =
-            before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).collect();
+            before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).gather();
         let uses = |items: &[Item]| items.iter().any(|i| parts.contains(&i.orthoframe));
         let mut touched = Touched::default();
 
         let areas = before.areas.changes(&after.areas).into_iter();
         let same = |was: &Area, is: &Area| was.items == is.items && was.doors == is.doors;
         let others = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(a, b)| same(a, b)));
-        let mut others: BTreeSet<AreaId> = others.map(|(id, ..)| id).collect();
+        let mut others: BTreeSet<AreaId> = others.map(|(id, ..)| id).gather();
         if !parts.is_empty() {
             others.extend(after.areas_made_of(|part| parts.contains(&part)).map(|area| area.id));
         }
@@ -168,7 +168,7 @@ impl FloorPlan {
         };
         let doors = before.doors.changes(&after.doors);
         touched.doors = doors.iter().filter(|d| hung(d)).map(|(id, ..)| *id).collect();
-        let swung: BTreeSet<DoorId> = doors.iter().map(|(id, ..)| *id).collect();
+        let swung: BTreeSet<DoorId> = doors.iter().map(|(id, ..)| *id).gather();
         let remade = |object: &&Object| {
             uses(&object.items)
                 || object.doors.iter().any(|mount| swung.contains(&mount.door))
@@ -178,7 +178,7 @@ impl FloorPlan {
                     .is_none_or(|was| (&was.items, &was.doors) != (&object.items, &object.doors))
         };
         let objects = after.objects.values().filter(remade).map(|object| object.id);
-        let objects: BTreeSet<ObjectId> = objects.collect();
+        let objects: BTreeSet<ObjectId> = objects.gather();
         let changes = before.replicas.changes(&after.replicas).into_iter();
         touched.replicas.extend(changes.map(|(id, ..)| id));
         if !objects.is_empty() || !moved.is_empty() || !touched.gone.is_empty() {

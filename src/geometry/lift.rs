@@ -14,7 +14,7 @@ use std::sync::Arc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::map::{DoorState, LiftStop, World};
-use crate::units::{AreaId, DoorId, MapId, Point};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
 use super::blocked::NoRoute;
 use super::chain::Passed;
@@ -113,7 +113,7 @@ pub fn across(
         return Ok(vec![leg]);
     }
     let plans: BTreeMap<MapId, Cow<'_, FloorPlan>> =
-        plans.iter().map(|(&map, plan)| (map, plan.with_lifts_open(world))).collect();
+        plans.iter().map(|(&map, plan)| (map, plan.with_lifts_open(world))).gather();
     let drive_on = |map: MapId, from: Point, target: Target| match plans.get(&map) {
         Some(plan) => route_on(plan, map, from, target),
         None => Err(Box::new(NoWay { map, from, target, why: NoRoute::NoFloor })),
@@ -235,7 +235,7 @@ impl FloorPlan {
     /// The same floor with the closed doors of lifts open, as they are where a lift was called; locked ones stay.
     #[must_use]
     pub fn with_lifts_open(&self, world: &World) -> Cow<'_, Self> {
-        let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).collect();
+        let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).gather();
         let leads_in = |d: &&Arc<Opening>| d.areas.iter().any(|area| cabins.contains(area));
         let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
         let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);

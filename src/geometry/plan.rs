@@ -17,7 +17,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::{DoorState, RobotProfile, World, Zone};
-use crate::units::{AreaId, DoorId, MapId, Point};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
 use super::buckets::Buckets;
 use super::cells::CellKey;
@@ -321,7 +321,7 @@ impl FloorPlan {
         let portals = self.network.portals.iter().flatten();
         let whole = portals
             .filter(|p| [p.from, p.to].into_iter().all(|cell| self.leads_on(cell, p.doorway)));
-        whole.map(|p| p.doorway).chain(narrow).collect()
+        whole.map(|p| p.doorway).chain(narrow).gather()
     }
 
     /// Whether from a cell at a doorway the whole robot comes clear of the doorway, or through a further one: the

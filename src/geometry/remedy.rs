@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use crate::map::{DoorKind, DoorState, World};
-use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
+use crate::units::{AreaId, DoorId, Frame, Gather as _, Point, ReplicaId, Vector};
 
 use super::Polygon;
 use super::blocked::{Barrier, NoRoute};
@@ -261,7 +261,7 @@ impl FloorPlan {
                 Blocker::ReplicaLeaf { door, replica, .. } => Some((door, Some(replica))),
                 _ => None,
             })
-            .collect();
+            .gather();
         leaves.into_iter().find(|&(door, of)| match of {
             None => {
                 let shut = self.with_doors(world, &DoorStates::from([(door, DoorState::CLOSED)]));
@@ -416,5 +416,5 @@ fn may_move<'a>(
 }
 
 fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
-    may_move(world, blockers(no)).collect()
+    may_move(world, blockers(no)).gather()
 }

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::map::{Area, MapLink, SideRef, World};
-use crate::units::{AreaId, DoorId, InOrder as _, MapId};
+use crate::units::{AreaId, DoorId, Gather as _, InOrder as _, MapId};
 
 use super::Bounds;
 use super::opening::{OpenSide, Opening};
@@ -102,7 +102,7 @@ impl Openings {
         let Anew { placed, .. } = anew;
 
         let is_in = |side: &OpenSide| group.iter().any(|(_, own)| is_same(own, side));
-        let own: BTreeSet<AreaId> = group.iter().map(|(place, _)| place.1).collect();
+        let own: BTreeSet<AreaId> = group.iter().map(|(place, _)| place.1).gather();
         let is_kept = |opening: &Opening| {
             let is_other =
                 |s: &OpenSide| areas.contains(&s.area) || own.contains(&s.area) && is_in(s);
@@ -253,7 +253,7 @@ impl<'w> Anew<'w> {
             let from = mounted.partition_point(|(own, _)| *own < door);
             mounted[from..].iter().take_while(move |(own, _)| *own == door).map(|(_, area)| *area)
         };
-        let areas: BTreeSet<AreaId> = doors.iter().flat_map(of_door).collect();
+        let areas: BTreeSet<AreaId> = doors.iter().flat_map(of_door).gather();
         for area in areas {
             let is_mounted = |side: &OpenSide| {
                 side.mount.as_ref().is_some_and(|mount| doors.contains(&mount.door))

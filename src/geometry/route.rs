@@ -10,7 +10,9 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::map::{DoorState, World, Zone, ZoneKind};
-use crate::units::{AreaId, Deg, DoorId, InOrder as _, PlaceId, Point, ReplicaId, ZoneId};
+use crate::units::{
+    AreaId, Deg, DoorId, Gather as _, InOrder as _, PlaceId, Point, ReplicaId, ZoneId,
+};
 
 use super::anchor::{Anchor, Moved};
 use super::blocked::{Barrier, NoRoute, explain, single};
@@ -125,7 +127,7 @@ impl FloorPlan {
     ) -> Result<Route, NoRoute> {
         let within: Option<Vec<u32>> = areas.map(|list| {
             let numbers: BTreeSet<u32> =
-                list.iter().filter_map(|&a| self.number(a)).map(|n| n as u32).collect();
+                list.iter().filter_map(|&a| self.number(a)).map(|n| n as u32).gather();
             numbers.into_iter().collect()
         });
         let (reach, has_shut) = (self.reach(), self.zones.iter().any(|z| z.kind.is_shut()));

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::map::{Item, Orthoframe, Permeability, World};
-use crate::units::{AreaId, Frame, MapId, OrFrId, Point, ReplicaId};
+use crate::units::{AreaId, Frame, Gather as _, MapId, OrFrId, Point, ReplicaId};
 
 use super::{Bounds, Polygon};
 
@@ -124,7 +124,7 @@ impl Scene {
     /// The Areas of a Map alone, as they stand in it.
     pub(super) fn areas_of(world: &World, map: MapId) -> BTreeMap<AreaId, PlacedArea> {
         let items = world.maps[&map].items.iter();
-        items.map(|item| (item.area, PlacedArea::new(world, item.area, item.frame))).collect()
+        items.map(|item| (item.area, PlacedArea::new(world, item.area, item.frame))).gather()
     }
 
     /// The replicas that stand in an Area.

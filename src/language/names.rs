@@ -3,7 +3,7 @@
 use super::report::Named;
 use super::words::{Animacy, Case, Gender, Language, NounPhrase, Number, WordHints};
 use crate::map::{self, Entity, Forms, TypeEntry, World};
-use crate::units::name_key;
+use crate::units::{Gather as _, name_key};
 
 /// The name of an entity, ready to be declined.
 #[must_use]
@@ -95,7 +95,7 @@ fn spelled(forms: &Forms) -> std::collections::BTreeMap<(Number, Case), String> 
             };
             ((Number::Singular, case), form.clone())
         })
-        .collect()
+        .gather()
 }
 
 /// The English name of an entity, empty where the map gives none.

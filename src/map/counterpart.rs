@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::Hash;
 
 use crate::units::{
-    AreaId, Bilingual, DoorId, Frame, InOrder as _, MapId, ObjectId, OrFrId, ReplicaId, TypeId,
-    name_key,
+    AreaId, Bilingual, DoorId, Frame, Gather as _, InOrder as _, MapId, ObjectId, OrFrId,
+    ReplicaId, TypeId, name_key,
 };
 
 use super::fault::{Fault, MapError, Record, Spot};
@@ -106,7 +106,7 @@ impl Counterparts {
         };
         let knows_not = || Bilingual::new("робот этого не знает", "unknown to the robot");
         let room = |area: &Area| Bilingual::named(("Помещение", "Room"), &area.name);
-        let likes: BTreeMap<AreaId, AreaId> = self.areas.iter().map(|(o, k)| (*k, *o)).collect();
+        let likes: BTreeMap<AreaId, AreaId> = self.areas.iter().map(|(o, k)| (*k, *o)).gather();
         for area in known.areas.values() {
             let Some(like) = likes.get(&area.id) else {
                 fault(room(area), lacks(), None);
@@ -226,7 +226,7 @@ impl Counterparts {
             let link = |l: &super::MapLink| {
                 (area(l.area), l.side.clone(), area(l.to_area), l.to_side.clone())
             };
-            map.links.iter().map(|own| link(own)).collect::<BTreeSet<Joined>>()
+            map.links.iter().map(|own| link(own)).gather::<BTreeSet<Joined>>()
         };
         standing(a, &Some) == standing(b, &area) && joined(a, &Some) == joined(b, &area)
     }
@@ -246,10 +246,10 @@ impl Counterparts {
         let lifts = |world: &World, area: &dyn Fn(AreaId) -> Option<AreaId>| {
             let lift = |(name, stops): &(String, Vec<super::LiftStop>)| {
                 let stops: BTreeSet<Option<AreaId>> =
-                    stops.iter().map(|stop| area(stop.area)).collect();
+                    stops.iter().map(|stop| area(stop.area)).gather();
                 (name_key(name), stops)
             };
-            world.domain.lifts.iter().map(lift).collect::<BTreeSet<_>>()
+            world.domain.lifts.iter().map(lift).gather::<BTreeSet<_>>()
         };
         let area = |id: AreaId| self.areas.get(&id).copied();
         here == there && lifts(known, &Some) == lifts(other, &area)
@@ -381,7 +381,7 @@ impl Counterparts {
 
 /// The doors of rooms; those of furniture are its own.
 fn mounted(world: &World) -> BTreeSet<DoorId> {
-    world.areas.values().flat_map(|area| &area.doors).map(|mount| mount.door).collect()
+    world.areas.values().flat_map(|area| &area.doors).map(|mount| mount.door).gather()
 }
 
 fn start_of(world: &World) -> Option<&Place> {

@@ -6,6 +6,7 @@
 //!
 //! **Invariant**: chunks are in the order of their keys, none is empty, and each bears its first key.
 
+use crate::units::Gather as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Deref;
@@ -298,7 +299,7 @@ impl<K: Copy + Ord, V: Clone> From<BTreeMap<K, V>> for Records<K, V> {
 
 impl<K: Copy + Ord, V: Clone> FromIterator<(K, V)> for Records<K, V> {
     fn from_iter<I: IntoIterator<Item = (K, V)>>(records: I) -> Self {
-        records.into_iter().collect::<BTreeMap<K, V>>().into()
+        records.into_iter().gather::<BTreeMap<K, V>>().into()
     }
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::units::{
-    AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    TypeId, ZoneId, name_key,
+    AreaId, Cm, Deg, DomainId, DoorId, Frame, Gather as _, MapId, ObjectId, OrFrId, PlaceId, Point,
+    ReplicaId, TypeId, ZoneId, name_key,
 };
 
 use super::{
@@ -294,7 +294,7 @@ impl World {
     #[must_use]
     pub fn placements(&self) -> BTreeMap<AreaId, (MapId, Frame)> {
         let items = self.maps.values().flat_map(|m| m.items.iter().map(|i| (m.id, i)));
-        items.map(|(map, item)| (item.area, (map, item.frame))).collect()
+        items.map(|(map, item)| (item.area, (map, item.frame))).gather()
     }
 
     /// The Map in which an Area stands, and the Area's frame within it: a search through the Maps' items.

@@ -8,7 +8,9 @@ use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt
 use crate::semantics::{
     Relations, Told, carried_to, lifts, predicate, robot_eye, storey_name, things_in_view,
 };
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector, name_key};
+use crate::units::{
+    AreaId, Deg, DoorId, Frame, Gather as _, MapId, Point, Pose, ReplicaId, Vector, name_key,
+};
 
 mod lost;
 mod unknown;
@@ -239,7 +241,7 @@ impl Belief {
     #[must_use]
     pub fn carried(&self) -> BTreeMap<ReplicaId, String> {
         let mut carried: BTreeMap<ReplicaId, String> =
-            self.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).collect();
+            self.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).gather();
         carried.extend(self.held.iter().map(|thing| (thing.id, String::new())));
         for (thing, carrier) in &self.aboard {
             carried.insert(thing.id, carried.get(carrier).cloned().unwrap_or_default());

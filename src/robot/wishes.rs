@@ -11,7 +11,7 @@ use std::collections::{BTreeSet, BinaryHeap, HashSet};
 use super::solve::{Solved, Wanted, solve_goal};
 use crate::graphplan::{Limits, Outcome};
 use crate::strips::{Domain, Preference, Problem, RuleFaults};
-use crate::units::Language;
+use crate::units::{Gather as _, Language};
 
 /// Which preferences a plan meets.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -82,7 +82,7 @@ pub(super) fn solve(
         solved.wishes = Some(Wishes { met, unmet, is_least });
         solved
     };
-    let everything: BTreeSet<usize> = (0..all.len()).collect();
+    let everything: BTreeSet<usize> = (0..all.len()).gather();
     // Preferences that no plan meets together.
     let mut never: Vec<BTreeSet<usize>> = Vec::new();
     let mut is_least = true;
@@ -103,10 +103,10 @@ pub(super) fn solve(
                         }
                     }
                     let mut few: BTreeSet<usize> =
-                        everything.difference(&left_out).copied().collect();
+                        everything.difference(&left_out).copied().gather();
                     for one in few.clone() {
                         let fewer: BTreeSet<usize> =
-                            few.iter().copied().filter(|&other| other != one).collect();
+                            few.iter().copied().filter(|&other| other != one).gather();
                         let rest = everything.difference(&fewer).copied().collect();
                         if matches!(without(&rest)?.outcome, Outcome::NoPlan { .. }) {
                             few = fewer;

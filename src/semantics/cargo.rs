@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use crate::geometry::{PlacedReplica, Scene};
 use crate::map::World;
-use crate::units::{Frame, ReplicaId};
+use crate::units::{Frame, Gather as _, ReplicaId};
 
 use super::relations::{RelationError, RelationRules, derive};
 
@@ -76,7 +76,7 @@ fn beside<'s>(
 /// The world with some things and what stands over, under and about them.
 fn only_about(world: &World, scene: &Scene, things: &BTreeSet<ReplicaId>, near: f64) -> World {
     let about = things.iter().flat_map(|id| beside(scene, &scene.replicas[id], near));
-    let asked: BTreeSet<ReplicaId> = about.map(|r| r.id).chain(things.iter().copied()).collect();
+    let asked: BTreeSet<ReplicaId> = about.map(|r| r.id).chain(things.iter().copied()).gather();
     let mut few = world.clone();
     few.replicas.retain(|id, _| asked.contains(id));
     few

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::{DoorKind, DoorStatus, Entity, Mark, Replica, World, is_dark, is_on, stands};
-use crate::units::{AreaId, PlaceId, ReplicaId};
+use crate::units::{AreaId, Gather as _, PlaceId, ReplicaId};
 
 use super::lifts::{Lift, lifts, storey_name};
 use super::measure::Single;
@@ -149,7 +149,7 @@ impl Writer<'_> {
     /// A lift works its doors by itself: whether one stands open is where the cabin is.
     fn doors(&mut self, lifts: &[Lift]) {
         let of_lifts: BTreeSet<&str> =
-            lifts.iter().flat_map(|lift| &lift.doors).map(|join| join.opening.as_str()).collect();
+            lifts.iter().flat_map(|lift| &lift.doors).map(|join| join.opening.as_str()).gather();
         for join in self.relations.joins() {
             let (from, to) = (self.area(join.from), self.area(join.to));
             self.fact(predicate::DOOR_IN, &[(&join.opening, DOOR), (&from, ROOM)]);
@@ -177,7 +177,7 @@ impl Writer<'_> {
             return;
         }
         let cabins: BTreeSet<AreaId> =
-            lifts.iter().flat_map(|lift| lift.cabins.iter().copied()).collect();
+            lifts.iter().flat_map(|lift| lift.cabins.iter().copied()).gather();
         for (area, (map, _)) in self.world.placements() {
             if !cabins.contains(&area) {
                 let (room, storey) = (self.area(area), storey_name(self.world, map));

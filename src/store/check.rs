@@ -21,7 +21,7 @@ use super::tables::Table;
 use super::trees::{HISTORY, REPLICAS, RUNS, Records, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
-use crate::units::{Bilingual, InEnglish};
+use crate::units::{Bilingual, Gather as _, InEnglish};
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -236,7 +236,7 @@ fn check_records(trees: &dyn Records, report: &mut FsckReport) -> Result<()> {
 fn check_map(store: Result<Store>, report: &mut FsckReport) {
     let found = store.and_then(|store| {
         report.revision = store.revision();
-        let numbers: BTreeSet<u64> = store.revisions()?.iter().map(|r| r.number).collect();
+        let numbers: BTreeSet<u64> = store.revisions()?.iter().map(|r| r.number).gather();
         if let (Some(first), Some(last)) = (numbers.first(), numbers.last())
             && last - first + 1 != numbers.len() as u64
         {

@@ -8,7 +8,7 @@ use crate::map::{
     HingeSide, Item, ItemLink, Map, MapItem, MapLink, Object, OpensTo, Orthoframe, Place, Profile,
     Properties, Replica, TypeList, World, Zone, ZoneKind,
 };
-use crate::units::{AreaId, Frame, MapId, OrFrId, Timestamp, TypeId};
+use crate::units::{AreaId, Frame, Gather as _, MapId, OrFrId, Timestamp, TypeId};
 
 use super::error::Result;
 use super::sheet::Sheet;
@@ -149,14 +149,14 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
     put!(zones, |sheet, world, zone| put_zone(sheet, zone));
     // Sizes of Objects, Areas and Maps are made of those of Orthoframes.
     let parts = before.orthoframes.changes(&after.orthoframes).into_iter();
-    let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).collect();
+    let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).gather();
     let mut others = BTreeSet::new();
     macro_rules! put_users {
         ($groups:ident, $made_of:ident, $put:ident) => {{
             let using = [before, after].into_iter().flat_map(|world| {
                 world.$made_of(|part| parts.contains(&part)).map(|group| group.id)
             });
-            let all: BTreeSet<_> = using.collect();
+            let all: BTreeSet<_> = using.gather();
             for id in &all {
                 let [was, is] = [before.$groups.get(id), after.$groups.get(id)];
                 if let (Some(was), true) = (was, was == is) {
@@ -177,7 +177,7 @@ pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet;
     let areas = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(was, is)| made(was, is)));
     others.extend(areas.map(|(id, ..)| id));
     let mut ids: BTreeSet<MapId> =
-        before.maps.changes(&after.maps).into_iter().map(|(id, ..)| id).collect();
+        before.maps.changes(&after.maps).into_iter().map(|(id, ..)| id).gather();
     if !others.is_empty() {
         ids.extend(before.maps.keys().chain(after.maps.keys()));
     }

@@ -10,6 +10,7 @@ use super::error::RuleError;
 use super::syntax::{
     ActionText, Atom, Condition, ConditionalText, DerivedText, Document, Name, Parameter,
 };
+use crate::units::Gather as _;
 
 impl Checker<'_> {
     /// None where something of it means nothing; the faults are told.
@@ -214,7 +215,7 @@ impl Domain {
     /// The rules of what is derived, so that each asks for the absence of nothing that a later layer gives.
     pub(super) fn layers(&self) -> Vec<Vec<&Schema>> {
         let needs = self.needs();
-        let mut height: BTreeMap<PredicateId, usize> = needs.keys().map(|&p| (p, 0)).collect();
+        let mut height: BTreeMap<PredicateId, usize> = needs.keys().map(|&p| (p, 0)).gather();
         // Checked to be free of circles through a negation, so no height passes the number of predicates.
         for _ in 0..needs.len() {
             for (of, asked) in &needs {

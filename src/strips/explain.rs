@@ -17,7 +17,7 @@ use super::plain::plain;
 use super::problem::Problem;
 use super::resolve::ThingId;
 use super::task::Fact;
-use crate::units::{Language, name_key};
+use crate::units::{Gather as _, Language, name_key};
 
 /// Why one fact of the goal cannot be reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -342,7 +342,7 @@ impl Chain {
 
 /// Of what a way misses, that on which most hangs, and the nearest such.
 fn followed(lacks: &Lacks<'_>, missing: &[usize]) -> usize {
-    let all: BTreeSet<usize> = missing.iter().flat_map(|&fact| lacks.stated(fact)).collect();
+    let all: BTreeSet<usize> = missing.iter().flat_map(|&fact| lacks.stated(fact)).gather();
     let uncovered = |fact: usize| all.len() - lacks.stated(fact).count();
     let is_derived = |fact: usize| lacks.best(fact) != Some(By::Statement);
     let by = |&&fact: &&usize| (lacks.best(fact).is_some(), uncovered(fact), is_derived(fact));
@@ -372,7 +372,7 @@ impl Lacks<'_> {
 
     /// Initial facts of other predicates about the same two or more objects.
     fn said_of_the_same(&self, wanted: &Wanted) -> Vec<Said> {
-        let objects: BTreeSet<ThingId> = wanted.args.iter().flatten().copied().collect();
+        let objects: BTreeSet<ThingId> = wanted.args.iter().flatten().copied().gather();
         if objects.len() < 2 || wanted.negated {
             return Vec::new();
         }

@@ -17,6 +17,7 @@ use super::domain::{Domain, KindId, KindSet, PredicateId, Schema, SchemaAtom, Sc
 use super::exchange::{exchanged, moving, states};
 use super::ground::{Binding, Reachability};
 use super::resolve::{GroundAtom, Resolved, ThingId};
+use crate::units::Gather as _;
 
 /// An atom, or its absence; open places are any object of the types that are asked for there.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -518,7 +519,7 @@ impl<'a> Lacks<'a> {
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); self.facts.len()];
         let mut open: Vec<usize> = Vec::new();
         for (number, way) in self.ways.iter().enumerate() {
-            let distinct: BTreeSet<usize> = way.missing.iter().copied().collect();
+            let distinct: BTreeSet<usize> = way.missing.iter().copied().gather();
             open.push(distinct.len());
             distinct.into_iter().for_each(|fact| users[fact].push(number));
         }

@@ -10,7 +10,7 @@ use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
-use crate::units::{Bilingual, name_key};
+use crate::units::{Bilingual, Gather as _, name_key};
 
 /// An object of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -229,7 +229,7 @@ impl Resolver<'_> {
             let args = statement.args.iter().map(thing).collect::<Option<_>>()?;
             Some(GroundAtom { predicate, args })
         };
-        statements.iter().filter_map(atom).collect()
+        statements.iter().filter_map(atom).gather()
     }
 
     fn goal(&mut self, statements: &[Statement]) -> Vec<(GroundAtom, bool)> {

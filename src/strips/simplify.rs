@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::bystander::bystanders;
 use super::task::{Fact, FactId, Operator, Task};
+use crate::units::Gather as _;
 
 pub(super) struct DraftOperator {
     pub(super) name: Arc<str>,
@@ -65,9 +66,9 @@ fn complement(draft: &mut Draft, facts: &mut Vec<Fact>) -> Vec<u32> {
         .iter()
         .flat_map(|o| o.negative.iter().copied())
         .chain(negated_goals)
-        .collect();
+        .gather();
     let mut complement_of = vec![None; facts.len()];
-    let initially: BTreeSet<u32> = draft.init.iter().copied().collect();
+    let initially: BTreeSet<u32> = draft.init.iter().copied().gather();
     for &fact in &wanted {
         let number = facts.len() as u32;
         complement_of[fact as usize] = Some(number);

@@ -12,7 +12,7 @@ use super::check::{hint, looks_the_same, perhaps};
 use super::error::RuleError;
 use super::fault::RuleFault;
 use super::syntax::{ActionText, Atom, Condition, Document, Name, Use};
-use crate::units::{Bilingual, name_key};
+use crate::units::{Bilingual, Gather as _, name_key};
 
 /// Where a predicate is spoken of.
 struct Uses<'a> {
@@ -68,7 +68,7 @@ pub(super) fn slips(
 /// A parent type that nobody declares is let be, as PDDL files have it, unless it looks like one that is declared.
 fn parents(document: &Document, warnings: &mut Vec<RuleFault>) {
     let declared: BTreeMap<String, &Name> =
-        document.types.iter().flatten().map(|t| (t.name.key(), &t.name)).collect();
+        document.types.iter().flatten().map(|t| (t.name.key(), &t.name)).gather();
     for parent in document.types.iter().flatten().flat_map(|declaration| &declaration.kinds) {
         if declared.contains_key(&parent.key()) {
             continue;

@@ -39,7 +39,7 @@ pub use id::{
 };
 pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
-pub use order::InOrder;
+pub use order::{Gather, InOrder};
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::{OwnText, Source};
 pub use stop::Stop;

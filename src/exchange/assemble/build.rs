@@ -11,8 +11,8 @@ use crate::map::{
 use crate::report::{What, Why};
 use crate::synonyms::{Synonyms, Vocabulary};
 use crate::units::{
-    AreaId, Bilingual, Cm, Deg, DoorId, Frame, Language, MapId, OrFrId, PlaceId, Point, TypeId,
-    capitalized,
+    AreaId, Bilingual, Cm, Deg, DoorId, Frame, Gather as _, Language, MapId, OrFrId, PlaceId,
+    Point, TypeId, capitalized,
 };
 use crate::{ImportError, Level, OpeningKind, Report, Room, Survey};
 
@@ -445,7 +445,7 @@ impl Maker<'_> {
                 })
                 .collect();
             stops.dedup();
-            let floors: std::collections::BTreeSet<MapId> = stops.iter().map(|s| s.0).collect();
+            let floors: std::collections::BTreeSet<MapId> = stops.iter().map(|s| s.0).gather();
             if floors.len() < 2 {
                 self.report.skipped(What::Lift, &lift.source, Why::LiftStops);
                 continue;

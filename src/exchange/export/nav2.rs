@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::geometry::{DoorStates, FloorPlan, Method, Ride, Target};
 use crate::map::{DoorState, DoorStatus, World};
-use crate::units::{AreaId, DoorId, MapId, Point};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
 use super::{metre, metres};
 
@@ -178,7 +178,7 @@ fn written(world: &World, name: &str, storeys: &[Storey]) -> String {
     let mut numbers: Vec<BTreeMap<usize, usize>> = Vec::new();
     for Storey { frame, graph } in storeys {
         let joined = graph.edges.keys().flat_map(|(a, b)| [*a, *b]);
-        let used: BTreeSet<usize> = joined.chain(graph.stops.values().copied()).collect();
+        let used: BTreeSet<usize> = joined.chain(graph.stops.values().copied()).gather();
         let mut number = BTreeMap::new();
         for node in used {
             id += 1;

@@ -7,6 +7,7 @@ use crate::{Lift, shafts};
 use super::classify::Class;
 use super::feature::Feature;
 use super::{Reader, ids};
+use crate::units::Gather as _;
 
 impl Reader {
     pub(super) fn lifts(&mut self, features: &[Feature], classes: &[Class]) {
@@ -21,7 +22,7 @@ impl Reader {
             let units = ends.chain(one("destination"));
             let stops: Vec<_> =
                 units.filter_map(|id| self.room_places.get(&id)).flatten().copied().collect();
-            let levels: BTreeSet<usize> = stops.iter().map(|s| s.0).collect();
+            let levels: BTreeSet<usize> = stops.iter().map(|s| s.0).gather();
             if levels.len() > 1 && levels.len() == stops.len() {
                 let name = self.tongue.name(feature).unwrap_or_default();
                 let source = feature.id.clone();

@@ -31,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use crate::map::Properties;
-use crate::units::{Bilingual, Cm, InOrder as _, Language, Point, Source, bilingual};
+use crate::units::{Bilingual, Cm, Gather as _, InOrder as _, Language, Point, Source, bilingual};
 
 use super::{ReadError, Remark, Room, Spot, Survey, input, outline};
 use classify::{Class, class};
@@ -442,5 +442,5 @@ fn properties(feature: &Feature) -> Properties {
 /// The rooms' ids that IMDF refers to, once each.
 fn ids(value: Option<&serde_json::Value>) -> BTreeSet<String> {
     let list = value.and_then(serde_json::Value::as_array).into_iter().flatten();
-    list.filter_map(|v| v.get("id").unwrap_or(v).as_str()).map(str::to_owned).collect()
+    list.filter_map(|v| v.get("id").unwrap_or(v).as_str()).map(str::to_owned).gather()
 }

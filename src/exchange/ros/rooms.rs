@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::geometry::convex_hull;
 use crate::map::{Permeability, Properties};
-use crate::units::{Cm, Deg, Point, Vector, bilingual};
+use crate::units::{Cm, Deg, Gather as _, Point, Vector, bilingual};
 use crate::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
 
 use super::Sheet;
@@ -287,7 +287,7 @@ fn things(
     for island in islands.iter().take(MOST_THINGS) {
         // Of a wall between rooms, several rooms are around it.
         let around = island.iter().flat_map(|c| grid.beside(*c).chain([*c])).map(|c| label[c]);
-        let around: BTreeSet<u32> = around.filter(|l| *l != u32::MAX).collect();
+        let around: BTreeSet<u32> = around.filter(|l| *l != u32::MAX).gather();
         let (Some(&room), 1) = (around.first(), around.len()) else { continue };
         let corners = island.iter().flat_map(|cell| {
             let (x, y) = grid.xy(*cell);

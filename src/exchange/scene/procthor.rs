@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Deg, Point, Source, bilingual};
+use crate::units::{Cm, Deg, Gather as _, Point, Source, bilingual};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -117,7 +117,7 @@ impl Assets {
 pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadError> {
     let house = parse(FORMAT, source)?;
     let mut reader = Reader { assets, remarks: Vec::new() };
-    let walls: BTreeMap<&str, Wall> = list(&house, "walls").iter().filter_map(Wall::of).collect();
+    let walls: BTreeMap<&str, Wall> = list(&house, "walls").iter().filter_map(Wall::of).gather();
     let rooms = reader.rooms(&house, &walls);
     if rooms.is_empty() {
         let what = (

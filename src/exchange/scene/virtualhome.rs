@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Point, Source, bilingual};
+use crate::units::{Cm, Gather as _, Point, Source, bilingual};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -239,7 +239,7 @@ fn floors(graph: &Value, nodes: &[Node<'_>]) -> BTreeMap<String, Vec<Vec<Point>>
         .iter()
         .filter(|n| matches!(n.category, "Floor" | "Floors"))
         .map(|n| (n.id.as_str(), n))
-        .collect();
+        .gather();
     let id = |edge: &Value, field: &str| edge.get(field).map(id_text);
     let mut floors: BTreeMap<String, Vec<Vec<Point>>> = BTreeMap::new();
     for edge in list(graph, "edges").iter().filter(|e| text(e, "relation_type") == Some("INSIDE")) {

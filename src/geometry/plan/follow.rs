@@ -9,7 +9,7 @@ use crate::map::{DoorState, Object, Replica, World, Zone};
 use crate::opening::Opening;
 use crate::scene::PlacedReplica;
 use crate::site::DoorStates;
-use crate::units::{AreaId, DoorId, Frame, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, Gather as _, ReplicaId};
 use crate::zone::{placed, shut_otherwise};
 
 use super::{FloorPlan, build_all};
@@ -49,7 +49,7 @@ impl FloorPlan {
             let frame = frame_of(&replica.area)?;
             Some(PlacedReplica::new(world, id, frame.compose(&replica.frame)))
         };
-        replicas.into_iter().map(|&id| (id, placed(id))).collect()
+        replicas.into_iter().map(|&id| (id, placed(id))).gather()
     }
 
     /// The same floor with those zones of the world in force that are wanted, and no others.
@@ -124,14 +124,14 @@ impl FloorPlan {
         // A thing may leave one Map for another: each takes over what is said of its own.
         let changes = before.replicas.changes(&after.replicas).into_iter();
         let mut changed: BTreeSet<ReplicaId> =
-            changes.filter(|(_, was, is)| has(*was) || has(*is)).map(|(id, ..)| id).collect();
+            changes.filter(|(_, was, is)| has(*was) || has(*is)).map(|(id, ..)| id).gather();
         let doors = before.doors.changes(&after.doors).into_iter();
         let doors: DoorStates = doors.filter_map(|(id, _, is)| Some((id, is?.state))).collect();
         if !doors.is_empty() {
             // Doors of furniture stand as they do on every replica that does not say otherwise.
             let moves =
                 |object: &&Object| object.doors.iter().any(|mount| doors.contains_key(&mount.door));
-            let hung: BTreeSet<_> = after.objects.values().filter(moves).map(|o| o.id).collect();
+            let hung: BTreeSet<_> = after.objects.values().filter(moves).map(|o| o.id).gather();
             if !hung.is_empty() {
                 let bearing = after.replicas.values().filter(|r| hung.contains(&r.object));
                 changed.extend(bearing.filter(|r| has(Some(r))).map(|r| r.id));

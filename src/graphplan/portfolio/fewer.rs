@@ -14,6 +14,7 @@ use super::parallel::{follows, has_less, in_parallel, needful};
 use super::relaxed::{Relaxed, State, carry_out, initial, needed_by};
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
+use crate::units::Gather as _;
 use crate::{Limit, Limits};
 
 /// Actions sought anew at once, one size after the other.
@@ -124,7 +125,7 @@ impl Stretches<'_> {
                     .iter()
                     .flat_map(|id| &self.subjects[id.index()])
                     .copied()
-                    .collect();
+                    .gather();
                 let subjects = &self.subjects;
                 self.relaxed.restrict(|operator| {
                     subjects[operator].iter().all(|subject| touched.contains(subject))

@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, VecDeque};
 use super::relaxed::{State, holds};
 use crate::bits::{has, members, put, unite, words};
 use crate::strips::{FactId, Operator, Task};
+use crate::units::Gather as _;
 
 /// More facts than these make the sets too large.
 const MOST_FACTS: usize = 1 << 13;
@@ -289,7 +290,7 @@ pub(crate) fn longest_row(task: &Task, state: &State) -> Vec<FactId> {
 
 /// Goals by the longest chain of pairs that ends with them; the pairs have no cycles.
 fn in_order(goals: &[u32], pairs: &[(u32, u32)]) -> impl Iterator<Item = u32> + use<> {
-    let mut rank: BTreeMap<u32, usize> = goals.iter().map(|&goal| (goal, 0)).collect();
+    let mut rank: BTreeMap<u32, usize> = goals.iter().map(|&goal| (goal, 0)).gather();
     loop {
         let before = rank.clone();
         for (later, earlier) in pairs {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::Limits;
 use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
-use crate::units::InOrder as _;
+use crate::units::{Gather as _, InOrder as _};
 
 /// For each fact, the object of it that may be exchanged, and the fact's image for the first of its kin.
 #[derive(Debug)]
@@ -130,7 +130,7 @@ impl<'a> Index<'a> {
                 }
             }
         }
-        let names: std::collections::BTreeSet<&Arc<str>> = facts_of.keys().copied().collect();
+        let names: std::collections::BTreeSet<&Arc<str>> = facts_of.keys().copied().gather();
         let mut initially = vec![false; task.facts.len()];
         task.init.iter().for_each(|fact| initially[fact.index()] = true);
         Self {

@@ -7,7 +7,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::names::{english_name, hints, hints_of_type};
-use crate::units::{AreaId, InOrder as _, ObjectId, Point, TypeId, name_key};
+use crate::units::{AreaId, Gather as _, InOrder as _, ObjectId, Point, TypeId, name_key};
 use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 
@@ -150,7 +150,7 @@ impl Lexicon {
             values: Values::of(world),
             windows: windows(world),
         };
-        for entity in world.names().map(|(entity, _)| entity).collect::<BTreeSet<_>>() {
+        for entity in world.names().map(|(entity, _)| entity).gather::<BTreeSet<_>>() {
             let name = world.name(entity);
             let meaning = Meaning::Entity(entity);
             // On the floor is on the ground, whatever a storey is called.
@@ -210,7 +210,7 @@ impl Lexicon {
     fn add_parts(&mut self, world: &World) {
         let items = world.objects.values().flat_map(|o| &o.items);
         let types: BTreeSet<TypeId> =
-            items.filter_map(|item| world.orthoframes.get(&item.orthoframe)?.frame_type).collect();
+            items.filter_map(|item| world.orthoframes.get(&item.orthoframe)?.frame_type).gather();
         for id in types {
             let Some(entry) = world.types.orthoframe.get(Some(id)) else { continue };
             // «предмет» is any thing, not a part.
@@ -478,7 +478,7 @@ impl Lexicon {
             return kinds.to_vec();
         }
         let narrower = |id: &KindId| self.with_narrower(*id, language).into_iter().skip(1);
-        let covered: BTreeSet<KindId> = kinds.iter().flat_map(narrower).collect();
+        let covered: BTreeSet<KindId> = kinds.iter().flat_map(narrower).gather();
         let noun = |id: &KindId| {
             let phrase = &self.kind(*id).phrase;
             name_key(phrase.head().unwrap_or(phrase.name()))
@@ -609,12 +609,12 @@ impl Extension {
 
 /// Types that something on the map has: what only the type list knows is missing from the map.
 fn used_types(world: &World) -> BTreeSet<TypeKey> {
-    let objects: BTreeSet<ObjectId> = world.replicas.values().map(|r| r.object).collect();
+    let objects: BTreeSet<ObjectId> = world.replicas.values().map(|r| r.object).gather();
     let object_types =
         objects.iter().filter_map(|o| world.objects.get(o)?.object_type).map(|t| TypeKey(0, t));
     let areas = world.areas.values().filter_map(|a| a.area_type).map(|t| TypeKey(1, t));
     let doors = world.doors.values().filter_map(|d| d.door_type).map(|t| TypeKey(2, t));
-    object_types.chain(areas).chain(doors).collect()
+    object_types.chain(areas).chain(doors).gather()
 }
 
 /// Sides that the map calls windows.

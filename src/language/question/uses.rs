@@ -8,6 +8,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::purposes;
+use crate::units::Gather as _;
 use crate::words::things::{Deed, Role, things};
 use Role::{Instrument, Location, Patient, Source, Theme};
 
@@ -101,7 +102,7 @@ pub(super) fn sorts(deed: u16) -> impl Iterator<Item = u16> {
 /// The sorts that serve for some deed, what is merely moved or switched left out.
 pub(super) fn all_sorts() -> impl Iterator<Item = u16> {
     let deeds = 0..u16::try_from(things().deeds.len()).unwrap_or(u16::MAX);
-    let all: BTreeSet<u16> = deeds.flat_map(sorts).collect();
+    let all: BTreeSet<u16> = deeds.flat_map(sorts).gather();
     all.into_iter().filter(|sort| !matches!(purposes::role(*sort), Theme))
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
-use crate::units::{AreaId, Bilingual, Cm};
+use crate::units::{AreaId, Bilingual, Cm, Gather as _};
 use crate::{
     Door, DoorKind, DoorMount, DoorState, DoorStatus, OpensTo, Permeability, SideRef, TypeKind,
 };
@@ -27,7 +27,7 @@ impl<'w> Checker<'w> {
         }
         let mounts = self.area_mounts();
         let of_objects: BTreeSet<_> =
-            self.world.objects.values().flat_map(|o| o.doors.iter().map(|m| m.door)).collect();
+            self.world.objects.values().flat_map(|o| o.doors.iter().map(|m| m.door)).gather();
         let all_groups_read =
             !self.broken.iter().any(|r| matches!(r, Record::Area(_) | Record::Object(_)));
         for door in asked {

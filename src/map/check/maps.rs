@@ -6,7 +6,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame, InOrder as _, OrFrId, Vector};
+use crate::units::{
+    AreaId, Bilingual, Cm, DoorId, Frame, Gather as _, InOrder as _, OrFrId, Vector,
+};
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
 use super::group::{
@@ -367,7 +369,7 @@ impl<'w> Checker<'w> {
             let error = MapError::BaseItemCount { owner, count: bases };
             self.fault(error, spot.clone().field("maps"));
         }
-        let mut counts: BTreeMap<_, usize> = self.world.maps.keys().map(|&id| (id, 0)).collect();
+        let mut counts: BTreeMap<_, usize> = self.world.maps.keys().map(|&id| (id, 0)).gather();
         domain.maps.iter().for_each(|m| *counts.entry(m.map).or_default() += 1);
         for map in self.world.maps.values() {
             let count = counts[&map.id];

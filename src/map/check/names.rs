@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{Bilingual, InOrder as _, name_key};
+use crate::units::{Bilingual, Gather as _, InOrder as _, name_key};
 use crate::{Entity, TypeKind, World};
 
 use super::{Checker, Scope};
@@ -32,7 +32,7 @@ impl Checker<'_> {
     fn some_names(&mut self, scope: &Scope<'_>) {
         let world = self.world;
         let Some((spoken, bearers)) = &scope.names else { return };
-        let keys: BTreeSet<String> = spoken.iter().map(|name| name_key(name)).collect();
+        let keys: BTreeSet<String> = spoken.iter().map(|name| name_key(name)).gather();
         let mut twice = Vec::new();
         for key in &keys {
             let all = bearers.find(world, key);

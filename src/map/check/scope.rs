@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::Checker;
 use crate::fault::Record;
-use crate::units::{AreaId, DoorId, MapId, OrFrId, ReplicaId};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, OrFrId, ReplicaId};
 use crate::{Door, Entity, Extent, Map, MapLink, NameIndex, Place, Records, TypeKind, World};
 
 /// The part of a map that is to be checked, in the map before an edit and in that after it.
@@ -42,7 +42,7 @@ impl<'w> Scope<'w> {
         let mut scope = Self::default();
         scope.add_keys(before, after);
         let parts: BTreeSet<OrFrId> =
-            before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).collect();
+            before.orthoframes.changes(&after.orthoframes).into_iter().map(|(id, ..)| id).gather();
         scope.records.extend(parts.iter().map(|id| Record::Orthoframe(*id)));
         let doors = before.doors.changes(&after.doors);
         // A door that stands otherwise is no other door.
@@ -50,7 +50,7 @@ impl<'w> Scope<'w> {
             was.zip(is).is_none_or(|(was, is)| *is != Door { state: is.state, ..was.clone() })
         };
         let hung: BTreeSet<_> =
-            doors.iter().filter(|(_, was, is)| is_other(*was, *is)).map(|(id, ..)| *id).collect();
+            doors.iter().filter(|(_, was, is)| is_other(*was, *is)).map(|(id, ..)| *id).gather();
         for (id, ..) in doors {
             scope.records.insert(Record::Door(id));
             scope.entities.insert(Entity::Door(id));
@@ -107,7 +107,7 @@ impl<'w> Scope<'w> {
         hung: &BTreeSet<DoorId>,
     ) {
         let changed = before.objects.changes(&after.objects).into_iter();
-        let mut all: BTreeSet<_> = changed.map(|(id, ..)| id).collect();
+        let mut all: BTreeSet<_> = changed.map(|(id, ..)| id).gather();
         for world in [before, after] {
             if !parts.is_empty() {
                 all.extend(world.objects_made_of(|id| parts.contains(&id)).map(|o| o.id));
@@ -261,7 +261,7 @@ impl<'w> Checker<'w> {
         let Some(scope) = self.scope else { return records.values().collect() };
         let ids = scope.records.iter().filter_map(id);
         let mut found: BTreeMap<K, &V> =
-            ids.filter_map(|id| Some((id, records.get(&id)?))).collect();
+            ids.filter_map(|id| Some((id, records.get(&id)?))).gather();
         if let Some(keys) = scope.keys.get(kind) {
             // Few are looked for: texts of other lengths differ at once.
             let is_asked = |own: &str| match keys.len() {

@@ -13,8 +13,8 @@ use super::schema::{
 };
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{
-    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId,
-    name_key, nearest_name,
+    AreaId, Bilingual, DoorId, Gather as _, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
+    ZoneId, name_key, nearest_name,
 };
 use crate::{TypeKind, TypeLists, World};
 
@@ -279,7 +279,7 @@ impl<'n> Reader<'n> {
         raw: Vec<Raw<Id, F>>,
         mut convert: impl FnMut(&mut Self, Raw<Id, F>) -> T,
     ) -> BTreeMap<Id, T> {
-        raw.into_iter().map(|raw| (raw.id, convert(self, raw))).collect()
+        raw.into_iter().map(|raw| (raw.id, convert(self, raw))).gather()
     }
 
     /// A fault of a record, which is checked no further.

@@ -8,6 +8,7 @@ use crate::map::DoorStatus;
 use crate::term::Sorts;
 
 use super::{Asking, FALSE, either, quoted};
+use crate::units::Gather as _;
 
 impl Asking<'_> {
     pub(super) fn value(
@@ -81,7 +82,7 @@ impl Asking<'_> {
     pub(super) fn of_facts(&self, column: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
         let tuples = self.map.relations.derived().tuples("HAS").into_iter().flatten();
         let texts: BTreeSet<String> =
-            tuples.filter_map(|tuple| tuple.symbol(column).map(str::to_owned)).collect();
+            tuples.filter_map(|tuple| tuple.symbol(column).map(str::to_owned)).gather();
         texts.into_iter().filter(|text| fits(text)).collect()
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::map::Entity;
 use crate::semantics::planning::InitialFact;
 use crate::semantics::predicate;
-use crate::units::{AreaId, Deg, Pose};
+use crate::units::{AreaId, Deg, Gather as _, Pose};
 
 use super::{Belief, IN_MIDDLE, Spot, is};
 
@@ -15,10 +15,10 @@ impl Belief {
     pub(crate) fn name_views(&mut self, facts: &[InitialFact]) -> Vec<InitialFact> {
         let of_place = |fact: &&InitialFact| is(fact, predicate::PLACE_IN);
         let named: BTreeSet<&str> =
-            facts.iter().filter(of_place).map(|fact| fact.arguments[1].name.as_str()).collect();
+            facts.iter().filter(of_place).map(|fact| fact.arguments[1].name.as_str()).gather();
         let may_be = self.sought.iter().flat_map(|(thing, past)| self.where_may_be(thing, past));
         let areas: BTreeSet<AreaId> =
-            may_be.filter(|area| !named.contains(self.world.name(Entity::Area(*area)))).collect();
+            may_be.filter(|area| !named.contains(self.world.name(Entity::Area(*area)))).gather();
         let view = |area: AreaId| {
             let (map, _) = self.world.placement(area)?;
             let cells = self.floors.get(&map)?.passframes(area).iter();

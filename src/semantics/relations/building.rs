@@ -16,7 +16,7 @@ use crate::map::{Area, Entity, Object, Orthoframe, World};
 use crate::measure::{Change, Room, asks_of_all};
 use crate::names::Subject;
 use crate::openings::call;
-use crate::units::{AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, Gather as _, MapId, ObjectId, OrFrId, ReplicaId};
 
 use super::follow::Difference;
 use super::rows::tuple;
@@ -120,7 +120,7 @@ impl Touched {
         let placed = |at: usize| -> BTreeMap<AreaId, (MapId, Frame)> {
             let items =
                 items.iter().flat_map(|(map, items)| items[at].iter().map(move |i| (map, i)));
-            items.map(|(map, item)| (item.area, (*map, item.frame))).collect()
+            items.map(|(map, item)| (item.area, (*map, item.frame))).gather()
         };
         let (old, new) = (placed(0), placed(1));
         let all = old.keys().chain(new.keys());
@@ -327,7 +327,7 @@ impl Relations {
         mouths: &BTreeSet<AreaId>,
         changed: Vec<ReplicaId>,
     ) -> Vec<ReplicaId> {
-        let mut replicas: BTreeSet<ReplicaId> = changed.into_iter().collect();
+        let mut replicas: BTreeSet<ReplicaId> = changed.into_iter().gather();
         if !touched.remade.is_empty() || !touched.rebuilt.is_empty() {
             for world in [before, after] {
                 let made = world.replicas_of(|kind| touched.remade.contains(&kind));

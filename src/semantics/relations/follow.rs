@@ -10,7 +10,7 @@ use crate::facts::{FactError, RelationId, Value};
 use crate::feed::{Cell, Feed};
 use crate::map::{Entity, Object, World};
 use crate::names::Subject;
-use crate::units::{DoorId, MapId, ObjectId, ReplicaId};
+use crate::units::{DoorId, Gather as _, MapId, ObjectId, ReplicaId};
 
 use super::rows::{note, tuple};
 use super::{RelationError, Relations, derive};
@@ -225,7 +225,7 @@ impl Relations {
     pub(super) fn hung_with(&self, doors: &[DoorId]) -> BTreeSet<String> {
         let openings = self.openings.iter().filter(|_| !doors.is_empty());
         let hung = openings.filter(|o| o.door.is_some_and(|door| doors.contains(&door)));
-        hung.map(|o| o.name.clone()).collect()
+        hung.map(|o| o.name.clone()).gather()
     }
 
     /// Rows of the openings of these names, and of the properties of what differs.
@@ -251,8 +251,8 @@ impl Relations {
         // A door of furniture tells the state of what it belongs to.
         let hung = |o: &&Object| o.doors.iter().any(|mount| doors.contains(&mount.door));
         let objects = world.objects.values().filter(|_| !doors.is_empty());
-        let hung: BTreeSet<ObjectId> = objects.filter(hung).map(|o| o.id).collect();
-        let mut changed: BTreeSet<ReplicaId> = replicas.iter().copied().collect();
+        let hung: BTreeSet<ObjectId> = objects.filter(hung).map(|o| o.id).gather();
+        let mut changed: BTreeSet<ReplicaId> = replicas.iter().copied().gather();
         if !hung.is_empty() {
             let bearing = world.replicas.values().filter(|r| hung.contains(&r.object));
             changed.extend(bearing.map(|r| r.id));

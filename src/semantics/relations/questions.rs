@@ -10,7 +10,7 @@ use crate::measure::Measurements;
 use crate::names::{Subject, Symbols};
 use crate::openings::by_name;
 use crate::thresholds::Thresholds;
-use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
+use crate::units::{AreaId, Gather as _, Language, ReplicaId, name_key, nearest_name};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
 
@@ -182,7 +182,7 @@ impl Relations {
     #[must_use]
     pub fn all_shut_in(&self) -> BTreeSet<ReplicaId> {
         let tuples = self.derived().tuples("SHUT_IN").into_iter().flatten();
-        tuples.filter_map(|t| self.symbols.replica_of(t.symbol(0))).collect()
+        tuples.filter_map(|t| self.symbols.replica_of(t.symbol(0))).gather()
     }
 
     /// All that is carried along with a thing.
@@ -193,7 +193,7 @@ impl Relations {
             let replica = |column| self.symbols.replica_of(t.symbol(column));
             replica(0).zip(replica(1))
         });
-        pairs.filter(|(_, with)| *with == carrier).map(|(thing, _)| thing).collect()
+        pairs.filter(|(_, with)| *with == carrier).map(|(thing, _)| thing).gather()
     }
 
     /// The thresholds of the rule text, of this profile.

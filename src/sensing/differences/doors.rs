@@ -12,7 +12,7 @@ use super::slack;
 use crate::chart::{Chart, Line};
 use crate::geometry::{Blocker, FloorPlan, SeenFace};
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::DoorId;
+use crate::units::{DoorId, Gather as _};
 use crate::vectors::scan::Sensor;
 
 /// Openings are tried in steps of so many per cent.
@@ -176,7 +176,7 @@ impl<'w> Doors<'w> {
 
     /// What can be said; nothing of a door of which any opening fits.
     pub(super) fn seen(&self) -> BTreeMap<DoorId, DoorSeen> {
-        self.doors.iter().filter_map(|door| Some((door.id, door.seen()?))).collect()
+        self.doors.iter().filter_map(|door| Some((door.id, door.seen()?))).gather()
     }
 }
 

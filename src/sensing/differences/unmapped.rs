@@ -6,6 +6,7 @@ use nalgebra::{Isometry2, Matrix2, Point2, SymmetricEigen, Vector2};
 
 use super::slack;
 use crate::geometry::{Polygon, convex_hull};
+use crate::units::Gather as _;
 use crate::vectors::scan::Sensor;
 
 /// Side of a cell, in cm.
@@ -110,7 +111,7 @@ impl Cells {
 
     /// What hangs together.
     pub(super) fn clusters(&self) -> Vec<Unmapped> {
-        let mut left: BTreeSet<(i32, i32)> = self.live().map(|(place, _)| *place).collect();
+        let mut left: BTreeSet<(i32, i32)> = self.live().map(|(place, _)| *place).gather();
         let mut found = Vec::new();
         while let Some(first) = left.pop_first() {
             let (mut cluster, mut open) = (vec![first], vec![first]);

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 use crate::geometry::nearest_on_segment;
 use crate::map::plane::{bounds, contains, doubled_area, meeting, near_pairs};
-use crate::units::{InOrder as _, Point};
+use crate::units::{Gather as _, InOrder as _, Point};
 
 mod gaps;
 
@@ -324,7 +324,7 @@ impl Graph {
         }
         let group = groups(&loose);
         let degrees = self.degrees();
-        let own: BTreeSet<(usize, usize, usize)> = loose.into_iter().collect();
+        let own: BTreeSet<(usize, usize, usize)> = loose.into_iter().gather();
         let mut leads: Vec<(f64, usize, Point)> = Vec::new();
         for (&end, of) in group.iter().filter(|(n, _)| degrees[**n] == 1) {
             let p = self.points[end];
@@ -478,7 +478,7 @@ impl Graph {
 /// The nodes of edges that hang together, each with the least node of its group.
 fn groups(edges: &[(usize, usize, usize)]) -> BTreeMap<usize, usize> {
     let mut parent: BTreeMap<usize, usize> =
-        edges.iter().flat_map(|e| [(e.0, e.0), (e.1, e.1)]).collect();
+        edges.iter().flat_map(|e| [(e.0, e.0), (e.1, e.1)]).gather();
     fn root(parent: &mut BTreeMap<usize, usize>, node: usize) -> usize {
         let (mut top, mut n) = (node, node);
         while parent[&top] != top {
@@ -494,7 +494,7 @@ fn groups(edges: &[(usize, usize, usize)]) -> BTreeMap<usize, usize> {
         parent.insert(a.max(b), a.min(b));
     }
     let nodes: Vec<usize> = parent.keys().copied().collect();
-    nodes.into_iter().map(|n| (n, root(&mut parent, n))).collect()
+    nodes.into_iter().map(|n| (n, root(&mut parent, n))).gather()
 }
 
 /// Edges that one face has on both sides.

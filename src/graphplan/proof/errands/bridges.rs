@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::groups::{Group, excludes};
 use super::{Errand, Places, bringers};
 use crate::strips::{FactId, OperatorId, Task};
+use crate::units::Gather as _;
 
 pub(super) struct Bridges {
     /// The place that stands for all that are one with a place.
@@ -125,7 +126,7 @@ impl Bridges {
         places: &Places,
         (needed, busy): (&[usize], &BTreeSet<usize>),
     ) -> usize {
-        let busy: BTreeSet<usize> = busy.iter().map(|&place| self.one[place]).collect();
+        let busy: BTreeSet<usize> = busy.iter().map(|&place| self.one[place]).gather();
         let mut across: BTreeMap<(usize, usize), Vec<OperatorId>> = BTreeMap::new();
         for &(id, from, to) in &places.made {
             across.entry((self.one[from], self.one[to])).or_default().push(id);
@@ -151,7 +152,7 @@ impl Bridges {
                 .into_iter()
                 .filter(|&place| !self.is_beyond(far, place))
                 .map(|place| self.one[place])
-                .collect();
+                .gather();
             let (Some(&only), 1) = (at.first(), at.len()) else { continue };
             if !busy.contains(&only)
                 && !enablers.iter().any(|id| places.moves.contains(id))

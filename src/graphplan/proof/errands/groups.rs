@@ -8,6 +8,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::strips::{FactId, Operator, OperatorId, Task};
+use crate::units::Gather as _;
 
 /// Facts of which exactly one holds at any time.
 #[derive(Clone)]
@@ -94,7 +95,7 @@ impl Groups {
             names.push(*numbers.entry((&fact.predicate, fact.negated)).or_insert(next));
         }
         let mut found: Vec<(BTreeSet<usize>, Group)> = Vec::new();
-        let firsts: BTreeSet<usize> = task.init.iter().map(|fact| names[fact.index()]).collect();
+        let firsts: BTreeSet<usize> = task.init.iter().map(|fact| names[fact.index()]).gather();
         // What is implied by groups that are known may balance others.
         for with_implied in [false, true] {
             let known = Self(found.iter().map(|(_, group)| group.clone()).collect());
@@ -110,7 +111,7 @@ impl Groups {
                     continue;
                 }
                 let facts: BTreeSet<FactId> =
-                    task.fact_ids().filter(|fact| members.contains(&names[fact.index()])).collect();
+                    task.fact_ids().filter(|fact| members.contains(&names[fact.index()])).gather();
                 if facts.len() > 1 {
                     found.push((members, Group { number: found.len(), facts }));
                 }

@@ -26,6 +26,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 
 use crate::strips::{FactId, Operator, OperatorId, Task};
 
+use crate::units::Gather as _;
 use bridges::Bridges;
 use groups::{Group, Groups, all_exclude, is_balanced};
 use relays::{Leg, relayed};
@@ -123,7 +124,7 @@ impl Errands {
         let deeds: Vec<Vec<OperatorId>> =
             visited.iter().map(|(goal, _)| bringers(task, *goal).collect()).collect();
         let all_deeds: Vec<OperatorId> = deeds.iter().flatten().copied().collect();
-        let with: BTreeSet<OperatorId> = counted.iter().chain(&all_deeds).copied().collect();
+        let with: BTreeSet<OperatorId> = counted.iter().chain(&all_deeds).copied().gather();
         let excludes = |counted: &BTreeSet<OperatorId>| {
             let counted: Vec<OperatorId> = counted.iter().copied().collect();
             counted.len() <= MOST_COUNTED && all_exclude(task, groups, &counted)
@@ -137,8 +138,7 @@ impl Errands {
             places.spot(task, operators).and_then(|spot| spot.first().copied())
         };
         // Where something must be done in any case.
-        let mut busy: BTreeSet<usize> =
-            visited.iter().flat_map(|(_, spot)| spot).copied().collect();
+        let mut busy: BTreeSet<usize> = visited.iter().flat_map(|(_, spot)| spot).copied().gather();
         let mut points = vec![places.start];
         let mut errands = Vec::new();
         let mut things = Vec::new();
@@ -273,11 +273,11 @@ impl Carried {
         }
         // Of several lists that say the same (on something, in a place), any that balances will do.
         let name = |fact: FactId| (&task.fact(fact).predicate, task.fact(fact).negated);
-        let by_name: BTreeSet<_> = where_.iter().map(|&fact| name(fact)).collect();
+        let by_name: BTreeSet<_> = where_.iter().map(|&fact| name(fact)).gather();
         let narrowed = by_name.iter().map(|one| BTreeSet::from([*one])).chain([by_name.clone()]);
         let spots = narrowed.into_iter().find_map(|names| {
             let mut group: BTreeSet<FactId> =
-                where_.iter().copied().filter(|&fact| names.contains(&name(fact))).collect();
+                where_.iter().copied().filter(|&fact| names.contains(&name(fact))).gather();
             group.insert(one);
             // What puts it where nobody takes it from again belongs to it as well.
             for &id in &puts {
@@ -299,12 +299,12 @@ impl Carried {
                 };
                 (fact, takes.iter().chain(&puts).filter(touches).copied().collect())
             })
-            .collect();
+            .gather();
         // All that changes where it is takes it or puts it.
         let touched = |operator: &Operator| {
             operator.add_effects.iter().chain(&operator.del_effects).any(|f| spots.contains_key(f))
         };
-        let known: BTreeSet<OperatorId> = takes.iter().chain(&puts).copied().collect();
+        let known: BTreeSet<OperatorId> = takes.iter().chain(&puts).copied().gather();
         if task.operator_ids().any(|id| touched(task.operator(id)) && !known.contains(&id)) {
             return None;
         }

@@ -12,6 +12,7 @@ use crate::question::purposes::{self, Role};
 use crate::question::query::{Asked, Head, Noun, Query, Thing};
 use crate::question::uses;
 use crate::question::{Doubt, Said};
+use crate::units::Gather as _;
 use crate::words::things::things;
 use crate::words::{Case, NounPhrase, Number, WordHints, alternatives, english, enumerate};
 
@@ -218,7 +219,7 @@ impl Knowledge<'_> {
             false => english::plural(kind),
         };
         let kind = |t: &Thing| self.kind_name(*t).unwrap_or_else(|| self.name(*t)).to_lowercase();
-        let kinds: BTreeSet<String> = found.iter().map(kind).collect();
+        let kinds: BTreeSet<String> = found.iter().map(kind).gather();
         let kinds: Vec<String> = kinds.iter().map(plural).collect();
         let own =
             sorts.iter().filter_map(|sort| self.lexicon().kinds_of_sort(*sort).first().copied());

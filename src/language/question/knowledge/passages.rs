@@ -9,7 +9,7 @@ use crate::question::Doubt;
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::question::senses::{Crossing, RoomPath};
-use crate::units::AreaId;
+use crate::units::{AreaId, Gather as _};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 impl Knowledge<'_> {
@@ -152,7 +152,7 @@ impl RoomPath {
     /// Whether it comes into no room twice.
     pub(in crate::question) fn is_straight(&self) -> bool {
         let rooms = self.crossings.iter().map(|c| c.into).chain([self.start]);
-        rooms.collect::<BTreeSet<_>>().len() == self.crossings.len() + 1
+        rooms.gather::<BTreeSet<_>>().len() == self.crossings.len() + 1
     }
 
     /// The rooms between its first and its last.

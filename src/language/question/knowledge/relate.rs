@@ -8,7 +8,7 @@ use super::bases;
 use crate::map::{Entity, Mark};
 use crate::question::lexicon::Extension;
 use crate::question::query::{Rel, Thing};
-use crate::units::{AreaId, InOrder as _, MapId, ReplicaId, Vector};
+use crate::units::{AreaId, Gather as _, InOrder as _, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
 impl Knowledge<'_> {
@@ -61,7 +61,7 @@ impl Knowledge<'_> {
             }
             (Rel::Near | Rel::NextTo, Thing::Entity(Entity::Area(area))) => {
                 let rooms: BTreeSet<AreaId> =
-                    self.openings().iter().flat_map(|g| g.beyond(area)).collect();
+                    self.openings().iter().flat_map(|g| g.beyond(area)).gather();
                 rooms.into_iter().map(|a| Thing::Entity(Entity::Area(a))).collect()
             }
             (

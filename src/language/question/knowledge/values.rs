@@ -6,7 +6,7 @@ use super::{Knowledge, KnownOpening};
 use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::question::query::{Filter, Rel, Thing};
 use crate::question::values::{Property, ValueId};
-use crate::units::{DoorId, InOrder as _};
+use crate::units::{DoorId, Gather as _, InOrder as _};
 use std::collections::BTreeSet;
 
 impl Knowledge<'_> {
@@ -154,7 +154,7 @@ impl Knowledge<'_> {
         };
         let replicas = self.world.replicas.values().flat_map(|r| named(&r.properties));
         let objects = self.world.objects.values().flat_map(|o| named(&o.properties));
-        let names: BTreeSet<String> = replicas.chain(objects).collect();
+        let names: BTreeSet<String> = replicas.chain(objects).gather();
         names.into_iter().collect()
     }
 

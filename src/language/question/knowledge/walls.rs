@@ -7,7 +7,7 @@ use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::lexicon::Extension;
 use crate::question::query::{Noun, Rel, Thing};
-use crate::units::{AreaId, Point};
+use crate::units::{AreaId, Gather as _, Point};
 use std::collections::{BTreeSet, HashSet};
 
 /// How a room holds a thing.
@@ -35,7 +35,7 @@ impl Knowledge<'_> {
         if !self.is_walls(noun) {
             return Ok(None);
         }
-        let mut rooms: BTreeSet<AreaId> = self.world.areas.keys().copied().collect();
+        let mut rooms: BTreeSet<AreaId> = self.world.areas.keys().copied().gather();
         for restriction in &noun.restrictions {
             for anchor in &restriction.anchors {
                 let meant: HashSet<AreaId> =

@@ -16,7 +16,7 @@ use crate::file::corners::letters;
 use crate::file::decode::shortened;
 use crate::file::node::{Node, Value};
 use crate::file::schema::Number;
-use crate::units::{AreaId, Deg, Frame, OrFrId, Point};
+use crate::units::{AreaId, Deg, Frame, Gather as _, OrFrId, Point};
 use crate::{BaseVector, Item, MapItem, Orthoframe, Permeability};
 
 /// Shorter than this is no side, cm.
@@ -69,7 +69,7 @@ impl Steps<'_> {
         let from = if from < LEAST { 0.0 } else { from };
         let to = if to > length - LEAST { length } else { to };
         let along = |way: f64| whole.start + (whole.end - whole.start) * (way / length);
-        let mut taken: BTreeSet<String> = sides.iter().map(|s| s.id.clone()).collect();
+        let mut taken: BTreeSet<String> = sides.iter().map(|s| s.id.clone()).gather();
         taken.insert(whole.id.clone());
         let mut fresh = || {
             let free = (0..).map(letters).find(|id| !taken.contains(id)).expect("there are more");
