@@ -1,6 +1,6 @@
-//! `match(pattern, text)`: regular expressions over whole texts, in linear time, by the regex crate.
+//! `match(pattern, text)`: regular expressions over whole texts, in linear time, by the crate regex-lite.
 //!
-//! Soufflé takes C++'s `std::regex_match` with ECMAScript's grammar. What only a search with backtracking can decide
+//! Soufflé takes C++'s `std::regex_match` with ECMAScript's grammar, in which `\w`, `\d` and `\b` know ASCII alone. What only a search with backtracking can decide
 //! (`\1`, `(?=…)`) is refused where it stands in the rules; a pattern that is no regular expression matches nothing, as
 //! there, and neither does its negation.
 
@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use regex::{Regex, RegexBuilder};
+use regex_lite::{Regex, RegexBuilder};
 
 /// Patterns kept compiled in one thread.
 const MAX_KEPT: usize = 256;
@@ -116,6 +116,8 @@ mod tests {
             ("b.*[", "b", None),
             ("(a)\\1", "aa", None),
             ("", "", Some(true)),
+            ("[а-яё]+.", "стол1", Some(true)),
+            ("\\w+", "стол", Some(false)),
         ] {
             assert_eq!(matches(&pattern.into(), text), expected, "{pattern} {text}");
         }
