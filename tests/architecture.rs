@@ -188,9 +188,10 @@ fn each_package_has_its_own_folder() {
         ("encoding_rs", &["exchange"]),
         ("rusqlite", &["exchange"]),
         ("png", &["exchange", "vectors"]),
-        ("roxmltree", &["exchange"]),
+        ("roxmltree", &["exchange", "draw"]),
         ("i_overlay", &["geometry", "map", "corridor", "exchange"]),
         ("resvg", &["draw"]),
+        ("ttf_parser", &["draw"]),
     ];
     let mut wrong = Vec::new();
     for (folder, path, text) in sources() {

@@ -52,33 +52,3 @@ pub(super) fn style_sheet() -> String {
     };
     face("normal", REGULAR) + &face("bold", BOLD)
 }
-
-#[cfg(all(test, feature = "pictures"))]
-mod tests {
-    use super::*;
-
-    /// As usvg lays the letters out.
-    fn laid_out(text: &str, bold: bool) -> f64 {
-        let weight = if bold { "bold" } else { "normal" };
-        let svg = format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="100"><text x="0" y="50"
-            font-family="{FAMILY}" font-size="10" font-weight="{weight}">{text}</text></svg>"#
-        );
-        let tree = super::super::picture::parse(&svg).expect("a good SVG");
-        let [resvg::usvg::Node::Text(text)] = tree.root().children() else {
-            panic!("one text");
-        };
-        f64::from(text.bounding_box().width())
-    }
-
-    #[test]
-    fn widths_are_those_of_the_font() {
-        for text in ["Комната-В", "Обеденный стол", "Meeting room 12", "АБВГДЕЖЗ ийклмн"]
-        {
-            for bold in [false, true] {
-                let (guess, truth) = (text_width(text, 10.0, bold), laid_out(text, bold));
-                assert!((guess / truth - 1.0).abs() < 0.05, "{text} {bold}: {guess} {truth}");
-            }
-        }
-    }
-}

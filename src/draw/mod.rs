@@ -24,6 +24,8 @@ mod font;
 mod furniture;
 mod labels;
 mod legend;
+#[cfg(feature = "pictures")]
+mod letters;
 mod object;
 #[cfg(feature = "pictures")]
 mod picture;

@@ -1,13 +1,11 @@
 //! A drawing as a PNG picture.
 
-use std::sync::{Arc, LazyLock};
-
 use miette::Diagnostic;
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb::Database};
+use resvg::usvg::{Options, Tree};
 use thiserror::Error;
 
-use super::font;
+use super::letters;
 use crate::units::InEnglish;
 
 /// A drawing that cannot become a picture.
@@ -46,20 +44,10 @@ impl InEnglish for PngError {
 /// More than a wall poster needs.
 const MOST_PIXELS: u64 = 100_000_000;
 
-static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
-    let mut fonts = Database::new();
-    fonts.load_font_data(font::REGULAR.to_vec());
-    fonts.load_font_data(font::BOLD.to_vec());
-    Arc::new(fonts)
-});
-
-pub(super) fn parse(svg: &str) -> Result<Tree, PngError> {
-    let options = Options {
-        fontdb: Arc::clone(&FONTS),
-        font_family: font::FAMILY.to_owned(),
-        ..Options::default()
-    };
-    Tree::from_str(svg, &options).map_err(|e| PngError::Svg { message: e.to_string() })
+fn parse(svg: &str) -> Result<Tree, PngError> {
+    let fault = |message| PngError::Svg { message };
+    let outlined = letters::outlined(svg).map_err(|e| fault(e.to_string()))?;
+    Tree::from_str(&outlined, &Options::default()).map_err(|e| fault(e.to_string()))
 }
 
 /// Paints an SVG, `width` pixels wide; as wide as the drawing says when that is not given.
