@@ -36,11 +36,8 @@ pub fn file_text(path: &Path) -> Result<Source, ReadError> {
 /// # Errors
 /// [`ReadError::NotText`].
 pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
-    if let Some((encoding, mark)) = encoding_rs::Encoding::for_bom(&bytes) {
-        let (text, broken) = encoding.decode_without_bom_handling(&bytes[mark..]);
-        if broken {
-            return Err(not_text(name, &bytes));
-        }
+    if let Some(marked) = marked(&bytes) {
+        let text = marked.ok_or_else(|| not_text(name, &bytes))?;
         return Ok(Source::new(name, text));
     }
     if bytes.starts_with(b"PK\x03\x04") {
@@ -58,18 +55,75 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
         Err(e) => {
-            let at = e.utf8_error().valid_up_to();
-            let bytes = e.into_bytes();
-            let (text, broken) = encoding_rs::WINDOWS_1251.decode_without_bom_handling(&bytes);
-            if broken {
-                return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
-            }
+            let text: String = e.as_bytes().iter().map(|byte| windows_1251(*byte)).collect();
             Ok(Source::new(name, text))
         }
+    }
+}
+
+/// The text of bytes that begin with a mark of their encoding; none inside where they are not of it.
+fn marked(bytes: &[u8]) -> Option<Option<String>> {
+    let utf_16 = |rest: &[u8], unit: fn([u8; 2]) -> u16| {
+        let (units, rest) = rest.as_chunks();
+        let text = char::decode_utf16(units.iter().copied().map(unit)).collect::<Result<_, _>>();
+        text.ok().filter(|_| rest.is_empty())
+    };
+    match bytes {
+        [0xEF, 0xBB, 0xBF, rest @ ..] => Some(String::from_utf8(rest.to_vec()).ok()),
+        [0xFF, 0xFE, rest @ ..] => Some(utf_16(rest, u16::from_le_bytes)),
+        [0xFE, 0xFF, rest @ ..] => Some(utf_16(rest, u16::from_be_bytes)),
+        _ => None,
+    }
+}
+
+/// The sign that a byte is in Windows-1251. A crate that has the tables of all encodings would be a third of a megabyte.
+fn windows_1251(byte: u8) -> char {
+    /// From 0x80 to 0xBF; the Russian letters follow in their order.
+    const SIGNS: [char; 64] = [
+        'Ђ', 'Ѓ', '‚', 'ѓ', '„', '…', '†', '‡', '€', '‰', 'Љ', '‹', 'Њ', 'Ќ', 'Ћ', 'Џ', 'ђ', '‘',
+        '’', '“', '”', '•', '–', '—', '\u{98}', '™', 'љ', '›', 'њ', 'ќ', 'ћ', 'џ', '\u{a0}', 'Ў',
+        'ў', 'Ј', '¤', 'Ґ', '¦', '§', 'Ё', '©', 'Є', '«', '¬', '\u{ad}', '®', 'Ї', '°', '±', 'І',
+        'і', 'ґ', 'µ', '¶', '·', 'ё', '№', 'є', '»', 'ј', 'Ѕ', 'ѕ', 'ї',
+    ];
+    match byte {
+        0..0x80 => char::from(byte),
+        0x80..0xC0 => SIGNS[usize::from(byte - 0x80)],
+        _ => char::from_u32(u32::from('А') + u32::from(byte - 0xC0)).expect("a letter up to я"),
     }
 }
 
 fn not_text(name: &str, bytes: &[u8]) -> ReadError {
     let at = std::str::from_utf8(bytes).err().map_or(0, |e| e.valid_up_to());
     ReadError::NotText { name: name.to_owned(), at, byte: bytes.get(at).copied().unwrap_or(0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use encoding_rs::{Encoding, WINDOWS_1251};
+
+    use super::*;
+
+    #[test]
+    fn bytes_are_read_as_encoding_rs_reads_them() {
+        for byte in 0..=u8::MAX {
+            let (sign, _) = WINDOWS_1251.decode_without_bom_handling(std::slice::from_ref(&byte));
+            assert_eq!(windows_1251(byte).to_string(), sign, "{byte:#x}");
+        }
+        let marks: [&[u8]; 5] = [b"\xEF\xBB\xBF", b"\xFF\xFE", b"\xFE\xFF", b"\xEF\xBB", b""];
+        // Letters in UTF-8, halves of pairs and whole pairs in UTF-16, in every order of a few.
+        let parts: [&[u8]; 6] =
+            [b"a", "я".as_bytes(), b"\xD8\x3D", b"\xDE\x00", b"\x3D\xD8", b"\x00\xDE"];
+        for number in 0..6_usize.pow(4) {
+            let chosen = (0..4).map(|place| parts[number / 6_usize.pow(place) % 6]);
+            let rest: Vec<u8> = chosen.take(number % 5).flatten().copied().collect();
+            for mark in marks {
+                let bytes = [mark, &rest].concat();
+                let read = Encoding::for_bom(&bytes).map(|(encoding, mark)| {
+                    let (text, broken) = encoding.decode_without_bom_handling(&bytes[mark..]);
+                    (!broken).then(|| text.into_owned())
+                });
+                assert_eq!(marked(&bytes), read, "{bytes:x?}");
+            }
+        }
+    }
 }

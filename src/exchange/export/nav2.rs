@@ -88,7 +88,7 @@ struct Storey {
 
 fn graph_of(world: &World, plan: &FloorPlan, stops: &[&LiftEnd]) -> Graph {
     let doors = plan.doorways().iter().filter_map(|d| d.door);
-    let open: DoorStates = doors.map(|d| (d, DoorState::OPEN)).collect();
+    let open: DoorStates = doors.map(|d| (d, DoorState::OPEN)).gather();
     let plan = plan.with_doors(world, &open);
     let passable = plan.open_doorways();
     let mut graph = Graph::default();
