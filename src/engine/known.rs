@@ -16,7 +16,7 @@ use crate::map::{Entity, NameIndex, Replica, World, Zone};
 use crate::meaning::MapWords;
 use crate::semantics::{Followed, Relations, Told, derive};
 use crate::store::Derived;
-use crate::units::{AreaId, MapId, Point, ReplicaId, Timestamp};
+use crate::units::{AreaId, Gather as _, MapId, Point, ReplicaId, Timestamp};
 
 use super::lexicon::form_index;
 use super::position::nowhere_on;
@@ -225,7 +225,7 @@ impl Known {
     pub(super) fn floors_from(&self, map: MapId) -> Result<Floors, Error> {
         let leads = |other: &MapId| *other == map || !self.world.domain.lifts.is_empty();
         let floors = self.floors()?.iter().filter(|(other, _)| leads(other));
-        Ok(floors.map(|(map, floor)| (*map, floor.clone())).collect())
+        Ok(floors.map(|(map, floor)| (*map, floor.clone())).gather())
     }
 
     /// The relations that the store keeps for its map as it stands, under these rules.

@@ -117,7 +117,7 @@ impl State {
             }
             at
         };
-        Ok(carriers.values().zip(carriers.keys()).map(|(c, thing)| (*thing, root(*c))).collect())
+        Ok(carriers.values().zip(carriers.keys()).map(|(c, thing)| (*thing, root(*c))).gather())
     }
 
     /// The map with the doors, devices and places of things as they are believed to be; what is carried still in it.
@@ -329,7 +329,7 @@ impl After {
                 let was = is_open(surveyed.replicas.get(&is.id)?);
                 (was != Some(open)).then_some((is.id, open))
             })
-            .collect();
+            .gather();
         let devices = all
             .iter()
             .filter_map(|is| {
@@ -337,7 +337,7 @@ impl After {
                 let was = is_on(&surveyed.replicas.get(&is.id)?.properties);
                 (was != Some(on)).then_some((is.id, on))
             })
-            .collect();
+            .gather();
         let pose = Some((belief.map, belief.pose));
         let stand = belief.world.replicas.keys().filter(|id| is_obstacle(**id));
         let obstacles = stand.filter_map(|&id| {

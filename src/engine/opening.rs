@@ -81,16 +81,16 @@ impl Known {
 fn opened(world: &World, floors: &Floors, doors: &BTreeSet<DoorId>) -> Floors {
     let open = |floor: &FloorPlan| {
         let own = doors.iter().filter(|door| floor.doorways_of(**door).next().is_some());
-        let states: DoorStates = own.map(|door| (*door, DoorState::OPEN)).collect();
+        let states: DoorStates = own.map(|door| (*door, DoorState::OPEN)).gather();
         if states.is_empty() { floor.clone() } else { floor.with_doors(world, &states) }
     };
-    floors.iter().map(|(map, floor)| (*map, open(floor))).collect()
+    floors.iter().map(|(map, floor)| (*map, open(floor))).gather()
 }
 
 /// The floors as a way over them meets them: lifts open their doors where they are called, and the cabin in which a leg
 /// begins is shut otherwise.
 fn called(world: &World, floors: &Floors) -> Floors {
-    floors.iter().map(|(map, floor)| (*map, floor.with_lifts_open(world).into_owned())).collect()
+    floors.iter().map(|(map, floor)| (*map, floor.with_lifts_open(world).into_owned())).gather()
 }
 
 /// Those of some doors that a way passes, in its order.

@@ -239,7 +239,7 @@ impl FloorPlan {
         let leads_in = |d: &&Arc<Opening>| d.areas.iter().any(|area| cabins.contains(area));
         let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
         let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);
-        let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).collect();
+        let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).gather();
         if open.is_empty() {
             Cow::Borrowed(self)
         } else {

@@ -135,7 +135,7 @@ impl FloorPlan {
             let opening = first.map_or(100.0, |s| s.opening);
             (door, DoorState { opening, ..DoorState::OPEN })
         };
-        let states: DoorStates = doors.iter().map(state).collect();
+        let states: DoorStates = doors.iter().map(state).gather();
         (self.with_doors(world, &states), struck)
     }
 

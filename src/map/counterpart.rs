@@ -300,7 +300,7 @@ impl Counterparts {
                     id,
                     area: *self.areas.get(&thing.area)?,
                     object: self.objects[&thing.object],
-                    door_states: thing.door_states.iter().filter_map(door).collect(),
+                    door_states: thing.door_states.iter().filter_map(door).gather(),
                     ..thing.clone()
                 },
             ))

@@ -16,7 +16,9 @@ use nalgebra::Isometry2;
 use crate::geometry::{FloorPlan, Polygon, Ride};
 use crate::map::{DoorState, World};
 use crate::sensing::{Belief, Chart, Fit, Inspector, Localiser, Options, Tracker, telling_move};
-use crate::units::{AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{
+    AreaId, Bilingual, Deg, DoorId, Frame, Gather as _, MapId, Point, Pose, ReplicaId,
+};
 use crate::vectors::scan::{Noise, Sensor};
 use crate::vehicle::protocol::Scan;
 use crate::vehicle::{
@@ -64,12 +66,12 @@ impl<'w> Ground<'w> {
         let chart = |(map, floor): (&MapId, &FloorPlan)| {
             (*map, Chart::of_map(world, floor, height).without_leaves())
         };
-        Self { world, floors, height, charts: floors.iter().map(chart).collect() }
+        Self { world, floors, height, charts: floors.iter().map(chart).gather() }
     }
 
     #[must_use]
     pub fn finders(&self) -> Finders<'_> {
-        Finders(self.charts.keys().map(|map| (*map, OnceCell::new())).collect())
+        Finders(self.charts.keys().map(|map| (*map, OnceCell::new())).gather())
     }
 }
 

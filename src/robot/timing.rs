@@ -11,7 +11,7 @@ use crate::geometry::{DoorStates, FloorPlan, LIFT_WAIT, Method, Ride, Target};
 use crate::map::{DoorState, DoorStatus, World};
 use crate::semantics::planning::{self, PlaceSource, RobotAt, RobotState};
 use crate::semantics::{Join, Lift, Relations, lifts, predicate};
-use crate::units::{AreaId, Deg, MapId, Point, name_key};
+use crate::units::{AreaId, Deg, Gather as _, MapId, Point, name_key};
 
 use super::directive::{Deed, Directive, Effect};
 use super::mission::before_passage;
@@ -82,7 +82,7 @@ impl<'a> Clock<'a> {
         let opened = |floor: &FloorPlan| {
             let shut = |door: &_| floor.door_state(world, *door).status != DoorStatus::Open;
             let doors = floor.doorways().iter().filter_map(|way| way.door).filter(shut);
-            let states: DoorStates = doors.map(|door| (door, DoorState::OPEN)).collect();
+            let states: DoorStates = doors.map(|door| (door, DoorState::OPEN)).gather();
             floor.with_doors(world, &states)
         };
         let symbol = |id: AreaId| (name_key(relations.symbols().area(id)), id);
@@ -96,7 +96,7 @@ impl<'a> Clock<'a> {
         Self {
             world,
             floors,
-            open: floors.iter().map(|(&map, floor)| (map, opened(floor))).collect(),
+            open: floors.iter().map(|(&map, floor)| (map, opened(floor))).gather(),
             areas: world.areas.keys().copied().map(symbol).collect(),
             places: places.map(|p| (name_key(&p.name), (p.area, p.source))).collect(),
             joins: relations.joins(),

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use crate::map::{Area, DoorMount, Extent, Item, NextIds, Object, TypeKind, World};
 use crate::units::{
-    AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId, name_key,
+    AreaId, DomainId, DoorId, Gather as _, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
+    ZoneId, name_key,
 };
 
 use super::cell::{Cell, Row};
@@ -228,7 +229,7 @@ macro_rules! rekey {
                 $thing.id = $id(new(&$ids, $thing.id.0));
                 $change($thing.id, $thing)
             })
-            .collect()
+            .gather()
     };
 }
 
@@ -259,7 +260,7 @@ impl Renumbering {
             r.area = self.area(r.area);
             r.object = ObjectId(new(&self.objects, r.object.0));
             r.door_states =
-                r.door_states.iter().map(|(door, state)| (self.door(*door), *state)).collect();
+                r.door_states.iter().map(|(door, state)| (self.door(*door), *state)).gather();
         });
         rekey!(world.places, self.places, PlaceId, |p| {
             p.area = self.area(p.area);

@@ -12,8 +12,8 @@ use crate::map::{
     TypeLists, World, Zone, ZoneKind,
 };
 use crate::units::{
-    AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    Timestamp, TypeId, ZoneId,
+    AreaId, Cm, Deg, DomainId, DoorId, Frame, InOrder as _, MapId, ObjectId, OrFrId, PlaceId,
+    Point, ReplicaId, Timestamp, TypeId, ZoneId,
 };
 
 use super::error::{Result, StoreError};
@@ -97,7 +97,7 @@ fn grouped<T: Record>(
     for record in sheet.all::<T>()? {
         groups.entry(parent(&record)).or_default().push(record);
     }
-    groups.values_mut().for_each(|group| group.sort_by_key(&no));
+    groups.values_mut().for_each(|group| group.order_by_key(&no));
     Ok(groups)
 }
 
@@ -562,7 +562,12 @@ fn keyed<R, V, K: Ord>(
     mut value: impl FnMut(R) -> Result<V>,
     key: impl Fn(&V) -> K,
 ) -> Result<BTreeMap<K, V>> {
-    records.into_iter().map(|r| value(r).map(|v| (key(&v), v))).collect()
+    let mut all = BTreeMap::new();
+    for record in records {
+        let value = value(record)?;
+        all.insert(key(&value), value);
+    }
+    Ok(all)
 }
 
 /// The replicas of a sheet that holds nothing else.

@@ -126,7 +126,7 @@ impl FloorPlan {
         let mut changed: BTreeSet<ReplicaId> =
             changes.filter(|(_, was, is)| has(*was) || has(*is)).map(|(id, ..)| id).gather();
         let doors = before.doors.changes(&after.doors).into_iter();
-        let doors: DoorStates = doors.filter_map(|(id, _, is)| Some((id, is?.state))).collect();
+        let doors: DoorStates = doors.filter_map(|(id, _, is)| Some((id, is?.state))).gather();
         if !doors.is_empty() {
             // Doors of furniture stand as they do on every replica that does not say otherwise.
             let moves =
