@@ -436,7 +436,7 @@ impl Raster {
 
 #[test]
 fn no_way_is_where_a_fill_of_the_floor_finds_none() {
-    let mut random = Random(26);
+    let (mut random, mut turn) = (Random(26), 0);
     // A raster of a university is of 20 million cells.
     for (name, mut world) in worlds().filter(|w| long() || w.0 != "osmag/SIST_1.osm") {
         // Leaves are another test's; here doors are openings.
@@ -449,6 +449,9 @@ fn no_way_is_where_a_fill_of_the_floor_finds_none() {
             let ground = Ground::of(&world, map);
             let mut radii = vec![25.0];
             radii.extend((0..if long() { 5 } else { 1 }).map(|_| random.between(14.0, 45.0)));
+            // One of the two, by turns, where not all are tried.
+            radii.drain(if long() { 0..0 } else { turn % 2..turn % 2 + 1 });
+            turn += 1;
             let raster = Raster::of(&ground, 60.0);
             for radius in radii {
                 let plan = plan(&world, map, radius);
