@@ -394,7 +394,7 @@ fn a_table_is_cleared_and_a_cup_is_put_away() {
     for (order, wanted) in [
         ("Clear the desk", "Clear(Replica"),
         ("Clear up the lab", "Clear(Area"),
-        ("Clear away Battery 1", "PutBack("),
+        ("Clear away Battery 1", "PutAway("),
     ] {
         let said = format!("{:?}", engine.understand(order).unwrap());
         assert!(said.contains(wanted), "{order}: {said}");

@@ -96,6 +96,7 @@ impl State {
                     | Command::Put { .. }
                     | Command::SetDown { .. }
                     | Command::PutBack(_)
+                    | Command::PutAway(_)
                     | Command::ThrowAway(_)
             )
         };

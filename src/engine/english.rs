@@ -112,6 +112,9 @@ impl RequestError {
                 let things: Vec<String> = things.iter().map(|one| called(one)).collect();
                 format!("all that lies on {} is kept there: {}", called(name), things.join(", "))
             }
+            Self::AtHome { thing, home } => {
+                format!("{} lies where it is kept: {}", called(thing), called(home))
+            }
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off", called(name))
             }
@@ -221,7 +224,7 @@ impl InEnglish for RequestError {
             Self::NotCleaned { .. } => {
                 "rooms are tidied, and what things lie on: “Tidy up the table”"
             }
-            Self::KeptThere { .. } => "say where to put it",
+            Self::KeptThere { .. } | Self::AtHome { .. } => "say where to put it",
             Self::NotADevice { .. } => "a device is what has a type with the trait device",
             Self::Homeless { .. } => {
                 "say where to put it, or give the thing the property ХРАНИТСЯ_НА"

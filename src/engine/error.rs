@@ -399,6 +399,11 @@ pub enum RequestError {
     #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
     KeptThere { things: Vec<String>, name: String },
 
+    /// A thing is to be put away that lies where it is kept.
+    #[error("«{thing}» лежит там, где и хранится: «{home}»")]
+    #[diagnostic(code(engine::at_home), help("скажите, куда это положить"))]
+    AtHome { thing: String, home: String },
+
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]

@@ -38,12 +38,16 @@ impl State {
             if is_only_gathered(commands, n) {
                 continue;
             }
-            let mut wanted = self.goals_of_one(command, here, relations, belief)?;
-            // «Возьми тарелку и верни на место»: it lies there now, and will not then.
-            if let Command::PutBack(what) = command
-                && wanted.is_empty()
-                && commands[..n].iter().any(|before| thing_of(before) == Some(what.id))
-            {
+            // «Возьми тарелку и верни на место», «… и убери»: it lies there now, and will not then.
+            let lifted = match command {
+                Command::PutBack(what) | Command::PutAway(what) => Some(what)
+                    .filter(|what| commands[..n].iter().any(|c| thing_of(c) == Some(what.id))),
+                _ => None,
+            };
+            let back = lifted.map(|what| Command::PutBack(what.clone()));
+            let asked = back.as_ref().unwrap_or(command);
+            let mut wanted = self.goals_of_one(asked, here, relations, belief)?;
+            if let (Some(what), true) = (lifted, wanted.is_empty()) {
                 wanted = self.put_back(what.id, belief)?;
             }
             // What is not locked is unlocked already, and what is locked is closed: each order asks for its own part only.
@@ -151,10 +155,15 @@ impl State {
                 self.portable(what.id)?;
                 one(fact(predicate::ROBOT_HOLDS, vec![name(what.id)]))
             }
-            Command::PutBack(what) => match what.id {
+            Command::PutBack(what) | Command::PutAway(what) => match what.id {
                 Entity::Replica(id) if world.has_trait(id, "portable") => {
                     let Some(home) = self.home_of(&name(what.id), relations)? else {
-                        return Ok(Vec::new());
+                        return match (command, self.homes()?.remove(&name(what.id))) {
+                            (Command::PutAway(_), Some(home)) => {
+                                Err(RequestError::AtHome { thing: name(what.id), home }.into())
+                            }
+                            _ => Ok(Vec::new()),
+                        };
                     };
                     belief.homes.push((name(what.id), home));
                     one(fact(predicate::IN_ITS_PLACE, vec![name(what.id)]))

@@ -396,7 +396,8 @@ impl State {
         }
         let tidying =
             |c: &Command<_>| matches!(c, Command::Tidy(_) | Command::Clear(_) | Command::Clean(_));
-        let tidies = commands.iter().any(|c| tidying(c) || matches!(c, Command::PutBack(_)));
+        let kept = |c: &Command<_>| matches!(c, Command::PutBack(_) | Command::PutAway(_));
+        let tidies = commands.iter().any(|c| tidying(c) || kept(c));
         let domain = &self.rules.robot;
         let errand = Errand { domain, belief, relations: followed, goals, tidies };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;

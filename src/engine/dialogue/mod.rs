@@ -449,6 +449,13 @@ impl Hearing<'_, '_> {
         };
         let pick = |russian, english| language.pick(russian, english);
         match &commands[..] {
+            // "Never mind the plates, where are the forks?"
+            [Command::Stop] if let Some(asked) = asked_behind(line) => {
+                if awaited {
+                    self.stop(awaited, language)?;
+                }
+                self.hear_one(asked, false)
+            }
             [Command::Stop] => self.stop(awaited, language),
             [Command::Wait] => self.put(Outcome::Waiting, pick("Жду.", "I am waiting."), language),
             [Command::ComeBack] => {
@@ -682,4 +689,10 @@ impl Hearing<'_, '_> {
             None => self.carry_out(order, &commands, &Given::Now, language),
         }
     }
+}
+
+/// What is asked behind words that stop: "Never mind the plates, where are the forks?"
+fn asked_behind(line: &str) -> Option<&str> {
+    let (_, behind) = line.split_once([',', '.', ';', '!', '–', '—'])?;
+    Some(behind.trim()).filter(|behind| behind.ends_with('?'))
 }

@@ -317,7 +317,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             // What is put away without a place goes to where it is kept; what stays is cleared of what is on it.
             Verb::Clear if roles.to.is_none() && named => {
                 let fixed = |thing: &T| self.listener.fixed.is_some_and(|fixed| fixed(thing));
-                if roles.objects.iter().all(fixed) { Verb::Tidy } else { Verb::PutBack }
+                if roles.objects.iter().all(fixed) { Verb::Tidy } else { Verb::Clear }
             }
             verb => verb,
         };
@@ -450,7 +450,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             };
             return Ok(objects.into_iter().map(down).collect());
         }
-        if matches!(verb, Verb::Put | Verb::Clear) && roles.to.is_none() {
+        if verb == Verb::Put && roles.to.is_none() {
             // "Put the book on the table": on and in are whither here.
             roles.to = roles.at.take();
         }
@@ -480,7 +480,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::ThrowAway, None) => Command::ThrowAway(what),
             (Verb::Put, None) if to_me => Command::Bring { what, to: None },
             (Verb::PutBack, _) => Command::PutBack(what),
-            (Verb::Put | Verb::Clear, None) => {
+            (Verb::Clear, None) => Command::PutAway(what),
+            (Verb::Put, None) => {
                 return Err(self.incomplete(words, ("куда положить", "where to put it")));
             }
             // «дверь из кухни в коридор»: the place belongs to the thing.

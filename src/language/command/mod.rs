@@ -154,6 +154,8 @@ pub enum Command<T> {
     },
     /// «Верни на место»: to where it is kept.
     PutBack(Thing<T>),
+    /// «Убери»: the same, but what lies where it is kept is to go elsewhere, and whither was not said.
+    PutAway(Thing<T>),
     /// «Выброси»: into what is there for rubbish.
     ThrowAway(Thing<T>),
     Open(Thing<T>),
@@ -187,6 +189,7 @@ impl<T> Command<T> {
             | Self::Put { what, .. }
             | Self::SetDown { what, .. }
             | Self::PutBack(what)
+            | Self::PutAway(what)
             | Self::ThrowAway(what)
             | Self::Open(what)
             | Self::Close(what)

@@ -4,7 +4,7 @@
 //! Invariant: nothing is taken for meant that the last few exchanges did not name; where they name several of one rank
 //! that fit, it is asked back.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use super::everyday;
 use super::grammar::points;
@@ -20,7 +20,7 @@ use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges
 impl Knowledge<'_> {
     /// The one of several things that was spoken of last.
     pub(super) fn in_focus(&self, found: &[Thing]) -> Option<Thing> {
-        let ranks = self.memory.exchanges.iter().flat_map(|e| [e.topics(), e.members()]);
+        let ranks = self.memory.exchanges.iter().flat_map(|e| [e.topics(), e.members(), e.aside()]);
         for rank in ranks {
             let mut named = found.iter().filter(|t| rank.contains(t));
             match (named.next(), named.next()) {
@@ -170,6 +170,9 @@ impl Knowledge<'_> {
             }
         });
         query.each_noun(&mut |noun| self.of_those_told(noun));
+        if self.asked_where() {
+            query.each_noun(&mut |noun| self.rooms_there(noun));
+        }
         query.each_noun(&mut |noun| {
             self.focus_places(&mut noun.restrictions);
             self.this_room(&mut noun.restrictions);
@@ -244,7 +247,8 @@ impl Knowledge<'_> {
         }
     }
 
-    /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state.
+    /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state. What a question was about
+    /// comes before the members of a list; of several of these it is asked back which is meant.
     fn by_state(&self, query: &mut Query) {
         let Query::Holds { subject, claims, .. } = query else { return };
         let [Claim::Value(filter)] = &claims[..] else { return };
@@ -252,10 +256,17 @@ impl Knowledge<'_> {
         let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
         let Some([only]) = subject.head.things.as_deref() else { return };
         let lacks = |thing: Thing| self.own_value(thing, filter.value).is_none();
-        let Some(exchange) = self.memory.exchanges.first().filter(|_| lacks(*only)) else { return };
-        let mut spoken = exchange.things();
-        if let Some(&meant) = spoken.find(|t| !lacks(**t) && self.agrees(pronoun, **t)) {
-            subject.head.things = Some(vec![meant]);
+        let [latest, before @ ..] = &self.memory.exchanges[..] else { return };
+        if !lacks(*only) {
+            return;
+        }
+        let fits = |t: &&Thing| !lacks(**t) && self.agrees(pronoun, **t);
+        let topic = |exchange: &Exchange| exchange.topics().iter().find(fits).copied();
+        let listed: Vec<Thing> = latest.members().iter().filter(fits).copied().collect();
+        let earlier = || before.first().filter(|_| listed.len() > 1).and_then(topic);
+        let meant = topic(latest).or_else(earlier).map_or(listed.clone(), |topic| vec![topic]);
+        if !meant.is_empty() {
+            subject.head.things = Some(meant);
         }
     }
 
@@ -429,7 +440,7 @@ impl Knowledge<'_> {
                 self.memory.told_place.into_iter().collect()
             }
             _ if self.memory.is_lost => Vec::new(),
-            Pronoun::There => self.place_spoken_of().into_iter().collect(),
+            Pronoun::There => self.places_spoken_of(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),
             // "How many of them are on the table? Which of them is bigger?": of one thing there are no others.
             Pronoun::They
@@ -472,8 +483,11 @@ impl Knowledge<'_> {
                     return Some(vec![whither]);
                 }
                 let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| vec![*t]);
-                let listed = || exchange.members().iter().copied().filter(|t| fits(t)).collect();
-                topic.or_else(|| Some(listed()).filter(|all: &Vec<Thing>| !all.is_empty()))
+                let all_of = |all: &[Thing]| -> Vec<Thing> {
+                    all.iter().copied().filter(|t| fits(t)).collect()
+                };
+                let ranks = [exchange.members(), exchange.aside()];
+                topic.or_else(|| ranks.into_iter().map(all_of).find(|all| !all.is_empty()))
             });
             rank.unwrap_or_default()
         };
@@ -596,6 +610,66 @@ impl Knowledge<'_> {
         phrases.filter(|p| p.number() == Number::Singular).map(|p| p.gender()).collect()
     }
 
+    /// What "there" means: where each of several things is that were asked after, else the latest place.
+    fn places_spoken_of(&self) -> Vec<Thing> {
+        // «Где вилки? Сколько там ложек? А сколько ножей там?»: there as before.
+        let mut there = Vec::new();
+        if let Some(mut query) = self.memory.query.clone() {
+            query.each_noun(&mut |noun| {
+                let places = noun.restrictions.iter().filter(|place| place.rel == Rel::There);
+                let things = places.flat_map(|place| &place.anchors);
+                there.extend(things.filter_map(|anchor| anchor.head.things.clone()).flatten());
+            });
+        }
+        if there.len() > 1 && self.memory.told_place.is_none() {
+            return there;
+        }
+        let last = &self.memory.last;
+        let each = last.len() > 1 && self.memory.told_place.is_none() && self.asked_where();
+        let places: BTreeSet<Thing> = match each {
+            true => last.iter().filter_map(|thing| self.place_of(*thing)).collect(),
+            false => self.place_spoken_of().into_iter().collect(),
+        };
+        places.into_iter().collect()
+    }
+
+    /// Whether the last question was where something is.
+    fn asked_where(&self) -> bool {
+        matches!(self.memory.query, Some(Query::Where(_)))
+    }
+
+    /// What bears or holds a thing, else its room.
+    fn place_of(&self, thing: Thing) -> Option<Thing> {
+        let support = thing.replica().and_then(|id| self.relations.support_of(id));
+        let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
+        support.or_else(|| self.area_of(thing).map(|id| Thing::Entity(Entity::Area(id))))
+    }
+
+    /// «Где тарелки? Сколько там стульев?»: what stands on the floor is not where they lie, but in the rooms of that.
+    fn rooms_there(&self, noun: &mut Noun) {
+        let sought = self.base(&noun.head);
+        let carried = |t: &Thing| {
+            t.replica().is_none_or(|id| self.world.has_trait(id, "portable"))
+        };
+        let there = noun.restrictions.iter_mut().filter(|place| place.rel == Rel::There);
+        for anchor in there.flat_map(|place| &mut place.anchors) {
+            let Some(places) = anchor.head.things.as_deref() else { continue };
+            let lies = |place: &Thing| self.related(Rel::There, *place);
+            let fits = places.iter().flat_map(lies).any(|thing| sought.contains(&thing));
+            if fits || sought.is_empty() || sought.iter().any(carried) {
+                continue;
+            }
+            let rooms: BTreeSet<Thing> = places
+                .iter()
+                .map(|place| match self.area_of(*place) {
+                    Some(room) => Thing::Entity(Entity::Area(room)),
+                    None => *place,
+                })
+                .collect();
+            anchor.head.things = Some(rooms.into_iter().collect());
+        }
+    }
+
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
     fn place_spoken_of(&self) -> Option<Thing> {
         // "I put the bottle in the bathroom, is it there?"
@@ -623,9 +697,7 @@ impl Knowledge<'_> {
         let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
         let told = placed && self.memory.last.contains(&latest) || !bears(latest);
         let Some(id) = latest.replica().filter(|_| told) else { return Some(latest) };
-        let support = self.relations.support_of(id).map(|id| Thing::Entity(Entity::Replica(id)));
-        let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
-        support.or_else(area).or(Some(latest))
+        self.place_of(Thing::Entity(Entity::Replica(id))).or(Some(latest))
     }
 }
 

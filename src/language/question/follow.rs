@@ -483,7 +483,20 @@ impl Asker<'_> {
         if asks_where {
             return Some(Query::Where(noun));
         }
+        let knowledge = self.knowledge(memory.language, memory);
         Some(match last {
+            // "How many books are on this shelf? And the other ones?": on the other shelves.
+            Query::Count(counted)
+                if let [place] = &counted.restrictions[..]
+                    && noun.head.things.as_deref().is_some_and(|others| {
+                        let own = knowledge.base(&counted.head);
+                        others.iter().all(|other| !own.contains(other))
+                    }) =>
+            {
+                let anchors = vec![Noun { plural: true, ..noun }];
+                let restrictions = vec![Restriction { anchors, ..place.clone() }];
+                Query::Count(Noun { restrictions, ..counted.clone() })
+            }
             Query::Count(_) => Query::Where(noun),
             // "Which of them is open? And the other one?"
             Query::Find(asked) if !asked.filters.is_empty() => {

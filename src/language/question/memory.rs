@@ -2,6 +2,8 @@
 //!
 //! Invariant: it belongs to one state of the map (`outlive`).
 
+use std::collections::BTreeSet;
+
 use super::outlive::{Departed, Stamp};
 use super::query::{Noun, Query, Thing};
 use super::{Answer, Doubt, Fact, resolution};
@@ -214,6 +216,8 @@ pub(super) struct Exchange {
     whither: Option<Thing>,
     /// What was measured against each other: each is "the other one" of the rest.
     compared: Vec<Thing>,
+    /// What a list was asked after by: "it" is no such thing, but what lies on something may be on that.
+    aside: Vec<Thing>,
 }
 
 impl Exchange {
@@ -225,6 +229,12 @@ impl Exchange {
             Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
                 Self { topics: others().chain(found).collect(), ..Self::default() }
             }
+            // "Is the milk in the fridge? Where is it then?": the milk, however many packs of it there are.
+            Query::Holds { .. } | Query::Choice { .. } if answer.things.len() > 1 => Self {
+                listed: answer.things.clone(),
+                aside: others().collect::<BTreeSet<Thing>>().into_iter().collect(),
+                ..Self::default()
+            },
             _ if answer.things.len() > 1 => Self {
                 topics: others().collect(),
                 listed: answer.things.clone(),
@@ -271,7 +281,12 @@ impl Exchange {
 
     /// All that it was about.
     pub(super) fn things(&self) -> impl Iterator<Item = &Thing> {
-        self.topics.iter().chain(&self.listed)
+        self.topics.iter().chain(&self.listed).chain(&self.aside)
+    }
+
+    /// What a list was asked after by.
+    pub(super) fn aside(&self) -> &[Thing] {
+        &self.aside
     }
 
     fn is_empty(&self) -> bool {

@@ -1,7 +1,7 @@
 //! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
 
 use super::grammar::{Item, Sentence};
-use super::mark::Mark;
+use super::mark::{Mark, Pronoun};
 use super::salvage::{goes_on, is_reported};
 use super::{
     Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
@@ -88,7 +88,7 @@ impl Asker<'_> {
                     | Rel::NextTo
             )
         };
-        let mut side = None;
+        let (mut side, mut pronoun) = (None, None);
         for item in sentence.items() {
             match item {
                 Item::Link(rel) if sided(rel) && side.is_none() => side = Some(rel),
@@ -98,13 +98,26 @@ impl Asker<'_> {
                         && side.is_none()
                         && matches!(&nouns[..], [only] if only.pronoun.is_some()) =>
                 {
-                    side = Some(rel);
+                    (side, pronoun) = (Some(rel), nouns[0].pronoun);
                 }
                 Item::Mark(Mark::What | Mark::Be | Mark::Exists | Mark::And) => {}
                 _ => return None,
             }
         }
         let Some(Query::Find(before)) = &memory.query else { return None };
+        // «Какая книга на комоде? Что рядом с ней?»: with the book, of which it was asked; «с ним» is with the dresser.
+        let knowledge = self.knowledge(sentence.language, memory);
+        let means = |pronoun: Pronoun, thing: &Thing| knowledge.agrees(pronoun, *thing);
+        let anchors = before.restrictions.iter().flat_map(|place| &place.anchors);
+        let anchors = anchors.filter_map(|anchor| knowledge.find(anchor, true).ok()).flatten();
+        let mut anchors = anchors.peekable();
+        let taken_up = |pronoun| match (before.head.anything, memory.last.first()) {
+            (false, Some(found)) if means(pronoun, found) => false,
+            _ => anchors.peek().is_none() || anchors.any(|anchor| means(pronoun, &anchor)),
+        };
+        if !pronoun.is_none_or(taken_up) {
+            return None;
+        }
         let mut noun = before.clone();
         let [place] = &mut noun.restrictions[..] else { return None };
         // The same side once more is a question about something else.

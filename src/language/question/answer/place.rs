@@ -5,7 +5,7 @@
 use super::{Draft, grouped};
 use crate::map::Entity;
 use crate::question::knowledge::{Held, Knowledge};
-use crate::question::query::{Extreme, Filter, Noun, Rel, Thing};
+use crate::question::query::{Extreme, Filter, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Fact, Said};
 use crate::report::{Detail, Named};
 use crate::units::{AreaId, InOrder as _};
@@ -481,6 +481,10 @@ impl Knowledge<'_> {
                 let map = area.and_then(|a| self.world.placement(a)).map(|(m, _)| m);
                 map.map(|m| Thing::Entity(Entity::Map(m))).into_iter().collect()
             }
+            // «В какой спальне компьютер?» passes over the desk under which it stands.
+            Rel::In if what.is_some_and(|w| !w.head.kinds.is_empty()) => {
+                self.related(Rel::Has, thing)
+            }
             Rel::In => self.holder(thing),
             Rel::Between => self.ends_around(thing),
             Rel::Opens => self.opened_by(thing).into_iter().collect(),
@@ -491,8 +495,10 @@ impl Knowledge<'_> {
         let floor = unborne && self.stands_so("STANDS_ON_FLOOR", thing);
         let hangs = unborne && self.stands_so("ON_WALL", thing);
         if let Some(what) = what.filter(|w| !w.head.kinds.is_empty() && !self.is_floor(w)) {
-            let kinds =
-                self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
+            // «В какой спальне …?», where one of the bedrooms is called «Спальня»: in which of all.
+            let head = Head { named: Vec::new(), ..what.head.clone() };
+            let any = Noun { head, plural: true, indefinite: true, ..what.clone() };
+            let kinds = self.find(&any, true)?;
             found.retain(|t| kinds.contains(t));
         }
         // Of a tray and the table under it, what it lies on itself.

@@ -195,6 +195,8 @@ impl Frame<'_, '_> {
             || self.is_torn(query)
             || self.is_misplaced(query)
             || self.only_denies(query)
+            || self.denies_aside()
+            || self.sets_rooms_against(query)
             || many
             || why
             || twofold
@@ -250,6 +252,27 @@ impl Frame<'_, '_> {
             && !noun.restrictions.is_empty()
             && noun.filters.is_empty()
             && !asks
+    }
+
+    /// "Not the big table, what is on the coffee table?": what is not meant is no part of what is asked.
+    fn denies_aside(&self) -> bool {
+        let asks = [Mark::What, Mark::Which, Mark::Where, Mark::HowMany];
+        let first = self.nouns.iter().map(|s| s.at).chain(self.spots.iter().map(|s| s.at)).min();
+        self.marks.contains(&(Mark::Not, 0))
+            && first == Some(1)
+            && self.marks.iter().any(|(mark, at)| *at > 1 && asks.contains(mark))
+    }
+
+    /// «Чего нет в ванной, что есть на кухне?»: what stands in one room is never in the other too; that asks for kinds.
+    fn sets_rooms_against(&self, query: &Query) -> bool {
+        let Query::Find(noun) = query else { return false };
+        let within = |negated: bool| {
+            noun.restrictions.iter().any(|r| {
+                let rooms = |a: &Noun| self.is_area(a) && !self.is_building(a) && !self.is_storey(a);
+                r.rel == Rel::In && r.negated == negated && r.anchors.iter().all(rooms)
+            })
+        };
+        noun.head.anything && within(true) && within(false)
     }
 
     /// Whether something is in two rooms: «в гостиной, то есть в спальне».
