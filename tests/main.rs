@@ -55,6 +55,7 @@ mod planning_properties;
 mod planning_time;
 mod position_reports;
 mod queue;
+mod referents;
 mod relation_truth;
 mod relations;
 mod remedies;

@@ -131,6 +131,34 @@ impl Asker<'_> {
         Some(Query::Exists { what, either: false, negated: false })
     }
 
+    /// «Есть что поесть на кухне? А попить?», "And to drink?": the same with another deed.
+    pub(super) fn another_deed(
+        &self,
+        sentence: &Sentence<'_>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
+        let Query::Serving { of: before, asked, .. } = last else { return None };
+        let items = sentence.items();
+        let mut rest = items
+            .iter()
+            .skip_while(|item| matches!(item, Item::Mark(Mark::And) | Item::Link(Rel::To)));
+        let (Some(Item::Mark(Mark::Deed(_))), None) = (rest.next(), rest.next()) else {
+            return None;
+        };
+        let deed = sentence.text.trim_end_matches(['?', '.', ' ']);
+        let first =
+            sentence.keys.iter().position(|key| !matches!(&**key, "а" | "и" | "and" | "to"))?;
+        let deed = &deed[sentence.words.get(first)?.start..];
+        let lead = sentence.language.pick("Что можно", "What can I");
+        let Ok(Query::Serving { sort, of, .. }) = self.read(&format!("{lead} {deed}?"), memory)
+        else {
+            return None;
+        };
+        let of = Noun { restrictions: before.restrictions.clone(), ..of };
+        Some(Query::Serving { sort, of, asked: *asked })
+    }
+
     /// «Что на столе в гостиной? А в спальне?»: on the table there, where only the table's room was told.
     pub(super) fn in_another_room(&self, last: &Query, noun: &Noun) -> Option<Query> {
         let [there] = &noun.restrictions[..] else { return None };

@@ -27,7 +27,7 @@ fn done_to_it(words: &Words<'_>) -> Option<String> {
 
 /// Sentences with one gap, by what stands before and behind it, and the same of the sentence that is meant: what stands
 /// in the one goes into the other.
-const FRAMES: [(&str, &str, &str, &str); 51] = [
+const FRAMES: [(&str, &str, &str, &str); 63] = [
     ("я правильно понимаю что", "", "правда ли, что", ""),
     ("правильно ли я понимаю что", "", "правда ли, что", ""),
     ("am i right that", "", "is it true that", ""),
@@ -48,6 +48,18 @@ const FRAMES: [(&str, &str, &str, &str); 51] = [
     ("which doors lead outside", "", "which are the exits", ""),
     ("what doors lead outside", "", "which are the exits", ""),
     ("which door leads outside", "", "where is the exit", ""),
+    ("which of the doors lead outside", "", "which are the exits", ""),
+    ("which of the doors leads outside", "", "which are the exits", ""),
+    ("which of them lead outside", "", "which of them are outer doors", ""),
+    ("which of them leads outside", "", "which of them are outer doors", ""),
+    ("which of those lead outside", "", "which of them are outer doors", ""),
+    ("where do you keep", "", "where is", ""),
+    ("where do we keep", "", "where is", ""),
+    ("where do they keep", "", "where is", ""),
+    ("зачем нужен", "", "для чего нужен", ""),
+    ("зачем нужна", "", "для чего нужна", ""),
+    ("зачем нужно", "", "для чего нужно", ""),
+    ("зачем нужны", "", "для чего нужны", ""),
     ("does any door lead outside", "", "is there an exit", ""),
     ("do any doors lead outside", "", "is there an exit", ""),
     ("does a door lead outside", "", "is there an exit", ""),

@@ -248,7 +248,7 @@ impl Knowledge<'_> {
     }
 
     /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state. What a question was about
-    /// comes before the members of a list; of several of these it is asked back which is meant.
+    /// comes before the members of a list; where that does not tell, it is asked back which is meant.
     fn by_state(&self, query: &mut Query) {
         let Query::Holds { subject, claims, .. } = query else { return };
         let [Claim::Value(filter)] = &claims[..] else { return };
@@ -263,8 +263,14 @@ impl Knowledge<'_> {
         let fits = |t: &&Thing| !lacks(**t) && self.agrees(pronoun, **t);
         let topic = |exchange: &Exchange| exchange.topics().iter().find(fits).copied();
         let listed: Vec<Thing> = latest.members().iter().filter(fits).copied().collect();
-        let earlier = || before.first().filter(|_| listed.len() > 1).and_then(topic);
-        let meant = topic(latest).or_else(earlier).map_or(listed.clone(), |topic| vec![topic]);
+        // Of one in a list and what was asked of before it, nothing says which.
+        let earlier = before.first().and_then(topic);
+        let meant = match (topic(latest), &listed[..], earlier) {
+            (Some(topic), _, _) => vec![topic],
+            (None, [only], Some(earlier)) => vec![earlier, *only],
+            (None, _, Some(earlier)) => vec![earlier],
+            (None, _, None) => listed,
+        };
         if !meant.is_empty() {
             subject.head.things = Some(meant);
         }
@@ -648,9 +654,7 @@ impl Knowledge<'_> {
     /// «Где тарелки? Сколько там стульев?»: what stands on the floor is not where they lie, but in the rooms of that.
     fn rooms_there(&self, noun: &mut Noun) {
         let sought = self.base(&noun.head);
-        let carried = |t: &Thing| {
-            t.replica().is_none_or(|id| self.world.has_trait(id, "portable"))
-        };
+        let carried = |t: &Thing| t.replica().is_none_or(|id| self.world.has_trait(id, "portable"));
         let there = noun.restrictions.iter_mut().filter(|place| place.rel == Rel::There);
         for anchor in there.flat_map(|place| &mut place.anchors) {
             let Some(places) = anchor.head.things.as_deref() else { continue };
@@ -676,10 +680,12 @@ impl Knowledge<'_> {
         if self.memory.told_place.is_some() {
             return self.memory.told_place;
         }
+        let opens = |thing: &Thing| self.opening(*thing).is_some();
         let bears = |thing: Thing| {
-            thing.replica().is_none_or(|id| {
-                ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
-            })
+            !opens(&thing)
+                && thing.replica().is_none_or(|id| {
+                    ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
+                })
         };
         // "Which floor is the storeroom on? What is in there?": in the storeroom.
         let asked = matches!(self.memory.query, Some(Query::RoomOf(_)));
@@ -692,7 +698,7 @@ impl Knowledge<'_> {
         if let Some(place) = latest.and_then(|e| e.topics().iter().copied().find(|t| bears(*t))) {
             return Some(place);
         }
-        let latest = *self.memory.spoken.first()?;
+        let latest = *self.memory.spoken.iter().find(|thing| !opens(thing))?;
         // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
         let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
         let told = placed && self.memory.last.contains(&latest) || !bears(latest);

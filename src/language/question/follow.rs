@@ -119,6 +119,9 @@ impl Asker<'_> {
         if let Some(query) = self.placed_there(text, last, memory) {
             return Some(query);
         }
+        if let Some(query) = self.another_deed(&sentence, last, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.anything_such(text, last, memory) {
             return Some(query);
         }

@@ -104,6 +104,21 @@ impl Asker<'_> {
             }
         }
         let told = &memory.last;
+        // "Which room has the most lamps? – The kitchen. – How many?": lamps there.
+        if let (true, true, Some(Query::Find(noun)), &[room]) =
+            (counts, bare, &memory.query, &told[..])
+            && let Some(Best { extreme: Extreme::Most | Extreme::Fewest, anchor: Some(had) }) =
+                &noun.best
+            && room.area().is_some()
+        {
+            let anchors = vec![Noun::of(vec![room])];
+            let place = Restriction { rel: Rel::In, anchors, negated: false };
+            return Some(Query::Count(Noun {
+                restrictions: vec![place],
+                plural: true,
+                ..(**had).clone()
+            }));
+        }
         // "Is there a mug in the kitchen? – Yes. – How many are there?": of the kind, where it was asked for.
         if let (true, true, Some(Query::Exists { what, .. })) = (counts, bare, &memory.query)
             && let [noun] = &what[..]

@@ -32,6 +32,20 @@ const ELSEWHERE: [&str; 12] = [
     "в других комнатах",
 ];
 
+/// «Сколько ещё?»: how many besides those that were told.
+const MORE: [&str; 10] = [
+    "how many more",
+    "how many more are there",
+    "how many more of them are there",
+    "how many others",
+    "how many others are there",
+    "сколько еще",
+    "а сколько еще",
+    "а еще сколько",
+    "сколько еще есть",
+    "сколько их еще",
+];
+
 impl Asker<'_> {
     /// «И это все ложки на кухне?», "Are there any more of those elsewhere?": of the kind that was told, what is left.
     pub(super) fn of_the_rest(&self, text: &str, memory: &Memory) -> Option<Query> {
@@ -47,6 +61,9 @@ impl Asker<'_> {
             };
             let what = vec![but(noun, told)];
             return Some(Query::Exists { what, either: false, negated: true });
+        }
+        if MORE.contains(&key.as_str()) {
+            return Some(Query::Count(self.left_of_kind(memory)?));
         }
         // What names something itself is a question of its own.
         let asks = ELSEWHERE.iter().find(|place| key.contains(**place))?;

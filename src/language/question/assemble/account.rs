@@ -268,7 +268,8 @@ impl Frame<'_, '_> {
         let Query::Find(noun) = query else { return false };
         let within = |negated: bool| {
             noun.restrictions.iter().any(|r| {
-                let rooms = |a: &Noun| self.is_area(a) && !self.is_building(a) && !self.is_storey(a);
+                let rooms =
+                    |a: &Noun| self.is_area(a) && !self.is_building(a) && !self.is_storey(a);
                 r.rel == Rel::In && r.negated == negated && r.anchors.iter().all(rooms)
             })
         };

@@ -256,6 +256,20 @@ impl Frame<'_, '_> {
                 noun.filters.extend(other.noun.filters.iter().cloned());
                 noun.best = noun.best.take().or_else(|| other.noun.best.clone());
             }
+            // "Which of them are plates?"
+            let sorts = |s: &&&Subject| {
+                let bare = s.noun.filters.is_empty() && s.noun.restrictions.is_empty();
+                s.at > asked.at && bare && !s.noun.head.kinds.is_empty()
+            };
+            let of_them = noun.head.things.is_some() && self.is_one_of(asked.at);
+            if of_them && link.is_none() && !self.has(Mark::Have) {
+                noun.also.extend(
+                    others
+                        .iter()
+                        .filter(sorts)
+                        .map(|s| Head { named: Vec::new(), ..s.noun.head.clone() }),
+                );
+            }
             if self.has(Mark::Have) || (self.has(Mark::Exists) && others.len() == 1) {
                 for other in &others {
                     self.relate(&mut noun, other);

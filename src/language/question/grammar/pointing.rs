@@ -17,13 +17,18 @@ const POINTING: [&str; 16] = [
 pub(in super::super) fn points(noun: &Noun) -> bool {
     let said = |word: &String| POINTING.contains(&word.as_str());
     let keys = word_keys(&noun.text);
-    let alone = matches!(&keys[..], [only] if noun.rank.is_some() || stands_for_one(only));
+    let alone = match &keys[..] {
+        [only] => noun.rank.is_some() || stands_for_one(only),
+        [the, only] => the == "the" && stands_for_one(only),
+        _ => false,
+    };
     noun.head.anything && (alone || keys.last().is_some_and(said))
 }
 
-/// A form of «другой»: «ещё» is other, and stands for no noun.
+/// "Other", a form of «другой»: «ещё» is other, and stands for no noun.
 pub(super) fn stands_for_one(word: &str) -> bool {
-    ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг"
+    let russian = ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг";
+    russian || word == "other"
 }
 
 impl Sentence<'_> {

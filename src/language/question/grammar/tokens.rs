@@ -210,7 +210,7 @@ impl<'t> Sentence<'t> {
     fn fill_elided(&mut self) {
         let governed = |n: usize| matches!(self.tokens[n].kind, Tok::Mark(Mark::Link(_)));
         let tells = |t: &Token| match t.kind {
-            Tok::Mark(Mark::Other) => stands_for_one(&self.keys[t.from as usize]),
+            Tok::Mark(Mark::Other) => stands_for_one(&self.keys[t.to as usize - 1]),
             Tok::Mark(Mark::Rank(_)) => true,
             _ => false,
         };
@@ -225,7 +225,10 @@ impl<'t> Sentence<'t> {
         let at = (1..self.tokens.len())
             .rev()
             .find(|&n| governed(n - 1) && tells(&self.tokens[n]) && open(n + 1));
-        if let (Some(at), Language::Russian) = (at, self.language) {
+        // "And on the other?", but "what other chairs are there"
+        let shown = |t: &Token| t.kind == Tok::Mark(Mark::Other) && t.to - t.from > 1;
+        let may = |at: &usize| self.language == Language::Russian || shown(&self.tokens[*at]);
+        if let Some(at) = at.filter(may) {
             let one = Token { kind: Tok::Mark(Mark::One), ..self.tokens[at] };
             self.tokens.insert(at + 1, one);
         }

@@ -1,0 +1,211 @@
+//! What "it" and "there" mean after a question, over all things of a map; and what is denied or left off before a question.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_language::question::{Answer, Thing};
+use orthoframe_language::{Case, NounPhrase, Number, WordHints, english, russian};
+use orthoframe_map::{Entity, Replica, World};
+use orthoframe_units::ReplicaId;
+
+use crate::files::long;
+use crate::talk::engine;
+
+const HOUSE: &str = "../shared/data/procthor/house_5.json";
+const FLAT: &str = "../shared/data/virtualhome/TestScene3_graph.json";
+
+fn ask(engine: &Engine, line: &str, memory: &mut Memory) -> Option<Answer> {
+    engine.ask(line, memory).expect("there is a map").ok()
+}
+
+/// What the last of these lines comes to.
+fn last(engine: &Engine, lines: &[&str]) -> Option<Answer> {
+    let mut memory = Memory::default();
+    lines.iter().map(|line| ask(engine, line, &mut memory)).last().flatten()
+}
+
+/// Every `step`-th thing by default, every one in the long run.
+fn some(world: &World, step: usize) -> impl Iterator<Item = &Replica> {
+    world.replicas.values().step_by(if long() { 1 } else { step })
+}
+
+fn room_of(engine: &Engine, replica: &Replica) -> Option<String> {
+    let area = engine.relations().unwrap().area_of(replica.id)?;
+    Some(engine.world().unwrap().areas[&area].name.clone())
+}
+
+/// «В какой спальне …?», where one of the bedrooms is called «Спальня»: the room of the thing, whatever it stands under.
+#[test]
+fn which_bedroom_is_the_one_in_which_a_thing_is() {
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let mut told = 0;
+        for thing in some(world, 5) {
+            let Some(room) = room_of(&engine, thing).filter(|room| room.starts_with("Спальня"))
+            else {
+                continue;
+            };
+            let (russian, english) = (&thing.name, &thing.name_en);
+            for line in
+                [format!("В какой спальне {russian}?"), format!("Which bedroom is {english} in?")]
+            {
+                let Some(answer) = last(&engine, &[&line]) else { continue };
+                assert_eq!(answer.symbols, [room.as_str()], "{line}: {}", answer.text);
+                told += 1;
+            }
+        }
+        assert!(told > 4, "{told}");
+    }
+}
+
+/// "Where is the radio? What else is in that room? Is it on?": the radio, of which it was asked, and no lamp of the list.
+#[test]
+fn it_is_what_was_asked_of_before_one_of_a_list() {
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let mut told = 0;
+        for thing in engine.world().unwrap().replicas.values() {
+            let name = &thing.name_en;
+            let (place, state) = (format!("Where is {name}?"), format!("Is {name} on?"));
+            let Some(plain) =
+                last(&engine, &[&state]).filter(|a| a.said.word() != "not_on_the_map")
+            else {
+                continue;
+            };
+            let lines = [&*place, "What else is in that room?", "Is it on?"];
+            let Some(answer) = last(&engine, &lines) else { continue };
+            assert_eq!(answer.text, plain.text, "{lines:?}");
+            told += 1;
+        }
+        assert!(told > 1, "{map}: {told}");
+    }
+}
+
+/// The kinds of things of which there are several, by their plurals, with where each thing lies.
+fn kinds(engine: &Engine) -> BTreeMap<(String, String, String), Vec<Thing>> {
+    let world = engine.world().unwrap();
+    let mut kinds: BTreeMap<_, Vec<Thing>> = BTreeMap::new();
+    for replica in world.replicas.values() {
+        let kind = world.objects[&replica.object].object_type;
+        let Some(kind) = world.types.object.get(kind) else { continue };
+        let phrase = NounPhrase::parse(&kind.name.to_lowercase(), &WordHints::default());
+        let all = phrase.form(Case::Nominative, Number::Plural);
+        let many = russian::count(5, &phrase);
+        let many = many.trim_start_matches(|c: char| !c.is_alphabetic()).to_owned();
+        let key = (all, many, english::plural(&kind.name_en));
+        kinds.entry(key).or_default().push(Thing::Entity(Entity::Replica(replica.id)));
+    }
+    // «ТВ-тумба» has no plural that a person would write.
+    kinds.retain(|(all, _, _), things| things.len() > 1 && !all.contains('-'));
+    kinds
+}
+
+/// «Где вилки? Сколько там стаканов?»: on all the tables where forks are; or, of what stands on the floor, in their rooms.
+#[test]
+fn there_is_every_place_that_was_told() {
+    let Some(engine) = engine(FLAT) else { return };
+    let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+    let support = |thing: &Thing| relations.support_of(thing.replica()?);
+    let room = |thing: &Thing| relations.area_of(thing.replica()?);
+    let portable =
+        |thing: &Thing| thing.replica().is_some_and(|id| world.has_trait(id, "portable"));
+    let kinds = kinds(&engine);
+    let mut told = 0;
+    for (n, ((where_ru, _, where_en), first)) in kinds.iter().enumerate() {
+        // What stands on the floor is in rooms alone.
+        if !first.iter().all(|t| support(t).is_some()) || (!long() && n % 3 > 0) {
+            continue;
+        }
+        let supports: BTreeSet<_> = first.iter().filter_map(support).collect();
+        let bears = |id: &ReplicaId| {
+            let name = &world.replicas[id].name_en;
+            let lines = [format!("What is on {name}?"), format!("What is in {name}?")];
+            lines.map(|line| last(&engine, &[&line]).map(|a| a.things).unwrap_or_default()).concat()
+        };
+        let borne: BTreeSet<Thing> = supports.iter().flat_map(bears).collect();
+        let rooms: BTreeSet<_> = first.iter().filter_map(room).collect();
+        for ((_, many_ru, many_en), second) in &kinds {
+            let there = second.iter().filter(|t| borne.contains(t));
+            let expected = match (there.count(), second.iter().any(portable)) {
+                (0, false) => {
+                    second.iter().filter(|t| room(t).is_some_and(|r| rooms.contains(&r))).count()
+                }
+                (count, _) => count,
+            };
+            for lines in [
+                [format!("Где {where_ru}?"), format!("Сколько там {many_ru}?")],
+                [
+                    format!("Where are the {where_en}?"),
+                    format!("How many {many_en} are there there?"),
+                ],
+            ] {
+                let lines = [lines[0].as_str(), lines[1].as_str()];
+                let mut memory = Memory::default();
+                // "Lamps" may be all lamps.
+                let all = ask(&engine, lines[0], &mut memory);
+                if all.is_none_or(|all| all.things.len() != first.len() || first.len() < 2) {
+                    continue;
+                }
+                let Some(answer) = ask(&engine, lines[1], &mut memory) else { continue };
+                let same = answer.things.iter().all(|thing| second.contains(thing));
+                let count = answer.things.len();
+                if !same || supports.len() < 2 {
+                    continue;
+                }
+                assert_eq!(count, expected, "{lines:?}: {}", answer.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 20, "{told}");
+}
+
+/// "Which of them is on the dresser? What is next to it?": next to the one that was found, by its name.
+#[test]
+fn it_is_the_one_that_was_found_and_not_what_bears_it() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let world = engine.world().unwrap();
+    let mut told = 0;
+    for support in world.replicas.values() {
+        for kind in ["book", "cup", "lamp", "vase", "plate", "pencil"] {
+            let which = format!("Which {kind} is on {}?", support.name_en);
+            let Some(answer) = last(&engine, &[&which]) else { continue };
+            let [Thing::Entity(Entity::Replica(only))] = answer.things[..] else { continue };
+            let found = &world.replicas[&only].name_en;
+            let plain = last(&engine, &[&format!("What is next to {found}?")]);
+            let answer = last(&engine, &[&which, "What is next to it?"]);
+            let text = |answer: Option<Answer>| answer.map(|answer| answer.text);
+            assert_eq!(text(answer), text(plain), "{which}");
+            told += 1;
+        }
+    }
+    assert!(told > 2, "{told}");
+}
+
+/// "Never mind the chairs, where …?", "Not the chairs, where …?": the question, or nothing.
+#[test]
+fn what_is_not_meant_is_no_part_of_what_is_asked() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let mut told = 0;
+    for (question, lower) in [
+        ("Where are the books?", "where are the books?"),
+        ("What is on Table 1?", "what is on Table 1?"),
+        ("How many chairs are in Room V?", "how many chairs are in Room V?"),
+        ("Which lamps are on?", "which lamps are on?"),
+        ("Где книги?", "где книги?"),
+        ("Что на комоде?", "что на комоде?"),
+        ("Сколько стульев в кухне?", "сколько стульев в кухне?"),
+    ] {
+        let plain = last(&engine, &[question]).expect("a plain question").symbols;
+        for before in ["Not the sofa, ", "Not the big table, ", "Не диван, а ", "Не большой стол, "]
+        {
+            let line = format!("{before}{lower}");
+            let Some(answer) = last(&engine, &[&line]) else { continue };
+            assert_eq!(answer.symbols, plain, "{line}: {}", answer.text);
+            told += 1;
+        }
+    }
+    assert!(told > 8, "{told}");
+}
