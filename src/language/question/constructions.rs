@@ -4,7 +4,8 @@
 use super::rephrase::{Rule, Words};
 use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
-pub(super) const RULES: [Rule; 13] = [
+pub(super) const RULES: [Rule; 14] = [
+    contracted,
     framed,
     done_to_it,
     connects_with,
@@ -92,6 +93,17 @@ const FRAMES: [(&str, &str, &str, &str); 63] = [
     ("что еще лежит там же где и", "", "что ещё лежит на том же предмете мебели что и", ""),
     ("что еще лежит там же где", "", "что ещё лежит на том же предмете мебели что и", ""),
 ];
+
+/// "Where'd I leave my keys?": where did I.
+fn contracted(words: &Words<'_>) -> Option<String> {
+    const PERSONS: [&str; 7] = ["i", "you", "we", "they", "he", "she", "the"];
+    let asks = words.find(&["where", "how", "why", "when"])?;
+    let said = words.is(asks + 1, &["d"]) && words.is(asks + 2, &PERSONS);
+    let cut = said.then(|| words.at[asks].end..words.at[asks + 1].end)?;
+    let mut text = words.text.to_owned();
+    text.replace_range(cut, " did");
+    Some(text)
+}
 
 fn framed(words: &Words<'_>) -> Option<String> {
     FRAMES.iter().find_map(|(start, end, before, after)| {

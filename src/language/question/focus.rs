@@ -12,7 +12,7 @@ use super::knowledge::Knowledge;
 use super::lexicon::{Extension, Meaning};
 use super::mark::{Mark, Pronoun};
 use super::memory::Exchange;
-use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Doubt, vocabulary};
 use crate::map::Entity;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
@@ -214,6 +214,7 @@ impl Knowledge<'_> {
         self.keep_room(query);
         self.by_state(query);
         self.resume(query);
+        self.most_of_their_kind(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()
@@ -222,6 +223,25 @@ impl Knowledge<'_> {
             && let Some(kind) = self.kind_of(*only)
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+    }
+
+    /// «Сколько ламп в ванной? Где их больше всего?»: of the kind, since all that were told are in one room. Of rooms it is
+    /// asked which, in whatever words.
+    fn most_of_their_kind(&self, query: &mut Query) {
+        let many = |extreme: Extreme| matches!(extreme, Extreme::Most | Extreme::Fewest);
+        if let Query::Where(noun) = query
+            && noun.best.as_ref().is_some_and(|b| many(b.extreme) && b.anchor.is_some())
+        {
+            *query = Query::Find(noun.clone());
+        }
+        let Query::Find(Noun { best: Some(best), .. }) = query else { return };
+        let is_many = many(best.extreme);
+        let Some(had) = best.anchor.as_deref_mut().filter(|_| is_many) else { return };
+        let Some(things) = had.head.things.as_deref() else { return };
+        let rooms: BTreeSet<_> = things.iter().map(|thing| self.area_of(*thing)).collect();
+        if let (1, Some(kind)) = (rooms.len(), self.alike(things)) {
+            had.head = Head { kinds: vec![kind], ..Head::default() };
         }
     }
 

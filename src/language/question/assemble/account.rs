@@ -197,6 +197,7 @@ impl Frame<'_, '_> {
             || self.only_denies(query)
             || self.denies_aside()
             || self.sets_rooms_against(query)
+            || self.points_to_a_place()
             || many
             || why
             || twofold
@@ -261,6 +262,17 @@ impl Frame<'_, '_> {
         self.marks.contains(&(Mark::Not, 0))
             && first == Some(1)
             && self.marks.iter().any(|(mark, at)| *at > 1 && asks.contains(mark))
+    }
+
+    /// «А на той, где ракетка?» tells which one is meant, and does not ask where the racket is.
+    fn points_to_a_place(&self) -> bool {
+        const POINTING: [&str; 8] = ["тот", "та", "те", "ту", "той", "тех", "тому", "том"];
+        let keys = self.sentence.keys.windows(2);
+        keys.enumerate().any(|(at, pair)| {
+            POINTING.contains(&pair[0].as_str())
+                && pair[1] == "где"
+                && self.sentence.comma_between(at + 1, at + 1)
+        })
     }
 
     /// «Чего нет в ванной, что есть на кухне?»: what stands in one room is never in the other too; that asks for kinds.

@@ -94,6 +94,14 @@ impl Settler<'_, '_> {
                 return Err((Doubt::not_understood(&second.noun.text), self.bytes(&second.words)));
             }
             let mut anchor = with(&spot.phrase.noun, &spot.within);
+            // "from the bed with the racket": what bears it or holds it, as where that is the object.
+            if spot.within.iter().any(|place| place.rel == Rel::Has) {
+                let found = self.candidates(&spot.phrase.noun, &spot.within);
+                let found = found.map_err(|doubt| (doubt, self.bytes(&spot.phrase.words)))?;
+                if !found.is_empty() {
+                    anchor = Noun { text: anchor.text, plural: found.len() > 1, ..Noun::of(found) };
+                }
+            }
             // What the sentence has named, else what was spoken of that may be so related: "the banana from it".
             if let Some(pronoun) = spot.phrase.pronoun {
                 let spoken = more.place == self.knowledge.memory.last_thing();
