@@ -209,3 +209,99 @@ fn what_is_not_meant_is_no_part_of_what_is_asked() {
     }
     assert!(told > 8, "{told}");
 }
+
+/// Two things on one support of which there are several of its kind: the support, its kind in English, both things.
+fn pairs(engine: &Engine) -> Vec<(String, String, String, String)> {
+    let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+    let kind = |id: &ReplicaId| {
+        let object = &world.objects[&world.replicas[id].object];
+        world.types.object.get(object.object_type).map(|kind| kind.name_en.clone())
+    };
+    let mut borne: BTreeMap<ReplicaId, Vec<String>> = BTreeMap::new();
+    for thing in world.replicas.values().filter(|thing| world.has_trait(thing.id, "portable")) {
+        if let Some(support) = relations.support_of(thing.id) {
+            borne.entry(support).or_default().push(thing.name_en.clone());
+        }
+    }
+    let several = |support: &ReplicaId| {
+        world.replicas.keys().filter(|id| kind(id) == kind(support)).count() > 1
+    };
+    let fixed = |support: &ReplicaId| !world.has_trait(*support, "portable");
+    let pairs = borne.into_iter().filter(|(support, _)| several(support) && fixed(support));
+    let pair = |(support, things): (ReplicaId, Vec<String>)| match &things[..] {
+        [first, second, ..] => Some((
+            world.replicas[&support].name_en.clone(),
+            kind(&support)?,
+            first.clone(),
+            second.clone(),
+        )),
+        _ => None,
+    };
+    pairs.filter_map(pair).collect()
+}
+
+/// "What is on the bed where the racket is?", "Take the clock from the bed with the racket": the bed that bears it.
+#[test]
+fn a_support_is_told_by_what_lies_on_it() {
+    let mut told = 0;
+    for map in ["../shared/data/procthor/house_1.json", HOUSE] {
+        let Some(engine) = engine(map) else { return };
+        for (support, kind, first, second) in pairs(&engine) {
+            let plain = last(&engine, &[&format!("What is on {support}?")]).map(|a| a.symbols);
+            let lines = [
+                format!("What is on the {kind} where {first} is?"),
+                format!("What is on the {kind} with {first}?"),
+            ];
+            for line in lines {
+                let Some(answer) = last(&engine, &[&line]) else { continue };
+                assert_eq!(Some(answer.symbols), plain, "{line}: {}", answer.text);
+                told += 1;
+            }
+            let of = |place: &str| {
+                let heard = engine.understand(&format!("Take {second} from {place}"));
+                heard.map(|commands| format!("{commands:?}")).map_err(|e| e.to_string())
+            };
+            assert_eq!(of(&format!("the {kind} with {first}")), of(&support), "{support} {first}");
+        }
+    }
+    assert!(told > 8, "{told}");
+}
+
+/// "Where are the lamps? Where are most of them?", «Сколько ламп в ванной? Где их больше всего?»: the room with the most of
+/// the kind.
+#[test]
+fn most_of_them_are_where_most_of_the_kind_are() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        for (n, ((all, many, english), _)) in kinds(&engine).iter().enumerate() {
+            if !long() && n % 3 > 0 {
+                continue;
+            }
+            let room = &world.areas.values().next().expect("a room").name;
+            let lines = [
+                (format!("Where are the {english}?"), "Where are most of them?"),
+                (format!("Where are the {english}?"), "Which room has the most of them?"),
+                (format!("Где {all}?"), "Где их больше всего?"),
+                (format!("Сколько {many} в {room}?"), "Где их больше всего?"),
+            ];
+            for (opening, line) in lines {
+                let plain = match opening.starts_with("Where") {
+                    true => format!("Which room has the most {english}?"),
+                    false => format!("В какой комнате больше всего {many}?"),
+                };
+                let Some(plain) = last(&engine, &[&plain]) else { continue };
+                let mut memory = Memory::default();
+                // Of none there are not most.
+                if ask(&engine, &opening, &mut memory).is_none_or(|a| a.things.len() < 2) {
+                    continue;
+                }
+                let Some(answer) = ask(&engine, line, &mut memory) else { continue };
+                assert_eq!(answer.symbols, plain.symbols, "{opening} {line}: {}", answer.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 12, "{told}");
+}

@@ -456,7 +456,7 @@ impl Asker<'_> {
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         // «В каких комнатах есть книги? В какой их больше всего?»: the books, where rooms are asked for.
-        let rooms = sentence.asks_of_rooms(&self.mind.lexicon);
+        let rooms = sentence.asks_of_rooms(&self.mind.lexicon) || sentence.asks_where_most();
         let chooses = memory.last.len() == 1 && of_those::chooses(&sentence.items());
         let referent = |pronoun: Pronoun, rel: Option<Rel>| {
             let had = || knowledge.had_by_rooms().filter(|_| rooms);

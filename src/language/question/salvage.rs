@@ -489,7 +489,8 @@ pub(super) fn goes_on(before: &str, part: &str) -> bool {
         Some("чем" | "than") => (0..told.len()).any(|n| {
             matches!(vocabulary::longest(&told[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))
         }),
-        Some("что" | "which" | "that") => {
+        // "which" and «где» behind a word that points tell which one is meant.
+        Some("что" | "which" | "that" | "где" | "where") => {
             told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
         }
         Some(first) => first.starts_with("котор") && !told.is_empty(),

@@ -280,7 +280,9 @@ impl Knowledge<'_> {
     /// What the rooms have that were told last.
     pub(super) fn had_by_rooms(&self) -> Option<Vec<Thing>> {
         let Some(Query::Find(noun)) = &self.memory.query else { return None };
-        let has = noun.restrictions.iter().find(|r| r.rel == Rel::Has)?;
-        self.find(has.anchors.first()?, true).ok().filter(|found| !found.is_empty())
+        let counted = noun.best.as_ref().and_then(|best| best.anchor.as_deref());
+        let counted = counted.filter(|_| self.memory.last.iter().all(|t| t.area().is_some()));
+        let has = || noun.restrictions.iter().find(|r| r.rel == Rel::Has)?.anchors.first();
+        self.find(counted.or_else(has)?, true).ok().filter(|found| !found.is_empty())
     }
 }

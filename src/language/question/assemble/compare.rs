@@ -39,11 +39,21 @@ impl Frame<'_, '_> {
                     s.noun.plural && (!self.is_area(&s.noun) || (on_storeys && !storeys(s)))
                 })
             })
-        })?;
-        let extreme = counted.noun.best.as_ref().map(|b| b.extreme).or(alone)?;
-        let mut what = Noun { best: None, plural: true, indefinite: true, ..counted.noun.clone() };
+        });
+        // "Where are most of them?"
+        let of_them = self.spots.iter().find(|s| {
+            let told = s.nouns[0].head.things.as_ref();
+            matches!(s.rel, Rel::Of | Rel::From) && told.is_some_and(|told| told.len() > 1)
+        });
+        let (counted, at) = match (counted, of_them.filter(|_| alone.is_some())) {
+            (Some(counted), _) => (&counted.noun, counted.at),
+            (None, Some(of_them)) => (&of_them.nouns[0], of_them.at),
+            (None, None) => return None,
+        };
+        let extreme = counted.best.as_ref().map(|b| b.extreme).or(alone)?;
+        let mut what = Noun { best: None, plural: true, indefinite: true, ..counted.clone() };
         what.filters.extend(self.filters());
-        let asked = self.nouns.iter().find(|s| s.at != counted.at);
+        let asked = self.nouns.iter().find(|s| s.at != at);
         let mut asked = match asked {
             Some(subject) => subject.noun.clone(),
             None if self.has(Mark::Where) => {
@@ -55,7 +65,7 @@ impl Frame<'_, '_> {
         if !asked.head.kinds.is_empty() {
             asked.head.named.clear();
         }
-        for spot in &self.spots {
+        for spot in self.spots.iter().filter(|spot| spot.at != at) {
             self.attach(&mut asked, spot);
         }
         asked.rank = asked.rank.or(what.rank.take());

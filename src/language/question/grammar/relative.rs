@@ -61,7 +61,10 @@ impl Sentence<'_> {
                 if !told {
                     return None;
                 }
-                (Rel::Has, Tokens(after))
+                // «кровать, где ракетка» has it on itself, «комната, где кровать» in itself.
+                let head = self.tokens.iter().find(|t| t.to as usize == phrase.words.end);
+                let thing = matches!(head.map(|t| t.kind), Some(Tok::Noun(n)) if !self.nouns[n as usize].is_area);
+                (if thing { Rel::Bears } else { Rel::Has }, Tokens(after))
             }
             _ => return None,
         };

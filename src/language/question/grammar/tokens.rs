@@ -465,6 +465,21 @@ impl<'t> Sentence<'t> {
         })
     }
 
+    /// «Где их больше всего?»: in which room.
+    pub(in super::super) fn asks_where_most(&self) -> bool {
+        let has = |mark: &dyn Fn(Mark) -> bool| {
+            self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(own) if mark(own)))
+        };
+        let most = |mark| {
+            let Mark::Best(extreme) = mark else { return false };
+            matches!(
+                extreme,
+                Extreme::Most | Extreme::Fewest | Extreme::Biggest | Extreme::Smallest
+            )
+        };
+        has(&|mark| mark == Mark::Where) && has(&most)
+    }
+
     /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
     fn is_numbered(&self, at: usize, taken: usize) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));
