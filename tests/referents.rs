@@ -305,3 +305,32 @@ fn most_of_them_are_where_most_of_the_kind_are() {
     }
     assert!(told > 12, "{told}");
 }
+
+/// «Свойства: закрыта, да и да»: a yes is told by the name of what it is said of.
+#[test]
+fn no_yes_or_no_is_told_without_its_property() {
+    let mut told = 0;
+    for map in ["../shared/data/virtualhome/TestScene1_graph.json", FLAT, HOUSE] {
+        let Some(engine) = engine(map) else { return };
+        for thing in some(engine.world().unwrap(), 4) {
+            for line in [format!("Опиши {}", thing.name), format!("Describe {}", thing.name_en)]
+            {
+                let Some(answer) = last(&engine, &[&line]) else { continue };
+                let told_of =
+                    answer.text.split_once("войства: ").or(answer.text.split_once("roperties: "));
+                let Some((_, values)) = told_of else { continue };
+                let values = values.split('.').next().unwrap_or_default();
+                let values = values
+                    .split([','])
+                    .flat_map(|all| all.split(" и "))
+                    .flat_map(|all| all.split(" and "));
+                for value in values.map(str::trim) {
+                    let bare = ["да", "нет", "yes", "no", "true", "false"].contains(&value);
+                    assert!(!bare, "{line}: {}", answer.text);
+                    told += 1;
+                }
+            }
+        }
+    }
+    assert!(told > 20, "{told}");
+}

@@ -131,6 +131,16 @@ impl Asker<'_> {
         Some(Query::Exists { what, either: false, negated: false })
     }
 
+    /// «Какая площадь у кухни? А у ванной?», "And of the bathroom?": the same of another room or thing.
+    pub(super) fn of_another_owner(&self, last: &Query, noun: &Noun) -> Option<Query> {
+        let (Query::Size { of, .. } | Query::Property { of, .. }) = last else { return None };
+        let [place] = &noun.restrictions[..] else { return None };
+        let [owner] = &place.anchors[..] else { return None };
+        let bare = noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
+        let owns = matches!(place.rel, Rel::Of | Rel::NextTo | Rel::At) && !place.negated;
+        (bare && owns && of.restrictions.is_empty()).then(|| last.clone().of_another(owner))
+    }
+
     /// «Есть что поесть на кухне? А попить?», "And to drink?": the same with another deed.
     pub(super) fn another_deed(
         &self,

@@ -34,6 +34,15 @@ pub(super) fn where_alone(sentence: &Sentence<'_>, last: &Query, memory: &Memory
     })
 }
 
+/// «Есть ли в спальне часы? – Да. – Какие?»: those that were asked for.
+pub(super) fn which_alone(key: &str, last: &Query) -> Option<Query> {
+    const WHICH: [&str; 6] =
+        ["какие", "а какие", "какие именно", "а какие именно", "какие же", "и какие"];
+    let asks = WHICH.contains(&key.trim_end_matches(['?', '.', '!', ' ']));
+    let sought = last.sought().filter(|noun| asks && !noun.head.anything)?;
+    Some(Query::Find(Noun { plural: true, indefinite: true, count: None, ..sought.clone() }))
+}
+
 /// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
 pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
     const ROOM: [&str; 8] = [

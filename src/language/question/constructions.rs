@@ -28,11 +28,15 @@ fn done_to_it(words: &Words<'_>) -> Option<String> {
 
 /// Sentences with one gap, by what stands before and behind it, and the same of the sentence that is meant: what stands
 /// in the one goes into the other.
-const FRAMES: [(&str, &str, &str, &str); 63] = [
+const FRAMES: [(&str, &str, &str, &str); 67] = [
     ("я правильно понимаю что", "", "правда ли, что", ""),
     ("правильно ли я понимаю что", "", "правда ли, что", ""),
     ("am i right that", "", "is it true that", ""),
     ("do you think", "", "is it true that", ""),
+    ("i bet", "", "is it true that", ""),
+    ("any chance there s", "", "is there", ""),
+    ("any chance there is", "", "is there", ""),
+    ("any chance there are", "", "are there", ""),
     ("правда что", "", "правда ли, что", ""),
     ("верно что", "", "верно ли, что", ""),
     ("правда ведь что", "", "правда ли, что", ""),

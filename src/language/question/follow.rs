@@ -1,7 +1,7 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
 use super::another_place::{another_placed, near_another};
-use super::bare::{by_how_much, room_alone, where_alone, where_such};
+use super::bare::{by_how_much, room_alone, where_alone, where_such, which_alone};
 use super::grammar::{Item, Sentence, number_of};
 use super::mark::{Mark, Pronoun};
 use super::{
@@ -104,7 +104,9 @@ impl Asker<'_> {
         if let Some(query) = query {
             return Some(query);
         }
-        if let Some(query) = where_alone(&sentence, last, memory) {
+        if let Some(query) =
+            which_alone(&key, last).or_else(|| where_alone(&sentence, last, memory))
+        {
             return Some(query);
         }
         if let Some(query) = room_alone(text, memory) {
@@ -202,6 +204,9 @@ impl Asker<'_> {
             return Some(query);
         }
         if let Some(query) = self.in_another_room(last, &noun).filter(|_| !counts) {
+            return Some(query);
+        }
+        if let Some(query) = self.of_another_owner(last, &noun).filter(|_| !counts) {
             return Some(query);
         }
         if let Some(query) = near_another(last, &noun).filter(|_| !counts) {
@@ -550,10 +555,12 @@ impl Asker<'_> {
     pub(super) fn clarified(&self, text: &str, memory: &Memory) -> Option<Query> {
         let pending = memory.pending.as_ref()?;
         // "Which is the biggest of the rooms?" asks anew.
-        if text.trim_end().ends_with('?') && several::asks_in(text) {
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        // «А та, что на кухне?» asks with no «что».
+        let points = (0..sentence.keys.len().min(2)).any(|at| sentence.points_ahead(at));
+        if text.trim_end().ends_with('?') && several::asks_in(text) && !points {
             return None;
         }
-        let sentence = Sentence::new(text, &self.mind.lexicon);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_, _| Vec::new())?;
         let knowledge = self.knowledge(pending.language, memory);
         let mut noun = noun;

@@ -302,10 +302,16 @@ impl Knowledge<'_> {
                     (!matches!(sort, Property::Other(_))).then(|| (sort.clone(), *value))
                 };
                 let name = property.noun(self.language);
+                let key = name_key(text);
+                let is = |words: [&str; 3]| words.contains(&&*key);
                 match value.as_ref().and_then(of_language) {
+                    // A yes or no is nothing without what it is said of.
+                    _ if is(["да", "yes", "true"]) => name,
+                    _ if is(["нет", "no", "false"]) => {
+                        format!("{name} – {}", self.value_told(text))
+                    }
                     // «ЧИСТОТА = Чистое»: what the language calls a state is told as one.
                     Some((sort, value)) => self.value_of(&sort, value, thing),
-                    None if ["да", "yes", "true"].contains(&&*name_key(text)) => name,
                     None => format!("{name} – {}", self.value_told(text)),
                 }
             })
