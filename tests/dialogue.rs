@@ -387,3 +387,27 @@ fn after_an_order_that_has_no_plan_why_tells_the_reason() {
     let text = &why.replies[0].text;
     assert!(text.starts_with("Вот причина: ") && text.contains("КЛЮЧ"), "{text}");
 }
+
+/// "Never mind the chairs, where are the books?": what stops a line is no answer to what it asks.
+#[test]
+fn a_question_behind_what_stops_is_answered() {
+    let mut told = 0;
+    for question in
+        ["Where are the books?", "What is on Table 1?", "Где книги?", "Сколько стульев в кухне?"]
+    {
+        let (mut engine, mut dialogue) = (flat(), Dialogue::new(Language::Russian));
+        let plain = hear(&mut dialogue, &mut engine, question).text();
+        let lower = question.chars().next().unwrap().to_lowercase().collect::<String>()
+            + &question.chars().skip(1).collect::<String>();
+        for before in ["Never mind the plates, ", "Stop, ", "Стоп, ", "Неважно, "] {
+            let (mut engine, mut dialogue) = (flat(), Dialogue::new(Language::Russian));
+            let heard = hear(&mut dialogue, &mut engine, &format!("{before}{lower}"));
+            assert_ne!(words(&heard), ["stopped"], "{before}{lower}");
+            told += usize::from(heard.text().ends_with(&plain));
+        }
+    }
+    assert!(told >= 12, "{told}");
+    // Alone it stops.
+    let (mut engine, mut dialogue) = (flat(), Dialogue::new(Language::English));
+    assert_eq!(words(&hear(&mut dialogue, &mut engine, "Never mind the plates.")), ["stopped"]);
+}

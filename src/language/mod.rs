@@ -26,11 +26,12 @@
 //!   sentence; a rule shown for a query of relations gives the same bindings as the answer (a test runs it).
 //!   Where the robot is, ways and history come from outside through `question::Senses`.
 //! - *Dialogue.* What each of the last exchanges was about is kept in ranks (`focus`): topics, then the members
-//!   of a list. A pronoun takes up the first that agrees and may stand in its relation; of several things that
+//!   of a list. A pronoun takes up the first that agrees and may stand in its relation (`pronouns`), and "there"
+//!   is where what was told is (`there`); of several things that
 //!   a description fits the one is meant that was just spoken of, and where the exchanges name several of one
 //!   rank it is asked back. After a name that the map lacks a pronoun means nothing. `follow` makes a whole
-//!   question of one that goes on from the last, `onward` of one about the way that was asked for, `rest` of
-//!   one about what was not told.
+//!   question of one that goes on from the last, `discourse` of one about the way that was asked for,
+//!   `another_one` of one about another of the kind, `rest` of one about what was not told.
 //! - *Measures in answers.* What superlatives and comparatives go by is one list (`compared`); "higher" goes by
 //!   place, and by size where things begin equally high (`knowledge/measure`); shelves and drawers are told
 //!   apart by the heights of an object's parts (`knowledge/levels`), and left and right for one who faces a

@@ -2,14 +2,14 @@
 
 use super::another_place::{another_placed, near_another};
 use super::bare::{by_how_much, room_alone, where_alone, where_such, which_alone};
-use super::grammar::{Item, Sentence, number_of};
+use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
-    several, vocabulary,
+    several,
 };
 use crate::map::Entity;
-use crate::words::{Language, word_keys, word_ranges};
+use crate::words::Language;
 
 impl Asker<'_> {
     /// «А чайник?» after a question about something else: the same question about the kettle.
@@ -282,92 +282,6 @@ impl Asker<'_> {
         replaced.map(|_| query)
     }
 
-    /// «На чём он стоит? А тот, что в гостиной?»: the same of another of its kind.
-    fn another_pointed(
-        &self,
-        sentence: &Sentence<'_>,
-        last: &Query,
-        memory: &Memory,
-    ) -> Option<Query> {
-        let items = sentence.items();
-        let [Item::Mark(Mark::And), Item::Noun(phrase), rest @ ..] = &items[..] else {
-            return None;
-        };
-        let places = rest.iter().all(|item| matches!(item, Item::Place { .. }));
-        if !places || !sentence.points_ahead(phrase.words.start) {
-            return None;
-        }
-        let noun = self.fragment(sentence, memory)?;
-        let mut query = last.clone();
-        let mut first = true;
-        let mut placed = false;
-        query.each_noun(&mut |old| {
-            if std::mem::take(&mut first) && !old.head.anything && self.has_kind(old) {
-                old.restrictions.clone_from(&noun.restrictions);
-                old.filters.clone_from(&noun.filters);
-                placed = !noun.restrictions.is_empty();
-            }
-        });
-        placed.then_some(query)
-    }
-
-    /// "Is the bedroom door shut? – No, neither Door 1 nor Door 2. – The one to the kitchen?": the same of that one of
-    /// those that were told.
-    fn one_of_asked(
-        &self,
-        sentence: &Sentence<'_>,
-        last: &Query,
-        memory: &Memory,
-    ) -> Option<Query> {
-        let items = sentence.items();
-        let small = |item: &Item| matches!(item, Item::Mark(Mark::And | Mark::The));
-        let mut own = items.iter().skip_while(|item| small(item));
-        let Some(Item::Noun(phrase)) = own.next() else { return None };
-        let places = own.all(|item| matches!(item, Item::Place { .. }));
-        let points = phrase.noun.head.anything && word_keys(&phrase.noun.text).last()? == "one";
-        if !places || !points || memory.listed.len() < 2 || memory.pending.is_some() {
-            return None;
-        }
-        let noun = self.fragment(sentence, memory).filter(|noun| !noun.restrictions.is_empty())?;
-        let asks = matches!(
-            last,
-            Query::Holds { .. }
-                | Query::Choice { .. }
-                | Query::Property { .. }
-                | Query::Size { .. }
-        );
-        let told = |noun: &Noun| {
-            let knowledge = self.knowledge(sentence.language, memory);
-            let found = knowledge.find(noun, true).unwrap_or_default();
-            !found.is_empty() && found.iter().all(|t| memory.listed.contains(t))
-        };
-        let (mut subject, mut first) = (false, true);
-        query_nouns(last, &mut |old| {
-            if std::mem::take(&mut first) {
-                subject = told(old);
-            }
-        });
-        let head = Head { things: Some(memory.listed.clone()), ..Head::default() };
-        let narrowed = Noun { head, plural: true, ..noun };
-        let knowledge = self.knowledge(sentence.language, memory);
-        let found = knowledge.find(&narrowed, true).ok().filter(|_| asks && subject)?;
-        let [only] = found[..] else { return None };
-        Some(last.clone().of_another(&Noun::of(vec![only])))
-    }
-
-    /// "Is there a sink in the bathroom? One in the kitchen too?": whether there is another of the kind.
-    fn one_more(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        let keys = word_keys(text);
-        let (first, _) = keys.split_first()?;
-        let asks =
-            matches!(first.as_str(), "one" | "any" | "some") && text.trim_end().ends_with('?');
-        let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
-        let place = self.bare_place(&text[word_ranges(text).first()?.end..], memory)?;
-        let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
-        let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
-        Some(Query::Exists { what, either: false, negated: false })
-    }
-
     /// A description by itself: "the spoons in the kitchen".
     pub(super) fn fragment(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Noun> {
         let knowledge = self.knowledge(sentence.language, memory);
@@ -432,102 +346,6 @@ impl Asker<'_> {
         }
         asked.restrictions.clear();
         Some(query)
-    }
-
-    /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
-    fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        const SMALL: [&str; 14] = [
-            "а", "и", "and", "what", "about", "how", "the", "one", "is", "are", "s", "ones", "же",
-            "then",
-        ];
-        const OTHER: [&str; 14] = [
-            "другая",
-            "другой",
-            "другое",
-            "другие",
-            "вторая",
-            "второй",
-            "второе",
-            "остальные",
-            "other",
-            "others",
-            "second",
-            "rest",
-            "another",
-            "остальное",
-        ];
-        let words: Vec<&str> = key
-            .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| {
-                !word.is_empty() && !SMALL.contains(word) && (OTHER.contains(word) || !stands(word))
-            })
-            .collect();
-        let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
-        let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();
-        let (only, many) = match rest[..] {
-            [only] => (only, None),
-            // «А другие два?», "The other three?": just so many.
-            [only, many] => (only, Some(number_of(many)?)),
-            _ => return None,
-        };
-        if !OTHER.contains(only) {
-            return None;
-        }
-        let others = || self.others_of_last(memory);
-        let noun = match ["others", "остальные", "rest", "остальное", "другие"].contains(only)
-        {
-            true => self.rest_of_kind(memory).or_else(others)?,
-            false if many.is_some() => self.rest_of_kind(memory).or_else(others)?,
-            false => others()?,
-        };
-        let so_many = |many: u64| {
-            let found = self.knowledge(memory.language, memory).find(&noun, true);
-            let others = |found: &Vec<Thing>| found.iter().all(|t| !memory.last.contains(t));
-            found.is_ok_and(|found| found.len() as u64 == many && others(&found))
-        };
-        if many.is_some_and(|many| !so_many(many)) {
-            return None;
-        }
-        if asks_where {
-            return Some(Query::Where(noun));
-        }
-        let knowledge = self.knowledge(memory.language, memory);
-        Some(match last {
-            // "How many books are on this shelf? And the other ones?": on the other shelves.
-            Query::Count(counted)
-                if let [place] = &counted.restrictions[..]
-                    && noun.head.things.as_deref().is_some_and(|others| {
-                        let own = knowledge.base(&counted.head);
-                        others.iter().all(|other| !own.contains(other))
-                    }) =>
-            {
-                let anchors = vec![Noun { plural: true, ..noun }];
-                let restrictions = vec![Restriction { anchors, ..place.clone() }];
-                Query::Count(Noun { restrictions, ..counted.clone() })
-            }
-            Query::Count(_) => Query::Where(noun),
-            // "Which of them is open? And the other one?"
-            Query::Find(asked) if !asked.filters.is_empty() => {
-                let claims = asked.filters.iter().cloned().map(Claim::Value).collect();
-                Query::Holds { subject: noun, claims, negated: false }
-            }
-            last => last.clone().of_another(&noun),
-        })
-    }
-
-    /// The other things of the kind of the last one: of several that were just listed, those that were not spoken of
-    /// before. While it is asked back which is meant there is no one beside which others are.
-    fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
-        if memory.pending.is_some() {
-            return None;
-        }
-        let known = memory.topic_among(&memory.last);
-        if known.is_some() {
-            let others = memory.last.iter().filter(|t| Some(**t) != known).copied();
-            return Some(Noun { plural: true, ..Noun::of(others.collect()) });
-        }
-        let rest = self.knowledge(memory.language, memory).complement()?;
-        Some(Noun { plural: rest.len() > 1, ..Noun::of(rest) })
     }
 
     /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.
@@ -614,12 +432,6 @@ fn repeat_with(sentence: &Sentence<'_>, last: &Query, noun: &mut Noun) {
 
 fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {
     query.clone().each_noun(&mut |noun| act(noun));
-}
-
-/// Whether a word says of a thing only that it is somewhere: «стоят», "lying".
-fn stands(word: &str) -> bool {
-    let said = vocabulary::longest(&[word.to_owned()]);
-    matches!(said, Some((_, Mark::Be | Mark::Hang | Mark::Filler)))
 }
 
 /// «выше», «ниже», by place as well as by size.

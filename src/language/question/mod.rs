@@ -9,6 +9,7 @@
 
 mod address;
 mod another_had;
+mod another_one;
 mod another_place;
 mod answer;
 mod asides;
@@ -41,6 +42,7 @@ mod opening;
 mod orders;
 mod outlive;
 mod premise;
+mod pronouns;
 mod purposes;
 mod query;
 mod rephrase;
@@ -55,6 +57,7 @@ mod several;
 mod small_words;
 mod speech;
 mod storeys;
+mod there;
 mod told_aside;
 mod told_together;
 mod uses;

@@ -1,0 +1,242 @@
+//! What a pronoun takes up: what was last asked of before the members of a list, where it agrees and may stand so.
+//!
+//! Invariant: where several of one rank fit, none is chosen: it is asked back which is meant.
+
+use super::Doubt;
+use super::everyday;
+use super::focus::is_shown;
+use super::knowledge::Knowledge;
+use super::lexicon::{Extension, Meaning};
+use super::mark::{Mark, Pronoun};
+use super::memory::Exchange;
+use super::query::{Claim, Noun, Query, Rel, Thing};
+use super::vocabulary;
+use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
+
+impl Knowledge<'_> {
+    /// What a pronoun means: what was last spoken of that agrees with it, and may stand in the relation that it is named
+    /// in («на нём»).
+    pub(super) fn referent(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
+        let last = &self.memory.last;
+        match pronoun {
+            // "Is there a towel in the bathroom? – No such thing. – How many paintings are there?": in the bathroom.
+            // Nor is anywhere "there" while it is asked back which of several was meant.
+            Pronoun::There if self.memory.is_lost || self.memory.pending.is_some() => {
+                self.memory.told_place.into_iter().collect()
+            }
+            _ if self.memory.is_lost => Vec::new(),
+            Pronoun::There => self.places_spoken_of(),
+            Pronoun::They if last.len() > 1 => self.several_meant(rel),
+            // "How many of them are on the table? Which of them is bigger?": of one thing there are no others.
+            Pronoun::They
+                if matches!(rel, Some(Rel::From | Rel::Of))
+                    && let Some(list) = self.list_with(last) =>
+            {
+                list
+            }
+            Pronoun::They if let Some(pair) = self.last_pair() => pair,
+            _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
+            // "What can I write with and where is it?": each of them.
+            Pronoun::Any
+                if matches!(self.memory.query, Some(Query::Find(_)))
+                    && last.len() > 1
+                    && self.memory.exchanges.first().is_some_and(|e| e.topics().is_empty()) =>
+            {
+                last.clone()
+            }
+            // "The living room is big. What are they on?": one thing is no "they", but scissors and «таблетки» are.
+            Pronoun::They => {
+                let several =
+                    |t: &Thing| self.memory.is_plural || self.gender(*t).1 == Number::Plural;
+                self.taken_up(pronoun, rel).into_iter().take(1).filter(several).collect()
+            }
+            _ => self.taken_up(pronoun, rel),
+        }
+    }
+
+    /// The one that was spoken of last, or all of a list none of which was spoken of more than the others.
+    fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
+        /// A pronoun passes over no more exchanges for something that may stand in its relation.
+        const NEAR: usize = 2;
+        let may = |t: &Thing| rel.is_none_or(|rel| self.may_be_anchor(rel, *t));
+        let near = self.memory.exchanges.iter().take(NEAR);
+        let fitting = |admits: &dyn Fn(&Thing) -> bool| -> Vec<Thing> {
+            let fits = |t: &Thing| self.agrees(pronoun, *t) && admits(t);
+            let placed = matches!(rel, Some(Rel::On | Rel::In));
+            let rank = near.clone().find_map(|exchange| {
+                if let Some(whither) = exchange.whither().filter(|t| placed && fits(t)) {
+                    return Some(vec![whither]);
+                }
+                let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| vec![*t]);
+                let all_of = |all: &[Thing]| -> Vec<Thing> {
+                    all.iter().copied().filter(|t| fits(t)).collect()
+                };
+                let ranks = [exchange.members(), exchange.aside()];
+                topic.or_else(|| ranks.into_iter().map(all_of).find(|all| !all.is_empty()))
+            });
+            rank.unwrap_or_default()
+        };
+        let found = fitting(&may);
+        let found = if found.is_empty() { fitting(&|_| true) } else { found };
+        if !found.is_empty() {
+            return found;
+        }
+        let spoken = self.memory.spoken.iter().copied().find(|t| self.agrees(pronoun, *t));
+        spoken.into_iter().collect()
+    }
+
+    /// What one word in the singular may mean of several: "it" after a list, "that one". Where they are told by name one
+    /// by one, all of them are.
+    pub(super) fn contested(&self, query: &Query) -> Option<Doubt> {
+        if matches!(query, Query::Where(_) | Query::RoomOf(_) | Query::Several(_)) {
+            return None;
+        }
+        let mut doubt = None;
+        let single = |noun: &Noun| {
+            let words = word_keys(&noun.text);
+            let pronoun = match vocabulary::longest(&words) {
+                Some((taken, Mark::Pronoun(p))) if taken == words.len() => Some(p),
+                _ => None,
+            };
+            let shown = words.last().is_some_and(|word| word == "one") && is_shown(noun);
+            shown || pronoun.is_some_and(|p| !matches!(p, Pronoun::They | Pronoun::There))
+        };
+        let mut check = |noun: &Noun| {
+            let several = noun.head.things.as_deref().filter(|things| things.len() > 1);
+            let bare = noun.filters.is_empty()
+                && noun.restrictions.is_empty()
+                && noun.sizes.is_empty()
+                && noun.best.is_none()
+                && noun.rank.is_none()
+                && !noun.other;
+            if let Some(candidates) = several.filter(|_| bare && single(noun)) {
+                let (reference, candidates) = (noun.text.clone(), candidates.to_vec());
+                doubt.get_or_insert(Doubt::Ambiguous { reference, candidates });
+            }
+        };
+        query.clone().each_noun(&mut |noun| {
+            check(noun);
+            noun.restrictions.iter().flat_map(|place| &place.anchors).for_each(&mut check);
+        });
+        doubt
+    }
+
+    /// From what something is taken that lies on "it" or in it: what was last spoken of that agrees and may bear things.
+    pub(super) fn borne_by_pronoun(&self, pronoun: Pronoun) -> Option<Thing> {
+        if self.memory.is_lost || matches!(pronoun, Pronoun::They | Pronoun::There) {
+            return None;
+        }
+        let exchanges = self.memory.exchanges.iter();
+        let mut ranked = exchanges.flat_map(|e| [e.topics(), e.members()]).flatten();
+        let bears = |t: &Thing| self.may_be_anchor(Rel::On, *t) || self.may_be_anchor(Rel::In, *t);
+        ranked.find(|t| self.agrees(pronoun, **t) && bears(t)).copied()
+    }
+
+    /// "Is it there?", where "it" and the place are one thing: what was meant by one of the two is not known.
+    pub(super) fn is_at_itself(&self, query: &Query) -> Option<String> {
+        let Query::Holds { subject, claims, .. } = query else { return None };
+        let own = |anchor: &&Noun| {
+            let things = subject.head.things.as_deref().unwrap_or_default();
+            !things.is_empty() && anchor.head.things.as_deref() == Some(things)
+        };
+        claims.iter().find_map(|claim| match claim {
+            Claim::Related(place) => place.anchors.iter().find(own).map(|a| a.text.clone()),
+            _ => None,
+        })
+    }
+
+    pub(super) fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
+        let fits = |gender: Gender| match pronoun {
+            Pronoun::He => gender == Gender::Masculine,
+            Pronoun::HimOrIt => gender != Gender::Feminine,
+            Pronoun::She | Pronoun::Her => gender == Gender::Feminine,
+            Pronoun::It => gender == Gender::Neuter,
+            Pronoun::They | Pronoun::Any | Pronoun::There => true,
+        };
+        let (gender, number) = self.gender(thing);
+        let singular = number == Number::Singular;
+        let any = matches!(pronoun, Pronoun::They | Pronoun::Any | Pronoun::There);
+        any || (fits(gender) && singular) || self.genders_said(thing).into_iter().any(fits)
+    }
+
+    /// Whether something may be on or in a thing.
+    pub(super) fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
+        let wanted: &[&str] = match rel {
+            Rel::On => &["support", "seat", "bed"],
+            Rel::In => &["container"],
+            _ => return true,
+        };
+        let has = |id| wanted.iter().any(|wanted| self.world.has_trait(id, wanted));
+        match thing.replica() {
+            Some(id) => has(id) || !self.related(rel, thing).is_empty(),
+            None => rel == Rel::In && thing.area().is_some(),
+        }
+    }
+
+    /// Genders of the words of the last question that mean the one thing of its answer.
+    fn genders_said(&self, thing: Thing) -> Vec<Gender> {
+        if self.memory.last != [thing] {
+            return Vec::new();
+        }
+        let lexicon = self.lexicon();
+        let means = |word: &&str| {
+            let plain = everyday::plain(word, lexicon);
+            let hits = lexicon.nouns.find(&plain);
+            let kinds = hits.iter().filter_map(|hit| match hit.id {
+                Meaning::Kind(kind) => Some(lexicon.kind(*kind).extension),
+                Meaning::Entity(_) => None,
+            });
+            let general = |e: &Extension| matches!(e, Extension::ObjectType(_));
+            kinds.filter(general).any(|kind| self.members(&kind).contains(&thing))
+        };
+        let words = &self.memory.words;
+        let said = word_ranges(words).into_iter().map(|range| &words[range]);
+        let phrases = said.filter(means).map(|w| NounPhrase::parse(w, &WordHints::default()));
+        phrases.filter(|p| p.number() == Number::Singular).map(|p| p.gender()).collect()
+    }
+
+    /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state. What a question was about
+    /// comes before the members of a list; where that does not tell, it is asked back which is meant.
+    pub(super) fn by_state(&self, query: &mut Query) {
+        let Query::Holds { subject, claims, .. } = query else { return };
+        let [Claim::Value(filter)] = &claims[..] else { return };
+        let words = word_keys(&subject.text);
+        let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
+        let Some([only]) = subject.head.things.as_deref() else { return };
+        let lacks = |thing: Thing| self.own_value(thing, filter.value).is_none();
+        let [latest, before @ ..] = &self.memory.exchanges[..] else { return };
+        if !lacks(*only) {
+            return;
+        }
+        let fits = |t: &&Thing| !lacks(**t) && self.agrees(pronoun, **t);
+        let topic = |exchange: &Exchange| exchange.topics().iter().find(fits).copied();
+        let listed: Vec<Thing> = latest.members().iter().filter(fits).copied().collect();
+        // Of one in a list and what was asked of before it, nothing says which.
+        let earlier = before.first().and_then(topic);
+        let meant = match (topic(latest), &listed[..], earlier) {
+            (Some(topic), _, _) => vec![topic],
+            (None, [only], Some(earlier)) => vec![earlier, *only],
+            (None, _, Some(earlier)) => vec![earlier],
+            (None, _, None) => listed,
+        };
+        if !meant.is_empty() {
+            subject.head.things = Some(meant);
+        }
+    }
+
+    /// "The kitchen one, is it white?": the pronoun resumes the subject, and claims nothing of it.
+    pub(super) fn resume(&self, query: &mut Query) {
+        let Query::Holds { claims, .. } = query else { return };
+        let resumes = |claim: &Claim| match claim {
+            Claim::Kind(noun) => {
+                let words = word_keys(&noun.text);
+                let said = vocabulary::longest(&words);
+                matches!(said, Some((taken, Mark::Pronoun(_))) if taken == words.len())
+            }
+            _ => false,
+        };
+        if claims.iter().any(|claim| !resumes(claim)) {
+            claims.retain(|claim| !resumes(claim));
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Where "there" is, and "this room": every place that was told, else the latest one that was spoken of.
+//!
+//! Invariant: a door is no place, and what stands on the floor is not where small things lie, but in the rooms of these.
+
+use std::collections::BTreeSet;
+
+use super::focus::is_one;
+use super::knowledge::Knowledge;
+use super::memory::Exchange;
+use super::query::{Noun, Query, Rel, Restriction, Thing};
+use crate::map::Entity;
+use crate::words::word_keys;
+
+impl Knowledge<'_> {
+    /// What "there" means: where each of several things is that were asked after, else the latest place.
+    pub(super) fn places_spoken_of(&self) -> Vec<Thing> {
+        // «Где вилки? Сколько там ложек? А сколько ножей там?»: there as before.
+        let mut there = Vec::new();
+        if let Some(mut query) = self.memory.query.clone() {
+            query.each_noun(&mut |noun| {
+                let places = noun.restrictions.iter().filter(|place| place.rel == Rel::There);
+                let things = places.flat_map(|place| &place.anchors);
+                there.extend(things.filter_map(|anchor| anchor.head.things.clone()).flatten());
+            });
+        }
+        if there.len() > 1 && self.memory.told_place.is_none() {
+            return there;
+        }
+        let last = &self.memory.last;
+        let each = last.len() > 1 && self.memory.told_place.is_none() && self.asked_where();
+        let places: BTreeSet<Thing> = match each {
+            true => last.iter().filter_map(|thing| self.place_of(*thing)).collect(),
+            false => self.place_spoken_of().into_iter().collect(),
+        };
+        places.into_iter().collect()
+    }
+
+    /// Whether the last question was where something is.
+    pub(super) fn asked_where(&self) -> bool {
+        matches!(self.memory.query, Some(Query::Where(_)))
+    }
+
+    /// What bears or holds a thing, else its room.
+    fn place_of(&self, thing: Thing) -> Option<Thing> {
+        let support = thing.replica().and_then(|id| self.relations.support_of(id));
+        let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
+        support.or_else(|| self.area_of(thing).map(|id| Thing::Entity(Entity::Area(id))))
+    }
+
+    /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
+    fn place_spoken_of(&self) -> Option<Thing> {
+        // "I put the bottle in the bathroom, is it there?"
+        if self.memory.told_place.is_some() {
+            return self.memory.told_place;
+        }
+        let opens = |thing: &Thing| self.opening(*thing).is_some();
+        let bears = |thing: Thing| {
+            !opens(&thing)
+                && thing.replica().is_none_or(|id| {
+                    ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
+                })
+        };
+        // "Which floor is the storeroom on? What is in there?": in the storeroom.
+        let asked = matches!(self.memory.query, Some(Query::RoomOf(_)));
+        let topic = || self.memory.exchanges.first().and_then(Exchange::topic);
+        if let Some(room) = asked.then(topic).flatten().filter(|t| t.area().is_some()) {
+            return Some(room);
+        }
+        // «Что на кухне?» lists things there; the kitchen is the place.
+        let latest = self.memory.exchanges.first().filter(|e| !e.members().is_empty());
+        if let Some(place) = latest.and_then(|e| e.topics().iter().copied().find(|t| bears(*t))) {
+            return Some(place);
+        }
+        let latest = *self.memory.spoken.iter().find(|thing| !opens(thing))?;
+        // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
+        let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
+        let told = placed && self.memory.last.contains(&latest) || !bears(latest);
+        let Some(id) = latest.replica().filter(|_| told) else { return Some(latest) };
+        self.place_of(Thing::Entity(Entity::Replica(id))).or(Some(latest))
+    }
+
+    /// «Где тарелки? Сколько там стульев?»: what stands on the floor is not where they lie, but in the rooms of that.
+    pub(super) fn rooms_there(&self, noun: &mut Noun) {
+        let sought = self.base(&noun.head);
+        let carried = |t: &Thing| t.replica().is_none_or(|id| self.world.has_trait(id, "portable"));
+        let there = noun.restrictions.iter_mut().filter(|place| place.rel == Rel::There);
+        for anchor in there.flat_map(|place| &mut place.anchors) {
+            let Some(places) = anchor.head.things.as_deref() else { continue };
+            let lies = |place: &Thing| self.related(Rel::There, *place);
+            let fits = places.iter().flat_map(lies).any(|thing| sought.contains(&thing));
+            if fits || sought.is_empty() || sought.iter().any(carried) {
+                continue;
+            }
+            let rooms: BTreeSet<Thing> = places
+                .iter()
+                .map(|place| match self.area_of(*place) {
+                    Some(room) => Thing::Entity(Entity::Area(room)),
+                    None => *place,
+                })
+                .collect();
+            anchor.head.things = Some(rooms.into_iter().collect());
+        }
+    }
+
+    /// In which rooms the things are that were spoken of last.
+    pub(super) fn rooms_spoken_of(&self) -> Vec<Thing> {
+        let last = self.memory.exchanges.first().into_iter().flat_map(Exchange::things);
+        let rooms = last.filter_map(|thing| self.area_of(*thing));
+        rooms.map(|room| Thing::Entity(Entity::Area(room))).collect()
+    }
+
+    /// "In this room", where no room was spoken of: the robot's.
+    pub(super) fn this_room(&self, restrictions: &mut [Restriction]) {
+        let Some(own) = self.area_of(Thing::Robot) else { return };
+        let own = Thing::Entity(Entity::Area(own));
+        for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
+            let this = word_keys(&anchor.text).first().is_some_and(|word| {
+                ["this", "этой", "эта", "эту", "этом", "этот"].contains(&word.as_str())
+            });
+            if this && is_one(anchor) && self.base(&anchor.head).contains(&own) {
+                *anchor = Noun { text: std::mem::take(&mut anchor.text), ..Noun::of(vec![own]) };
+            }
+        }
+    }
+
+    /// Keeps a place of a surface in the room that was spoken of: «Что на полу? А на стенах?»
+    pub(super) fn keep_room(&self, query: &mut Query) {
+        let (Query::Find(noun) | Query::Count(noun)) = query else {
+            if let Query::Exists { what, .. } = query
+                && let [noun] = &mut what[..]
+            {
+                self.keep_room_of(noun);
+            }
+            return;
+        };
+        self.keep_room_of(noun);
+    }
+
+    fn keep_room_of(&self, noun: &mut Noun) {
+        let surface = |a: &Noun| {
+            (self.is_floor(a) || self.is_walls(a)) && a.restrictions.is_empty() && !a.all
+        };
+        let [place] = &noun.restrictions[..] else { return };
+        if place.negated || !place.anchors.iter().all(surface) {
+            return;
+        }
+        let Some(last) = &self.memory.query else { return };
+        let mut rooms: Vec<Thing> = Vec::new();
+        last.clone().each_noun(&mut |noun| {
+            for anchor in noun.restrictions.iter().flat_map(|place| &place.anchors) {
+                let found = self.find(anchor, true).unwrap_or_default();
+                rooms.extend(found.into_iter().filter(|t| t.area().is_some()));
+            }
+        });
+        rooms.dedup();
+        if let [room] = rooms[..] {
+            let anchors = vec![Noun::of(vec![room])];
+            noun.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
+        }
+    }
+}
