@@ -334,3 +334,57 @@ fn no_yes_or_no_is_told_without_its_property() {
     }
     assert!(told > 20, "{told}");
 }
+
+/// «На каком столе помидор?», where the form may be the genitive of several: on the table that bears it.
+#[test]
+fn on_which_table_is_asked_of_a_thing_and_not_of_its_tables() {
+    let mut told = 0;
+    for map in
+        ["../shared/data/procthor/house_4.json", HOUSE, "../shared/data/procthor/house_1.json"]
+    {
+        let Some(engine) = engine(map) else { return };
+        let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+        for thing in world.replicas.values() {
+            let Some(support) = relations.support_of(thing.id) else { continue };
+            let table = &world.replicas[&support].name;
+            let Some((kind, _)) = thing.name.rsplit_once('-') else { continue };
+            if !table.contains("стол-") {
+                continue;
+            }
+            let line = format!("На каком столе {}?", kind.to_lowercase());
+            let Some(answer) = last(&engine, &[&line]) else { continue };
+            assert!(answer.symbols.contains(table), "{line}: {}", answer.text);
+            told += 1;
+        }
+    }
+    assert!(told > 10, "{told}");
+}
+
+/// "What is in the fridge? Are they all eggs?": whether all that were told are; "Are they all the eggs?" whether there are
+/// more.
+#[test]
+fn what_they_all_are_is_not_whether_they_are_all() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let kinds = kinds(&engine);
+        for ((_, _, english), things) in &kinds {
+            let opening = format!("Where are the {english}?");
+            let all = last(&engine, &[&opening]).is_some_and(|a| a.things.len() == things.len());
+            if !all {
+                continue;
+            }
+            for other in kinds.keys().map(|key| &key.2) {
+                let Some(answer) = last(&engine, &[&opening, &format!("Are they all {other}?")])
+                else {
+                    continue;
+                };
+                if other == english {
+                    assert_eq!(answer.said.word(), "yes", "{opening} {other}: {}", answer.text);
+                    told += 1;
+                }
+            }
+        }
+    }
+    assert!(told > 8, "{told}");
+}

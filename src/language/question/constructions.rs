@@ -4,7 +4,8 @@
 use super::rephrase::{Rule, Words};
 use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
-pub(super) const RULES: [Rule; 14] = [
+pub(super) const RULES: [Rule; 15] = [
+    on_itself,
     contracted,
     framed,
     done_to_it,
@@ -97,6 +98,17 @@ const FRAMES: [(&str, &str, &str, &str); 67] = [
     ("что еще лежит там же где и", "", "что ещё лежит на том же предмете мебели что и", ""),
     ("что еще лежит там же где", "", "что ещё лежит на том же предмете мебели что и", ""),
 ];
+
+/// "Does the sofa have a pillow on it?": a sofa with a pillow; "it" is the sofa of the same sentence.
+fn on_itself(words: &Words<'_>) -> Option<String> {
+    let end = words.keys.len();
+    let has = words.find(&["have", "has"]).filter(|has| *has > 1 && has + 3 < end)?;
+    let asks = words.is(0, &["does", "do"]);
+    let itself = words.is(end - 2, &["on", "in"]) && words.is(end - 1, &["it", "them"]);
+    const ANY: [&str; 4] = ["something", "anything", "nothing", "things"];
+    let nothing = words.keys[has..].iter().any(|key| ANY.contains(&key.as_str()));
+    (asks && itself && !nothing).then(|| format!("{}?", &words.text[..words.at[end - 3].end]))
+}
 
 /// "Where'd I leave my keys?": where did I.
 fn contracted(words: &Words<'_>) -> Option<String> {

@@ -212,6 +212,7 @@ impl Knowledge<'_> {
         self.by_state(query);
         self.resume(query);
         self.most_of_their_kind(query);
+        self.out_of_its_room(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()

@@ -159,6 +159,25 @@ impl Knowledge<'_> {
         any || (fits(gender) && singular) || self.genders_said(thing).into_iter().any(fits)
     }
 
+    /// «Что ближе к ней: кровать или комод?»: not to the room in which both are, but to what was spoken of in it.
+    pub(super) fn out_of_its_room(&self, query: &mut Query) {
+        let Query::WhichMore { of, to: Some(to), .. } = query else { return };
+        let words = word_keys(&to.text);
+        let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
+        let Some(&[room]) = to.head.things.as_deref() else { return };
+        let inside = |noun: &Noun| {
+            let found = self.find(noun, true).unwrap_or_default();
+            !found.is_empty()
+                && found.iter().all(|t| t.replica().is_some() && self.area_of(*t) == room.area())
+        };
+        if room.area().is_none() || !of.iter().all(inside) {
+            return;
+        }
+        let mut topics = self.memory.exchanges.iter().flat_map(Exchange::topics);
+        let meant = topics.find(|t| t.replica().is_some() && self.agrees(pronoun, **t));
+        to.head.things = meant.map(|meant| vec![*meant]).or(to.head.things.take());
+    }
+
     /// Whether something may be on or in a thing.
     pub(super) fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
         let wanted: &[&str] = match rel {

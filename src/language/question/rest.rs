@@ -55,6 +55,10 @@ impl Asker<'_> {
         let told = &memory.last;
         if let Some(start) = ALL.iter().find(starts) {
             let named = key[start.len()..].trim();
+            // "Are they all eggs?" asks what they are, "Are they all the eggs?" whether there are more.
+            if start.starts_with("are ") && !named.is_empty() && !named.starts_with("the ") {
+                return None;
+            }
             let noun = match named.is_empty() {
                 true => self.as_asked(memory)?,
                 false => self.described(named, memory)?,

@@ -198,6 +198,7 @@ impl Frame<'_, '_> {
             || self.denies_aside()
             || self.sets_rooms_against(query)
             || self.points_to_a_place()
+            || self.denies_a_guess()
             || many
             || why
             || twofold
@@ -262,6 +263,19 @@ impl Frame<'_, '_> {
         self.marks.contains(&(Mark::Not, 0))
             && first == Some(1)
             && self.marks.iter().any(|(mark, at)| *at > 1 && asks.contains(mark))
+    }
+
+    /// «Где телефон, не на диване ли?» guesses at its place, and asks for no place without it.
+    fn denies_a_guess(&self) -> bool {
+        let keys = &self.sentence.keys;
+        let parted = (1..keys.len())
+            .any(|n| matches!(keys[n].as_str(), "не" | "not") && self.sentence.comma_between(n, n));
+        let guess = |(mark, at): &(Mark, usize)| {
+            let place = self.spots.iter().any(|spot| spot.at == at + 1);
+            let asked = self.marks.iter().any(|(m, w)| *m == Mark::Where && w < at);
+            *mark == Mark::Not && place && asked
+        };
+        parted && self.marks.iter().any(guess)
     }
 
     /// «А на той, где ракетка?» tells which one is meant, and does not ask where the racket is.

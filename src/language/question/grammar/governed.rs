@@ -137,6 +137,22 @@ impl Sentence<'_> {
             && next.readings.iter().any(|r| r.has(Number::Plural, Case::Nominative))
     }
 
+    /// «На каком столе помидор?»: the form is a genitive of several too, but what is asked for has no owner, and of
+    /// what it is asked nothing else says.
+    pub(super) fn is_asked_of(&self, place: u32, next: &Found, after: &[Token]) -> bool {
+        let mut before = self.tokens.iter().rev().filter(|t| t.to <= place).map(|t| t.kind);
+        let asked = before.next() == Some(Tok::Mark(Mark::Which))
+            && matches!(before.next(), Some(Tok::Mark(Mark::Link(_))));
+        let nouns = self.tokens.iter().filter(|t| matches!(t.kind, Tok::Noun(_))).count();
+        let verb = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Exists | Mark::Be | Mark::Hang));
+        let nominative = |number| next.readings.iter().any(|r| r.has(number, Case::Nominative));
+        asked
+            && nouns == 2
+            && !next.is_area
+            && after.iter().all(verb)
+            && (nominative(Number::Singular) || nominative(Number::Plural))
+    }
+
     /// «Что за комната Комната-Z?»: with a nominative «за» puts nothing behind anything.
     pub(super) fn is_what_sort(&self, link: &Token, phrase: &Phrase) -> bool {
         let what = self.tokens.iter().rev().find(|t| t.to <= link.from).map(|t| t.kind);

@@ -536,6 +536,7 @@ impl<'t> Sentence<'t> {
             Language::Russian
                 if (!found.is_area || next.is_area)
                     && !self.is_subject(input.0[0].from, next)
+                    && !self.is_asked_of(input.0[0].from, next, after.0)
                     && next.readings.iter().any(|r| r.has_case(Case::Genitive)) =>
             {
                 let owner = noun_of(next, *from as usize..*to as usize);
