@@ -38,20 +38,25 @@ impl Line {
 pub struct Chart {
     lines: Vec<Line>,
     shape: Option<Polyline>,
+    /// How far the ends of its lines may be off, in cm.
+    ends: f64,
     pub(crate) low: Point2<f64>,
     pub(crate) high: Point2<f64>,
-    /// The lines near each bucket of [`BUCKET`] cm.
-    buckets: Vec<Vec<u32>>,
+    /// The lines near each bucket of [`BUCKET`] cm, the nearest to its middle first, with how far they lie from that.
+    buckets: Vec<Vec<(f32, u32)>>,
     columns: usize,
     /// Lower left corner of the first bucket: what lies a little outside of all lines is near one too.
     corner: Point2<f64>,
 }
 
 /// Side of a bucket, in cm; lines up to [`NEAR`] away are in it.
-const BUCKET: f64 = 50.0;
+const BUCKET: f64 = 25.0;
 const NEAR: f64 = 40.0;
 /// Shorter stretches than this are no walls of a log, in cm.
 const LEAST_WALL: f64 = 25.0;
+
+/// What their ends err, in cm.
+const ENDS: f64 = 3.0;
 
 /// Where walls have been seen, and along which of [`COURSES`] courses, in cells of [`CELL`] cm.
 #[derive(Default)]
@@ -123,7 +128,7 @@ impl Chart {
             };
             lines.extend(long.map(line).filter(|line| known.takes_in(line)));
         }
-        Self::new(lines)
+        Self::new(lines).erring(ENDS)
     }
 
     /// The same without the leaves of doors, which stand now so and now otherwise.
@@ -133,7 +138,7 @@ impl Chart {
             let blocker = line.face.map(|face| face.blocker);
             !matches!(blocker, Some(Blocker::DoorLeaf { .. }))
         };
-        Self::new(self.lines.iter().filter(is_fixed).copied().collect())
+        Self::new(self.lines.iter().filter(is_fixed).copied().collect()).erring(self.ends)
     }
 
     #[must_use]
@@ -163,17 +168,31 @@ impl Chart {
                     let middle =
                         corner + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * BUCKET;
                     let reach = BUCKET * std::f64::consts::FRAC_1_SQRT_2 + NEAR;
-                    if (line.nearest(middle) - middle).norm() <= reach {
-                        buckets[row * size.x + column].push(number as u32);
+                    let far = (line.nearest(middle) - middle).norm();
+                    if far <= reach {
+                        buckets[row * size.x + column].push((far as f32, number as u32));
                     }
                 }
             }
+        }
+        for bucket in &mut buckets {
+            bucket.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         }
         let vertices = lines.iter().flat_map(|line| [line.start, line.end]);
         let vertices = vertices.map(|p| Vec2::new(p.x, p.y)).collect();
         let indices = (0..lines.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         let shape = (!lines.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
-        Self { lines, shape, low, high, buckets, columns: size.x, corner }
+        Self { lines, shape, ends: 0.0, low, high, buckets, columns: size.x, corner }
+    }
+
+    /// The same where the ends of its lines may be off by so many cm, as those of walls that were themselves measured or drawn.
+    #[must_use]
+    pub fn erring(self, ends: f64) -> Self {
+        Self { ends, ..self }
+    }
+
+    pub(crate) fn ends(&self) -> f64 {
+        self.ends
     }
 
     #[must_use]
@@ -189,11 +208,22 @@ impl Chart {
             return None;
         }
         let near = self.buckets.get(at.y as usize * self.columns + at.x as usize)?;
-        let foot = |&number: &u32| (number, self.lines[number as usize].nearest(p));
-        near.iter()
-            .map(foot)
-            .min_by(|(_, a), (_, b)| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
-            .filter(|(_, foot)| (foot - p).norm() <= NEAR)
+        let middle = self.corner + at.map(|x| x.floor() + 0.5) * BUCKET;
+        let off = (p - middle).norm();
+        let mut best: Option<(f64, u32, Point2<f64>)> = None;
+        for &(from_middle, number) in near {
+            let least = best.as_ref().map_or(NEAR, |(far, ..)| *far);
+            // Neither is it nearer than so, nor are those after it; singles are rounded.
+            if f64::from(from_middle) - off > least + 1e-3 {
+                break;
+            }
+            let foot = self.lines[number as usize].nearest(p);
+            let far = (foot - p).norm();
+            if best.as_ref().is_none_or(|(known, ..)| far < *known) {
+                best = Some((far, number, foot));
+            }
+        }
+        best.filter(|(far, ..)| *far <= NEAR).map(|(_, number, foot)| (number, foot))
     }
 
     /// Whether no line lies within a distance of a point.

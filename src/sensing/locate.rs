@@ -6,7 +6,7 @@ use nalgebra::{Isometry2, Matrix3, Vector2, Vector3};
 
 use super::chart::Chart;
 use super::refine::{CLOSE, WIDE, refine};
-use super::search::{Mark, Pyramid, is_near};
+use super::search::{Course, Mark, Pyramid, is_near};
 use crate::vectors::scan::{Extractor, Sensor};
 
 /// A pose that a scan fits.
@@ -89,6 +89,9 @@ const SEARCHED: usize = 90;
 const VERIFIED: usize = 120;
 /// Places nearer than this are one, in cm.
 pub(crate) const APART: f64 = 60.0;
+/// Share of the margin by which the search's sums may be less than the best: on the logs they tell the right place from others
+/// better than ranks do.
+const SUMMED: f64 = 2.0 / 3.0;
 /// Places of which more are no answer.
 const MOST_PLACES: usize = 200;
 /// How far a beam ends from what it strikes, in cm and as a share of its range: the chart's errors, and the pose's.
@@ -97,7 +100,7 @@ const NEAR: (f64, f64) = (4.0, 0.005);
 /// true place fits worse, and a wrong one may fit best.
 const SURE: f64 = 0.65;
 /// Shorter lines, in cm, have no sure course.
-const LEAST_LINE: f64 = 40.0;
+const LEAST_LINE: f64 = 25.0;
 /// What becomes of a beam, as shares: it ends at what the chart has, before it at what the chart lacks, or anywhere.
 const HIT: f64 = 0.3;
 const SHORT: f64 = 0.4;
@@ -164,7 +167,7 @@ impl<'c> Localiser<'c> {
         }
         let marks = self.marks(sensor, ranges, &returns);
         let Options { least, margin, .. } = self.options;
-        let found = self.pyramid.search(&marks, least * 0.8, 1.5 * margin, APART, MOST_PLACES);
+        let found = self.pyramid.search(&marks, 0.8 * least, SUMMED * margin, APART, MOST_PLACES);
         let Some(found) = found else { return Answer::Unknown };
         let some: Vec<Vector2<f64>> = marks.iter().map(|mark| mark.at).collect();
         let roughly = |candidate| self.fit(sensor, ranges, &some, candidate, WIDE);
@@ -218,10 +221,7 @@ impl<'c> Localiser<'c> {
                 (0.0..=1.0).contains(&share)
                     && (v.perp(&(at - segment.start)) / v.norm()).abs() <= 4.0
             });
-            let course = on.map(|segment| {
-                let v = segment.vector();
-                v.y.atan2(v.x).to_degrees()
-            });
+            let course = on.map(|segment| Course::of(segment.vector()));
             Mark { at, course }
         };
         thinned(returns, SEARCHED).into_iter().map(mark).collect()

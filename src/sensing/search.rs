@@ -26,34 +26,62 @@ const MOST_CELLS: f64 = 2e6;
 const TURNS: usize = 360;
 /// Levels; coarser cells gain nothing.
 const LEVELS: usize = 5;
+/// What is asked for at first, as shares of all returns: what cannot come to much is told by few of them.
+const GUESSES: [f64; 2] = [0.78, 0.6];
+/// Turns that are looked at together on the coarsest level; their middle one tells the rasters for all of them.
+const SWEEP: usize = 3;
+/// By so many cells returns may be off in them, the nearer ones and the farther.
+const REACHES: [usize; 2] = [2, 4];
 /// Cells that are looked at together: a line of a processor's cache, and those of half a strip as bits.
-const STRIP: usize = 64;
+const STRIP: usize = 32;
 const HALF: u64 = (1 << (STRIP / 2)) - 1;
 /// Strips that are looked at before the search gives up.
 const MOST_STRIPS: usize = 1_000_000;
-/// Returns whose sum fits a byte.
-const GROUP: usize = 30;
+/// Returns that are summed before it is asked whether the rest can make up for what they lack; their sum fits a byte.
+const GROUP: usize = 16;
 /// Courses by which lines are told apart, in half a turn; one raster more has all lines.
 const COURSES: usize = 16;
-/// What is seen to run along a line turns from it by no more than this, in degrees, and by what the line's own ends err, in
-/// cm.
+/// What is seen to run along a line turns from it by no more than this, in degrees, and by what the line's own ends err. A long
+/// one turns by what its ends err, in cm, and a little.
 const ASTRAY: f64 = 6.0;
 const ENDS: f64 = 3.0;
+const STEADY: f64 = 1.0;
+/// Parts of a degree by which courses are told apart that no line has.
+const FINE: f64 = 2.0;
 /// Empty cells about the building, so that a window may begin before it: twice the coarsest.
 const BORDER: usize = 2 << (LEVELS - 1);
 
-/// A return in the sensor's frame, with the course of the line that it is seen to lie on, in degrees of half a turn.
+/// A return in the sensor's frame, with the course of the line that it is seen to lie on, if on any.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mark {
     pub(crate) at: Vector2<f64>,
-    pub(crate) course: Option<f64>,
+    pub(crate) course: Option<Course>,
+}
+
+/// In degrees of half a turn, and by how much it may be off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course {
+    degrees: f64,
+    astray: f64,
+}
+
+impl Course {
+    /// Of a line that is seen.
+    pub(crate) fn of(v: Vector2<f64>) -> Self {
+        let astray = (ENDS / v.norm()).min(1.0).asin().to_degrees() + STEADY;
+        Self { degrees: v.y.atan2(v.x).to_degrees(), astray: astray.min(ASTRAY) }
+    }
 }
 
 impl Mark {
     /// The same as seen from where that place lies so.
     pub(crate) fn moved(&self, by: &Isometry2<f64>) -> Self {
         let at = (by * Point2::from(self.at)).coords;
-        Self { at, course: self.course.map(|course| course + by.rotation.angle().to_degrees()) }
+        let turned = |course: Course| Course {
+            degrees: course.degrees + by.rotation.angle().to_degrees(),
+            ..course
+        };
+        Self { at, course: self.course.map(turned) }
     }
 }
 
@@ -158,6 +186,12 @@ pub(crate) struct Pyramid {
     width: usize,
     height: usize,
     levels: Vec<Level>,
+    /// Which of the rasters this is of each course; none where it would be empty.
+    kinds: Vec<Option<usize>>,
+    /// By how many degrees the nearest line's course differs from each.
+    off: Vec<f64>,
+    /// The coarsest level once more, of each course for each of [`REACHES`].
+    swept: Level,
 }
 
 /// The marks as each level meets them at each turn, once they were asked for.
@@ -192,9 +226,18 @@ impl Pyramid {
         let (width, height) = (size.x, size.y);
         let whole = (width + 2 * BORDER, height + 2 * BORDER);
         let mut levels: Vec<Level> = (0..LEVELS).map(|level| Level::new(level, whole)).collect();
+        let mut swept = Level::new(LEVELS - 1, whole);
         let corner = low - Vector2::repeat(BORDER as f64 * cell);
+        let (mut kinds, mut count) = (Vec::new(), 0);
         for kind in 0..=COURSES {
-            let lines = chart.lines().iter().filter(|line| is_of(line, kind));
+            let is_of = |line: &&Line| is_of(line, chart.ends(), kind);
+            let has_any = chart.lines().iter().any(|line| is_of(&line));
+            kinds.push(has_any.then_some(count));
+            if !has_any {
+                continue;
+            }
+            count += 1;
+            let lines = chart.lines().iter().filter(is_of);
             let mut most = drawn(lines, corner, cell, whole);
             for (number, level) in levels.iter_mut().enumerate() {
                 if number > 0 {
@@ -202,26 +245,53 @@ impl Pyramid {
                 }
                 level.add(&most, whole);
             }
+            for reach in REACHES {
+                swept.add(&widened(&most, whole.0, whole.1, 2 * reach), whole);
+            }
         }
-        Self { cell, low, width, height, levels }
+        let off = off(chart);
+        Self { cell, low, width, height, levels, kinds, off, swept }
     }
 
-    /// Where the marks lie at a turn, in cells, and their courses; in an order that jumps about.
+    /// Where the marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
+    fn swept(&self, marks: &[Mark], turn: usize) -> (Vec<Offset>, usize) {
+        let width = degrees(SWEEP / 2).to_radians();
+        let one = |(x, y, kind): (i32, i32, usize)| {
+            let off = f64::from(x).hypot(f64::from(y)) * width + 1.0;
+            let class = REACHES.iter().position(|reach| off <= *reach as f64)?;
+            let reach = REACHES[class] as i32;
+            Some(self.swept.offset(x - reach, y - reach, kind * REACHES.len() + class))
+        };
+        let all: Vec<_> = self.turned(marks, turn).collect();
+        let offsets: Vec<Offset> = all.iter().copied().filter_map(one).collect();
+        let beyond = all.len() - offsets.len();
+        (offsets, beyond)
+    }
+
+    /// Where the marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there; in
+    /// an order that jumps about.
     fn turned(&self, marks: &[Mark], turn: usize) -> impl Iterator<Item = (i32, i32, usize)> {
-        let degrees = turn as f64 * 360.0 / TURNS as f64;
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = degrees(turn).to_radians().sin_cos();
+        let middle = degrees(turn - turn % SWEEP + SWEEP / 2);
         let one = move |mark: &Mark| {
             let p = mark.at;
             let cell = |v: f64| (v / self.cell).round() as i32;
-            let kind = mark.course.map_or(COURSES, |course| {
-                let step = 180.0 / COURSES as f64;
-                ((course + degrees).rem_euclid(180.0) / step).round() as usize % COURSES
-            });
-            (cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), kind)
+            let kind = match mark.course {
+                None => COURSES,
+                Some(Course { degrees: seen, astray }) => {
+                    let course = (seen + middle).rem_euclid(180.0);
+                    let off = self.off[(course * FINE) as usize % self.off.len()];
+                    if off > astray + degrees(SWEEP) / 2.0 {
+                        return None;
+                    }
+                    (course * COURSES as f64 / 180.0).round() as usize % COURSES
+                }
+            };
+            Some((cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), self.kinds[kind]?))
         };
         let count = marks.len();
         let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
-        (0..count).map(move |k| one(&marks[k * stride % count]))
+        (0..count).filter_map(move |k| one(&marks[k * stride % count]))
     }
 
     /// Poses that explain no less than `least` of the returns, nor less than the best by more than `margin`: of each place
@@ -240,19 +310,32 @@ impl Pyramid {
         let whole = f64::from(FULL) * marks.len() as f64;
         let (least, margin) = ((least * whole).ceil() as u16, (margin * whole) as u16);
         let mut turned = Turned::of(self, marks);
-        let mut open: BinaryHeap<Strip> = BinaryHeap::new();
-        let top = LEVELS - 1;
-        for turn in 0..TURNS {
-            let marks = turned.at(top, turn);
-            for row in 0..self.height.div_ceil(1 << top) {
-                for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
-                    let strip = self.strip(top, marks, (turn, column, row), least);
-                    open.extend(strip);
-                }
+        let mut left = MOST_STRIPS;
+        let mut guesses = GUESSES.iter().map(|share| (share * whole) as u16);
+        let mut guess = guesses.next().unwrap_or(least).max(least);
+        loop {
+            let (best, found) =
+                self.from(&mut turned, (least, guess, margin), (apart, most), &mut left)?;
+            let needed = least.max(best.max(margin) - margin);
+            if guess <= needed {
+                return Some(found);
             }
+            guess = if best > 0 { needed } else { guesses.next().unwrap_or(least).max(least) };
         }
+    }
+
+    /// The same of no less than `least`, with what the best sums up to; that alone where it is so little that less is to be asked
+    /// for.
+    fn from(
+        &self,
+        turned: &mut Turned<'_>,
+        (asked, least, margin): (u16, u16, u16),
+        (apart, most): (f64, usize),
+        left: &mut usize,
+    ) -> Option<(u16, Vec<Isometry2<f64>>)> {
+        let mut open = self.coarsest(turned, least);
         let mut found: Vec<Isometry2<f64>> = Vec::new();
-        let (mut best, mut looked) = (0, open.len());
+        let mut best = 0;
         while let Some(strip) = open.pop() {
             let needed = least.max(best.max(margin) - margin);
             if strip.bound < needed {
@@ -263,6 +346,9 @@ impl Pyramid {
                 let pose = self.pose(strip.turn, strip.column, strip.row);
                 if !is_known(&pose) {
                     best = best.max(strip.bound);
+                    if best.max(margin) - margin < least && least > asked {
+                        return Some((best, found));
+                    }
                     found.push(pose);
                     if found.len() >= most {
                         return None;
@@ -283,7 +369,7 @@ impl Pyramid {
                 {
                     continue;
                 }
-                looked += 1;
+                *left = left.checked_sub(1)?;
                 if level > 0 {
                     open.extend(self.strip(level, marks, (strip.turn, column, row), needed));
                     continue;
@@ -299,11 +385,33 @@ impl Pyramid {
                     }
                 }
             }
-            if looked > MOST_STRIPS {
-                return None;
+        }
+        Some((best, found))
+    }
+
+    /// The coarsest strips of which at least one cell comes to `needed`.
+    fn coarsest(&self, turned: &mut Turned<'_>, needed: u16) -> BinaryHeap<Strip> {
+        let mut open = BinaryHeap::new();
+        let top = LEVELS - 1;
+        for first in (0..TURNS).step_by(SWEEP) {
+            let (marks, beyond) = self.swept(turned.marks, first + SWEEP / 2);
+            if u16::from(FULL) * ((marks.len() + beyond) as u16) < needed {
+                continue;
+            }
+            let rough = needed.saturating_sub(u16::from(FULL) * beyond as u16);
+            for row in 0..self.height.div_ceil(1 << top) {
+                for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
+                    if self.swept.sums(&marks, column as i32, row as i32, rough).is_none() {
+                        continue;
+                    }
+                    for turn in first..first + SWEEP {
+                        let marks = turned.at(top, turn);
+                        open.extend(self.strip(top, marks, (turn, column, row), needed));
+                    }
+                }
             }
         }
-        Some(found)
+        open
     }
 
     /// A strip of which at least one cell comes to `needed`.
@@ -324,7 +432,7 @@ impl Pyramid {
 
     fn pose(&self, turn: usize, column: usize, row: usize) -> Isometry2<f64> {
         let at = self.low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
-        Isometry2::new(at.coords, (turn as f64 * 360.0 / TURNS as f64).to_radians())
+        Isometry2::new(at.coords, degrees(turn).to_radians())
     }
 }
 
@@ -332,13 +440,46 @@ const fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// Whether what is seen of a line can have a course; all lines are of the last.
-fn is_of(line: &Line, kind: usize) -> bool {
+/// So many turns in degrees.
+fn degrees(turns: usize) -> f64 {
+    turns as f64 * 360.0 / TURNS as f64
+}
+
+/// The course of a line in degrees, and by how much it is off where its ends err by so many cm.
+fn course(line: &Line, ends: f64) -> (f64, f64) {
     let along = line.end - line.start;
-    let (course, step) = (along.y.atan2(along.x).to_degrees(), 180.0 / COURSES as f64);
+    let errs = (ends / along.norm()).min(1.0).asin().to_degrees();
+    (along.y.atan2(along.x).to_degrees(), errs)
+}
+
+/// Whether what is seen of a line can have a course; all lines are of the last.
+fn is_of(line: &Line, ends: f64, kind: usize) -> bool {
+    let ((course, errs), step) = (course(line, ends), 180.0 / COURSES as f64);
     let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
-    let errs = (ENDS / along.norm()).min(1.0).asin().to_degrees();
     kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
+}
+
+/// By how many degrees each course differs from the nearest of a line.
+fn off(chart: &Chart) -> Vec<f64> {
+    let count = (180.0 * FINE) as usize;
+    let mut off = vec![f64::INFINITY; count];
+    for line in chart.lines() {
+        let (course, errs) = course(line, chart.ends());
+        let at = ((course - errs).rem_euclid(180.0) * FINE) as usize;
+        for n in 0..=(2.0 * errs * FINE).ceil() as usize {
+            off[(at + n) % count] = 0.0;
+        }
+    }
+    // Once about to the right and once to the left, twice for what lies across the seam.
+    for _ in 0..2 {
+        for n in 0..count {
+            off[(n + 1) % count] = off[(n + 1) % count].min(off[n] + 1.0 / FINE);
+        }
+        for n in (0..count).rev() {
+            off[n] = off[n].min(off[(n + 1) % count] + 1.0 / FINE);
+        }
+    }
+    off
 }
 
 /// How near the nearest of some lines is, cell by cell.
@@ -471,7 +612,7 @@ mod tests {
                     let (range, line) = chart.cast(&pose, bearing, 400.0);
                     let line = &chart.lines()[line? as usize];
                     let along = pose.rotation.inverse() * line.direction();
-                    let course = (beam % 3 > 0).then(|| along.y.atan2(along.x).to_degrees());
+                    let course = (beam % 3 > 0).then(|| Course::of(along * 50.0));
                     Some(Mark { at: Vector2::new(bearing.cos(), bearing.sin()) * range, course })
                 })
                 .collect();

@@ -100,6 +100,8 @@ const PICKS_79: [&[Pick]; 4] = [
     ],
 ];
 
+/// What the ends of drawn lines err, in cm.
+const ENDS: f64 = 3.0;
 /// Smaller specks are no rooms, in pixels.
 const LEAST_ROOM: usize = 400;
 /// Side of a cell in which rooms are looked up, in cm: more than a pixel.
@@ -131,7 +133,7 @@ impl Plan {
         let rows = height as f64 - 1.0;
         let at = |p: nalgebra::Vector2<f64>| laid(Point2::new(p.x, rows - p.y));
         let line = contours.iter().map(|s| Line { start: at(s.start), end: at(s.end), face: None });
-        let chart = Chart::new(line.collect());
+        let chart = Chart::new(line.collect()).erring(ENDS);
         let (width, height, grey) = pixels(&plans.join(format!("{name}_scan_gt_segmentation.png")));
         Self { chart, rooms: Rooms::of(width, height, &grey, laid) }
     }
