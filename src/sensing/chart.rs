@@ -1,5 +1,6 @@
 //! What a laser can meet at its height, as segments, with a raster over them for what asks for much at once.
 
+use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
@@ -210,20 +211,25 @@ impl Chart {
         let near = self.buckets.get(at.y as usize * self.columns + at.x as usize)?;
         let middle = self.corner + at.map(|x| x.floor() + 0.5) * BUCKET;
         let off = (p - middle).norm();
-        let mut best: Option<(f64, u32, Point2<f64>)> = None;
+        // Of two that meet at the nearest point the first one.
+        let (mut far, mut best) = (NEAR, None);
         for &(from_middle, number) in near {
-            let least = best.as_ref().map_or(NEAR, |(far, ..)| *far);
             // Neither is it nearer than so, nor are those after it; singles are rounded.
-            if f64::from(from_middle) - off > least + 1e-3 {
+            if f64::from(from_middle) - off > far + 1e-3 {
                 break;
             }
             let foot = self.lines[number as usize].nearest(p);
-            let far = (foot - p).norm();
-            if best.as_ref().is_none_or(|(known, ..)| far < *known) {
-                best = Some((far, number, foot));
+            let here = (foot - p).norm();
+            let is_nearer = match here.total_cmp(&far) {
+                Ordering::Less => true,
+                Ordering::Equal => best.is_none_or(|(known, _)| number < known),
+                Ordering::Greater => false,
+            };
+            if is_nearer {
+                (far, best) = (here, Some((number, foot)));
             }
         }
-        best.filter(|(far, ..)| *far <= NEAR).map(|(_, number, foot)| (number, foot))
+        best
     }
 
     /// Whether no line lies within a distance of a point.

@@ -100,7 +100,7 @@ const NEAR: (f64, f64) = (4.0, 0.005);
 /// true place fits worse, and a wrong one may fit best.
 const SURE: f64 = 0.65;
 /// Shorter lines, in cm, have no sure course.
-const LEAST_LINE: f64 = 25.0;
+const LEAST_LINE: f64 = 40.0;
 /// What becomes of a beam, as shares: it ends at what the chart has, before it at what the chart lacks, or anywhere.
 const HIT: f64 = 0.3;
 const SHORT: f64 = 0.4;

@@ -69,7 +69,7 @@ impl Course {
     /// Of a line that is seen.
     pub(crate) fn of(v: Vector2<f64>) -> Self {
         let astray = (ENDS / v.norm()).min(1.0).asin().to_degrees() + STEADY;
-        Self { degrees: v.y.atan2(v.x).to_degrees(), astray: astray.min(ASTRAY) }
+        Self { degrees: v.y.atan2(v.x).to_degrees(), astray }
     }
 }
 
@@ -179,6 +179,28 @@ impl Level {
     }
 }
 
+/// What poses must sum up to.
+#[derive(Debug, Clone, Copy)]
+struct Asked {
+    least: u16,
+    margin: u16,
+    whole: u16,
+}
+
+impl Asked {
+    fn of(whole: f64, least: f64, margin: f64) -> Self {
+        let (least, margin) = ((least * whole).ceil() as u16, (margin * whole) as u16);
+        Self { least, margin, whole: whole as u16 }
+    }
+
+    /// Where the best does so. What it leaves unexplained the chart lacks there: it may lack as much again where the scan was
+    /// truly taken.
+    fn needed(self, best: u16) -> u16 {
+        let margin = self.margin.max(self.whole - best);
+        self.least.max(best.saturating_sub(margin))
+    }
+}
+
 /// The pyramid over a chart.
 pub(crate) struct Pyramid {
     cell: f64,
@@ -230,7 +252,7 @@ impl Pyramid {
         let corner = low - Vector2::repeat(BORDER as f64 * cell);
         let (mut kinds, mut count) = (Vec::new(), 0);
         for kind in 0..=COURSES {
-            let is_of = |line: &&Line| is_of(line, chart.ends(), kind);
+            let is_of = |line: &&Line| is_of(line, kind);
             let has_any = chart.lines().iter().any(|line| is_of(&line));
             kinds.push(has_any.then_some(count));
             if !has_any {
@@ -294,8 +316,8 @@ impl Pyramid {
         (0..count).filter_map(move |k| one(&marks[k * stride % count]))
     }
 
-    /// Poses that explain no less than `least` of the returns, nor less than the best by more than `margin`: of each place
-    /// the best, no two of them nearer than `apart` cm and 20°. None when there are more than can be gone through.
+    /// Poses that explain no less than `least` of the returns, nor less than the best by more than `margin` and than what the best
+    /// leaves unexplained: of each place the best, no two of them nearer than `apart` cm and 20°. None when there are more than can be gone through.
     pub(crate) fn search(
         &self,
         marks: &[Mark],
@@ -308,15 +330,15 @@ impl Pyramid {
             return Some(Vec::new());
         }
         let whole = f64::from(FULL) * marks.len() as f64;
-        let (least, margin) = ((least * whole).ceil() as u16, (margin * whole) as u16);
+        let asked = Asked::of(whole, least, margin);
+        let least = asked.least;
         let mut turned = Turned::of(self, marks);
         let mut left = MOST_STRIPS;
         let mut guesses = GUESSES.iter().map(|share| (share * whole) as u16);
         let mut guess = guesses.next().unwrap_or(least).max(least);
         loop {
-            let (best, found) =
-                self.from(&mut turned, (least, guess, margin), (apart, most), &mut left)?;
-            let needed = least.max(best.max(margin) - margin);
+            let (best, found) = self.from(&mut turned, asked, guess, (apart, most), &mut left)?;
+            let needed = asked.needed(best);
             if guess <= needed {
                 return Some(found);
             }
@@ -329,7 +351,8 @@ impl Pyramid {
     fn from(
         &self,
         turned: &mut Turned<'_>,
-        (asked, least, margin): (u16, u16, u16),
+        asked: Asked,
+        least: u16,
         (apart, most): (f64, usize),
         left: &mut usize,
     ) -> Option<(u16, Vec<Isometry2<f64>>)> {
@@ -337,7 +360,7 @@ impl Pyramid {
         let mut found: Vec<Isometry2<f64>> = Vec::new();
         let mut best = 0;
         while let Some(strip) = open.pop() {
-            let needed = least.max(best.max(margin) - margin);
+            let needed = least.max(asked.needed(best));
             if strip.bound < needed {
                 break;
             }
@@ -346,7 +369,7 @@ impl Pyramid {
                 let pose = self.pose(strip.turn, strip.column, strip.row);
                 if !is_known(&pose) {
                     best = best.max(strip.bound);
-                    if best.max(margin) - margin < least && least > asked {
+                    if asked.needed(best) < least {
                         return Some((best, found));
                     }
                     found.push(pose);
@@ -453,8 +476,9 @@ fn course(line: &Line, ends: f64) -> (f64, f64) {
 }
 
 /// Whether what is seen of a line can have a course; all lines are of the last.
-fn is_of(line: &Line, ends: f64, kind: usize) -> bool {
-    let ((course, errs), step) = (course(line, ends), 180.0 / COURSES as f64);
+fn is_of(line: &Line, kind: usize) -> bool {
+    // What is seen of it is no longer than it is.
+    let ((course, errs), step) = (course(line, ENDS), 180.0 / COURSES as f64);
     let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
     kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
 }
@@ -619,6 +643,7 @@ mod tests {
             let found = pyramid.search(&marks, least, margin, apart, 10_000).expect("it ends");
             let all = all(&pyramid, &marks);
             let best = all.iter().map(|(score, _)| *score).fold(0.0, f64::max);
+            let margin = f64::max(margin, 1.0 - best);
             assert!(best > 0.5, "seed {seed}: {best}");
             for (score, pose) in &all {
                 if *score >= least.max(best - margin) {

@@ -169,10 +169,7 @@ impl<'l> Tracker<'l> {
                 Answer::Unique(fit) => Answer::Unique(fit),
                 // One scan may be clear where those before were not.
                 several => match alone() {
-                    Answer::Unique(fit) => {
-                        self.likely = Some(fit.pose);
-                        Answer::Unique(fit)
-                    }
+                    Answer::Unique(fit) => Answer::Unique(fit),
                     _ => several,
                 },
             },
@@ -185,6 +182,14 @@ impl<'l> Tracker<'l> {
             Answer::Unique(fit) if !is_confirmed(&fit) => {
                 self.likely = Some(fit.pose);
                 Belief::Lost
+            }
+            Answer::Unique(fit) => {
+                self.likely = None;
+                // What leads to the place is thinned; all that is seen from it holds it more exactly.
+                let exact = self.localiser.close_to(sensor, ranges, fit.pose);
+                Belief::At(
+                    exact.filter(|exact| is_near(&exact.pose, &fit.pose, APART)).unwrap_or(fit),
+                )
             }
             answer => {
                 self.likely = None;

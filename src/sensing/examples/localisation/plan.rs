@@ -1,31 +1,44 @@
 //! Plans of the buildings of the logs, drawn by others (`../shared/data/lidar/plans`), laid over the logs by points picked in
 //! both.
 //!
-//! The plan of Freiburg 101 is laid by one similarity. That of 79 is not true to scale, and some of its doors are drawn half a
-//! metre off. Its rooms stand in two rows along a corridor; each is drawn anew between its own corners and the posts of its
-//! door, straight walls staying straight. Between its posts the corridor's wall is laid on the wall, not on the pillars that stand out of it.
+//! Neither is true to scale: of Freiburg 101 one similarity leaves the hall's walls off by up to 75 cm, and of 79 some doors are
+//! drawn half a metre off. So each stretch is drawn anew between corners and the posts of doors along rows of walls, straight
+//! walls staying straight. Of 79 the rooms stand in two rows along a corridor; between its posts the corridor's wall is laid on
+//! the wall, not on the pillars that stand out of it.
 
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use nalgebra::{Complex, Isometry2, Point2};
+use nalgebra::{Isometry2, Point2};
 use orthoframe_sensing::{Chart, Line};
 use orthoframe_vectors::picture::Picture;
 
 /// Column and row of a plan, x and y of the log in cm.
 type Pick = [f64; 4];
 
-/// Freiburg 101: corners of the hall and of what opens from it.
-const PICKS_101: [Pick; 7] = [
-    [294.0, 204.0, -3100.0, 1570.0],
-    [1089.0, 348.0, 880.0, 710.0],
-    [1082.0, 619.0, 775.0, -535.0],
-    [1112.0, 620.0, 915.0, -530.0],
-    [1164.0, 521.0, 1160.0, -75.0],
-    [1212.0, 521.0, 1400.0, -75.0],
-    [1268.0, 473.0, 1700.0, 130.0],
+/// Freiburg 101, from left to right: the hall's upper wall, its lower wall, and what lies below.
+const PICKS_101: [&[Pick]; 3] = [
+    &[
+        [291.2, 204.9, -3095.0, 1565.0],
+        [1089.1, 349.5, 875.0, 710.0],
+        [1268.9, 380.2, 1725.0, 590.0],
+    ],
+    &[
+        [210.9, 444.5, -3510.0, 390.0],
+        [389.3, 454.2, -2690.0, 290.0],
+        [683.8, 462.7, -1170.0, 215.0],
+        [1087.0, 470.1, 800.0, 165.0],
+        [1115.7, 470.4, 925.0, 160.0],
+        [1265.9, 471.2, 1690.0, 140.0],
+    ],
+    &[
+        [213.8, 580.9, -3510.0, -280.0],
+        [1079.9, 618.8, 765.0, -550.0],
+        [1113.2, 618.1, 910.0, -550.0],
+        [1268.5, 591.3, 1690.0, -440.0],
+    ],
 ];
 
 /// Freiburg 79, from left to right: along the upper windows, the corridor's upper and lower wall, the lower windows.
@@ -120,8 +133,7 @@ impl Plan {
         if log.to_string_lossy().contains("079") {
             Self::read(&plans, "Freiburg79", &|at| by_rows(&PICKS_79, at))
         } else {
-            let by = similarity(&PICKS_101);
-            Self::read(&plans, "Freiburg101", &by)
+            Self::read(&plans, "Freiburg101", &|at| by_rows(&PICKS_101, at))
         }
     }
 
@@ -201,25 +213,6 @@ fn pixels(path: &Path) -> (usize, usize, Vec<u8>) {
     let (width, height) = (info.width as usize, info.height as usize);
     let grey = raw.chunks_exact(info.color_type.samples()).map(|p| p[0]).take(width * height);
     (width, height, grey.collect())
-}
-
-/// The similarity that brings picks nearest to where they lie; rows of a picture run downwards.
-fn similarity(picks: &[Pick]) -> impl Fn(Point2<f64>) -> Point2<f64> {
-    let of = |p: &Pick| (Complex::new(p[0], -p[1]), Complex::new(p[2], p[3]));
-    let count = picks.len() as f64;
-    let (a, b) = picks.iter().map(of).fold((Complex::default(), Complex::default()), |sum, p| {
-        (sum.0 + p.0 / count, sum.1 + p.1 / count)
-    });
-    let (mut cross, mut square) = (Complex::default(), 0.0);
-    for (from, to) in picks.iter().map(of) {
-        cross += (from - a).conj() * (to - b);
-        square += (from - a).norm_sqr();
-    }
-    let by = cross / square;
-    move |p| {
-        let at = b + by * (Complex::new(p.x, -p.y) - a);
-        Point2::new(at.re, at.im)
-    }
 }
 
 /// Between two rows of picks in proportion, and along each row from pick to pick.
