@@ -14,42 +14,27 @@ use std::collections::BinaryHeap;
 use nalgebra::{Isometry2, Point2, Vector2};
 
 use super::chart::{Chart, Line};
+use super::levels::{
+    BORDER, COURSES, ENDS, FINE, FULL, LEVELS, Level, Offset, STRIP, drawn, is_of, off, widened,
+};
 
-/// How far a return may lie from a line to count half, in cm.
-const SPREAD: f64 = 12.0;
-/// What a return on a line counts.
-const FULL: u8 = 4;
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
 const CELL: f64 = 10.0;
 const MOST_CELLS: f64 = 2e6;
 /// Turns, one a degree.
 const TURNS: usize = 360;
-/// Levels; coarser cells gain nothing.
-const LEVELS: usize = 5;
 /// What is asked for at first, as shares of all returns: what cannot come to much is told by few of them.
 const GUESSES: [f64; 2] = [0.78, 0.6];
 /// Turns that are looked at together on the coarsest level; their middle one tells the rasters for all of them.
 const SWEEP: usize = 3;
 /// By so many cells returns may be off in them, the nearer ones and the farther.
 const REACHES: [usize; 2] = [2, 4];
-/// Cells that are looked at together: a line of a processor's cache, and those of half a strip as bits.
-const STRIP: usize = 32;
+/// Those of half a strip, as bits.
 const HALF: u64 = (1 << (STRIP / 2)) - 1;
 /// Strips that are looked at before the search gives up.
 const MOST_STRIPS: usize = 1_000_000;
-/// Returns that are summed before it is asked whether the rest can make up for what they lack; their sum fits a byte.
-const GROUP: usize = 16;
-/// Courses by which lines are told apart, in half a turn; one raster more has all lines.
-const COURSES: usize = 16;
-/// What is seen to run along a line turns from it by no more than this, in degrees, and by what the line's own ends err. A long
-/// one turns by what its ends err, in cm, and a little.
-const ASTRAY: f64 = 6.0;
-const ENDS: f64 = 3.0;
+/// A long line that is seen turns from its course by what its ends err and so many degrees.
 const STEADY: f64 = 1.0;
-/// Parts of a degree by which courses are told apart that no line has.
-const FINE: f64 = 2.0;
-/// Empty cells about the building, so that a window may begin before it: twice the coarsest.
-const BORDER: usize = 2 << (LEVELS - 1);
 
 /// A return in the sensor's frame, with the course of the line that it is seen to lie on, if on any.
 #[derive(Debug, Clone, Copy)]
@@ -82,100 +67,6 @@ impl Mark {
             ..course
         };
         Self { at, course: self.course.map(turned) }
-    }
-}
-
-/// Where a mark meets the rasters of a level, from a cell on: where its plane begins, and how many cells on.
-#[derive(Debug, Clone, Copy)]
-struct Offset {
-    plane: usize,
-    column: i32,
-    row: i32,
-}
-
-/// The rasters of a level: of each course and each phase one.
-struct Level {
-    values: Vec<u8>,
-    /// Cells that can be met, and what lies between the beginnings of two rows.
-    columns: usize,
-    rows: usize,
-    stride: usize,
-    /// Cells of a level are `step` finest ones apart; a window may begin every `finest`.
-    step: usize,
-    finest: usize,
-}
-
-impl Level {
-    fn new(level: usize, (width, height): (usize, usize)) -> Self {
-        let (step, finest) = (1 << level, 1 << level.saturating_sub(2));
-        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
-        Self { values: Vec::new(), columns, rows, stride: columns + 2 * STRIP, step, finest }
-    }
-
-    /// Phases in either direction.
-    fn phases(&self) -> usize {
-        self.step / self.finest
-    }
-
-    /// Takes in the next course: at each cell the most in the window of `step` cells from it on, in both directions.
-    fn add(&mut self, most: &[u8], (width, height): (usize, usize)) {
-        // What begins anywhere between two phases is within the window of the first, so much the wider.
-        let wide = (self.finest > 1).then(|| widened(most, width, height, self.finest - 1));
-        let most = wide.as_deref().unwrap_or(most);
-        for phase in 0..self.phases() * self.phases() {
-            let [left, low] =
-                [phase % self.phases(), phase / self.phases()].map(|n| n * self.finest);
-            for row in 0..self.rows {
-                let y = row * self.step + low;
-                let at = |column: usize| (column * self.step + left, y);
-                self.values.extend([0; STRIP]);
-                self.values.extend((0..self.columns).map(|column| {
-                    let (x, y) = at(column);
-                    if x < width && y < height { most[y * width + x] } else { 0 }
-                }));
-                self.values.extend([0; STRIP]);
-            }
-        }
-    }
-
-    /// Where a mark that lies so many finest cells on meets it.
-    fn offset(&self, x: i32, y: i32, kind: usize) -> Offset {
-        let split = |v: i32| {
-            let (v, step) = (v + BORDER as i32, self.step as i32);
-            (v.div_euclid(step), v.rem_euclid(step) as usize / self.finest)
-        };
-        let ((column, left), (row, low)) = (split(x), split(y));
-        let plane = (kind * self.phases() + low) * self.phases() + left;
-        Offset { plane: plane * self.rows * self.stride, column, row }
-    }
-
-    /// What the marks sum up to in each cell of a strip; none where it is told that no cell comes to `needed`.
-    fn sums(&self, marks: &[Offset], column: i32, row: i32, needed: u16) -> Option<[u16; STRIP]> {
-        let mut sums = [0_u16; STRIP];
-        let mut left = u16::from(FULL) * marks.len() as u16;
-        for group in marks.chunks(GROUP) {
-            let mut part = [0_u8; STRIP];
-            for mark in group {
-                let (column, row) = (column + mark.column + STRIP as i32, row + mark.row);
-                let Ok(row) = usize::try_from(row) else { continue };
-                let Ok(column) = usize::try_from(column) else { continue };
-                if row >= self.rows || column > self.columns + STRIP {
-                    continue;
-                }
-                let values = &self.values[mark.plane + row * self.stride + column..][..STRIP];
-                for (sum, value) in part.iter_mut().zip(values) {
-                    *sum = sum.wrapping_add(*value);
-                }
-            }
-            for (sum, part) in sums.iter_mut().zip(part) {
-                *sum += u16::from(part);
-            }
-            left -= u16::from(FULL) * group.len() as u16;
-            if sums.iter().fold(0, |most, sum| most.max(*sum)) + left < needed {
-                return None;
-            }
-        }
-        Some(sums)
     }
 }
 
@@ -466,86 +357,6 @@ const fn gcd(a: usize, b: usize) -> usize {
 /// So many turns in degrees.
 fn degrees(turns: usize) -> f64 {
     turns as f64 * 360.0 / TURNS as f64
-}
-
-/// The course of a line in degrees, and by how much it is off where its ends err by so many cm.
-fn course(line: &Line, ends: f64) -> (f64, f64) {
-    let along = line.end - line.start;
-    let errs = (ends / along.norm()).min(1.0).asin().to_degrees();
-    (along.y.atan2(along.x).to_degrees(), errs)
-}
-
-/// Whether what is seen of a line can have a course; all lines are of the last.
-fn is_of(line: &Line, kind: usize) -> bool {
-    // What is seen of it is no longer than it is.
-    let ((course, errs), step) = (course(line, ENDS), 180.0 / COURSES as f64);
-    let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
-    kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
-}
-
-/// By how many degrees each course differs from the nearest of a line.
-fn off(chart: &Chart) -> Vec<f64> {
-    let count = (180.0 * FINE) as usize;
-    let mut off = vec![f64::INFINITY; count];
-    for line in chart.lines() {
-        let (course, errs) = course(line, chart.ends());
-        let at = ((course - errs).rem_euclid(180.0) * FINE) as usize;
-        for n in 0..=(2.0 * errs * FINE).ceil() as usize {
-            off[(at + n) % count] = 0.0;
-        }
-    }
-    // Once about to the right and once to the left, twice for what lies across the seam.
-    for _ in 0..2 {
-        for n in 0..count {
-            off[(n + 1) % count] = off[(n + 1) % count].min(off[n] + 1.0 / FINE);
-        }
-        for n in (0..count).rev() {
-            off[n] = off[n].min(off[(n + 1) % count] + 1.0 / FINE);
-        }
-    }
-    off
-}
-
-/// How near the nearest of some lines is, cell by cell.
-fn drawn<'l>(
-    lines: impl Iterator<Item = &'l Line>,
-    low: Point2<f64>,
-    cell: f64,
-    (width, height): (usize, usize),
-) -> Vec<u8> {
-    let mut fine = vec![0_u8; width * height];
-    let reach = 2.0 * SPREAD;
-    for line in lines {
-        let (a, b) = (line.start.inf(&line.end), line.start.sup(&line.end));
-        let first = ((a - low).add_scalar(-reach) / cell).map(|x| x.max(0.0) as usize);
-        let last = ((b - low).add_scalar(reach) / cell).map(|x| x.max(0.0) as usize);
-        for row in first.y..=last.y.min(height - 1) {
-            for column in first.x..=last.x.min(width - 1) {
-                let p = low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * cell;
-                let far = (line.nearest(p) - p).norm() / SPREAD;
-                let value = f64::from(FULL) * (-far * far * std::f64::consts::LN_2).exp();
-                let here = &mut fine[row * width + column];
-                *here = (*here).max(value.round() as u8);
-            }
-        }
-    }
-    fine
-}
-
-/// At each cell the most of it and of what stands so many steps further, in both directions.
-fn widened(values: &[u8], width: usize, height: usize, step: usize) -> Vec<u8> {
-    let mut wide = values.to_vec();
-    for line in wide.chunks_mut(width) {
-        for column in 0..width.saturating_sub(step) {
-            line[column] = line[column].max(line[column + step]);
-        }
-    }
-    for row in 0..height.saturating_sub(step) {
-        let (upper, lower) = wide.split_at_mut((row + step) * width);
-        let own = &mut upper[row * width..(row + 1) * width];
-        own.iter_mut().zip(&lower[..width]).for_each(|(a, b)| *a = (*a).max(*b));
-    }
-    wide
 }
 
 /// Whether two poses are of one place: so near, and turned by no more than 20°.
