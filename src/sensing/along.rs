@@ -59,7 +59,8 @@ impl Localiser<'_> {
             .flat_map(|(by, look)| look.marks.iter().map(|mark| mark.moved(by)))
             .step_by(every)
             .collect();
-        let Some(found) = self.pyramid().search(&marks, LEAST, WORSE, APART, MOST_PLACES) else {
+        let Some(found) = self.pyramid().search(&marks, LEAST, |_| WORSE, APART, MOST_PLACES)
+        else {
             return Answer::Unknown;
         };
         let weighed: Vec<Vec<Vector2<f64>>> =

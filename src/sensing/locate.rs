@@ -167,7 +167,9 @@ impl<'c> Localiser<'c> {
         }
         let marks = self.marks(sensor, ranges, &returns);
         let Options { least, margin, .. } = self.options;
-        let found = self.pyramid.search(&marks, 0.8 * least, SUMMED * margin, APART, MOST_PLACES);
+        // What the best leaves unexplained the chart lacks there: it may lack as much again where the scan was truly taken.
+        let worse = |best: f64| f64::max(SUMMED * margin, 1.0 - best);
+        let found = self.pyramid.search(&marks, 0.8 * least, worse, APART, MOST_PLACES);
         let Some(found) = found else { return Answer::Unknown };
         let some: Vec<Vector2<f64>> = marks.iter().map(|mark| mark.at).collect();
         let roughly = |candidate| self.fit(sensor, ranges, &some, candidate, WIDE);

@@ -71,23 +71,16 @@ impl Mark {
 }
 
 /// What poses must sum up to.
-#[derive(Debug, Clone, Copy)]
-struct Asked {
+struct Asked<M> {
     least: u16,
-    margin: u16,
-    whole: u16,
+    margin: M,
+    whole: f64,
 }
 
-impl Asked {
-    fn of(whole: f64, least: f64, margin: f64) -> Self {
-        let (least, margin) = ((least * whole).ceil() as u16, (margin * whole) as u16);
-        Self { least, margin, whole: whole as u16 }
-    }
-
-    /// Where the best does so. What it leaves unexplained the chart lacks there: it may lack as much again where the scan was
-    /// truly taken.
-    fn needed(self, best: u16) -> u16 {
-        let margin = self.margin.max(self.whole - best);
+impl<M: Fn(f64) -> f64> Asked<M> {
+    /// Where the best does so.
+    fn needed(&self, best: u16) -> u16 {
+        let margin = ((self.margin)(f64::from(best) / self.whole) * self.whole) as u16;
         self.least.max(best.saturating_sub(margin))
     }
 }
@@ -207,13 +200,13 @@ impl Pyramid {
         (0..count).filter_map(move |k| one(&marks[k * stride % count]))
     }
 
-    /// Poses that explain no less than `least` of the returns, nor less than the best by more than `margin` and than what the best
-    /// leaves unexplained: of each place the best, no two of them nearer than `apart` cm and 20°. None when there are more than can be gone through.
+    /// Poses that explain no less than `least` of the returns, nor less than the best by more than the `margin` for what that
+    /// explains: of each place the best, no two of them nearer than `apart` cm and 20°. None when there are more than can be gone through.
     pub(crate) fn search(
         &self,
         marks: &[Mark],
         least: f64,
-        margin: f64,
+        margin: impl Fn(f64) -> f64,
         apart: f64,
         most: usize,
     ) -> Option<Vec<Isometry2<f64>>> {
@@ -221,14 +214,14 @@ impl Pyramid {
             return Some(Vec::new());
         }
         let whole = f64::from(FULL) * marks.len() as f64;
-        let asked = Asked::of(whole, least, margin);
-        let least = asked.least;
+        let least = (least * whole).ceil() as u16;
+        let asked = Asked { least, margin, whole };
         let mut turned = Turned::of(self, marks);
         let mut left = MOST_STRIPS;
         let mut guesses = GUESSES.iter().map(|share| (share * whole) as u16);
         let mut guess = guesses.next().unwrap_or(least).max(least);
         loop {
-            let (best, found) = self.from(&mut turned, asked, guess, (apart, most), &mut left)?;
+            let (best, found) = self.from(&mut turned, &asked, guess, (apart, most), &mut left)?;
             let needed = asked.needed(best);
             if guess <= needed {
                 return Some(found);
@@ -242,7 +235,7 @@ impl Pyramid {
     fn from(
         &self,
         turned: &mut Turned<'_>,
-        asked: Asked,
+        asked: &Asked<impl Fn(f64) -> f64>,
         least: u16,
         (apart, most): (f64, usize),
         left: &mut usize,
@@ -451,13 +444,13 @@ mod tests {
                     Some(Mark { at: Vector2::new(bearing.cos(), bearing.sin()) * range, course })
                 })
                 .collect();
+            let margin = |best: f64| f64::max(margin, 1.0 - best);
             let found = pyramid.search(&marks, least, margin, apart, 10_000).expect("it ends");
             let all = all(&pyramid, &marks);
             let best = all.iter().map(|(score, _)| *score).fold(0.0, f64::max);
-            let margin = f64::max(margin, 1.0 - best);
             assert!(best > 0.5, "seed {seed}: {best}");
             for (score, pose) in &all {
-                if *score >= least.max(best - margin) {
+                if *score >= least.max(best - margin(best)) {
                     let near = found.iter().any(|known| is_near(known, pose, apart));
                     assert!(near, "seed {seed}: {pose} explains {score:.2} of {best:.2}");
                 }
