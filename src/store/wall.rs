@@ -238,7 +238,10 @@ mod tests {
 
     use super::*;
 
-    const PATIENCE: Duration = Duration::from_millis(100);
+    /// With what never answers.
+    const PATIENCE: Duration = Duration::from_millis(500);
+    /// With what does: telling of a panic alone can take a busy machine a while.
+    const ENOUGH: Duration = Duration::from_secs(60);
 
     /// What its drop does.
     enum End {
@@ -278,7 +281,7 @@ mod tests {
         let hung = Wall::<Service>::raise(PATIENCE, |_| forever()).err().expect("it never opens");
         assert!(hung.is_final);
         let refused =
-            Wall::<Service>::raise(PATIENCE, |_| Err(Fault::new(("нет места", "no room")))).err();
+            Wall::<Service>::raise(ENOUGH, |_| Err(Fault::new(("нет места", "no room")))).err();
         assert_eq!(refused, Some(Fault::new(("нет места", "no room"))));
 
         let service = wall(End::Hangs);
@@ -288,7 +291,7 @@ mod tests {
         assert!(service.ask(|_, _| Ok(7)).is_err(), "what hangs is not asked again");
         service.close();
 
-        let service = wall(End::Quick);
+        let service = Wall::raise(ENOUGH, |_| Ok(Service(End::Quick))).expect("it is made");
         let panicked: Result<(), Fault> = service.ask(|_, _| panic!("broken page"));
         assert_eq!(panicked, Err(Fault::new("broken page")));
         assert!(service.ask(|_, _| Ok(7)).is_err(), "what has failed is not asked again");
