@@ -25,10 +25,9 @@ impl Asker<'_> {
         }
         let noun = self.fragment(sentence, memory)?;
         let mut query = last.clone();
-        let mut first = true;
         let mut placed = false;
-        query.each_noun(&mut |old| {
-            if std::mem::take(&mut first) && !old.head.anything && self.has_kind(old) {
+        query.first_noun(|old| {
+            if !old.head.anything && self.has_kind(old) {
                 old.restrictions.clone_from(&noun.restrictions);
                 old.filters.clone_from(&noun.filters);
                 placed = !noun.restrictions.is_empty();
@@ -67,12 +66,8 @@ impl Asker<'_> {
             let found = knowledge.find(noun, true).unwrap_or_default();
             !found.is_empty() && found.iter().all(|t| memory.listed.contains(t))
         };
-        let (mut subject, mut first) = (false, true);
-        last.clone().each_noun(&mut |old| {
-            if std::mem::take(&mut first) {
-                subject = told(old);
-            }
-        });
+        let mut subject = false;
+        last.clone().first_noun(|old| subject = told(old));
         let head = Head { things: Some(memory.listed.clone()), ..Head::default() };
         let narrowed = Noun { head, plural: true, ..noun };
         let knowledge = self.knowledge(sentence.language, memory);

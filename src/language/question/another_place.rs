@@ -327,10 +327,9 @@ pub(super) fn near_another(last: &Query, noun: &Noun) -> Option<Query> {
 /// A question about one thing, put of another of its kind that is elsewhere.
 pub(super) fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
     let mut query = last.clone();
-    let mut first = true;
     let mut placed = false;
-    query.each_noun(&mut |old| {
-        if std::mem::take(&mut first) && !old.head.anything && old.head.things.is_none() {
+    query.first_noun(|old| {
+        if !old.head.anything && old.head.things.is_none() {
             if !noun.restrictions.is_empty() {
                 old.restrictions.clone_from(&noun.restrictions);
             }

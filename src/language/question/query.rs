@@ -283,12 +283,7 @@ impl Query {
 
     /// The same question about something else: what stands in it first.
     pub(super) fn of_another(mut self, noun: &Noun) -> Self {
-        let mut is_first = true;
-        self.each_noun(&mut |old| {
-            if std::mem::take(&mut is_first) {
-                old.clone_from(noun);
-            }
-        });
+        self.first_noun(|old| old.clone_from(noun));
         self
     }
 
@@ -302,6 +297,16 @@ impl Query {
             },
             _ => None,
         }
+    }
+
+    /// Does something to what the query is about first.
+    pub(super) fn first_noun(&mut self, act: impl FnOnce(&mut Noun)) {
+        let mut act = Some(act);
+        self.each_noun(&mut |noun| {
+            if let Some(act) = act.take() {
+                act(noun);
+            }
+        });
     }
 
     /// Does something to every noun of the query.
