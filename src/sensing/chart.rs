@@ -56,8 +56,8 @@ const NEAR: f64 = 40.0;
 /// Shorter stretches than this are no walls of a log, in cm.
 const LEAST_WALL: f64 = 25.0;
 
-/// What their ends err, in cm.
-const ENDS: f64 = 3.0;
+/// What the ends of a line err that was seen, in cm.
+pub(crate) const ENDS: f64 = 3.0;
 
 /// Where walls have been seen, and along which of [`COURSES`] courses, in cells of [`CELL`] cm.
 #[derive(Default)]

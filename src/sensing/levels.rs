@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::chart::{Chart, Line};
+use super::chart::{Chart, ENDS, Line};
 
 /// How far a return may lie from a line to count half, in cm.
 const SPREAD: f64 = 12.0;
@@ -16,10 +16,8 @@ pub(crate) const STRIP: usize = 32;
 const GROUP: usize = 16;
 /// Courses by which lines are told apart, in half a turn; one raster more has all lines.
 pub(crate) const COURSES: usize = 16;
-/// What is seen to run along a line turns from it by no more than this, in degrees, and by what its ends
-/// err, in cm.
+/// What is seen to run along a line turns from it by no more than this, in degrees, and by what its ends err.
 const ASTRAY: f64 = 6.0;
-pub(crate) const ENDS: f64 = 3.0;
 /// Parts of a degree by which courses are told apart that no line has.
 pub(crate) const FINE: f64 = 2.0;
 /// Empty cells about the building, so that a window may begin before it: twice the coarsest.
@@ -126,8 +124,7 @@ impl Level {
 }
 
 /// The course of a line in degrees, and by how much it is off where its ends err by so many cm.
-pub(crate) fn course(line: &Line, ends: f64) -> (f64, f64) {
-    let along = line.end - line.start;
+pub(crate) fn course(along: Vector2<f64>, ends: f64) -> (f64, f64) {
     let errs = (ends / along.norm()).min(1.0).asin().to_degrees();
     (along.y.atan2(along.x).to_degrees(), errs)
 }
@@ -135,7 +132,7 @@ pub(crate) fn course(line: &Line, ends: f64) -> (f64, f64) {
 /// Whether what is seen of a line can have a course; all lines are of the last.
 pub(crate) fn is_of(line: &Line, kind: usize) -> bool {
     // What is seen of it is no longer than it is.
-    let ((course, errs), step) = (course(line, ENDS), 180.0 / COURSES as f64);
+    let ((course, errs), step) = (course(line.end - line.start, ENDS), 180.0 / COURSES as f64);
     let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
     kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
 }
@@ -145,7 +142,7 @@ pub(crate) fn off(chart: &Chart) -> Vec<f64> {
     let count = (180.0 * FINE) as usize;
     let mut off = vec![f64::INFINITY; count];
     for line in chart.lines() {
-        let (course, errs) = course(line, chart.ends());
+        let (course, errs) = course(line.end - line.start, chart.ends());
         let at = ((course - errs).rem_euclid(180.0) * FINE) as usize;
         for n in 0..=(2.0 * errs * FINE).ceil() as usize {
             off[(at + n) % count] = 0.0;

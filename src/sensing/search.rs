@@ -13,9 +13,9 @@ use std::collections::BinaryHeap;
 
 use nalgebra::{Isometry2, Point2, Vector2};
 
-use super::chart::{Chart, Line};
+use super::chart::{Chart, ENDS, Line};
 use super::levels::{
-    BORDER, COURSES, ENDS, FINE, FULL, LEVELS, Level, Offset, STRIP, drawn, is_of, off, widened,
+    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offset, STRIP, course, drawn, is_of, off, widened,
 };
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
@@ -53,8 +53,8 @@ pub(crate) struct Course {
 impl Course {
     /// Of a line that is seen.
     pub(crate) fn of(v: Vector2<f64>) -> Self {
-        let astray = (ENDS / v.norm()).min(1.0).asin().to_degrees() + STEADY;
-        Self { degrees: v.y.atan2(v.x).to_degrees(), astray }
+        let (degrees, errs) = course(v, ENDS);
+        Self { degrees, astray: errs + STEADY }
     }
 }
 
