@@ -1,8 +1,8 @@
 //! `match(pattern, text)`: regular expressions over whole texts, in linear time, by the crate regex-lite.
 //!
-//! Soufflé takes C++'s `std::regex_match` with ECMAScript's grammar, in which `\w`, `\d` and `\b` know ASCII alone. What only a search with backtracking can decide
-//! (`\1`, `(?=…)`) is refused where it stands in the rules; a pattern that is no regular expression matches nothing, as
-//! there, and neither does its negation.
+//! Soufflé takes C++'s `std::regex_match` with ECMAScript's grammar, in which `\w`, `\d` and `\b` know ASCII alone. What only a
+//! search with backtracking can decide (`\1`, `(?=…)`) is refused where it stands in the rules; a pattern that is no
+//! regular expression matches nothing, as there, and neither does its negation.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
