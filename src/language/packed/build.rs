@@ -5,8 +5,11 @@ mod bytes;
 mod file;
 mod pack;
 
+use std::io::Write as _;
+
 use bytes::{counted, take};
 use file::{ALIGNMENT, HEADER, READINGS, SECTIONS, WORDS};
+use lzma_rust2::{LzmaOptions, LzmaWriter};
 
 /// Sections that only guesses at words that are not in the dictionary use: an automaton of endings, their readings, a model
 /// of contexts.
@@ -17,13 +20,21 @@ fn main() {
     for source in ["automaton.rs", "build.rs", "bytes.rs", "file.rs", "pack.rs"] {
         println!("cargo::rerun-if-changed={source}");
     }
-    // What it saves is paid once a build: the level that packs best for a window that any decoder takes.
-    const LEVEL: i32 = 19;
     let carried = carried(rumorph_dict_ru::DICTIONARY).expect("a dictionary of format 8");
-    let packed = zstd::bulk::compress(&carried, LEVEL).expect("memory for 10 MB");
+    let packed = packed(&carried).expect("memory for 10 MB");
     let out = std::env::var_os("OUT_DIR").expect("cargo names it");
-    let path = std::path::Path::new(&out).join("ru.dict.zst");
+    let path = std::path::Path::new(&out).join("ru.dict.lzma");
     std::fs::write(&path, packed).expect("cargo's own folder can be written to");
+}
+
+fn packed(carried: &[u8]) -> std::io::Result<Vec<u8>> {
+    // What it saves is paid once a build.
+    const LEVEL: u32 = 9;
+    // Most of its columns are of numbers of two bytes.
+    let options = LzmaOptions { lp: 1, pb: 1, nice_len: 273, ..LzmaOptions::with_preset(LEVEL) };
+    let mut packed = LzmaWriter::new_use_header(Vec::new(), &options, Some(carried.len() as u64))?;
+    packed.write_all(carried)?;
+    packed.finish()
 }
 
 /// What [`file::restored`] makes a dictionary file of.

@@ -3,7 +3,9 @@
 //! What is carried is the published dictionary without what guesses at words that it does not have, which nobody here asks
 //! for: its automaton of words with equal ends told once, laid out in columns ([`automaton`]), and compressed.
 
-use std::io::{Error, Read as _, Result};
+use std::io::{Read as _, Result};
+
+use lzma_rust2::LzmaReader;
 
 mod automaton;
 mod bytes;
@@ -15,10 +17,9 @@ mod file;
 ///
 /// What the decoder says of bytes that are none of its.
 pub fn unpacked() -> Result<Vec<u8>> {
-    const PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ru.dict.zst"));
+    const PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ru.dict.lzma"));
     let mut carried = Vec::new();
-    let frame = ruzstd::decoding::StreamingDecoder::new(PACKED);
-    frame.map_err(Error::other)?.read_to_end(&mut carried)?;
+    LzmaReader::new_mem_limit(PACKED, u32::MAX, None)?.read_to_end(&mut carried)?;
     file::restored(&carried)
 }
 
