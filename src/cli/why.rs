@@ -11,16 +11,13 @@ use crate::facts::WhyNot;
 /// Runs the command. A fact that is asked about the wrong way round – why, though it does not hold – is answered with
 /// "no" and with what can be said.
 pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Failure> {
-    let Some((name, mut of)) = parts(fact) else {
+    let Some((name, of)) = parts(fact) else {
         return Err(RequestError::Fact { text: fact.to_owned() }.into());
     };
     let engine = open(common)?;
     let relations = engine.relations()?;
     let names = Names { relations, lang: common.lang };
-    // Of what does not exist nothing is true, and that is another reason than a measure.
-    for subject in of.iter_mut().filter(|name| !is_number(name) && !relations.knows(name)) {
-        *subject = engine.world()?.name(engine.find(subject)?);
-    }
+    let of = engine.arguments(&of)?;
     let proof = relations.why(name, &of)?;
     if common.json {
         say(&super::json::why(&engine, name, &of, common.lang.language())?.to_string())?;
@@ -51,10 +48,6 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
         }
     }
     Ok(if not { Answer::Yes } else { Answer::No })
-}
-
-fn is_number(value: &str) -> bool {
-    value.parse::<f64>().is_ok()
 }
 
 /// `name(a, b)`; the names may stand in quotes.

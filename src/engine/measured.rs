@@ -51,7 +51,7 @@ impl State {
     /// Why a relation holds or does not, in a sentence and by its measurements, on the map as surveyed.
     ///
     /// # Errors
-    /// There is no map, or it knows no such relation.
+    /// There is no map, or it knows no such relation, or nothing of such a name.
     pub(crate) fn reason(
         &self,
         relation: &str,
@@ -59,6 +59,7 @@ impl State {
         language: Language,
     ) -> Result<Reason, Error> {
         let relations = self.relations()?;
+        let of = &self.arguments(of)?;
         let mut found = Found { state: self, about: Vec::new(), facts: Vec::new() };
         let because = match relations.why(relation, of)? {
             Some(proof) => Ok(proof),

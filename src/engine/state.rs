@@ -364,6 +364,21 @@ impl State {
             }
         }
     }
+
+    /// What the arguments of a fact are called in the facts: a number, or a word that some fact has, is that; anything
+    /// else is the name of a thing, in either language and any form. Of what does not exist nothing is true or false.
+    ///
+    /// # Errors
+    /// As [`Self::find`].
+    pub(crate) fn arguments<'a>(&'a self, of: &[&'a str]) -> Result<Vec<&'a str>, Error> {
+        let relations = self.relations()?;
+        let argument = |&name: &&'a str| match name.parse::<f64>().is_ok() || relations.knows(name)
+        {
+            true => Ok(name),
+            false => Ok(self.world()?.name(self.find(name)?)),
+        };
+        of.iter().map(argument).collect()
+    }
 }
 
 /// How many names are offered for one that nothing bears.

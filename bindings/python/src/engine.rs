@@ -245,15 +245,8 @@ impl Engine {
     ) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
             let state = self.desk.state()?;
-            let relations = state.relations()?;
-            let mut named = Vec::new();
-            for name in &of {
-                named.push(match relations.knows(name) || name.parse::<f64>().is_ok() {
-                    true => name.as_str(),
-                    false => state.world()?.name(state.find(name)?),
-                });
-            }
-            Ok(json::why(&state, relation, &named, self.desk.language)?)
+            let of: Vec<&str> = of.iter().map(String::as_str).collect();
+            Ok(json::why(&state, relation, &of, self.desk.language)?)
         })
     }
 

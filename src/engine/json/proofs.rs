@@ -11,9 +11,10 @@ use crate::semantics::Relations;
 /// The proof of a relation, or what failed of the rule that came nearest: `holds`, and `proof` or `nearest`.
 ///
 /// # Errors
-/// There is no map, or it knows no such relation.
+/// There is no map, or it knows no such relation, or nothing of such a name.
 pub fn why(state: &State, relation: &str, of: &[&str], language: Language) -> Result<Value, Error> {
     let relations = state.relations()?;
+    let of = &state.arguments(of)?;
     if let Some(proof) = relations.why(relation, of)? {
         return Ok(json!({ "holds": true, "proof": self::proof(relations, &proof, language) }));
     }
