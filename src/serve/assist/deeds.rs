@@ -1,5 +1,6 @@
 //! What acts or adds: plans, and drives that a person agreed to; observations; edits that are proposed.
 
+use std::collections::BTreeSet;
 use std::time::SystemTime;
 
 use serde::Deserialize;
@@ -75,7 +76,8 @@ impl Call<'_> {
             return Err(act::unknown());
         };
         let about = format!("run {}", plan.id);
-        let question = plan_in_words(&task, Language::English);
+        let order = task["text"].as_str().unwrap_or_default();
+        let question = plan_in_words(&task, Language::of(order));
         if let Some(waits) = self.approved(&about, &question).await? {
             return Ok(waits);
         }
@@ -160,11 +162,16 @@ impl Call<'_> {
         let text = Value::Object(proposed.edit.clone()).to_string();
         let change = change_now(&self.session.name, &proposed.reason);
         let tried = act::edited(&house, on, text.clone(), change.clone(), Mode::DryRun).await?;
-        let told = tried["differences"].as_array().into_iter().flatten();
-        let told: Vec<&str> = told.filter_map(|d| d["ru"].as_str()).collect();
-        let question = format!("{}\n{}", proposed.reason, told.join("\n"));
+        if tried["differences"].as_array().is_none_or(Vec::is_empty) {
+            return Err(refuse(
+                "assist::nothing",
+                "Эта правка ничего не меняет.",
+                "This edit changes nothing.",
+            ));
+        }
+        let question = edit_in_words(&tried, &proposed.reason);
         let about = format!("edit on {on}: {text}");
-        match self.approved(&about, question.trim()).await {
+        match self.approved(&about, &question).await {
             Ok(Some(waits)) => return Ok(waits),
             Ok(None) => {}
             Err(fault) if fault.body()["code"] == "assist::nobody_to_ask" => {
@@ -208,6 +215,25 @@ impl Call<'_> {
     }
 }
 
+/// An edit as it is shown to a person, in the language of its reason: what it changes, what it leaves where it is, what
+/// there is to doubt.
+fn edit_in_words(tried: &Value, reason: &str) -> String {
+    let language = if reason.is_empty() { Language::English } else { Language::of(reason) };
+    let list = |field: &str| tried[field].as_array().into_iter().flatten();
+    let mut lines = vec![reason];
+    let field = language.pick("ru", "en");
+    lines.extend(list("differences").filter_map(|difference| difference[field].as_str()));
+    let left: Vec<&str> = list("left_behind").filter_map(Value::as_str).collect();
+    let left =
+        format!("{}: {}", language.pick("Остаётся на месте", "Stays behind"), left.join(", "));
+    if list("left_behind").next().is_some() {
+        lines.push(&left);
+    }
+    lines.extend(list("warnings").filter_map(|warning| warning["message"].as_str()));
+    lines.retain(|line| !line.is_empty());
+    lines.join("\n")
+}
+
 /// A plan as it is shown to a person.
 fn plan_in_words(task: &Value, language: Language) -> String {
     let plan = &task["plan"];
@@ -222,9 +248,9 @@ fn plan_in_words(task: &Value, language: Language) -> String {
         lines.push(format!("{number}. {}", text(&step[format!("do_{field}")])));
     }
     let assumed = rehearsal::plans_of(plan).map(|plan| &plan[format!("assumptions_{field}")]);
-    let mut assumed: Vec<String> =
-        assumed.filter_map(Value::as_array).flatten().map(text).collect();
-    assumed.dedup();
+    let mut seen = BTreeSet::new();
+    let assumed = assumed.filter_map(Value::as_array).flatten().map(text);
+    let assumed: Vec<String> = assumed.filter(|one| seen.insert(one.clone())).collect();
     if !assumed.is_empty() {
         let head = language.pick("Если так и есть", "Assuming");
         lines.push(format!("{head}: {}", assumed.join("; ")));

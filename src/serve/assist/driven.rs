@@ -39,27 +39,38 @@ struct Far {
     before: f64,
     now: f64,
     of: f64,
+    /// What it was told last.
+    words: String,
 }
 
 impl Far {
-    /// What an event tells of it, in words; none of what does not bring it further.
-    fn follow(&mut self, event: &Value) -> Option<String> {
+    /// Whether an event brings it further.
+    fn follow(&mut self, event: &Value) -> bool {
         let number = || event["number"].as_f64().unwrap_or_default();
-        let now = match event["event"].as_str()? {
-            "started" => {
-                self.of = self.before + event["of"].as_f64()?;
+        let now = match (event["event"].as_str(), event["of"].as_f64()) {
+            (Some("started"), Some(of)) => {
+                self.of = self.before + of;
                 self.before + number() - 0.5
             }
-            "arrived" | "done" => self.before + number(),
-            _ => {
+            (Some("arrived" | "done"), _) => self.before + number(),
+            (Some("started") | None, _) => return false,
+            (Some(_), _) => {
                 self.before = self.now.ceil();
-                return None;
+                return false;
             }
         };
         let is_further = now > self.now;
         self.now = self.now.max(now);
         let told = event["en"].as_str().or(event["do_en"].as_str()).unwrap_or_default();
-        is_further.then(|| format!("{}/{}: {told}", self.now.ceil(), self.of.max(self.now)))
+        if is_further {
+            self.words = format!("{}/{}: {told}", self.now.ceil(), self.of.max(self.now));
+        }
+        is_further
+    }
+
+    /// A little further within a long directive, so that its client hears that it goes on.
+    fn goes_on(&mut self) {
+        self.now += (self.now.ceil() - self.now) / 10.0;
     }
 }
 
@@ -77,7 +88,8 @@ impl Asker<'_> {
         }
     }
 
-    async fn is_told(&self, far: &Far, words: String) {
+    async fn is_told(&self, far: &Far) {
+        let words = far.words.clone();
         match self {
             Self::Call(context, Some(token)) => {
                 let progress = ProgressNotificationParam::new(token.clone(), far.now);
@@ -140,6 +152,10 @@ impl Driven {
                 }
                 _ = beat.tick() => {
                     let _ = house.tasks.lease(&session);
+                    if far.of > 0.0 {
+                        far.goes_on();
+                        asker.is_told(&far).await;
+                    }
                     continue;
                 }
             };
@@ -154,10 +170,8 @@ impl Driven {
                     event["text"] = event["text_end"].clone();
                     return (Ok(event), is_given_up);
                 }
-                if kind == "directive"
-                    && let Some(words) = far.follow(&event)
-                {
-                    asker.is_told(&far, words).await;
+                if kind == "directive" && far.follow(&event) {
+                    asker.is_told(&far).await;
                 }
             }
         }

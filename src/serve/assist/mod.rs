@@ -7,6 +7,7 @@
 //!
 //! - Nothing is driven and nothing of the map is written without the word of a person: the program asks its user
 //!   (elicitation), or whoever started the server has said that it does so itself (`trusts_host`).
+//! - A client that leaves stops what it had the robot do, at once.
 //! - A plan is refused when the map, or anything that the plan rests on, is no longer what it was; and where the world
 //!   turns out to differ on the way, the robot stops instead of taking another plan.
 //! - Each call is noted with the client's name (`calls`).
@@ -18,6 +19,7 @@ mod client;
 mod deeds;
 mod driven;
 mod look;
+mod stream;
 mod tools;
 
 use std::sync::Arc;
@@ -150,8 +152,11 @@ fn complete(mut content: Vec<ContentBlock>, value: Value) -> CallToolResult {
 fn refused(fault: &Fault) -> CallToolResult {
     let body = fault.body();
     let part = |name: &str| body[name].as_str().unwrap_or_default();
-    let said = [part("message_en"), part("help_en")].join(" ");
-    let mut result = CallToolResult::error(vec![ContentBlock::text(said.trim())]);
+    let said = match (part("message_en"), part("help_en")) {
+        (message, "") => message.to_owned(),
+        (message, help) => format!("{}. {help}", message.trim_end_matches('.')),
+    };
+    let mut result = CallToolResult::error(vec![ContentBlock::text(said)]);
     result.structured_content = Some(body.clone());
     result
 }
@@ -168,7 +173,8 @@ pub fn run(engine: Engine, settings: &Settings, stop: &Stop) -> Result<(), Serve
     let tasks = Arc::clone(&house.tasks);
     let assistant = Assistant::new(house, settings.store.as_deref(), settings.trusts_host);
     let served = runtime.block_on(async {
-        let streams = rmcp::transport::io::stdio();
+        let (input, output) = rmcp::transport::io::stdio();
+        let streams = (stream::Watched::new(input, Arc::clone(&tasks)), output);
         tokio::select! {
             () = raised(stop) => Ok(()),
             served = async {

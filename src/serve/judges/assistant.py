@@ -8,6 +8,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import Any, Literal
 
@@ -155,6 +156,15 @@ async def work(connect, mode, log=None):
         check(len(value["rows"]) == 2, value)
         _, value = await call("why", relation="ON_TOP_OF", of=["Чашка-1", "Стол-1"])
         check(value["holds"] and value["steps"], value)
+        # By whichever name, in either language; of what is not there nothing is said to be false.
+        for of in (["Cup 1", "Table 1"], ["Чашка-1", "Table 1"], ["cup 1", "стол-1"]):
+            _, value = await call("why", relation="ON_TOP_OF", of=of)
+            check(value["holds"] and value["steps"], (of, value))
+        for tool in ("why", "why_not"):
+            told, value = await call(tool, relation="ON_TOP_OF", of=["unicorn", "Table 1"])
+            check(told.is_error and "holds" not in value, value)
+        _, value = await call("why_not", relation="ON_TOP_OF", of=["Chair 1", "Table 1"])
+        check(value["holds"] is False and "?" in value["text"], value)
         _, value = await call("why_not", relation="ON_TOP_OF", of=["Стул-1", "Стол-1"])
         check(value["holds"] is False and "?" in value["text"], value)
         _, value = await call("route", **{"from": "Точка-А", "to": "Точка-К"})
@@ -226,6 +236,14 @@ async def work(connect, mode, log=None):
         answers.append(False)
         told, value = await call("propose_edit", edit=edit, reason="no")
         check(told.is_error and value["code"] == "assist::declined", value)
+        check("moved by 10 cm" in asked[-1], asked[-1])
+        # The question is in the language of the reason; what would stay where it is is in it.
+        answers.append(False)
+        table = {"edit": [{"move": "Стол-1", "by": [0, 1]}]}
+        await call("propose_edit", edit=table, reason="стол ближе к стене")
+        check("Стол-1" in asked[-1] and "Остаётся на месте: " in asked[-1], asked[-1])
+        told, value = await call("propose_edit", edit={"edit": [{"move": "Стул-1", "by": [0, 0]}]}, reason="")
+        check(told.is_error and value["code"] == "assist::nothing", value)
         _, before = await call("history")
         answers.append(True)
         told, value = await call("propose_edit", edit=edit, reason="a judge moves a chair")
@@ -253,6 +271,39 @@ async def work(connect, mode, log=None):
         lines = [json.loads(line) for line in Path(log).read_text().splitlines()]
         check({line["tool"] for line in lines} >= {"ask", "run", "propose_edit"}, "calls are noted")
         check(all("judge" in line["client"] for line in lines), lines[0])
+
+
+def leaves(store):
+    """A client that goes away in the middle of a drive stops it, at once and not when its open call is given up."""
+    command = [ORTHO, "mcp", "--demo", "--store", store, "--pace", "1", "--trust-client"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+        def send(method, **more):
+            server.stdin.write(json.dumps({"jsonrpc": "2.0", "method": method, **more}) + "\n")
+            server.stdin.flush()
+
+        def answer(number):
+            for line in server.stdout:
+                told = json.loads(line)
+                if told.get("id") == number:
+                    return told["result"]
+
+        send("initialize", id=1, params={"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "judge", "version": "1"}})
+        answer(1)
+        send("notifications/initialized")
+        send("tools/call", id=2, params={"name": "plan", "arguments": {"text": "Go to Room Z"}})
+        task = answer(2)["structuredContent"]["task"]["task"]
+        send("tools/call", id=3, params={"name": "run", "arguments": {"id": task}, "_meta": {"progressToken": 7}})
+        while json.loads(server.stdout.readline()).get("method") != "notifications/progress":
+            pass
+        left = time.monotonic()
+        server.stdin.close()
+        for line in server.stdout:
+            told = json.loads(line)
+            if told.get("id") == 3:
+                check(told["result"]["structuredContent"]["state"] in ("stopped", "cancelled"), told)
+        server.wait(timeout=60)
+        # The protocol's own service would wait five seconds for the call.
+        check(time.monotonic() - left < 4.5, "the robot drives on")
 
 
 def over_streams(store):
@@ -321,6 +372,8 @@ async def main():
         await as_a_task(OverHttp)
     with tempfile.TemporaryDirectory() as folder:
         await nobody_to_ask(f"{folder}/store")
+    with tempfile.TemporaryDirectory() as folder:
+        leaves(f"{folder}/store")
     print("all works")
 
 
