@@ -2,7 +2,8 @@
 //!
 //! Beside the relations of the rule text stand four that are computed when they are asked for: how far two things are
 //! from each other, how big one is, what is seen from a place, and how long the way between two places is. None of them
-//! is stored for all pairs: the building has too many.
+//! is stored for all pairs: the building has too many. What the robot knows, and where the Map puts a thing, is listed
+//! for a question that names it.
 
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
@@ -57,8 +58,12 @@ impl State {
         ];
         let measured = on_demand(around.world(), relations);
         let measured = measured.iter().map(|one| one as &dyn Computed);
-        let computed: Vec<&dyn Computed> =
-            measured.chain(computed.iter().map(|one| one as &dyn Computed)).collect();
+        let is_read = |name: &str| reads(question, name);
+        let tell = || self.told(around, around.moment(), is_read("sees"));
+        let listed = relations.listed(around.world(), is_read, tell)?;
+        let listed = listed.iter().map(|one| one as &dyn Computed);
+        let computed = computed.iter().map(|one| one as &dyn Computed);
+        let computed: Vec<&dyn Computed> = measured.chain(computed).chain(listed).collect();
         let source = Source::new("?", question);
         let ask = |error: AskError| Error::Query(Box::new(error));
         let answers = relations.derived().ask_with(&source, &computed, limits).map_err(ask)?;
@@ -78,6 +83,24 @@ impl State {
                 .collect(),
         })
     }
+}
+
+/// Whether a question reads a relation that no rule of its own declares or derives.
+fn reads(question: &str, relation: &str) -> bool {
+    let is_of_a_name = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let mut is_read = false;
+    for (at, _) in question.match_indices(relation) {
+        let (before, after) = (&question[..at], question[at + relation.len()..].trim_start());
+        if before.ends_with(is_of_a_name) || !after.starts_with('(') {
+            continue;
+        }
+        let behind = after.split_once(')').map_or("", |(_, behind)| behind.trim_start());
+        if before.trim_end().ends_with(".decl") || behind.starts_with(":-") {
+            return false;
+        }
+        is_read = true;
+    }
+    is_read
 }
 
 /// What the robot would see that stands at a thing, a door, in a room or place, whichever way it turns.

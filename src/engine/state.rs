@@ -170,11 +170,17 @@ impl State {
 
     /// Tells the rules what the robot knows beside the world.
     fn tell(&self, now: Known, at: Timestamp) -> Result<Known, Error> {
+        let told = self.told(&now, at, self.rules.relations.asks_for_view())?;
+        now.told(&told)
+    }
+
+    /// What the robot knows beside the world; what it has in view where that is asked.
+    pub(super) fn told(&self, now: &Known, at: Timestamp, with_view: bool) -> Result<Told, Error> {
         let world = now.world();
         let stands = |(map, _): &(MapId, Pose)| world.maps.contains_key(map);
         let robot = self.robot_pose().filter(stands);
         let in_view = match robot {
-            Some((map, pose)) if self.rules.relations.asks_for_view() => {
+            Some((map, pose)) if with_view => {
                 let floor = now.floor(map)?;
                 let near = now.relations()?.thresholds();
                 things_in_view(world, floor, &robot_eye(world, floor, pose, near), near)
@@ -182,7 +188,7 @@ impl State {
             _ => Vec::new(),
         };
         let carried = now.holders.iter().map(|(id, holder)| (*id, holder.clone())).collect();
-        now.told(&Told { robot, in_view, believed: self.whereabouts_believed(at)?, carried })
+        Ok(Told { robot, in_view, believed: self.whereabouts_believed(at)?, carried })
     }
 
     /// Where what was looked at is believed to be, and how surely.

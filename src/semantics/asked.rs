@@ -7,6 +7,7 @@ use crate::facts::{Computed, Value};
 use crate::map::{Entity, World};
 use crate::units::{Cm, OpeningId, ReplicaId, Source};
 
+use super::measured::Measured;
 use super::names::Subject;
 use super::relations::Relations;
 
@@ -68,6 +69,37 @@ impl<W> Computed for OnDemand<'_, W> {
 
     fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
         let _ = (self.rows)(self, known, tell);
+    }
+}
+
+/// A relation of which all rows are there, that no rule text declares: for one question.
+pub struct Listed {
+    declaration: Source,
+    ways: [(u32, f64); 1],
+    rows: Vec<Vec<Value>>,
+}
+
+impl Listed {
+    pub(crate) fn new(relation: &Measured, rows: Vec<Vec<Value>>) -> Self {
+        let declaration = Source::new(relation.name, relation.declared());
+        Self { declaration, ways: [(0, rows.len() as f64)], rows }
+    }
+}
+
+impl Computed for Listed {
+    fn declaration(&self) -> &Source {
+        &self.declaration
+    }
+
+    fn ways(&self) -> &[(u32, f64)] {
+        &self.ways
+    }
+
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
+        let fits = |row: &&Vec<Value>| {
+            known.iter().zip(*row).all(|(known, value)| known.as_ref().is_none_or(|k| k == value))
+        };
+        self.rows.iter().filter(fits).for_each(|row| tell(row));
     }
 }
 

@@ -117,9 +117,14 @@ impl Measured {
     /// As a rule text declares it.
     #[must_use]
     pub fn declaration(&self) -> String {
+        format!("{}\n.input {}\n", self.declared(), self.name)
+    }
+
+    /// Its `.decl` alone.
+    pub(crate) fn declared(&self) -> String {
         let columns = self.columns.iter().map(|(name, kind, _)| format!("{name}: {kind}"));
         let columns: Vec<String> = columns.collect();
-        format!(".decl {0}({1})\n.input {0}\n", self.name, columns.join(", "))
+        format!(".decl {}({})", self.name, columns.join(", "))
     }
 }
 

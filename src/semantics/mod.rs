@@ -81,7 +81,7 @@ mod view;
 pub use crate::geometry::{OpenSide, Opening, Openings};
 pub use crate::map::Profile;
 pub use ask::Extent;
-pub use asked::{OnDemand, Rows, length, on_demand};
+pub use asked::{Listed, OnDemand, Rows, length, on_demand};
 pub use cargo::{cargo, carried_to, shut_around};
 pub use claim::{Claim, claim_bounds, claim_holds};
 pub use lifts::{Lift, lifts, storey_name};

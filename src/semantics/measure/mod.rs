@@ -276,6 +276,11 @@ impl Measurements {
         self.bodies.get(&thing).map(|body| body.map)
     }
 
+    /// What is measured of each thing by itself.
+    pub(super) fn singles(&self) -> &BTreeMap<ReplicaId, Single> {
+        &self.singles
+    }
+
     /// What is measured of a thing by itself.
     #[must_use]
     pub fn of_thing(&self, id: ReplicaId) -> Option<&Single> {

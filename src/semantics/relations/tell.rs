@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use crate::asked::Listed;
 use crate::facts::Value;
 use crate::map::{Entity, World};
 use crate::measure::{hundredths, tenths};
+use crate::measured::{MEASURED, Measured};
 use crate::names::Subject;
 use crate::told::Told;
 use crate::units::{AreaId, ReplicaId};
@@ -19,6 +21,7 @@ const ROBOT_AT: &str = "robot_at";
 const SEES: &str = "sees";
 const BELIEVED: &str = "believed";
 const CARRIED_BY: &str = "carried_by";
+const AT: &str = "at";
 /// Whoever carries what the robot has itself.
 const ROBOT: &str = "робот";
 impl RelationRules {
@@ -47,11 +50,50 @@ impl Relations {
     /// # Errors
     /// As [`derive()`](super::derive).
     pub fn tell(&mut self, world: &World, told: &Told) -> Result<(), RelationError> {
-        let rows = self.told_rows(world, told);
+        let rows = self.told_rows(world, told, |name| self.rules().asks_for(name));
         self.replace_told(rows)
     }
 
-    fn told_rows(&self, world: &World, told: &Told) -> BTreeSet<(&'static str, Vec<Value>)> {
+    /// What is told or measured on demand, for a question that reads it where the rule text does not: relations that the
+    /// text knows already are left out, and `apart`, which needs a reach.
+    ///
+    /// # Errors
+    /// Those of `tell`, which is asked for what the robot knows where that is read.
+    pub fn listed<E>(
+        &self,
+        world: &World,
+        is_read: impl Fn(&str) -> bool,
+        tell: impl FnOnce() -> Result<Told, E>,
+    ) -> Result<Vec<Listed>, E> {
+        let wanted = |name: &str| self.rules().program().relation(name).is_none() && is_read(name);
+        let told = if TOLD.iter().any(|name| wanted(name)) { tell()? } else { Told::default() };
+        let mut rows = self.told_rows(world, &told, wanted);
+        if wanted(AT) {
+            for (&id, single) in self.measurements().singles() {
+                let subject = Subject::Entity(Entity::Replica(id));
+                if let Some(symbol) = self.symbols().known(subject) {
+                    let at = single.at.map(Value::Number);
+                    let area = Value::Symbol(self.symbols().area(single.fragment).clone());
+                    let row = [Value::Symbol(symbol.clone()), area].into_iter().chain(at);
+                    rows.insert((AT, row.collect()));
+                }
+            }
+        }
+        let is_listed = |name| name == AT || TOLD.contains(&name);
+        let named = MEASURED.iter().filter(|relation| is_listed(relation.name));
+        let listed = |relation: &Measured| {
+            let of_it = rows.iter().filter(|(name, _)| *name == relation.name);
+            Listed::new(relation, of_it.map(|(_, row)| row.clone()).collect())
+        };
+        Ok(named.filter(|relation| wanted(relation.name)).map(listed).collect())
+    }
+
+    fn told_rows(
+        &self,
+        world: &World,
+        told: &Told,
+        wanted: impl Fn(&str) -> bool,
+    ) -> BTreeSet<(&'static str, Vec<Value>)> {
         let symbols = self.symbols();
         let thing = |id: ReplicaId| match symbols.known(Subject::Entity(Entity::Replica(id))) {
             Some(symbol) => Value::Symbol(symbol.clone()),
@@ -61,7 +103,7 @@ impl Relations {
         let area = |id: AreaId| Value::Symbol(symbols.area(id).clone());
         let mut rows = BTreeSet::new();
         let mut put = |name: &'static str, row: Vec<Value>| {
-            if self.rules().asks_for(name) {
+            if wanted(name) {
                 rows.insert((name, row));
             }
         };
