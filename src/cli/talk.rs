@@ -1,7 +1,7 @@
 //! `ortho talk`: a dialogue on the terminal, or over lines from a pipe.
 //!
-//! A line that begins with a verb of command is a task; every other line is a question. `.rule` before a line shows
-//! the query behind it; an empty line, `выход`, `exit` or the end of input ends the dialogue.
+//! What a line is, a question, an order or both, the [`Dialogue`] tells. `.rule` before a line shows the query behind it; an
+//! empty line, a word of leave or the end of input ends the dialogue.
 
 use std::io::{BufRead, IsTerminal};
 
