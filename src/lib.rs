@@ -44,6 +44,27 @@ pub use orthoframe_geometry::{
 pub use orthoframe_robot::{Simulator, Vehicle};
 pub use orthoframe_semantics::{RelationRules, Relations};
 
+/// What moves the robot: a simulator, what speaks the protocol of docs/vehicle.md, or a type of one's own.
+///
+/// ```no_run
+/// use orthoframe::vehicle::{Address, Patience};
+/// use orthoframe::{Engine, Stop};
+///
+/// let engine = Engine::open("store".as_ref(), None)?;
+/// let address: Address = "tcp:127.0.0.1:4242".parse().expect("it is an address");
+/// let mut robot = address.connect(engine.world()?, Patience::default())?;
+/// let order = engine.understand("Bring the medicine")?;
+/// let answer = engine.carry_out_with(&order, &mut robot, &mut |_| {}, &Stop::default())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub mod vehicle {
+    pub use orthoframe_geometry::Ride;
+    pub use orthoframe_robot::{
+        Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience,
+        Refusal, RemoteVehicle, Sighting, Unfinished, Watch,
+    };
+}
+
 /// What a robot sees: the segments of [`engine::View`].
 pub use orthoframe_vectors::Segment;
 

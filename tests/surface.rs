@@ -65,17 +65,22 @@ fn the_surface_is_the_one_that_was_agreed_on() {
     let (root, engine) = (read("src/lib.rs"), read("src/engine/mod.rs"));
     // No folder as a whole: each name that is public is one that somebody meant to be.
     let modules: Vec<&str> = root.lines().filter(|line| line.starts_with("pub mod ")).collect();
-    assert_eq!(modules, ["pub mod cli;", "pub mod engine;", "pub mod serve;"]);
+    assert_eq!(modules, ["pub mod cli;", "pub mod engine;", "pub mod serve;", "pub mod vehicle {"]);
     assert!(!root.contains("pub use orthoframe_") || !root.contains("::*"), "no globs");
     let open = engine.lines().filter(|line| line.starts_with("pub mod "));
     assert_eq!(open.collect::<Vec<_>>(), ["pub mod json;"]);
     let (at_root, of_engine) = (used(&root), used(&engine));
-    let names: BTreeSet<&String> = at_root.union(&of_engine).collect();
-    assert!(names.len() <= 150, "{} names", names.len());
+    let inside = root.split("\npub mod vehicle {").nth(1).unwrap();
+    let inside = inside.split("\n}").next().unwrap();
+    let of_vehicle = used(&inside.replace("\n    ", "\n"));
+    let names: BTreeSet<&String> = at_root.union(&of_engine).chain(&of_vehicle).collect();
+    assert!(names.len() <= 170, "{} names", names.len());
     let mut told = format!("orthoframe: {} names\n", at_root.len());
     at_root.iter().for_each(|name| writeln!(told, "  {name}").unwrap());
     writeln!(told, "orthoframe::engine: {} names", of_engine.len()).unwrap();
     of_engine.iter().for_each(|name| writeln!(told, "  {name}").unwrap());
+    writeln!(told, "orthoframe::vehicle: {} names", of_vehicle.len()).unwrap();
+    of_vehicle.iter().for_each(|name| writeln!(told, "  {name}").unwrap());
     let mut methods = BTreeSet::new();
     for path in sources("src/engine") {
         let text = read(&path);
