@@ -21,6 +21,10 @@ pub enum RecordingError {
     #[error("«{path}» – не MCAP")]
     #[diagnostic(code(recording::not_mcap), help("назовите файл, записанный с --record"))]
     NotMcap { path: String },
+    /// An MCAP of which nothing of a mission is left.
+    #[error("запись «{path}» оборвана или испорчена раньше, чем в ней что-то сказано")]
+    #[diagnostic(code(recording::cut), help("назовите другую запись; из этой взять нечего"))]
+    Cut { path: String },
     /// An MCAP of another program.
     #[error("в записи «{path}» нет ничего от миссии ortho")]
     #[diagnostic(code(recording::foreign), help("назовите файл, записанный с --record"))]
@@ -38,6 +42,11 @@ impl InEnglish for RecordingError {
                 format!("the recording “{path}” cannot be read: {reason}")
             }
             Self::NotMcap { path } => format!("“{path}” is no MCAP"),
+            Self::Cut { path } => {
+                format!(
+                    "the recording “{path}” is cut off or damaged before anything is told in it"
+                )
+            }
             Self::Foreign { path } => {
                 format!("the recording “{path}” has nothing of an ortho mission")
             }
@@ -48,6 +57,7 @@ impl InEnglish for RecordingError {
         let help = match self {
             Self::Unwritable { .. } => "check the path, the rights and the room on the disk",
             Self::Unreadable { .. } => "check the path and the rights",
+            Self::Cut { .. } => "name another recording; there is nothing to take from this one",
             Self::NotMcap { .. } | Self::Foreign { .. } => {
                 "name a file that was written with --record"
             }
