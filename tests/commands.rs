@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use orthoframe::Engine;
 use orthoframe::engine::{
-    Memory, Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words, directive_in_words,
+    Memory, Progress, TaskAnswer, TaskEnding, actions_in_words, change_now, directive_in_words,
 };
 use orthoframe_geometry::Scene;
 use orthoframe_language::Language;
@@ -31,7 +31,7 @@ fn perform(engine: &Engine, command: &str) -> TaskAnswer {
 }
 
 fn said(world: &World, answer: &TaskAnswer, language: Language) -> Vec<String> {
-    answer.reports.iter().flat_map(|r| deeds_in_words(world, &r.directive, language)).collect()
+    answer.reports.iter().flat_map(|r| actions_in_words(world, &r.directive, language)).collect()
 }
 
 /// The flat in a store of its own, so that one task goes on from another.

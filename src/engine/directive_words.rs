@@ -16,7 +16,7 @@ use super::task::{OPERATOR_PLACE, TaskAnswer, TaskEnding};
 
 /// A sentence for each deed that the robot's position does not tell; motion and doors are told by that.
 #[must_use]
-pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) -> Vec<String> {
+pub fn actions_in_words(world: &World, directive: &Directive, language: Language) -> Vec<String> {
     let is_russian = language == Language::Russian;
     let name = |name: &str| {
         let thing = world.find(name).into_iter().find(|e| matches!(e, Entity::Replica(_)));

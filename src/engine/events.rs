@@ -26,7 +26,7 @@ use crate::units::{Point, Pose, ReplicaId};
 
 use super::assumed::assumptions_in_russian;
 use super::surprises::barred_in_words;
-use super::{Progress, Report, deeds_in_words, directive_in_words, name_in, surprise_in_words};
+use super::{Progress, Report, actions_in_words, directive_in_words, name_in, surprise_in_words};
 
 /// One thing that happened on the way.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -280,7 +280,7 @@ impl ReportView {
     pub fn of(world: &World, report: &Report) -> Self {
         let DirectiveView { action, args, do_ru, do_en } =
             DirectiveView::of(world, &report.directive);
-        let done = |language| deeds_in_words(world, &report.directive, language);
+        let done = |language| actions_in_words(world, &report.directive, language);
         let point = |p: &Point| [hundredths(p.x), hundredths(p.y)];
         let said = |language| report.position.as_ref().map(|position| position.say(language));
         Self {

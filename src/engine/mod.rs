@@ -102,7 +102,7 @@ pub use barriers::no_way_in_words;
 #[cfg(feature = "cli")]
 pub(crate) use dialogue::queue_in_words;
 pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
-pub use directive_words::{deeds_in_words, directive_in_words, name_in, task_in_words};
+pub use directive_words::{actions_in_words, directive_in_words, name_in, task_in_words};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};

@@ -11,7 +11,7 @@ use crate::robot::{Directive, Solved};
 use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
 
-use super::directive_words::{deeds_in_words, directive_in_words, name_in};
+use super::directive_words::{actions_in_words, directive_in_words, name_in};
 use super::surprises::{barred_in_words, surprise_in_words};
 use super::task::{Progress, TaskAnswer, TaskEnding};
 use super::{Error, State};
@@ -169,7 +169,7 @@ pub fn progress_in_words(
                 format!("{}.", report.number),
                 directive_told(world, &report.directive, language)
             )];
-            let deeds = deeds_in_words(world, &report.directive, language);
+            let deeds = actions_in_words(world, &report.directive, language);
             lines.extend(deeds.into_iter().map(|sentence| format!("     {sentence}")));
             lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
             lines

@@ -12,11 +12,11 @@
 //!   turns out to differ on the way, the robot stops instead of taking another plan.
 //! - Each call is noted with the client's name (`calls`).
 
+mod acts;
 mod approval;
 mod call;
 mod calls;
 mod client;
-mod deeds;
 mod driven;
 mod look;
 mod stream;
