@@ -68,9 +68,11 @@ impl Far {
         is_further
     }
 
-    /// A little further within a long directive, so that its client hears that it goes on.
-    fn goes_on(&mut self) {
-        self.now += (self.now.ceil() - self.now) / 10.0;
+    /// A little further within a long directive, so that its client hears that it goes on; whether one is under way.
+    fn goes_on(&mut self) -> bool {
+        let left = self.now.ceil() - self.now;
+        self.now += left / 10.0;
+        left > 0.0
     }
 }
 
@@ -152,8 +154,7 @@ impl Driven {
                 }
                 _ = beat.tick() => {
                     let _ = house.tasks.lease(&session);
-                    if far.of > 0.0 {
-                        far.goes_on();
+                    if far.goes_on() {
                         asker.is_told(&far).await;
                     }
                     continue;

@@ -154,7 +154,8 @@ fn refused(fault: &Fault) -> CallToolResult {
     let part = |name: &str| body[name].as_str().unwrap_or_default();
     let said = match (part("message_en"), part("help_en")) {
         (message, "") => message.to_owned(),
-        (message, help) => format!("{}. {help}", message.trim_end_matches('.')),
+        (message, help) if message.ends_with(['.', '?', '!']) => format!("{message} {help}"),
+        (message, help) => format!("{message}. {help}"),
     };
     let mut result = CallToolResult::error(vec![ContentBlock::text(said)]);
     result.structured_content = Some(body.clone());
