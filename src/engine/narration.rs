@@ -44,6 +44,10 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
     if !is_found {
         let head = match solved.outcome {
             Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
+            _ if solved.is_of_whole_actions => pick(
+                "Плана из целых действий, одного за другим, нет, и это доказано; такой, где одно идёт внутри другого, не искался",
+                "There is no plan of whole actions, one after another; this is proven. One in which an action goes on within another was not sought",
+            ),
             _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
         };
         return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());

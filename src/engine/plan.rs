@@ -4,7 +4,7 @@ use crate::graphplan::Limits;
 use crate::robot::{
     Clock, Replanned, Solved, Wanted, facts_of_map, solve, solve_quickest, solve_without, state,
 };
-use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
+use crate::strips::{PlanText, Replayed, RuleError, RuleFault, Scenario, without_price};
 
 use super::{Error, RequestError, State};
 
@@ -27,11 +27,21 @@ pub struct PlanAnswer {
 }
 
 impl PlanAnswer {
+    fn of(mut solved: Solved, warnings: Vec<RuleFault>) -> Self {
+        solved.is_of_whole_actions = are_whole(&warnings);
+        Self { solved, warnings }
+    }
+
     /// The parallel steps, empty unless there is a plan.
     #[must_use]
     pub fn steps(&self) -> Vec<Vec<PlanStep>> {
         steps(&self.solved)
     }
+}
+
+/// Whether actions of the scenario last, and are planned each as one.
+fn are_whole(warnings: &[RuleFault]) -> bool {
+    warnings.iter().any(|fault| matches!(*fault.error, RuleError::Durations { .. }))
 }
 
 /// The parallel steps of a plan, empty unless there is one; where the search was given up, of the best that was found.
@@ -74,7 +84,7 @@ impl State {
             let names: Vec<String> = names.into_iter().collect();
             RequestError::Untimed { names: names.join(", ") }
         })?;
-        Ok(PlanAnswer { solved, warnings })
+        Ok(PlanAnswer::of(solved, warnings))
     }
 
     /// A scenario with the facts of the map that the engine holds, if it holds one.
@@ -114,7 +124,10 @@ pub fn plan_alone_without(
     wanted: Wanted,
 ) -> Result<(Replanned, Vec<RuleFault>), Error> {
     let Scenario { domain, mut problem, mut warnings, .. } = scenario;
-    let replanned = solve_without(&domain, &mut problem, withdrawn, limits, wanted)?;
+    let mut replanned = solve_without(&domain, &mut problem, withdrawn, limits, wanted)?;
+    for solved in [&mut replanned.before, &mut replanned.after] {
+        solved.is_of_whole_actions = are_whole(&warnings);
+    }
     warnings.extend(without_price(&domain, &problem, &replanned.after.task)?);
     Ok((replanned, warnings))
 }
@@ -131,7 +144,7 @@ pub fn plan_alone(
     let Scenario { domain, problem, mut warnings, .. } = scenario;
     let solved = solve(&domain, &problem, limits, wanted)?;
     warnings.extend(without_price(&domain, &problem, &solved.task)?);
-    Ok(PlanAnswer { solved, warnings })
+    Ok(PlanAnswer::of(solved, warnings))
 }
 
 /// Carries a plan out on a scenario that needs no map.

@@ -34,6 +34,8 @@ pub struct Solved {
     pub wishes: Option<Wishes>,
     /// How long the plan takes, where it was planned for that.
     pub time: Option<DrivenTime>,
+    /// Of actions that last, each planned as one: none was sought in which one goes on within another.
+    pub is_of_whole_actions: bool,
 }
 
 /// How long a plan takes to be driven, in hundredths of a second.
@@ -318,6 +320,7 @@ pub fn solve_quickest(
             phrases: Arc::clone(domain.phrases()),
             wishes: None,
             time: None,
+            is_of_whole_actions: false,
         }));
     }
     let takes = outcome.plan().map(|plan| plan.cost(&task));
@@ -472,6 +475,7 @@ fn told(
         phrases,
         wishes: None,
         time: None,
+        is_of_whole_actions: false,
     })
 }
 

@@ -35,6 +35,27 @@ fn plans_and_explanations_are_english_where_english_is_asked_for() {
     assert!(json["explanation"].as_str().unwrap().contains("РОБОТ-ДЕРЖИТ_("), "{json}");
 }
 
+/// A match burns while it is struck, and only then the fuse can be mended: within that action, which is planned as one.
+#[test]
+fn that_no_plan_of_whole_actions_is_there_proves_no_more() {
+    let place = Place::empty();
+    let rules = "(define (domain d) (:requirements :durative-actions) (:predicates (light) (mended) (unused))
+ (:durative-action strike :parameters () :duration (= ?duration 8) :condition (at start (unused))
+  :effect (and (at start (not (unused))) (at start (light)) (at end (not (light)))))
+ (:durative-action mend :parameters () :duration (= ?duration 5) :condition (over all (light))
+  :effect (at end (mended))))";
+    let task = "(define (problem p) (:domain d) (:init (unused)) (:goal (mended)))";
+    let (domain, problem) = (place.write("domain.pddl", rules), place.write("problem.pddl", task));
+    let plan = ["plan", "--domain", &domain, "--problem", &problem];
+    let json = place.json(&plan, 1);
+    assert_eq!((&json["outcome"], &json["whole_actions"]), (&json!("no_plan"), &json!(true)));
+    for (lang, words) in [("en", "no plan of whole actions"), ("ru", "Плана из целых действий")]
+    {
+        let told = place.run(&[&["--lang", lang], &plan[..]].concat()).is(1).out;
+        assert!(told.contains(words) && !told.contains("There is no plan;"), "{told}");
+    }
+}
+
 /// A scenario of a house of its own declares its rooms and doors, and is planned whatever map the store holds.
 #[test]
 fn every_scenario_of_the_rules_is_planned_on_a_map() {

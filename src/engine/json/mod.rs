@@ -61,6 +61,9 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
         "explanation": solved.explanation(Language::Russian),
         "explanation_en": solved.explanation_with(&english),
     });
+    if solved.is_of_whole_actions {
+        view["whole_actions"] = json!(true);
+    }
     if let Some(time) = solved.time {
         let seconds = |hundredths: u64| hundredths as f64 / 100.0;
         view["seconds"] = json!(seconds(time.takes));
