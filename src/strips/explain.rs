@@ -16,6 +16,7 @@ use super::phrase::{Phrases, Said, SaidArgument, Wording};
 use super::plain::plain;
 use super::problem::Problem;
 use super::resolve::ThingId;
+use super::simplify::NO_CASE;
 use super::task::Fact;
 use crate::units::{Gather as _, Language, name_key};
 
@@ -75,6 +76,14 @@ impl Obstacle {
                 .pick(
                     "цель недостижима ни одним из своих способов",
                     "the goal is out of reach by any of its ways",
+                )
+                .to_owned();
+        }
+        if self.goal.name == NO_CASE {
+            return language
+                .pick(
+                    "цель недостижима: ни один её случай не может сложиться, в каком порядке ни действуй",
+                    "the goal is out of reach: no case of it can come about, in whatever order actions are taken",
                 )
                 .to_owned();
         }

@@ -107,10 +107,13 @@ fn complement(draft: &mut Draft, facts: &mut Vec<Fact>) -> Vec<u32> {
         .collect();
     if draft.impossible {
         goal.push(facts.len() as u32);
-        facts.push(Fact { predicate: "≠".into(), args: Vec::new(), negated: false });
+        facts.push(Fact { predicate: NO_CASE.into(), args: Vec::new(), negated: false });
     }
     goal
 }
+
+/// The fact that a goal comes to of which no case can come about.
+pub(super) const NO_CASE: &str = "≠";
 
 /// Which operators the relaxed problem ever applies, complements counted.
 fn reachable(draft: &Draft, fact_count: usize) -> Vec<bool> {

@@ -56,6 +56,31 @@ fn that_no_plan_of_whole_actions_is_there_proves_no_more() {
     }
 }
 
+/// Of a goal that falls into cases, of which none can come about, no inner fact is named.
+#[test]
+fn a_goal_without_a_case_is_told_in_words() {
+    let place = Place::empty();
+    let rules = "(define (domain d) (:predicates (room ?r) (warm ?r) (stove ?r))
+ (:action heat :parameters (?r) :precondition (stove ?r) :effect (warm ?r)))";
+    for goal in [
+        "(forall (?r) (warm ?r))",
+        "(exists (?r) (and (warm ?r) (not (room ?r))))",
+        "(or (warm b) (and (warm b) (stove b)))",
+        "(imply (room b) (warm b))",
+    ] {
+        let task = format!(
+            "(define (problem p) (:domain d) (:objects a b) (:init (room a) (room b) (stove a)) (:goal {goal}))"
+        );
+        let (domain, problem) =
+            (place.write("domain.pddl", rules), place.write("problem.pddl", task));
+        for lang in ["en", "ru"] {
+            let plan = ["--lang", lang, "plan", "--domain", &domain, "--problem", &problem];
+            let told = place.run(&plan).is(1).out;
+            assert!(!told.contains('≠') && told.trim().len() > 60, "{goal}: {told}");
+        }
+    }
+}
+
 /// A scenario of a house of its own declares its rooms and doors, and is planned whatever map the store holds.
 #[test]
 fn every_scenario_of_the_rules_is_planned_on_a_map() {
