@@ -8,7 +8,6 @@ import json
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import Any, Literal
 
@@ -295,15 +294,11 @@ def leaves(store):
         send("tools/call", id=3, params={"name": "run", "arguments": {"id": task}, "_meta": {"progressToken": 7}})
         while json.loads(server.stdout.readline()).get("method") != "notifications/progress":
             pass
-        left = time.monotonic()
         server.stdin.close()
-        for line in server.stdout:
-            told = json.loads(line)
-            if told.get("id") == 3:
-                check(told["result"]["structuredContent"]["state"] in ("stopped", "cancelled"), told)
-        server.wait(timeout=60)
-        # The protocol's own service would wait five seconds for the call.
-        check(time.monotonic() - left < 4.5, "the robot drives on")
+        server.stdout.read()
+    # A call that is given up after a while is never noted; one that ends because the robot stands is.
+    noted = [json.loads(line) for line in Path(f"{store}.calls.jsonl").read_text().splitlines()]
+    check("run" in [call["tool"] for call in noted], noted)
 
 
 def over_streams(store):
