@@ -99,6 +99,14 @@ fn the_surface_is_the_one_that_was_agreed_on() {
     expect_file![project("tests/golden/surface.txt")].assert_eq(&told);
 }
 
+/// Enums that are errors by their use and derive no `Error`. Others of the kind (`Refusal`, `Barrier`, `WhyNot`) stay closed:
+/// other crates tell each of their cases, and one that is told nowhere is not to compile.
+const REASONS: [(&str, &str); 3] = [
+    ("src/units/file.rs", "FileFault"),
+    ("src/language/question/doubts.rs", "Doubt"),
+    ("src/meaning/answer.rs", "NoAnswer"),
+];
+
 /// Errors grow: who matches on them has a last arm.
 #[test]
 fn error_enums_may_grow() {
@@ -119,5 +127,9 @@ fn error_enums_may_grow() {
                 derives = false;
             }
         }
+    }
+    for (path, name) in REASONS {
+        let head = format!("\n#[non_exhaustive]\npub enum {name} {{\n");
+        assert!(read(path).contains(&head), "{path}: {name}");
     }
 }

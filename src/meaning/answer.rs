@@ -36,6 +36,7 @@ pub struct Place {
 
 /// Why a form comes to nothing.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NoAnswer {
     /// Nothing fits a description where one thing is meant.
     NoneSuch,

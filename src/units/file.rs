@@ -13,6 +13,7 @@ use std::time::Duration;
 
 /// Why a file was not read.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum FileFault {
     Io(io::Error),
     /// It is longer than its reader takes; `bytes` is as much as is known of its length.

@@ -15,6 +15,7 @@ use crate::words::{Case, Language, alternatives, enumerate, everyday};
 
 /// Why a question has no answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Doubt {
     /// Nothing but blanks, marks or pictures.
     Empty,
