@@ -454,7 +454,7 @@ fn the_finder_of_circles_finds_one() {
 /// makes no other word of it.
 #[test]
 fn a_word_of_the_glossary_means_one_thing() {
-    let text = std::fs::read_to_string(crate::files::project("docs/GLOSSARY.md")).unwrap();
+    let text = std::fs::read_to_string(project("docs/GLOSSARY.md")).unwrap();
     let mut known = BTreeSet::new();
     let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" |").next());
     let words = rows
