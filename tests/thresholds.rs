@@ -1,11 +1,14 @@
 //! Thresholds and meanings stand in the rule text: what is changed there changes the relation and what is answered.
 
+use std::collections::BTreeSet;
+
 use orthoframe::engine::{Engine, Rules};
 use orthoframe_facts::{Value, WhyNot};
 use orthoframe_language::question::Memory;
 use orthoframe_map::{Entity, Format, Profile, World};
 use orthoframe_semantics::{
-    MEASURED, RelationError, RelationRules, Relations, STANDARD, Spot, derive, measured_table,
+    MEASURED, RelationError, RelationRules, Relations, STANDARD, Spot, THRESHOLDS, derive,
+    measured_table,
 };
 use orthoframe_units::{Deg, Frame, Point, Pose, Source};
 
@@ -389,6 +392,55 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
     } else {
         assert_eq!(text, right, "UPDATE_EXPECT=1 writes the table anew");
     }
+}
+
+/// All sources of the program but the table of thresholds itself.
+fn code() -> String {
+    let mut text = String::new();
+    let mut folders = vec![project("src")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() && !path.ends_with("tests") {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs")
+                && !path.ends_with("semantics/thresholds.rs")
+            {
+                text.push_str(&std::fs::read_to_string(path).unwrap());
+            }
+        }
+    }
+    text
+}
+
+/// A number in the rule text that nothing reads promises a change that does not come; one that rules read and the text
+/// does not name never holds.
+#[test]
+fn every_threshold_is_read_and_told_of() {
+    let code = code();
+    let guide = std::fs::read_to_string(project("docs/relations.md")).unwrap();
+    let fields: BTreeSet<&str> = code
+        .split('.')
+        .filter_map(|rest| rest.split(|c: char| c != '_' && !c.is_alphanumeric()).next())
+        .collect();
+    let mut wrong = Vec::new();
+    for known in THRESHOLDS {
+        let is_read = STANDARD.contains(&format!("threshold(\"{}\"", known.name))
+            || fields.contains(known.name.replace(' ', "_").as_str());
+        if !is_read {
+            wrong.push(format!("{}: neither rules nor code read it", known.name));
+        }
+        if !guide.contains(&format!("`{}`", known.name)) {
+            wrong.push(format!("{}: docs/relations.md does not tell of it", known.name));
+        }
+    }
+    for rest in STANDARD.split("threshold(\"").skip(1) {
+        let name = rest.split('"').next().unwrap_or_default();
+        if THRESHOLDS.iter().all(|known| known.name != name) {
+            wrong.push(format!("{name}: rules read it, and no limit names it"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 fn parsed(text: &str) -> World {

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::engine::{
     Dialogue, Engine, Method, Outcome, Reply, Rules, Sighted, Truth, World, change_now,
-    check_map_closely, opens_in_words, parse_pose, ride_in_words, uncertain_names,
+    check_map_closely, opens_in_words, parse_pose, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase, english};
@@ -427,7 +427,9 @@ pub(super) fn route(
         let mut parts = Vec::new();
         for (k, leg) in journey.legs.iter().enumerate() {
             parts.push(text::route(world, engine.floor(leg.map)?, leg, common));
-            parts.extend(journey.rides.get(k).map(|r| ride_in_words(world, r, language)));
+            if let Some(ride) = journey.rides.get(k) {
+                parts.push(engine.ride_in_words(ride, language)?);
+            }
         }
         let opens = opens_in_words(world, &journey.opens, language);
         parts.extend(Some(opens).filter(|told| !told.is_empty()));

@@ -7,7 +7,7 @@ use clap::{Args, Subcommand};
 
 use crate::engine::{
     Drawing, Engine, Lens, Method, RequestError, Sighted, TaskAnswer, directive_in_words,
-    face_in_words, no_way_in_words, opens_in_words, parse_pose, ride_in_words,
+    face_in_words, no_way_in_words, opens_in_words, parse_pose,
 };
 use crate::language::Language;
 use crate::robot::Directive;
@@ -245,7 +245,7 @@ fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure
         directives.push((2 * k + 1, format!("{} – {}", leg.from, leg.to)));
         if let Some(ride) = journey.rides.get(k) {
             legs.push((2 * k + 2, route.points.last().copied().into_iter().collect()));
-            directives.push((2 * k + 2, ride_in_words(world, ride, language)));
+            directives.push((2 * k + 2, engine.ride_in_words(ride, language)?));
         }
         match storeys.iter_mut().find(|(map, _)| *map == leg.map) {
             Some((_, drawn)) => drawn.extend(legs),

@@ -69,6 +69,14 @@ impl State {
     ) -> Result<Vec<String>, Error> {
         self.around()?.journey_in_words(journey, heading, language, detail)
     }
+
+    /// «Поднимитесь на лифте «Лифт-1» на Второй этаж.»
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn ride_in_words(&self, ride: &Ride, language: Language) -> Result<String, Error> {
+        self.around()?.ride_in_words(ride, language)
+    }
 }
 
 impl Known {
@@ -273,13 +281,42 @@ impl Known {
                 || k > 0 && self.directions(leg, None)?.is_some_and(|way| way.is_there());
             sentences.extend(told.into_iter().filter(|_| !stays));
             if let Some(ride) = journey.rides.get(k) {
-                sentences.push(ride_in_words(world, ride, language));
+                sentences.push(self.ride_in_words(ride, language)?);
             }
         }
         sentences.extend(
             Some(opens_in_words(world, &journey.opens, language)).filter(|told| !told.is_empty()),
         );
         Ok(sentences)
+    }
+
+    fn ride_in_words(&self, ride: &Ride, language: Language) -> Result<String, Error> {
+        let (world, level) = (self.world(), self.relations()?.thresholds().level_equal);
+        let lift = Named::plain(&world.domain.lifts[ride.lift].0);
+        let floor = world.placement(ride.to).map(|(map, _)| named(world, Entity::Map(map)));
+        let whither = floor.map(|floor| floor.whither_storey(language)).unwrap_or_default();
+        Ok(match language {
+            Language::Russian => {
+                let verb = if ride.rise > level {
+                    "Поднимитесь"
+                } else if ride.rise < -level {
+                    "Спуститесь"
+                } else {
+                    "Проезжайте"
+                };
+                format!("{verb} на лифте «{}» {whither}.", lift.phrase().name())
+            }
+            Language::English => {
+                let way = if ride.rise > level {
+                    "up "
+                } else if ride.rise < -level {
+                    "down "
+                } else {
+                    ""
+                };
+                format!("Take the lift “{}” {way}{whither}.", lift.english_name())
+            }
+        })
     }
 }
 
@@ -289,34 +326,4 @@ fn across_doorway(doorway: &Opening) -> Extent {
     let aside = doorway.out() * (doorway.gap / 2.0).max(1.0);
     let corners = vec![a - aside, b - aside, b + aside, a + aside];
     Extent::Polygon { map: doorway.map, corners }
-}
-
-/// «Поднимитесь на лифте «Лифт-1» на Второй этаж.»
-#[must_use]
-pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
-    let lift = Named::plain(&world.domain.lifts[ride.lift].0);
-    let floor = world.placement(ride.to).map(|(map, _)| named(world, Entity::Map(map)));
-    let whither = floor.map(|floor| floor.whither_storey(language)).unwrap_or_default();
-    match language {
-        Language::Russian => {
-            let verb = if ride.rise > 1.0 {
-                "Поднимитесь"
-            } else if ride.rise < -1.0 {
-                "Спуститесь"
-            } else {
-                "Проезжайте"
-            };
-            format!("{verb} на лифте «{}» {whither}.", lift.phrase().name())
-        }
-        Language::English => {
-            let way = if ride.rise > 1.0 {
-                "up "
-            } else if ride.rise < -1.0 {
-                "down "
-            } else {
-                ""
-            };
-            format!("Take the lift “{}” {way}{whither}.", lift.english_name())
-        }
-    }
 }

@@ -111,7 +111,7 @@ pub use events::{DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskE
 pub use forms::uncertain_names;
 pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;
-pub use journey::{Journey, ride_in_words};
+pub use journey::Journey;
 pub use localisation::{FoundPose, FoundScan};
 pub use memory::{After, ROBOT};
 pub use narration::{

@@ -182,6 +182,13 @@ thresholds! {
     level_sunk = "level sunk", Length, 300;
     /// Heights that differ by less are equal.
     level_equal = "level equal", Length, 100;
+    /// What is nearer to a thing touches it: of no distance is spoken.
+    touch_gap = "touch gap", Length, 100;
+    /// Of a top with a smaller share free people say that it has no room.
+    top_free = "top free", Share, 50;
+    /// Rooms lie one over the other where they share more of the smaller floor than this: walls of two storeys that do
+    /// not quite meet share less.
+    storey_share = "storey share", Share, 50;
     /// A storey this deep under the ground is a cellar and has no number.
     cellar_depth = "cellar depth", Length, 5000;
 
@@ -234,6 +241,8 @@ thresholds! {
     way_told = "way told", Length, 6000;
     /// A way shorter than this is none: one is there.
     way_none = "way none", Length, 1000;
+    /// Ways whose lengths differ by less are equally long.
+    way_equal = "way equal", Length, 100;
     /// What is so near to the direction of a push names it: «towards the window».
     push_toward = "push toward", Angle, 2500;
     /// Of what lies on a room with no more than a square of this side nobody speaks.

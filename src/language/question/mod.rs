@@ -531,7 +531,7 @@ impl Asker<'_> {
     fn plain(&self, text: &str) -> String {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
-        let named = storeys::named(&text, self.world, here);
+        let named = storeys::named(&text, self.world, self.relations, here);
         let named = here::named(&named, || self.own_room(&named));
         everyday::plain(&named, &self.mind.lexicon).into_owned()
     }
@@ -544,7 +544,8 @@ impl Asker<'_> {
 
     /// Whether a text speaks of a storey that is not there, the one above (true) or below.
     fn lacks_storey(&self, text: &str) -> Option<bool> {
-        storeys::lacking(text, self.world, self.senses.robot().map(|(map, _)| map))
+        let here = self.senses.robot().map(|(map, _)| map);
+        storeys::lacking(text, self.world, self.relations, here)
     }
 
     /// Whether a text begins as a question of this grammar does, whatever follows.

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use crate::map::{Entity, World};
 use crate::names::english_name;
+use crate::semantics::Relations;
 use crate::units::MapId;
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
@@ -85,15 +86,25 @@ fn told(keys: &[String]) -> Vec<Told> {
 }
 
 /// Whether a text speaks only of a storey that is not there: the one above (true) or below.
-pub(super) fn lacking(text: &str, world: &World, here: Option<MapId>) -> Option<bool> {
+pub(super) fn lacking(
+    text: &str,
+    world: &World,
+    relations: &Relations,
+    here: Option<MapId>,
+) -> Option<bool> {
     let here = here?;
     let told = told(&word_keys(text));
-    let missing = |one: &Told| beside(world, here, one.2).is_none();
+    let missing = |one: &Told| beside(world, relations, here, one.2).is_none();
     told.iter().all(missing).then(|| told.first().map(|one| one.2 == Storey::Above)).flatten()
 }
 
 /// The text with the storey named in the place of such words.
-pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Cow<'t, str> {
+pub(super) fn named<'t>(
+    text: &'t str,
+    world: &World,
+    relations: &Relations,
+    here: Option<MapId>,
+) -> Cow<'t, str> {
     let keys = word_keys(text);
     let told = told(&keys);
     let own = told.iter().any(|one| one.2 == Storey::Own);
@@ -104,7 +115,7 @@ pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Co
     let mut named = text.to_owned();
     for (at, taken, storey, whither) in told.into_iter().rev() {
         let end = at + taken;
-        let Some(name) = beside(world, here, storey) else {
+        let Some(name) = beside(world, relations, here, storey) else {
             // "upstairs or downstairs": only one of them is there.
             let is_or = |n: usize| keys.get(n).is_some_and(|k| k == "or" || k == "или");
             match (at.checked_sub(1).filter(|n| is_or(*n)), is_or(end)) {
@@ -130,19 +141,13 @@ pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Co
 }
 
 /// The storey that is meant from another.
-fn beside(world: &World, here: MapId, storey: Storey) -> Option<MapId> {
-    let above = match storey {
+fn beside(world: &World, relations: &Relations, here: MapId, storey: Storey) -> Option<MapId> {
+    let is_above = match storey {
         Storey::Own => return Some(here),
         Storey::Above => true,
         Storey::Below => false,
     };
-    let height = |map: MapId| {
-        let placed = world.domain.maps.iter().find(|m| m.map == map);
-        placed.map(|m| m.frame.z.get())
-    };
-    let own = height(here)?;
-    let other = |map: &MapId| height(*map).map(|z| if above { z - own } else { own - z });
-    let all = world.maps.keys().filter_map(|map| Some((other(map)?, *map)));
-    let next = all.filter(|(apart, _)| *apart > 1.0).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(next.1)
+    let all = world.maps.keys().filter_map(|map| Some((relations.rise(world, here, *map)?, *map)));
+    let there = all.filter(|(rise, _)| (*rise > 0.0) == is_above);
+    there.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|(_, map)| map)
 }

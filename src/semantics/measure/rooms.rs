@@ -16,17 +16,20 @@ pub(crate) struct Room {
     pub(crate) bounds: Bounds,
 }
 
-/// Rooms lie one over the other where they share more of the smaller floor than this: walls of two storeys that do not
-/// quite meet share less.
-const SHARED: f64 = 0.05;
-/// What begins higher by less, in cm, begins as high.
-const LEVEL: f64 = 1.0;
+/// How an Area of another storey lies to one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OtherStorey {
+    pub(crate) area: AreaId,
+    /// How much higher it begins, cm.
+    pub(crate) rise: f64,
+    /// What both have in common in the plan, as a share of the smaller floor.
+    pub(crate) shared: f64,
+}
 
 impl Measurements {
-    /// The Areas of other storeys that lie over an Area, or under it, as the Domain places its Maps; in the order of their
-    /// ids. Storeys that the Domain does not place at heights of their own lie neither over nor under each other.
-    #[must_use]
-    pub fn on_other_storeys(&self, world: &World, area: AreaId, is_over: bool) -> Vec<AreaId> {
+    /// How the Areas of other Maps lie to an Area, as the Domain places these Maps; in the order of their ids. There are
+    /// none where the Domain does not place the Area's own Map.
+    pub(crate) fn on_other_storeys(&self, world: &World, area: AreaId) -> Vec<OtherStorey> {
         let frame_of = |room: &Room| {
             world.domain.maps.iter().find(|placed| placed.map == room.map).map(|m| m.frame)
         };
@@ -43,18 +46,15 @@ impl Measurements {
         let size = |parts: &[Footprint]| parts.iter().map(|part| part.area).sum::<f64>();
         let (height, own_base) = (lowest(own, &frame), base(own, &frame));
         let own_size = size(&own_base);
-        let lies_so = |room: &&Room| {
-            let Some(other) = frame_of(room).filter(|_| room.map != own.map) else { return false };
-            let rise = lowest(room, &other) - height;
-            if (if is_over { rise } else { -rise }) <= LEVEL {
-                return false;
-            }
+        let lie = |room: &Room| {
+            let other = frame_of(room).filter(|_| room.map != own.map)?;
             let other_base = base(room, &other);
             let pairs = other_base.iter().flat_map(|a| own_base.iter().map(move |b| (a, b)));
-            let shared: f64 = pairs.map(|(a, b)| overlap_area(a, b)).sum();
-            shared > SHARED * own_size.min(size(&other_base))
+            let common: f64 = pairs.map(|(a, b)| overlap_area(a, b)).sum();
+            let shared = common / own_size.min(size(&other_base));
+            Some(OtherStorey { area: room.id, rise: lowest(room, &other) - height, shared })
         };
-        self.rooms.values().filter(lies_so).map(|room| room.id).collect()
+        self.rooms.values().filter_map(lie).collect()
     }
 
     /// The Area whose base holds a point of a Map; the lowest id where bases meet.

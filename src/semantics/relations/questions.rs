@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
 use crate::geometry::Openings;
-use crate::map::{Entity, Profile};
+use crate::map::{Entity, Profile, World};
 use crate::measure::Measurements;
 use crate::names::{Subject, Symbols};
 use crate::openings::by_name;
 use crate::thresholds::Thresholds;
-use crate::units::{AreaId, Gather as _, Language, ReplicaId, name_key, nearest_name};
+use crate::units::{AreaId, Gather as _, Language, MapId, ReplicaId, name_key, nearest_name};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
 
@@ -200,6 +200,30 @@ impl Relations {
     #[must_use]
     pub fn thresholds(&self) -> &Thresholds {
         &self.thresholds
+    }
+
+    /// By how much the Domain places a storey above another, cm; none where both stand at one height, or it places either
+    /// nowhere.
+    #[must_use]
+    pub fn rise(&self, world: &World, from: MapId, to: MapId) -> Option<f64> {
+        let height = |map: MapId| {
+            world.domain.maps.iter().find(|placed| placed.map == map).map(|m| m.frame.z.get())
+        };
+        let rise = height(to)? - height(from)?;
+        Some(rise).filter(|rise| rise.abs() > self.thresholds.level_equal)
+    }
+
+    /// The Areas of other storeys that lie over an Area, or under it; in the order of their ids. Storeys that the Domain
+    /// does not place at heights of their own lie neither over nor under each other.
+    #[must_use]
+    pub fn on_other_storeys(&self, world: &World, area: AreaId, is_over: bool) -> Vec<AreaId> {
+        let near = &self.thresholds;
+        let others = self.measurements().on_other_storeys(world, area).into_iter();
+        let lies_so = others.filter(|other| {
+            let rise = if is_over { other.rise } else { -other.rise };
+            rise > near.level_equal && other.shared > near.storey_share
+        });
+        lies_so.map(|other| other.area).collect()
     }
 
     /// What stands on the floor of an Area, in the order of ids.

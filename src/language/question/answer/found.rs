@@ -290,7 +290,8 @@ impl Knowledge<'_> {
             {
                 return self.with_destinations(&[*thing], here).concat();
             }
-            let away = anchor.and_then(|a| self.distance(*thing, a)).filter(|d| *d >= 1.0);
+            let apart = self.relations.thresholds().touch_gap;
+            let away = anchor.and_then(|a| self.distance(*thing, a)).filter(|d| *d >= apart);
             match away {
                 Some(d) if thing.replica().is_some() => {
                     format!("{name} ({})", length(d, self.language))
@@ -390,8 +391,6 @@ impl Knowledge<'_> {
     }
 
     fn nearest_beside(&self, noun: &Noun) -> Option<(f64, Thing)> {
-        /// What is nearer touches the thing: it lies on it or carries it.
-        const APART: f64 = 1.0;
         let [place] = &noun.restrictions[..] else { return None };
         let [anchor] = self.anchor_things(noun)[..] else { return None };
         let general = noun.head.anything && noun.filters.is_empty() && !noun.other;
@@ -401,9 +400,11 @@ impl Knowledge<'_> {
         let near = self.related(Rel::Near, anchor).into_iter();
         let near = near.filter(|t| self.area_of(*t) == self.area_of(anchor));
         let near = near.filter_map(|t| Some((self.distance(t, anchor)?, t)));
+        // What touches the thing lies on it or carries it.
+        let apart = self.relations.thresholds().touch_gap;
         // A picture hangs over what stands under it, rather than beside it.
         let hangs = |t: Thing| self.held_by_room(t) == Some(Held::OnWall);
-        let nearest = near.filter(|(away, t)| *away >= APART && (!hangs(*t) || hangs(anchor)));
+        let nearest = near.filter(|(away, t)| *away >= apart && (!hangs(*t) || hangs(anchor)));
         nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 

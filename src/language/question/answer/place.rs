@@ -203,7 +203,8 @@ impl Knowledge<'_> {
             facts.extend(self.fact(side, thing, anchor));
         }
         let place = self.place(side.unwrap_or(Rel::NextTo), &[anchor]);
-        let exact = match (distance >= 1.0, russian) {
+        let is_apart = distance >= self.relations.thresholds().touch_gap;
+        let exact = match (is_apart, russian) {
             (true, true) => format!("в {} ", length(distance, self.language)),
             (true, false) => format!("{} ", length(distance, self.language)),
             (false, true) if side.is_some() => "вплотную ".to_owned(),
@@ -211,7 +212,7 @@ impl Knowledge<'_> {
         };
         let frame = side.filter(|s| matches!(s, Rel::LeftOf | Rel::RightOf));
         let frame = frame.map(|s| self.frame_words(s, anchor)).unwrap_or_default();
-        match (side.is_some(), distance >= 1.0, russian) {
+        match (side.is_some(), is_apart, russian) {
             (false, true, true) => {
                 let form = self.form(anchor, Case::Genitive);
                 let from = russian::preposition(russian::Preposition::Ot, &form);

@@ -102,7 +102,7 @@ impl Knowledge<'_> {
             (None, None) if dimension == Dimension::Height && !self.heights(thing).is_empty() => {
                 let heights = self.heights(thing);
                 let (low, high) = (heights[0], heights[heights.len() - 1]);
-                let said = match high - low < 1.0 {
+                let said = match high - low < self.relations.thresholds().level_equal {
                     true => length(high, lang),
                     false => match self.is_russian() {
                         true => format!("от {} до {}", length(low, lang), length(high, lang)),

@@ -26,9 +26,10 @@ impl Knowledge<'_> {
             return Ok(Draft::new(Said::No, text).with(vec![thing]));
         };
         let share = (free / whole * 100.0).round();
+        let has_room = share >= self.relations.thresholds().top_free * 100.0;
         let on_it = self.related(Rel::On, thing);
         let (free_words, place) = (area(free, self.language), self.place(Rel::On, &[thing]));
-        let mut text = match (share >= 5.0, self.is_russian()) {
+        let mut text = match (has_room, self.is_russian()) {
             (true, true) => format!("{place} свободно {share:.0} % поверхности ({free_words})"),
             (true, false) => format!("{share:.0} % of the surface {place} is free ({free_words})"),
             (false, true) => format!("нет, {place} почти нет свободного места"),
@@ -41,7 +42,7 @@ impl Knowledge<'_> {
                 false => format!("{text}; {list} {} there", self.is(&on_it)),
             };
         }
-        let said = if share >= 5.0 { Said::Yes } else { Said::No };
+        let said = if has_room { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![thing]).about(&on_it).number(share))
     }
 

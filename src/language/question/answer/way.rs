@@ -73,7 +73,7 @@ impl Knowledge<'_> {
                 let far = length(way.length, self.language);
                 let steps = way.sentences.join(" ");
                 let text = match (yes_or_no, self.is_russian()) {
-                    (false, _) if way.length < 1.0 => steps,
+                    (false, _) if way.length < self.relations.thresholds().way_none => steps,
                     (true, true) => format!("да, путь есть, его длина {far}. {steps}"),
                     (true, false) => format!("yes, there is a way of {far}. {steps}"),
                     (false, true) => format!("{steps} Длина пути {far}"),
@@ -184,7 +184,7 @@ impl Knowledge<'_> {
             return Ok(Draft::default());
         };
         let (a, b) = (length(*first, self.language), length(*second, self.language));
-        let equal = (first - second).abs() < 1.0;
+        let equal = (first - second).abs() < self.relations.thresholds().way_equal;
         let text = match (equal, extreme == Extreme::Nearest, self.is_russian()) {
             (true, _, true) => format!("пути одинаковы: по {a}"),
             (true, _, false) => format!("both ways are {a} long"),

@@ -40,8 +40,8 @@ impl Knowledge<'_> {
             }
             // Rooms of other storeys: what stands over a thing in its own room the relations tell.
             (Rel::Above | Rel::Under, Thing::Entity(Entity::Area(area))) => {
-                let measured = self.relations.measurements();
-                let found = measured.on_other_storeys(self.world, area, rel == Rel::Above);
+                let is_over = rel == Rel::Above;
+                let found = self.relations.on_other_storeys(self.world, area, is_over);
                 found.into_iter().map(|id| Thing::Entity(Entity::Area(id))).collect()
             }
             (Rel::Above | Rel::Under, Thing::Entity(Entity::Map(map))) => {
@@ -291,11 +291,9 @@ impl Knowledge<'_> {
 
     /// The storeys above one, or below it, and their rooms.
     fn of_other_storeys(&self, map: MapId, is_above: bool) -> Vec<Thing> {
-        let placed = &self.world.domain.maps;
-        let height = |map: MapId| placed.iter().find(|m| m.map == map).map(|m| m.frame.z.get());
-        let Some(own) = height(map) else { return Vec::new() };
         let is_there = |other: &MapId| {
-            height(*other).is_some_and(|z| (if is_above { z - own } else { own - z }) > 1.0)
+            let rise = self.relations.rise(self.world, map, *other);
+            rise.is_some_and(|rise| (rise > 0.0) == is_above)
         };
         let mut found = Vec::new();
         for other in self.world.maps.values().filter(|other| is_there(&other.id)) {
