@@ -18,8 +18,6 @@ use super::{Engine, Error, RequestError, State};
 
 /// Who notes what the robot saw.
 pub const ROBOT: &str = "робот";
-/// How sure the robot is of what it did or touched.
-const SURE_OF_OWN_DEED: f64 = 0.95;
 
 impl State {
     /// The same at a moment: what was seen counts as it does then, and so do zones that begin and end.
@@ -196,7 +194,7 @@ impl Engine {
                 replica: *replica,
                 at,
                 seen: *seen,
-                sure: SURE_OF_OWN_DEED,
+                sure: after.sure,
                 observer: ROBOT.to_owned(),
             })
             .collect();
@@ -221,7 +219,7 @@ impl Engine {
         }
         kept.moved.extend(moved.clone());
         kept.memory = after.memory.clone();
-        let so_far = After { memory: after.memory.clone(), moved };
+        let so_far = After { memory: after.memory.clone(), moved, sure: after.sure };
         self.remember_after(&so_far, std::time::SystemTime::now().into())?;
         Ok(true)
     }
@@ -284,15 +282,18 @@ pub struct After {
     pub memory: RobotMemory,
     /// Things that are not where they were when the task began: where they are, or that they are gone.
     pub moved: BTreeMap<ReplicaId, Option<Seen>>,
+    /// How sure the robot is of it, 0..=1.
+    pub sure: f64,
 }
 
 impl After {
-    /// What a robot holds to be so, against the map and against what was so, and remembered, when it began at a moment.
+    /// What a robot holds to be so, against the map and against what was so, and remembered, when it began at a moment;
+    /// how sure it is of what it touched.
     pub(super) fn of(
         surveyed: &World,
         before: &World,
         (remembered, begun): (&RobotMemory, Timestamp),
-        belief: &Belief,
+        (belief, sure): (&Belief, f64),
     ) -> Self {
         let doors = belief
             .world
@@ -342,7 +343,7 @@ impl After {
         let stand = belief.world.replicas.keys().filter(|id| is_obstacle(**id));
         let obstacles = stand.filter_map(|&id| {
             let (area, pieces, top) = outline_of(&belief.world, id)?;
-            let new = SeenObstacle { area, pieces, top, at: begun, sure: SURE_OF_OWN_DEED };
+            let new = SeenObstacle { area, pieces, top, at: begun, sure };
             // What is as it was remembered was not seen again.
             Some(remembered.obstacles.iter().find(|old| old.is_as(&new)).cloned().unwrap_or(new))
         });
@@ -357,6 +358,6 @@ impl After {
             obstacles,
             ..RobotMemory::default()
         };
-        Self { memory, moved }
+        Self { memory, moved, sure }
     }
 }

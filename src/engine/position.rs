@@ -282,9 +282,6 @@ pub(super) enum Faced {
     Inward,
 }
 
-/// How far a thing of another room may reach through the wall and still stand behind it, cm.
-const IN_WALL: f64 = 5.0;
-
 /// The first thing that a ray along the heading meets.
 pub(super) fn faced(
     world: &World,
@@ -312,11 +309,11 @@ pub(super) fn faced(
     });
     let is_behind = |replica: ReplicaId, distance: f64| {
         world.replicas.get(&replica).is_some_and(|r| r.area != area)
-            && wall.is_some_and(|wall| distance > wall - IN_WALL)
+            && wall.is_some_and(|wall| distance > wall - near.robot_through)
     };
     // One faces a table, not the spoon on it.
     for replica in scene.replicas.values().filter(|r| !world.has_trait(r.id, "portable")) {
-        for prism in replica.prisms.iter().filter(|p| p.bottom < height && p.top > 10.0) {
+        for prism in replica.prisms.iter().filter(|p| p.bottom < height && p.top > near.robot_low) {
             for (a, b) in prism.polygon.edges() {
                 let met = hit(pose.at, ray, a, b);
                 if let Some(distance) = met.filter(|d| !is_behind(replica.id, *d)) {

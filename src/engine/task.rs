@@ -455,8 +455,9 @@ impl State {
         let (surveyed, before) = (self.world()?, self.uncarried()?);
         let (map, start) = self.robot()?;
         let remembered = (self.memory()?, self.around()?.moment());
-        let after = |belief: &Belief| After::of(surveyed, before, remembered, belief);
         let Errand { domain, belief, relations, goals, tidies } = errand;
+        let sure = relations.relations().thresholds().belief_own;
+        let after = |belief: &Belief| After::of(surveyed, before, remembered, (belief, sure));
         // Reports are of moments between plans; each follows by itself.
         let mut reported = relations.clone();
         let effort = Some(Limits::TO_START);

@@ -49,7 +49,8 @@ pub struct Person {
 pub const STARTING_POINT: &str = "Исходная-точка";
 /// What the name of a point in the middle of an Area begins with; the Area's follows.
 pub const IN_MIDDLE: &str = "Место-посреди-";
-/// A robot this near to a named place stands at it, cm.
+/// A robot this near to a named place stands at it, cm: as near to its goal as the protocol has a vehicle end (see
+/// docs/vehicle.md), so that what was driven to is reached.
 pub(super) const AT_PLACE: f64 = 15.0;
 
 /// A thing that a push brings out of a way.

@@ -481,10 +481,12 @@ impl<'r> Mission<'r> {
 
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
+        let near = *self.relations.relations().thresholds();
         match surprise {
             // It was not gone.
             Surprise::Blocked { bump, .. }
-                if self.is_new(surprise) && self.belief.find_again(Some(bump.at.at)) =>
+                if self.is_new(surprise)
+                    && self.belief.find_again(Some((bump.at.at, near.robot_lost))) =>
             {
                 self.name_this_point();
                 true

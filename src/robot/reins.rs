@@ -16,9 +16,10 @@ use super::vehicle::{
 };
 use crate::units::ReplicaId;
 
-/// So far from the way on which it was sent a vehicle may be; a robot this near to a place stands at it, cm.
+/// So far from the way on which it was sent a vehicle may be, cm: a promise of the protocol (see docs/vehicle.md), not a
+/// meaning that rules may change.
 const OFF_THE_WAY: f64 = AT_PLACE;
-/// So far from the heading that was asked for it may face in the end, degrees.
+/// So far from the heading that was asked for it may face in the end, degrees; likewise.
 const OFF_COURSE: f64 = 10.0;
 /// Sightings that are kept of one order; a vehicle that tells more of them has told enough.
 const MOST_SEEN: usize = 1000;

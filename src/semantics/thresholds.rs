@@ -152,6 +152,8 @@ thresholds! {
     part_edge = "part edge", Share, 10;
     part_middle = "part middle", Share, 500;
     belief_told = "belief told", Share, 500;
+    /// So sure the robot is of what it did or touched itself.
+    belief_own = "belief own", Share, 950;
 
     /// What stands this near to a solid side of its room stands at the wall.
     wall_gap = "wall gap", Length, 3000, "edge";
@@ -209,8 +211,12 @@ thresholds! {
     robot_wall = "robot wall", Length, 7000;
     /// In the middle: within the Area's outline shrunk to this share about its centroid, no wall being near.
     robot_middle = "robot middle", Share, 400;
-    /// It faces what is this near along its heading.
+    /// It faces what is this near along its heading,
     robot_facing = "robot facing", Length, 25000;
+    /// and higher than this: one steps over the rest.
+    robot_low = "robot low", Length, 1000;
+    /// A thing of the next room that reaches no farther through the wall still stands behind it.
+    robot_through = "robot through", Length, 500;
     /// Around it, before, behind and beside it, is what is this near.
     robot_around = "robot around", Length, 40000;
     /// This near to a place of the map it is at that.
@@ -227,6 +233,8 @@ thresholds! {
     robot_spot = "robot spot", Length, 6000;
     /// Unknown things that it saw with their middles so near to one another are one.
     robot_same = "robot same", Length, 4000;
+    /// What it met so near to where a lost thing stood is that thing.
+    robot_lost = "robot lost", Length, 6000;
     /// A way passes what stands this near to it,
     way_beside = "way beside", Length, 13000;
     /// and turns at what stands this near to its bend.

@@ -8,9 +8,6 @@ use crate::units::{AreaId, Frame, Point, ReplicaId};
 
 use super::{Belief, Lost};
 
-/// What the robot met so near to where a lost thing stood is that thing, cm.
-const NEAR: f64 = 60.0;
-
 impl Belief {
     /// A thing stands no more where it was believed to, as far as anybody knows.
     pub(crate) fn lose(&mut self, id: ReplicaId) {
@@ -30,12 +27,12 @@ impl Belief {
         true
     }
 
-    /// Lost things are where they were after all: all of them, or those that stood near a point where something was met.
-    /// Whether there are any.
-    pub(crate) fn find_again(&mut self, met: Option<Point>) -> bool {
-        let reach = NEAR + self.floor().reach();
+    /// Lost things are where they were after all: all of them, or those that stood so near, in cm, to a point where
+    /// something was met. Whether there are any.
+    pub(crate) fn find_again(&mut self, met: Option<(Point, f64)>) -> bool {
+        let reach = self.floor().reach();
         let is_there = |lost: &Lost| match (met, &lost.stood) {
-            (Some(met), Some(stood)) => stood.grown(reach).contains(met),
+            (Some((met, near)), Some(stood)) => stood.grown(near + reach).contains(met),
             (Some(_), None) => false,
             (None, _) => true,
         };
