@@ -6,9 +6,16 @@ use miette::Diagnostic;
 use orthoframe_map::{
     Fault, Format, MapError, Object, Replica, World, check, doubts, locate, read,
 };
+use orthoframe_semantics::RelationRules;
 use orthoframe_units::{Frame, InEnglish, ReplicaId, Source};
 
 use crate::files::{project, shared};
+
+/// What is doubted of a world by the program's own thresholds.
+fn told_of(world: &World, rule_words: &BTreeSet<String>) -> Vec<Fault> {
+    let near = RelationRules::standard().tolerances(world.domain.profile);
+    doubts(world, &near, rule_words)
+}
 
 fn none() -> BTreeSet<String> {
     BTreeSet::new()
@@ -74,7 +81,7 @@ fn told(text: &str) -> Vec<String> {
     let source = Source::new("room.toml", text);
     let reading = read(&source, Format::Toml);
     let world = reading.world.unwrap_or_else(|| panic!("{:#?}", reading.faults));
-    let mut found = doubts(&world, &none());
+    let mut found = told_of(&world, &none());
     locate(&source, Format::Toml, &mut found);
     found.iter().map(|fault| line(&source, fault)).collect()
 }
@@ -177,7 +184,7 @@ fn metres_are_told_of_rooms_doors_and_furniture() {
     }
     let world = World::parse(&Source::new("metres.toml", &text), Format::Toml);
     let world = world.unwrap_or_else(|e| panic!("{e:#?}"));
-    let found = doubts(&world, &none());
+    let found = told_of(&world, &none());
     let metres: Vec<String> = found
         .iter()
         .filter(|f| matches!(f.error, MapError::Metres { .. }))
@@ -194,7 +201,7 @@ fn of_sound_maps_nothing_is_told() {
     let own = own.map(|name| project(&format!("maps/{name}.toml")));
     for path in own.into_iter().chain(office) {
         let world = World::load(&path).unwrap_or_else(|e| panic!("{}: {e:#?}", path.display()));
-        let found = doubts(&world, &none());
+        let found = told_of(&world, &none());
         assert!(found.is_empty(), "{}: {found:#?}", path.display());
     }
 }
@@ -227,7 +234,7 @@ fn a_thing_in_its_own_twin_is_told() {
                 id, name: "Двойник".to_owned(), name_en: String::new(), ..thing.clone()
             };
         doubled.replicas.insert(id, twin);
-        let is_told = doubts(&doubled, &none()).iter().any(|f| {
+        let is_told = told_of(&doubled, &none()).iter().any(|f| {
             matches!(&f.error, MapError::ThingsOverlap { thing: one, other, .. }
                 if *one == "Двойник" && *other == thing.name)
         });
@@ -284,7 +291,7 @@ fn a_thing_in_mid_air_is_told_and_one_on_the_floor_is_not() {
             // What reaches up to the ceiling may hang from it, and a lamp on a cord that nobody drew.
             let ceiling = world.orthoframe_of(&world.areas[&room].items[0]).height.get();
             let is_held = has("light") || has("person") || ceiling - top - z <= 16.0;
-            let found = doubts(&world, &none());
+            let found = told_of(&world, &none());
             let is_told = found.iter().any(|f| matches!(f.error, MapError::ThingHovers { .. }));
             assert_eq!(is_told, hovers && !is_held, "{} at {z}: {found:?}", object.name);
         }
@@ -311,7 +318,7 @@ fn many_of_one_sort_are_summed_up() {
 fn a_trait_of_a_rule_is_no_slip() {
     let text = ROOM.replace("[\"portable\"]", "[\"portable\", \"fragile\"]");
     let world = World::parse(&Source::new("room.toml", &text), Format::Toml).expect("a good map");
-    assert_eq!(doubts(&world, &none()).len(), 1);
-    assert!(doubts(&world, &BTreeSet::from(["fragile".to_owned()])).is_empty());
+    assert_eq!(told_of(&world, &none()).len(), 1);
+    assert!(told_of(&world, &BTreeSet::from(["fragile".to_owned()])).is_empty());
     assert!(check(&world).is_empty());
 }

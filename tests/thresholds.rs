@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::engine::{Engine, Rules};
+use orthoframe::engine::{Engine, Rules, check_map_closely};
 use orthoframe_facts::{Value, WhyNot};
 use orthoframe_language::question::Memory;
 use orthoframe_map::{Entity, Format, Profile, World};
@@ -391,6 +391,34 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
         std::fs::write(&guide, &right).unwrap();
     } else {
         assert_eq!(text, right, "UPDATE_EXPECT=1 writes the table anew");
+    }
+}
+
+/// What is doubted of a map is doubted by the thresholds of the rules: within them a thing stands, hangs or bars a door.
+#[test]
+fn a_map_is_doubted_by_the_thresholds_of_the_rules() {
+    // The chair 12 cm from the door, two tables in one another by 4 cm.
+    let text = HOME
+        .replace("at = [490, 180]", "at = [548, 180]")
+        .replace("name = \"Стол-1\", object = \"table\", at = [340, 170] },", "name = \"Стол-1\", object = \"table\", at = [340, 170] },\n  { name = \"Стол-2\", object = \"table\", at = [416, 170] },");
+    let doubted = |rules: &str| -> BTreeSet<String> {
+        let dir = rules_dir(rules, "");
+        let file = dir.path().join("дом.toml");
+        std::fs::write(&file, &text).unwrap();
+        let (_, told) = check_map_closely(&file, Some(dir.path())).unwrap();
+        told.faults.iter().map(ToString::to_string).collect()
+    };
+    let standard = doubted(STANDARD);
+    for (from, to, thing, is_doubted) in [
+        ("\"floor gap\",          800", "\"floor gap\", 1000", "Коробка-1", false),
+        ("\"hanging gap\",        800", "\"hanging gap\", 100", "Картина-1", true),
+        ("\"overlap depth\",      100", "\"overlap depth\", 500", "Стол-2", false),
+        ("\"doorway depth\",     1000", "\"doorway depth\", 1500", "Стул-1", true),
+    ] {
+        let other = doubted(&changed(from, to));
+        let differ: Vec<&String> = standard.symmetric_difference(&other).collect();
+        assert!(!differ.is_empty() && differ.iter().all(|told| told.contains(thing)), "{differ:?}");
+        assert_eq!(differ.iter().all(|told| other.contains(*told)), is_doubted, "{differ:?}");
     }
 }
 

@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, Format, MapErrors};
+use crate::semantics::RelationRules;
 use crate::units::{Gather as _, InOrder as _};
 
-use super::{World, check_map};
+use super::{Rules, World, check_map};
 
 /// Reads a map file as [`check_map`] does; to the warnings come those of impossible maps. Traits that the rule files of
-/// `rules` name are known.
+/// `rules` name are known, and their thresholds say what stands on what; those of the program where they are at fault.
 ///
 /// # Errors
 /// All faults of the file.
@@ -18,7 +19,9 @@ pub fn check_map_closely(
     rules: Option<&Path>,
 ) -> Result<(World, MapErrors), MapErrors> {
     let (world, mut told) = check_map(file)?;
-    let mut doubts = map::doubts(&world, &rules.map(quoted_words).unwrap_or_default());
+    let known = Rules::read(rules).map_or_else(|_| RelationRules::standard(), |r| r.relations);
+    let near = known.tolerances(world.domain.profile);
+    let mut doubts = map::doubts(&world, &near, &rules.map(quoted_words).unwrap_or_default());
     if let Some(source) = &told.source {
         map::locate(source, Format::of_text(file, source.text()), &mut doubts);
     }

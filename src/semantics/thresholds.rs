@@ -11,6 +11,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::facts::{Program, Value};
+use crate::map::Profile;
 use crate::units::{Bilingual, InOrder as _, Source, bilingual};
 
 /// What a number of the rule text counts, and what it may be.
@@ -184,6 +185,10 @@ thresholds! {
     level_sunk = "level sunk", Length, 300;
     /// Heights that differ by less are equal.
     level_equal = "level equal", Length, 100;
+    /// Things that reach farther into one another sidewards cannot both stand there.
+    overlap_depth = "overlap depth", Length, 100;
+    /// A doorway reaches so deep into each of its rooms: what stands there bars it.
+    doorway_depth = "doorway depth", Length, 1000;
     /// What is nearer to a thing touches it: of no distance is spoken.
     touch_gap = "touch gap", Length, 100;
     /// Of a top with a smaller share free people say that it has no room.
@@ -405,6 +410,17 @@ pub(super) fn greatest(program: &Program, name: &str) -> i64 {
 }
 
 impl Thresholds {
+    /// As the facts of a rule text say for a profile.
+    pub(super) fn written(program: &Program, profile: Profile) -> Self {
+        let limits = limits(program);
+        let mut found = Self::default();
+        for wanted in ["common", profile.name()] {
+            let own = limits.iter().filter(|limit| limit.profile == wanted);
+            own.for_each(|limit| found.set(&limit.name, limit.value));
+        }
+        found
+    }
+
     /// As `threshold(name, value)` says; what it does not say is as the table has it. Where rules derive several
     /// values of one name, the greatest counts.
     pub(super) fn of(told: impl Iterator<Item = (String, i64)>) -> Self {

@@ -2,7 +2,7 @@
 //! bars, a place where nobody can stand, words that nothing understands, metres written for centimetres.
 //!
 //! None of it hinders the use of a map, so all of it is told as a warning, by [`doubts`] alone: reading and editing do
-//! not ask. The tolerances are those within which one thing is taken to stand on another (SPEC R1), and walls, doors
+//! not ask. The tolerances are those within which the rules take one thing to stand on another ([`Tolerances`]), and walls, doors
 //! and things are held against each other as solids of their own Area; a thing that sticks through a wall is a fault of
 //! [`check`](super::check).
 
@@ -14,8 +14,8 @@ use miette::Diagnostic;
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{AreaId, Bilingual, Cm, DoorId, InOrder as _, Point, name_key, nearest_name};
 use crate::{
-    Area, Mark, Orthoframe, Permeability, Profile, Properties, Replica, TypeKind, World, is_dark,
-    is_on, is_open,
+    Area, Mark, Orthoframe, Permeability, Properties, Replica, TypeKind, World, is_dark, is_on,
+    is_open,
 };
 
 use super::group::{Body, bodies_of};
@@ -26,21 +26,26 @@ use super::plane::{
 };
 use super::{OVERLAP, Short, at};
 
-/// A thing may be so far from the floor, the ceiling, the wall or the thing that holds it, cm.
-const STANDING: f64 = 8.0;
-/// It may sink so far into the thing that bears it, or be so far above it, cm: R1's gap for what lies on something.
-fn resting(profile: Profile) -> f64 {
-    match profile {
-        Profile::Surveyed => 2.0,
-        Profile::Detected => 8.0,
-    }
+/// Within what one thing is taken to stand on another, to hang, to lean and to lie in it, in cm: as the rules say that tell
+/// relations, so that no thing of which they speak is doubted for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// A thing may be so far above the floor.
+    pub floor: f64,
+    /// So far it may be from the wall, and from the thing above, that it hangs from, and twice as far from the ceiling.
+    pub hanging: f64,
+    /// It may sink so far into the thing that bears it, or be so far above it.
+    pub support: f64,
+    /// What leans on a thing comes so near to it.
+    pub beside: f64,
+    /// What is within a container may stick out so far.
+    pub inside: f64,
+    /// How far two things may reach into one another sidewards before it is no slip of the tape.
+    pub overlap: f64,
+    /// How deep a doorway reaches into each of its rooms.
+    pub doorway: f64,
 }
-/// How far two things may reach into one another sidewards, cm, before it is no slip of the tape.
-const DEPTH: f64 = 1.0;
-/// What leans on a thing comes so near to it, cm; likewise what is within a container (R1).
-const BESIDE: f64 = 5.0;
-/// How deep a doorway reaches into each of its rooms, cm.
-const THRESHOLD: f64 = 10.0;
+
 /// Of one sort of doubt so many are told, and the rest counted: a plan shifted against itself has them by thousands.
 const MOST_ALIKE: usize = 5;
 
@@ -64,23 +69,26 @@ const TRAITS: [&str; 14] = [
 /// The person whom the operator's tasks speak of, in either language.
 const OPERATOR: [&str; 2] = ["оператор", "operator"];
 
-/// What may be written of a checked world and cannot be, every fault a warning. `rule_words` are traits that rules of the
-/// user's own know.
+/// What may be written of a checked world and cannot be, every fault a warning. `near` and `rule_words` are
+/// of the rules: within what things stand on one another, and the traits that rules of the user's own know.
 ///
 /// ```
 /// use std::collections::BTreeSet;
-/// use orthoframe_map::{World, doubts};
+/// use orthoframe_map::{Tolerances, World, doubts};
 ///
 /// # std::env::set_current_dir("../..").unwrap();
 /// let mut world = World::load("maps/rb2.toml").unwrap();
-/// assert!(doubts(&world, &BTreeSet::new()).is_empty());
+/// let (floor, hanging, support, beside) = (8.0, 8.0, 2.0, 5.0);
+/// let near =
+///     Tolerances { floor, hanging, support, beside, inside: 5.0, overlap: 1.0, doorway: 10.0 };
+/// assert!(doubts(&world, &near, &BTreeSet::new()).is_empty());
 /// world.robot.speed = 0.6;
-/// let told = doubts(&world, &BTreeSet::new())[0].to_string();
+/// let told = doubts(&world, &near, &BTreeSet::new())[0].to_string();
 /// assert_eq!(told, "робот, speed: размер 0.6 - не метры ли это?");
 /// ```
 #[must_use]
-pub fn doubts(world: &World, rule_words: &BTreeSet<String>) -> Vec<Fault> {
-    let mut doubter = Doubter { world, faults: Vec::new() };
+pub fn doubts(world: &World, near: &Tolerances, rule_words: &BTreeSet<String>) -> Vec<Fault> {
+    let mut doubter = Doubter { world, near: *near, faults: Vec::new() };
     doubter.measures();
     let mut things: BTreeMap<AreaId, Vec<Thing<'_>>> = BTreeMap::new();
     for replica in world.replicas.values() {
@@ -142,10 +150,10 @@ impl Open {
 
     /// Whether `inner` can have come into `outer`, which is open so: what came from above is within its rim, or stands
     /// out above it.
-    fn lets(self, inner: &Body, outer: &Body) -> bool {
+    fn lets(self, inner: &Body, outer: &Body, near: &Tolerances) -> bool {
         match self {
             Self::No => false,
-            Self::Above => inner.top >= outer.top || is_within(inner, outer),
+            Self::Above => inner.top >= outer.top || is_within(inner, outer, near),
             Self::Around => true,
         }
     }
@@ -193,6 +201,7 @@ impl<'w> Thing<'w> {
 
 struct Doubter<'w> {
     world: &'w World,
+    near: Tolerances,
     faults: Vec<Fault>,
 }
 
@@ -271,7 +280,7 @@ impl Doubter<'_> {
 
     /// Solids of two things in one place.
     fn overlaps(&mut self, things: &[Thing<'_>]) {
-        let rest = resting(self.world.domain.profile);
+        let near = self.near;
         let (owners, boxes) = solids(things);
         let mut found: BTreeMap<(usize, usize), Point> = BTreeMap::new();
         near_pairs(&boxes, 0.0, |i, j| {
@@ -279,7 +288,7 @@ impl Doubter<'_> {
             let pair = (a.min(b), a.max(b));
             if a != b
                 && !found.contains_key(&pair)
-                && let Some(p) = clash((&things[a], m), (&things[b], n), rest)
+                && let Some(p) = clash((&things[a], m), (&things[b], n), &near)
             {
                 found.insert(pair, p);
             }
@@ -298,29 +307,29 @@ impl Doubter<'_> {
 
     /// Things that nothing bears, and that no wall, ceiling or neighbour holds.
     fn hovering(&mut self, area: &Area, things: &[Thing<'_>]) {
-        let world = self.world;
+        let (world, near) = (self.world, self.near);
         let rooms = bodies_of(world, &area.items);
         let walls = walls(world, area);
-        let rest = resting(world.domain.profile);
         let (owners, boxes) = solids(things);
         let mut is_held = vec![false; things.len()];
         for (no, thing) in things.iter().enumerate() {
-            is_held[no] = thing.is_light || thing.is_person || is_fixed(thing, &rooms, &walls);
+            is_held[no] =
+                thing.is_light || thing.is_person || is_fixed(thing, &rooms, &walls, &near);
         }
         let mut neighbours = Vec::new();
-        near_pairs(&boxes, BESIDE, |i, j| {
+        near_pairs(&boxes, near.beside, |i, j| {
             let ((a, m), (b, n)) = (owners[i], owners[j]);
             if a != b {
                 for ((a, m), (b, n)) in [((a, m), (b, n)), ((b, n), (a, m))] {
                     let (body, other) = (&things[a].bodies[m], &things[b].bodies[n]);
-                    if is_held[a] || !touch(&body.polygon, &other.polygon, BESIDE) {
+                    if is_held[a] || !touch(&body.polygon, &other.polygon, near.beside) {
                         continue;
                     }
-                    if stands(&things[a], body, other, rest)
+                    if stands(&things[a], body, other, &near)
                         && intersection(&body.polygon, &other.polygon).area > OVERLAP
                     {
                         is_held[a] = true;
-                    } else if hangs(body, other) || body.heights_meet(other, 0.0) {
+                    } else if hangs(body, other, &near) || body.heights_meet(other, 0.0) {
                         neighbours.push((a, b));
                     }
                 }
@@ -367,7 +376,8 @@ impl Doubter<'_> {
         let needed = robot.passing_width();
         for mount in &area.doors {
             let door = &world.doors[&mount.door];
-            let Some(doorway) = threshold(world, area.id, mount.door) else { continue };
+            let doorway = threshold(world, area.id, mount.door, self.near.doorway);
+            let Some(doorway) = doorway else { continue };
             let (length, width) = (doorway.length, door.width.get());
             if width < needed {
                 continue;
@@ -566,67 +576,73 @@ fn solids(things: &[Thing<'_>]) -> (Vec<(usize, usize)>, Vec<Bounds>) {
 fn clash(
     (one, m): (&Thing<'_>, usize),
     (other, n): (&Thing<'_>, usize),
-    rest: f64,
+    near: &Tolerances,
 ) -> Option<Point> {
     let (a, b) = (&one.bodies[m], &other.bodies[n]);
     // People sit in what bears them.
     if one.is_person
         || other.is_person
-        || one.open[m].lets(b, a)
-        || other.open[n].lets(a, b)
-        || a.top.min(b.top) - a.bottom.max(b.bottom) <= DEPTH
+        || one.open[m].lets(b, a, near)
+        || other.open[n].lets(a, b, near)
+        || a.top.min(b.top) - a.bottom.max(b.bottom) <= near.overlap
     {
         return None;
     }
-    let stands =
-        |upper: &Body, lower: &Body| upper.top > lower.top && lower.top - upper.bottom <= rest;
+    let stands = |upper: &Body, lower: &Body| {
+        upper.top > lower.top && lower.top - upper.bottom <= near.support
+    };
     if stands(a, b) || stands(b, a) {
         return None;
     }
-    if (one.is_container && is_within(b, a)) || (other.is_container && is_within(a, b)) {
+    if (one.is_container && is_within(b, a, near)) || (other.is_container && is_within(a, b, near))
+    {
         return None;
     }
     let common = intersection(&a.polygon, &b.polygon);
     let outline = common.outlines.first()?;
     let around: f64 = edges(outline).map(|(p, q)| (q - p).norm()).sum();
-    (common.area > DEPTH * around / 2.0).then(|| middle(outline))
+    (common.area > near.overlap * around / 2.0).then(|| middle(outline))
 }
 
 /// Whether a solid is in another, which may be open above.
-fn is_within(inner: &Body, outer: &Body) -> bool {
-    inner.bottom >= outer.bottom - BESIDE
-        && inner
-            .polygon
-            .iter()
-            .all(|&p| contains(&outer.polygon, p) || border_distance(&outer.polygon, p) <= BESIDE)
+fn is_within(inner: &Body, outer: &Body, near: &Tolerances) -> bool {
+    inner.bottom >= outer.bottom - near.inside
+        && inner.polygon.iter().all(|&p| {
+            contains(&outer.polygon, p) || border_distance(&outer.polygon, p) <= near.inside
+        })
 }
 
 /// Whether a thing stands with one of its solids on or in a solid below. Any of its lowest will do: a bench may stand on
 /// a step and on the floor.
-fn stands(thing: &Thing<'_>, body: &Body, other: &Body, rest: f64) -> bool {
-    body.bottom <= thing.bottom() + STANDING
-        && body.bottom <= other.top + rest
-        && body.bottom >= other.bottom - rest
+fn stands(thing: &Thing<'_>, body: &Body, other: &Body, near: &Tolerances) -> bool {
+    body.bottom <= thing.bottom() + near.floor
+        && body.bottom <= other.top + near.support
+        && body.bottom >= other.bottom - near.support
 }
 
 /// Whether a solid hangs from one above it.
-fn hangs(body: &Body, other: &Body) -> bool {
-    (other.bottom - body.top).abs() <= STANDING
+fn hangs(body: &Body, other: &Body, near: &Tolerances) -> bool {
+    (other.bottom - body.top).abs() <= near.hanging
 }
 
 /// Whether the floor, the ceiling or a wall holds a thing.
-fn is_fixed(thing: &Thing<'_>, rooms: &[Body], walls: &[(Point, Point)]) -> bool {
+fn is_fixed(
+    thing: &Thing<'_>,
+    rooms: &[Body],
+    walls: &[(Point, Point)],
+    near: &Tolerances,
+) -> bool {
     let (bottom, top) = (thing.bottom(), thing.top());
     let is_here =
-        |room: &&Body| thing.bodies.iter().any(|b| touch(&b.polygon, &room.polygon, BESIDE));
+        |room: &&Body| thing.bodies.iter().any(|b| touch(&b.polygon, &room.polygon, near.beside));
     let floors = rooms.iter().filter(is_here);
-    let by_floor = floors.clone().any(|room| bottom - room.bottom <= STANDING);
+    let by_floor = floors.clone().any(|room| bottom - room.bottom <= near.floor);
     by_floor
-        || floors.clone().any(|room| room.top - top <= 2.0 * STANDING)
+        || floors.clone().any(|room| room.top - top <= 2.0 * near.hanging)
         || thing.bodies.iter().any(|body| {
             walls.iter().any(|&(a, b)| {
-                body.polygon.iter().any(|&p| segment_distance(p, (a, b)) <= STANDING)
-                    || [a, b].iter().any(|&p| border_distance(&body.polygon, p) <= STANDING)
+                body.polygon.iter().any(|&p| segment_distance(p, (a, b)) <= near.hanging)
+                    || [a, b].iter().any(|&p| border_distance(&body.polygon, p) <= near.hanging)
                     || edges(&body.polygon).any(|e| super::plane::meeting(e, (a, b)).is_some())
             })
         })
@@ -651,12 +667,12 @@ struct Doorway {
     strip: Vec<Point>,
 }
 
-fn threshold(world: &World, area: AreaId, door: DoorId) -> Option<Doorway> {
+fn threshold(world: &World, area: AreaId, door: DoorId, depth: f64) -> Option<Doorway> {
     let (right, left) = world.threshold(area, door)?;
     let length = (left - right).norm();
     let along = (left - right).try_normalize(1e-9)?;
     // The base runs counter-clockwise: the room is on the left of the way from right to left.
-    let inwards = crate::units::Vector::new(-along.y, along.x) * THRESHOLD;
+    let inwards = crate::units::Vector::new(-along.y, along.x) * depth;
     let strip = vec![right, left, left + inwards, right + inwards];
     Some(Doorway { right, along, length, strip })
 }
@@ -666,7 +682,7 @@ impl Doorway {
     fn taken(&self, body: &Body) -> Option<(f64, f64)> {
         let common = intersection(&self.strip, &body.polygon);
         // A touch takes nothing.
-        if common.area < DEPTH {
+        if common.area < OVERLAP {
             return None;
         }
         let along = common.outlines.iter().flatten().map(|p| (p - self.right).dot(&self.along));

@@ -6,9 +6,10 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
+use crate::map::{Profile, Tolerances};
 use crate::measure::Reach;
 use crate::measured::{MEASURED, Measured, Order};
-use crate::thresholds::{self, ThresholdFault};
+use crate::thresholds::{self, ThresholdFault, Thresholds};
 use crate::units::{Bilingual, FileFault, OwnText, Source};
 
 /// The rule text that the crate brings along.
@@ -150,6 +151,28 @@ impl RelationRules {
         let program = &rules.program;
         rules.reach.both_orders = either.any(|relation| program.readers(relation).any(own));
         Ok(rules)
+    }
+
+    /// The thresholds of a profile as the facts of the text have them, where no world is at hand; what rules derive of
+    /// thresholds beside them only a world's relations know.
+    #[must_use]
+    pub fn thresholds(&self, profile: Profile) -> Thresholds {
+        Thresholds::written(&self.program, profile)
+    }
+
+    /// Within what a map's things are taken to stand on one another where one looks for what cannot be.
+    #[must_use]
+    pub fn tolerances(&self, profile: Profile) -> Tolerances {
+        let near = self.thresholds(profile);
+        Tolerances {
+            floor: near.floor_gap,
+            hanging: near.hanging_gap,
+            support: near.support_gap_up,
+            beside: near.lean_gap,
+            inside: near.inside_slack,
+            overlap: near.overlap_depth,
+            doorway: near.doorway_depth,
+        }
     }
 
     fn reach_of(&mut self, name: &str) -> Option<&mut i64> {
