@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{World, check_map_closely};
+use crate::engine::{Rules, World, check_map_closely};
 use crate::robot::{Address, Moment, Patience, RemoteVehicle, Served, Simulator, serve};
 use crate::robot::{Senses, SensingRobot, Vehicle, starting_pose};
 use crate::units::Language;
@@ -133,7 +133,8 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, F
     let (world, warnings) = check_map_closely(&args.map, rules_dir(common).as_deref())?;
     warn(&warnings, common.lang);
     let start = starting_pose(&world).ok_or(crate::engine::RequestError::RobotNowhere)?;
-    let robot = Simulator::new(world.clone(), start.0, start.1);
+    let rules = Rules::read(rules_dir(common).as_deref())?.relations;
+    let robot = Simulator::new(world.clone(), start.0, start.1).through_walls(rules.step_reach());
     let mut robot: Box<dyn Vehicle> = match args.senses.senses() {
         Some(senses) => Box::new(SensingRobot::new(robot, senses)),
         None => Box::new(robot),

@@ -259,7 +259,8 @@ impl State {
     fn simulated(&self, truth: Option<World>) -> Result<Simulator, Error> {
         let (around, (map, pose)) = (self.around()?, self.robot()?);
         let truth = truth.unwrap_or_else(|| around.uncarried().clone());
-        let robot = Simulator::new(truth, map, pose);
+        let robot =
+            Simulator::new(truth, map, pose).through_walls(self.rules.relations.step_reach());
         Ok(robot.laden(around.held().cloned(), &around.handed_over(), &around.aboard()))
     }
 

@@ -17,7 +17,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::map::{Permeability, SideRef, World};
+use crate::map::{Permeability, SideRef, THICKEST_WALL, World};
 use crate::units::{AreaId, DoorId, Frame, InOrder as _, MapId, OpeningId, Point, Vector};
 
 use super::buckets::Buckets;
@@ -25,8 +25,8 @@ use super::opening::{OpenSide, Opening};
 use super::scene::PlacedArea;
 use super::{Bounds, Polygon, Scene};
 
-/// How far a step through a side looks where no rules say it, in cm: a thick wall.
-pub const STEP_REACH: f64 = 60.0;
+/// How far a step through a side looks where no rules say it, in cm.
+pub const STEP_REACH: f64 = THICKEST_WALL;
 
 /// A step this long beyond a border stands on the floor behind it, in cm.
 pub(super) const FOOTHOLD: f64 = 0.5;

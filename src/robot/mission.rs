@@ -200,7 +200,7 @@ pub struct Mission<'r> {
     pub belief: Belief,
     domain: &'r Domain,
     relations: Followed,
-    rules: &'r RelationRules,
+    pub(super) rules: &'r RelationRules,
     limits: Limits,
     /// Of the plan in force.
     pub(super) places: Vec<PlanPlace>,

@@ -47,11 +47,9 @@ pub(super) fn rehearse(
     let mut trial = mission.clone();
     let belief = &trial.belief;
     let at = (belief.map, belief.pose);
-    let mut vehicle = Simulator::new(belief.world.clone(), at.0, at.1).laden(
-        belief.held.clone(),
-        &belief.handed_over,
-        &belief.aboard,
-    );
+    let mut vehicle = Simulator::new(belief.world.clone(), at.0, at.1)
+        .through_walls(mission.rules.step_reach())
+        .laden(belief.held.clone(), &belief.handed_over, &belief.aboard);
     let nobody = &mut |_: &Event<'_>| {};
     let mut reins =
         Reins::new(&mut vehicle, at, stop, nobody).expect("the robot is put where it is believed");

@@ -70,7 +70,7 @@ pub struct Simulator {
     /// What people were given, each with what lies on and in it.
     given: Vec<(Replica, Vec<Replica>)>,
     edges: Vec<Edge>,
-    /// As they are in truth: measured, whatever any rules say of them.
+    /// As they are in truth.
     openings: Arc<Openings>,
     trace: Vec<Moment>,
     calls: Vec<String>,
@@ -101,6 +101,14 @@ impl Simulator {
         };
         simulator.rebuild();
         simulator
+    }
+
+    /// The same robot where doors lead through walls as thick as that, cm: as the rules have it by which its map is read.
+    #[must_use]
+    pub fn through_walls(mut self, thickness: f64) -> Self {
+        self.openings = Arc::new(Openings::of(&self.truth, thickness));
+        self.rebuild();
+        self
     }
 
     /// The same robot with a thing in its hand and others given to people, each with what lies on and in it: of `aboard`

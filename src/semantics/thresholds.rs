@@ -455,6 +455,14 @@ mod tests {
         assert!(unknown.is_none(), "{}", unknown.map_or("", |l| &l.name));
     }
 
+    /// Maps are read, and openings measured, where no rules are at hand.
+    #[test]
+    fn a_step_reaches_through_the_thickest_wall() {
+        let known = KNOWN.iter().find(|known| known.name == "step distance");
+        let cm = known.map(|known| known.standard as f64 / known.unit.scale());
+        assert_eq!(cm, Some(crate::geometry::STEP_REACH));
+    }
+
     #[test]
     fn what_cannot_be_meant_is_told_with_its_place() {
         let text = r#".decl limit(p: symbol, n: symbol, v: number) .output limit

@@ -107,8 +107,9 @@ impl PlacedSide {
     }
 }
 
-/// The thickest wall that a door may stand in, cm.
-const WALL: f64 = 60.0;
+/// The thickest wall that a door may stand in, cm: a law of maps, which are read before any rules are. The threshold
+/// «step distance», as far as rules look through a door, is the same in the program's own rules.
+pub const THICKEST_WALL: f64 = 60.0;
 
 impl PlacedSide {
     /// Whether another side lies opposite this one, as the two faces of a wall do.
@@ -119,8 +120,8 @@ impl PlacedSide {
             nalgebra::center(&other.start, &other.end) - nalgebra::center(&self.start, &self.end);
         along.dot(&other_along) < -0.999
             && across.dot(&along).abs() <= TOLERANCE
-            && across.norm() <= WALL
-            && (self.z - other.z).abs() <= WALL
+            && across.norm() <= THICKEST_WALL
+            && (self.z - other.z).abs() <= THICKEST_WALL
     }
 }
 

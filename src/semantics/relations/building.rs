@@ -218,7 +218,7 @@ impl Relations {
         let calls = touched.calls || new.any(is_like_opening);
         let is_renamed = |door: DoorId| touched.doors.contains(&door);
         let new = if touched.opens {
-            let (reach, Touched { reshaped, doors, .. }) = (self.rules.step_cm(), &touched);
+            let (reach, Touched { reshaped, doors, .. }) = (self.rules.step_reach(), &touched);
             let followed = self.openings.follow(before, after, reach, reshaped, doors);
             let mut new = followed.unwrap_or_else(|| Openings::of(after, reach));
             call(&mut new, after, &self.symbols, is_renamed);

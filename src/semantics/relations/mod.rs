@@ -99,7 +99,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, rules.step_cm(), &symbols);
+    let openings = openings(world, rules.step_reach(), &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured, openings: &openings };
     let mut database = rules.program().database();
     let mut rows = Load::new(rules.program(), &mut database);
@@ -141,7 +141,7 @@ impl Relations {
         let live = Live::restore(rules.program(), bytes.strip_prefix(&*saved_head(profile))?)?;
         let symbols = Symbols::of(world);
         let measured = Measurements::of_things(world, rules.reach());
-        let openings = openings(world, rules.step_cm(), &symbols);
+        let openings = openings(world, rules.step_reach(), &symbols);
         Some(Self::new(rules, profile, symbols, measured, openings, live))
     }
 

@@ -198,7 +198,8 @@ impl RelationRules {
     }
 
     /// How far a step through a door looks, cm.
-    pub(super) fn step_cm(&self) -> f64 {
+    #[must_use]
+    pub fn step_reach(&self) -> f64 {
         self.step as f64 / 100.0
     }
 
