@@ -7,6 +7,7 @@ use orthoframe_map::*;
 use orthoframe_units::*;
 
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
+use crate::remedies::FARTHEST;
 use crate::routes::{check_invariants, check_route};
 
 /// A room of 400 × 300 with boxes `[x, y, w, d, turn]`, 100 high.
@@ -519,7 +520,7 @@ fn a_gap_is_opened_by_the_smallest_push() {
     let plan = build(&b);
     let target = Target::Point(p(RIGHT.0, RIGHT.1));
     let no = plan.route(&b.world, p(LEFT.0, LEFT.1), target, Method::Shortest).unwrap_err();
-    match plan.remedy(&b.world, p(LEFT.0, LEFT.1), target, &no) {
+    match plan.remedy(&b.world, p(LEFT.0, LEFT.1), target, &no, FARTHEST) {
         Some(Remedy::Move { replica, by, open }) => {
             assert_eq!((replica, open), (ids[1], vec![]));
             assert!((by.norm() - 2.0).abs() < 1e-9 && by.y > 1.9, "{by:?}");
@@ -534,7 +535,10 @@ fn a_shut_door_is_opened_rather_than_furniture_pushed() {
     let plan = build(&b);
     let target = Target::Point(p(700., 150.));
     let no = plan.route(&b.world, p(100., 150.), target, Method::Shortest).unwrap_err();
-    assert_eq!(plan.remedy(&b.world, p(100., 150.), target, &no), Some(Remedy::Open(vec![door])));
+    assert_eq!(
+        plan.remedy(&b.world, p(100., 150.), target, &no, FARTHEST),
+        Some(Remedy::Open(vec![door]))
+    );
 }
 
 #[test]

@@ -7,6 +7,9 @@ use orthoframe_units::*;
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 
+/// As far as the program's own rules let a thing be pushed, cm.
+pub(crate) const FARTHEST: f64 = 120.0;
+
 fn build(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
 }
@@ -77,7 +80,7 @@ fn every_change_that_is_named_opens_the_way() {
         let plan = build(&b.world);
         let (from, target) = (p(40.0, 150.0), Target::Point(p(770.0, 150.0)));
         let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
-        let Some(remedy) = plan.remedy(&b.world, from, target, &no) else { continue };
+        let Some(remedy) = plan.remedy(&b.world, from, target, &no, FARTHEST) else { continue };
         match &remedy {
             Remedy::Open(_) => opened += 1,
             Remedy::Move { open, .. } if open.is_empty() => pushed += 1,
@@ -114,7 +117,7 @@ fn a_door_that_strikes_a_thing_is_not_all_that_is_asked_for() {
     let plan = build(&b.world);
     let (from, target) = (p(40.0, 250.0), Target::Point(p(600.0, 150.0)));
     let no = plan.route(&b.world, from, target, Method::Shortest).expect_err("it is shut");
-    let remedy = plan.remedy(&b.world, from, target, &no).expect("the chest moves");
+    let remedy = plan.remedy(&b.world, from, target, &no, FARTHEST).expect("the chest moves");
     let (open, chest) = match &remedy {
         Remedy::Move { open, replica, .. } => (open, *replica),
         Remedy::Remove { open, replicas } => (open, replicas[0]),
@@ -258,7 +261,7 @@ fn no_push_is_shorter_than_the_one_named() {
         let plan = build(&b.world);
         let (from, target) = (p(60., 200.), Target::Point(to));
         let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
-        let remedy = plan.remedy(&b.world, from, target, &no);
+        let remedy = plan.remedy(&b.world, from, target, &no, FARTHEST);
         let Some(Remedy::Move { by, .. }) = &remedy else { panic!("seed {seed}: {remedy:?} {no}") };
         // The longer the push, the longer all shorter ones take.
         if by.norm() < 9.5 {

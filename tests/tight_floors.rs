@@ -6,6 +6,7 @@ use orthoframe_map::*;
 use orthoframe_units::*;
 
 use crate::floors::{Builder, Opening, p, rectangle};
+use crate::remedies::FARTHEST;
 
 fn build(b: &Builder) -> FloorPlan {
     FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new())
@@ -200,7 +201,8 @@ fn a_door_is_passed_by_what_its_clear_width_admits() {
                                 let full = DoorState::OPEN;
                                 let doors = plan.doorways()[0].clear_width(door.as_ref(), full);
                                 if opening < 100.0 && doors > 2.0 * radius {
-                                    let remedy = plan.remedy(&b.world, p(200., 150.), to, &no);
+                                    let remedy =
+                                        plan.remedy(&b.world, p(200., 150.), to, &no, FARTHEST);
                                     assert!(
                                         matches!(remedy, Some(Remedy::Open(_))),
                                         "{what}: {no} {remedy:?}"

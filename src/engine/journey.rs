@@ -7,6 +7,7 @@ use crate::language::Language;
 use crate::language::question::{Crossing, RoomPath, Thing};
 use crate::language::report::{Detail, Named};
 use crate::map::{DoorState, Entity, Extent, Forms, World, Zone, ZoneKind};
+use crate::semantics::Thresholds;
 use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId};
 
 use super::advice::Advice;
@@ -138,7 +139,11 @@ impl Known {
                 let advice = floors.get(&no.map).and_then(|floor| {
                     let alone = start.map == goal.map;
                     let floor = &*floor.with_lifts_open(world);
-                    let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
+                    let near = self
+                        .relations()
+                        .map_or_else(|_| Thresholds::default(), |r| *r.thresholds());
+                    let remedy =
+                        floor.remedy(world, no.from, no.target, &no.why, near.push_farthest)?;
                     let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
                     (alone || opens())
                         .then(|| Advice::of(world, floor, || self.relations().ok(), remedy))

@@ -42,14 +42,12 @@ pub enum Remedy {
     },
 }
 
-/// Nobody pushes furniture further than this for a robot, in cm.
-const FURTHEST: f64 = 120.0;
 /// Pushes are told apart by this, in cm: what is said is rounded to it.
 const STEP: f64 = 1.0;
 
 impl FloorPlan {
     /// The smallest change that opens a way where [`FloorPlan::route`] found none: doors that only need opening
-    /// before things that need pushing, and the shortest push of the things that may move.
+    /// before things that need pushing, and the shortest push of the things that may move, by no more than `farthest`, in cm.
     #[must_use]
     pub fn remedy(
         &self,
@@ -57,6 +55,7 @@ impl FloorPlan {
         from: Point,
         target: Target,
         no: &NoRoute,
+        farthest: f64,
     ) -> Option<Remedy> {
         // Of a zone nobody makes the robot a way by moving something.
         if no.barriers().iter().any(|barrier| matches!(barrier, Barrier::Zone { .. })) {
@@ -76,7 +75,8 @@ impl FloorPlan {
         named.extend(may_move(world, struck.into_iter()));
         let places = (from, target);
         let things = opened.worth_pushing(world, places, jammed, &named);
-        if let Some((replica, by)) = opened.shortest_push(world, places, jammed, &things) {
+        let push = opened.shortest_push(world, places, (jammed, &things), farthest);
+        if let Some((replica, by)) = push {
             return Some(Remedy::Move { replica, by, open: doors });
         }
         let replicas = opened.removal(world, places, jammed, &named)?;
@@ -310,15 +310,15 @@ impl FloorPlan {
         &self,
         world: &World,
         (from, target): (Point, Target),
-        jammed: &[DoorId],
-        things: &[ReplicaId],
+        (jammed, things): (&[DoorId], &[ReplicaId]),
+        farthest: f64,
     ) -> Option<(ReplicaId, Vector)> {
         let (mut trial, mut plan) = (world.clone(), self.clone());
         // The thing that the plan has elsewhere than the world.
         let mut pushed_last: Option<ReplicaId> = None;
         // Where a thing was stopped nothing pushes it further.
         let mut stopped: BTreeSet<(ReplicaId, u8)> = BTreeSet::new();
-        let steps = (FURTHEST / STEP) as usize;
+        let steps = (farthest / STEP) as usize;
         for (step, &id) in (1..=steps).flat_map(|step| things.iter().map(move |id| (step, id))) {
             let Some(own) = world.replicas.get(&id) else { continue };
             let Some(home) = self.scene().areas.get(&own.area).map(|area| area.frame) else {

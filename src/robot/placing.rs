@@ -6,8 +6,8 @@ use crate::units::{AreaId, Deg, Frame, InOrder as _, MapId, Point, Pose, Replica
 
 /// Free air kept round a thing that is set down, cm.
 const MARGIN: f64 = 1.0;
-/// What lies on a surface and is no thicker takes no room there, cm: as near a support is held to touch (the threshold
-/// «support gap up» of a surveyed map).
+/// What lies on a surface and is no thicker takes no room there, cm: a placemat, a cloth. The simulated world holds by it
+/// as well, whatever rules a map is read by.
 const FLAT: f64 = 2.0;
 /// Step of the search over a roof, cm.
 const STEP: f64 = 2.5;

@@ -258,6 +258,8 @@ thresholds! {
     way_equal = "way equal", Length, 100;
     /// What is so near to the direction of a push names it: «towards the window».
     push_toward = "push toward", Angle, 2500;
+    /// Nobody pushes furniture farther than this for a robot.
+    push_farthest = "push farthest", Length, 12000;
     /// Of what lies on a room with no more than a square of this side nobody speaks.
     zone_patch = "zone patch", Length, 1000;
 

@@ -28,9 +28,10 @@ const SHELF: f64 = 2.0;
 const LEG: f64 = 6.0;
 /// Heights nearer to one another than this are one surface, cm: more than a box's own error, less than two shelves.
 pub(super) const SAME_LEVEL: f64 = 5.0;
-/// A foot this near to a roof stands on it, cm: the widest of the gaps by which the rules know support.
+/// A foot this near to a roof stands on it, cm: no box of these formats is off by more. What stands is set down on its roof
+/// exactly, so that it rests there whatever gap the rules allow.
 pub(super) const STANDS: f64 = 8.0;
-/// A foot deeper than this below a roof stands on something else, cm: as exact as a surveyed box is.
+/// A foot deeper than this below a roof stands on something else, cm: downwards these boxes are off by less.
 pub(super) const SUNK: f64 = 2.0;
 /// What holds a thing is so many times as large: two apples whose boxes overlap do not lie in one another.
 const ROOMIER: f64 = 2.5;

@@ -40,6 +40,11 @@ impl Mission<'_> {
         false
     }
 
+    /// So far a thing is pushed out of the way, cm.
+    pub(super) fn pushed_at_most(&self) -> f64 {
+        self.relations.relations().thresholds().push_farthest
+    }
+
     /// What opens the way through a door from an Area, and in which of the Areas at it the way is barred.
     pub(super) fn opened_by(&self, door: &str, from: AreaId) -> Option<(AreaId, Remedy)> {
         let belief = &self.belief;
@@ -49,7 +54,7 @@ impl Mission<'_> {
         [from, join.to].into_iter().find_map(|area| {
             let target = self.door_target(door, from, area).ok()?;
             let no = floor.route(world, start, target, Method::Shortest).err()?;
-            let remedy = floor.remedy(world, start, target, &no)?;
+            let remedy = floor.remedy(world, start, target, &no, self.pushed_at_most())?;
             let of = match &remedy {
                 Remedy::Move { replica, .. } => world.replicas.get(replica)?.area,
                 _ => area,

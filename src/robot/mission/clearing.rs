@@ -171,7 +171,7 @@ impl Mission<'_> {
         match self.place_target(to) {
             Ok(target) => {
                 let no: Option<NoRoute> = floor.route(world, start, target, Method::Shortest).err();
-                no.and_then(|no| floor.remedy(world, start, target, &no))
+                no.and_then(|no| floor.remedy(world, start, target, &no, self.pushed_at_most()))
             }
             Err(_) => self.opened_by(to, from).map(|(_, remedy)| remedy),
         }
