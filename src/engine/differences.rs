@@ -146,7 +146,8 @@ impl State {
             });
         }
         let mut gone = Vec::new();
-        for old in self.memory()?.obstacles.iter().filter(|old| old.stands(at)) {
+        let least = self.reckoned_with()?;
+        for old in self.memory()?.obstacles.iter().filter(|old| old.stands(at, least)) {
             let Some((_, frame)) = world.placement(old.area).filter(|(on, _)| *on == map) else {
                 continue;
             };
@@ -232,15 +233,16 @@ impl Engine {
         });
         let observed: Vec<Observation> = observed.flatten().collect();
         let apart = self.relations()?.thresholds().robot_same;
-        renew(&mut memory, seen, apart, at);
+        let least = self.reckoned_with()?;
+        renew(&mut memory, seen, (apart, least), at);
         self.next().forget_present();
         Ok(self.writable()?.remember(&memory, &observed, ROBOT, at)?)
     }
 }
 
 /// What is remembered of doors, obstacles and the pose, after these scans; obstacles whose middles are no farther `apart`
-/// are one.
-fn renew(memory: &mut RobotMemory, seen: &Differing, apart: f64, at: Timestamp) {
+/// are one, and those less sure than `least` are forgotten.
+fn renew(memory: &mut RobotMemory, seen: &Differing, (apart, least): (f64, f64), at: Timestamp) {
     for (door, news) in &seen.doors {
         if news.is_as_mapped {
             memory.doors.remove(door);
@@ -248,7 +250,7 @@ fn renew(memory: &mut RobotMemory, seen: &Differing, apart: f64, at: Timestamp) 
             memory.doors.insert(*door, news.state);
         }
     }
-    memory.obstacles.retain(|old| old.stands(at) && !seen.gone.contains(old));
+    memory.obstacles.retain(|old| old.stands(at, least) && !seen.gone.contains(old));
     for new in &seen.obstacles {
         // Seen again, it is the same obstacle; the last look knows best how large it is.
         let known = memory

@@ -148,8 +148,16 @@ impl State {
                 set_open(replica, object, *open);
             }
         }
-        put_up(&mut world, memory.obstacles.iter().filter(|seen| seen.stands(at)));
+        let least = self.reckoned_with()?;
+        put_up(&mut world, memory.obstacles.iter().filter(|seen| seen.stands(at, least)));
         Ok(world)
+    }
+
+    /// So sure of it, 0..=1, an obstacle still counts. It is asked before there are relations, which are of a world with
+    /// such obstacles in it.
+    pub(super) fn reckoned_with(&self) -> Result<f64, Error> {
+        let profile = self.world()?.domain.profile;
+        Ok(self.rules.relations.thresholds(profile).belief_reckoned)
     }
 
     /// What the robot did, and where it stands.

@@ -233,11 +233,12 @@ impl Engine {
     /// The things that are believed to stand elsewhere than the map says, and those that it lacks.
     ///
     /// # Errors
-    /// The store cannot be read.
+    /// The store cannot be read, or the relations cannot be derived.
     pub fn proposals(&self, now: Timestamp) -> Result<Vec<Proposal>, Error> {
         let world = self.world()?;
         let carried = self.store()?.reader().robot_memory()?.carried;
-        let all = self.store()?.proposals(now)?.into_iter();
+        let told = self.relations()?.thresholds().belief_told;
+        let all = self.store()?.proposals(now, told)?.into_iter();
         let moved = all.map(|p| Believed {
             replica: p.replica,
             name: world.replicas[&p.replica].name.clone(),

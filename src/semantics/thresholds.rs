@@ -153,6 +153,8 @@ thresholds! {
     part_edge = "part edge", Share, 10;
     part_middle = "part middle", Share, 500;
     belief_told = "belief told", Share, 500;
+    /// An obstacle of which the robot is less sure counts no more.
+    belief_reckoned = "belief reckoned", Share, 250;
     /// So sure the robot is of what it did or touched itself.
     belief_own = "belief own", Share, 950;
 

@@ -75,10 +75,9 @@ pub struct Proposal {
     pub believed: Belief,
 }
 
-/// Two places nearer than this are one, in cm.
+/// Two places nearer than this are one, in cm: what is thought of a thing is kept in step with what was seen of it, and
+/// would have to be gone through anew if this could change.
 const SAME_PLACE: f64 = 30.0;
-/// Below this nothing is proposed.
-const PROPOSED_FROM: f64 = 0.5;
 const LONGEST_HALF_LIFE_HOURS: f64 = 720.0;
 const SHORTEST_HALF_LIFE_HOURS: f64 = 1.0;
 const REJECTED: &str = "rejected";
@@ -471,17 +470,17 @@ impl Store {
         self.vault.commit(draft.writes)
     }
 
-    /// The replicas that are believed to stand elsewhere than the map says.
+    /// The replicas that are believed to stand elsewhere than the map says, at least as surely as `least`, 0..=1.
     ///
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
-    pub fn proposals(&self, now: Timestamp) -> Result<Vec<Proposal>> {
+    pub fn proposals(&self, now: Timestamp, least: f64) -> Result<Vec<Proposal>> {
         let reader = self.reader();
         let Some(world) = reader.world()? else { return Ok(Vec::new()) };
         let mut found = Vec::new();
         for replica in world.replicas.values() {
             let believed = reader.belief(replica, now)?;
-            if !believed.is_surveyed && believed.confidence >= PROPOSED_FROM {
+            if !believed.is_surveyed && believed.confidence >= least {
                 let surveyed = Seen { area: replica.area, frame: replica.frame };
                 found.push(Proposal { replica: replica.id, surveyed, believed });
             }

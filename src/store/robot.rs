@@ -70,10 +70,10 @@ impl SeenObstacle {
             && corners(self).iter().zip(corners(other)).all(|(a, b)| (a - b).norm() <= SAME)
     }
 
-    /// Whether it is to be reckoned with at a moment.
+    /// Whether it is to be reckoned with at a moment: it is still as sure as `least`, 0..=1.
     #[must_use]
-    pub fn stands(&self, now: Timestamp) -> bool {
-        self.confidence(now) >= RECKONED_FROM
+    pub fn stands(&self, now: Timestamp, least: f64) -> bool {
+        self.confidence(now) >= least
     }
 }
 
@@ -90,8 +90,6 @@ pub struct FoundAt {
 }
 
 const MAY_BE_ANYWHERE: u8 = 100;
-/// Below this an obstacle counts no more.
-const RECKONED_FROM: f64 = 0.25;
 
 fn pieces_in_text(pieces: &[Vec<Point>]) -> String {
     let piece = |piece: &Vec<Point>| {

@@ -64,19 +64,19 @@ fn a_person_confirms_or_rejects_what_was_seen() {
     let mut store = open(dir.path());
     let (chair, elsewhere) = chair(&mut store);
     store.observe(&[look(&chair, 1, Some(elsewhere), 0.8)]).unwrap();
-    let proposals = store.proposals(at(2)).unwrap();
+    let proposals = store.proposals(at(2), 0.5).unwrap();
     assert_eq!(
         (proposals.len(), proposals[0].replica, proposals[0].believed.place),
         (1, chair.id, elsewhere)
     );
 
     store.reject(chair.id, &Change::new("Мастер", at(3), "это был другой стул")).unwrap();
-    assert_eq!(store.proposals(at(3)).unwrap(), []);
+    assert_eq!(store.proposals(at(3), 0.5).unwrap(), []);
     store.observe(&[look(&chair, 4, Some(elsewhere), 0.8)]).unwrap();
     let report = store.confirm(chair.id, &Change::new("Мастер", at(5), "да, он там")).unwrap();
     assert_eq!((report.revision, report.counts.changed), (2, 1));
     assert_eq!(load(&store).replicas[&chair.id].frame, elsewhere.frame);
-    assert_eq!(store.proposals(at(6)).unwrap(), []);
+    assert_eq!(store.proposals(at(6), 0.5).unwrap(), []);
     let unknown = store.confirm(ReplicaId(999), &change("нет такого"));
     assert!(matches!(unknown, Err(StoreError::UnknownReplica { id: 999 })));
 }
@@ -101,7 +101,7 @@ fn what_was_seen_in_the_moment_of_a_verdict_counts_if_it_was_seen_after_it() {
     let dir = scratch();
     let mut store = open(dir.path());
     let (chair, elsewhere) = chair(&mut store);
-    let proposed = |store: &Store| store.proposals(at(2)).unwrap().len();
+    let proposed = |store: &Store| store.proposals(at(2), 0.5).unwrap().len();
     for again in 0..3 {
         assert_eq!(proposed(&store), 0, "{again}");
         store.observe(&[look(&chair, 1, Some(elsewhere), 0.8)]).unwrap();
