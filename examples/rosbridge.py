@@ -158,10 +158,10 @@ def main():
 
         try:
             robot = robot or Robot(args)
-            deed = getattr(robot, order["do"], None)
-            if deed is None:
+            obey = getattr(robot, order["do"], None)
+            if obey is None:
                 raise Lost(f"a robot that only drives cannot {order['do']}")
-            say(deed(order, going))
+            say(obey(order, going))
         except Lost as lost:
             say({"say": "failed", "text": str(lost)}, {"map": args.map, "x": 0, "y": 0, "heading": 0})
 

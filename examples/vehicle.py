@@ -72,7 +72,7 @@ class Disc:
         self.map, self.x, self.y, self.heading = (there[k] for k in ("map", "x", "y", "heading"))
         return {"say": "done"}
 
-    def deed(self, order, going):
+    def obey(self, order, going):
         self.spend(3.0, going)
         return {"say": "done"}
 
@@ -86,7 +86,7 @@ class Disc:
     def hello(self, order, going):
         return {"say": "ready", "protocol": PROTOCOL, "name": "disc of examples/vehicle.py"}
 
-    set_door = call_lift = take = put = hand_over = take_back = switch = call = look_round = deed
+    set_door = call_lift = take = put = hand_over = take_back = switch = call = look_round = obey
     sees = look_at = look
 
 

@@ -332,10 +332,10 @@ fn here_is_where_the_person_says_to_be() {
     }
     for (room, inside) in [("Комнате-В", "в Комнате-В"), ("Комнате-Z", "в Комнате-Z")]
     {
-        for deed in ["почитать", "включить"] {
-            let whole = format!("Что {inside} можно {deed}?");
+        for activity in ["почитать", "включить"] {
+            let whole = format!("Что {inside} можно {activity}?");
             let plain = answered(&rb2, &whole, &mut Memory::default());
-            let here = format!("Я сейчас в {room}, что тут можно {deed}?");
+            let here = format!("Я сейчас в {room}, что тут можно {activity}?");
             let told = answered(&rb2, &here, &mut Memory::default());
             assert!(told.is_none() || told == plain, "{here}\n  {told:?}\n  {plain:?}");
         }

@@ -10,7 +10,7 @@ use orthoframe_geometry::Scene;
 use orthoframe_language::Language;
 use orthoframe_language::command::Command;
 use orthoframe_map::{DoorState, Entity, Format, World, is_on, switch};
-use orthoframe_robot::{Deed, Surprise};
+use orthoframe_robot::{Primitive, Surprise};
 use orthoframe_semantics::{Profile, RelationRules, derive};
 use orthoframe_units::{AreaId, ReplicaId, Source};
 
@@ -200,7 +200,9 @@ fn a_thing_is_sought_from_room_to_room() {
     let seen = answer.after.as_ref().unwrap().moved[&cup].unwrap();
     assert_eq!((seen.area, seen.frame), (umbrella.area, umbrella.frame));
     let last = answer.reports.last().unwrap();
-    assert!(matches!(&last.directive.deeds()[..], [Deed::Seek(name)] if name == "Чашка-2"));
+    assert!(
+        matches!(&last.directive.primitives()[..], [Primitive::Seek(name)] if name == "Чашка-2")
+    );
 
     // It is nowhere: every room is looked into once, and then it is said.
     let mut gone = world.clone();

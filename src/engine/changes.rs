@@ -17,9 +17,9 @@ use super::{Error, State};
 pub(super) struct Changes {
     /// Which map, among all that this program has opened.
     map: u64,
-    /// How many changes it has seen, those of the robot's own deeds among them.
+    /// How many changes it has seen, those that the robot made among them.
     count: u64,
-    /// The last one that was more than a move or a deed: names, kinds, values and openings count from there.
+    /// The last one that was more than a move or what the robot did: names, kinds, values and openings count from there.
     vocabulary: u64,
     /// The last one that changed more than things.
     building: u64,
@@ -37,7 +37,7 @@ impl Default for Changes {
 
 impl Changes {
     /// The robot did something, or something was seen.
-    pub(super) fn note_deed(&mut self) {
+    pub(super) fn note_action(&mut self) {
         self.count += 1;
     }
 

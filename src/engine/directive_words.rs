@@ -5,7 +5,7 @@ use crate::language::report::Named;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
-use crate::robot::{Deed, Directive, IN_MIDDLE, STARTING_POINT};
+use crate::robot::{Directive, IN_MIDDLE, Primitive, STARTING_POINT};
 use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
 use crate::units::Bilingual;
@@ -14,7 +14,7 @@ use super::OPERATOR;
 use super::lexicon::named;
 use super::task::{OPERATOR_PLACE, TaskAnswer, TaskEnding};
 
-/// A sentence for each deed that the robot's position does not tell; motion and doors are told by that.
+/// A sentence for each primitive that the robot's position does not tell; motion and doors are told by that.
 #[must_use]
 pub fn actions_in_words(world: &World, directive: &Directive, language: Language) -> Vec<String> {
     let is_russian = language == Language::Russian;
@@ -26,42 +26,42 @@ pub fn actions_in_words(world: &World, directive: &Directive, language: Language
         }
     };
     let say = |ru: String, en: String| Some(if is_russian { ru } else { en });
-    let sentence = |deed: &Deed| match deed {
-        Deed::Switch { device, on } => {
+    let sentence = |primitive: &Primitive| match primitive {
+        Primitive::Switch { device, on } => {
             let device = name(device);
             let (ru, en) = if *on { ("включил", "on") } else { ("выключил", "off") };
             say(format!("Я {ru} {device}."), format!("I switched {en} {device}."))
         }
-        Deed::SetOpen { thing, open } => {
+        Primitive::SetOpen { thing, open } => {
             let thing = name(thing);
             let (ru, en) =
                 if *open { ("открыл", "opened") } else { ("закрыл", "shut") };
             say(format!("Я {ru} {thing}."), format!("I {en} {thing}."))
         }
-        Deed::Push(thing) => {
+        Primitive::Push(thing) => {
             let thing = name(thing);
             say(format!("Я подвинул {thing}."), format!("I pushed {thing} aside."))
         }
-        Deed::Seek(thing) => {
+        Primitive::Seek(thing) => {
             let thing = name(thing);
             say(format!("Я вижу {thing}."), format!("I see {thing}."))
         }
-        Deed::Put { thing, .. } if directive.brings_about(predicate::IN_ITS_PLACE) => {
+        Primitive::Put { thing, .. } if directive.brings_about(predicate::IN_ITS_PLACE) => {
             let thing = name(thing);
             say(format!("Я вернул {thing} на место."), format!("I put {thing} back in its place."))
         }
-        Deed::Put { thing, .. } if directive.brings_about(predicate::THROWN_AWAY) => {
+        Primitive::Put { thing, .. } if directive.brings_about(predicate::THROWN_AWAY) => {
             let thing = name(thing);
             say(format!("Я выбросил {thing}."), format!("I threw {thing} away."))
         }
-        Deed::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
+        Primitive::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
             let door = named_door(world, door, language);
             say(
                 format!("Подойдите, пожалуйста, ко мне и отоприте {door}."),
                 format!("Please come to me and unlock {door}."),
             )
         }
-        Deed::Call(person) => {
+        Primitive::Call(person) => {
             let english = if person == OPERATOR { "Operator" } else { person };
             say(
                 format!("{person}, подойдите, пожалуйста, ко мне."),
@@ -70,7 +70,7 @@ pub fn actions_in_words(world: &World, directive: &Directive, language: Language
         }
         _ => None,
     };
-    directive.deeds().iter().filter_map(sentence).collect()
+    directive.primitives().iter().filter_map(sentence).collect()
 }
 
 fn named_door(world: &World, name: &str, language: Language) -> String {
@@ -91,7 +91,8 @@ pub fn directive_in_words(world: &World, directive: &Directive, language: Langua
         (DoorStatus::Closed, false) => ("закрыть", "close"),
         (DoorStatus::Locked, _) => ("запереть", "lock"),
     };
-    let told: Vec<String> = directive.deeds().iter().map(|deed| words.deed(deed, opened)).collect();
+    let told: Vec<String> =
+        directive.primitives().iter().map(|primitive| words.primitive(primitive, opened)).collect();
     match told.is_empty() {
         true => directive.to_string(),
         false => told.join(language.pick(" и ", " and ")),
@@ -340,41 +341,41 @@ struct Words<'w> {
 }
 
 impl Words<'_> {
-    fn deed(
+    fn primitive(
         &self,
-        deed: &Deed,
+        primitive: &Primitive,
         opened: impl Fn(DoorStatus) -> (&'static str, &'static str),
     ) -> String {
         let pick = |ru, en| self.language.pick(ru, en);
         let accusative = |name: &str| self.name(name, Case::Accusative);
-        match deed {
-            Deed::GoToPlace(to) | Deed::GoToDoor(to) => {
+        match primitive {
+            Primitive::GoToPlace(to) | Primitive::GoToDoor(to) => {
                 format!("{} {}", pick("подъехать", "drive"), self.at(Preposition::K, "to", to))
             }
-            Deed::Cross { door, into } => format!(
+            Primitive::Cross { door, into } => format!(
                 "{} {} {}",
                 pick("проехать через", "go through"),
                 accusative(door),
                 self.at(Preposition::V, "into", into)
             ),
-            Deed::SetDoor { door, status } => {
+            Primitive::SetDoor { door, status } => {
                 let (ru, en) = opened(*status);
                 format!("{} {}", pick(ru, en), accusative(door))
             }
-            Deed::CallLift { lift, .. } => match self.language {
+            Primitive::CallLift { lift, .. } => match self.language {
                 Language::Russian => format!("вызвать лифт «{lift}»"),
                 Language::English => {
                     format!("call the lift “{}”", self.name(lift, Case::Nominative))
                 }
             },
-            Deed::Ride { lift, to, .. } => match self.language {
+            Primitive::Ride { lift, to, .. } => match self.language {
                 Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),
                 Language::English => {
                     let lift = self.name(lift, Case::Nominative);
                     format!("ride the lift “{lift}” {}", self.storey(to))
                 }
             },
-            Deed::SetOpen { thing, open } => {
+            Primitive::SetOpen { thing, open } => {
                 let verb = if *open {
                     pick("открыть", "open")
                 } else {
@@ -382,11 +383,11 @@ impl Words<'_> {
                 };
                 format!("{verb} {}", accusative(thing))
             }
-            Deed::Push(thing) => {
+            Primitive::Push(thing) => {
                 format!("{} {}", pick("подвинуть", "push aside"), accusative(thing))
             }
-            Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
-            Deed::Put { thing, onto: Some(onto) } => format!(
+            Primitive::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
+            Primitive::Put { thing, onto: Some(onto) } => format!(
                 "{} {} {}",
                 pick("положить", "put"),
                 accusative(thing),
@@ -396,11 +397,11 @@ impl Words<'_> {
                     format!("{} {}", pick("на", "on"), accusative(onto))
                 }
             ),
-            Deed::Put { thing, onto: None } => match self.language {
+            Primitive::Put { thing, onto: None } => match self.language {
                 Language::Russian => format!("положить {} на пол", accusative(thing)),
                 Language::English => format!("put {} down", accusative(thing)),
             },
-            Deed::HandOver { thing, person } => match self.language {
+            Primitive::HandOver { thing, person } => match self.language {
                 Language::Russian => {
                     format!("передать {} {}", accusative(thing), self.person(person, Case::Dative))
                 }
@@ -408,7 +409,7 @@ impl Words<'_> {
                     format!("give {} to {}", accusative(thing), self.person(person, Case::Dative))
                 }
             },
-            Deed::Switch { device, on } => {
+            Primitive::Switch { device, on } => {
                 let (ru, en) = if *on {
                     ("включить", "switch on")
                 } else {
@@ -416,9 +417,11 @@ impl Words<'_> {
                 };
                 format!("{} {}", pick(ru, en), accusative(device))
             }
-            Deed::LookRound => pick("осмотреться", "look round").to_owned(),
-            Deed::Seek(thing) => format!("{} {}", pick("найти", "look for"), accusative(thing)),
-            Deed::Call(person) => match self.language {
+            Primitive::LookRound => pick("осмотреться", "look round").to_owned(),
+            Primitive::Seek(thing) => {
+                format!("{} {}", pick("найти", "look for"), accusative(thing))
+            }
+            Primitive::Call(person) => match self.language {
                 Language::Russian => format!("позвать {}", self.person(person, Case::Accusative)),
                 Language::English => format!("call {}", self.person(person, Case::Accusative)),
             },

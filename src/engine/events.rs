@@ -21,7 +21,7 @@ use serde::Serialize;
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::map::{Entity, World};
-use crate::robot::{Barred, Deed, Directive, Planned, Refusal, Surprise};
+use crate::robot::{Barred, Directive, Planned, Primitive, Refusal, Surprise};
 use crate::units::{Point, Pose, ReplicaId};
 
 use super::assumed::assumptions_in_russian;
@@ -157,16 +157,16 @@ impl TaskEvents {
             },
             Progress::Finished(report) => {
                 let view = ReportView::of(world, report);
-                let drives = |deed: &Deed| {
+                let drives = |primitive: &Primitive| {
                     matches!(
-                        deed,
-                        Deed::GoToPlace(_)
-                            | Deed::GoToDoor(_)
-                            | Deed::Cross { .. }
-                            | Deed::Ride { .. }
+                        primitive,
+                        Primitive::GoToPlace(_)
+                            | Primitive::GoToDoor(_)
+                            | Primitive::Cross { .. }
+                            | Primitive::Ride { .. }
                     )
                 };
-                match report.directive.deeds().iter().any(drives) {
+                match report.directive.primitives().iter().any(drives) {
                     true => TaskEvent::Arrived(view),
                     false => TaskEvent::Done(view),
                 }

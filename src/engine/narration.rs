@@ -173,8 +173,8 @@ pub fn progress_in_words(
                 format!("{}.", report.number),
                 directive_told(world, &report.directive, language)
             )];
-            let deeds = actions_in_words(world, &report.directive, language);
-            lines.extend(deeds.into_iter().map(|sentence| format!("     {sentence}")));
+            let primitives = actions_in_words(world, &report.directive, language);
+            lines.extend(primitives.into_iter().map(|sentence| format!("     {sentence}")));
             lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
             lines
         }

@@ -10,7 +10,7 @@ use super::{
     TaskEvents, json, progress_in_words,
 };
 use crate::map::{DoorStatus, World};
-use crate::robot::{Deed, Planned};
+use crate::robot::{Planned, Primitive};
 use crate::units::Language;
 
 /// What is heard.
@@ -93,11 +93,12 @@ impl Outlook {
         self.proof_en.extend(english);
         let is_shortest = planned.solved.is_shortest && self.is_shortest != Some(false);
         self.is_shortest = Some(is_shortest);
-        for deed in planned.steps.iter().flatten().flat_map(|directive| directive.deeds()) {
-            let (list, name) = match deed {
-                Deed::SetDoor { door, status: DoorStatus::Open } => (&mut self.opens, door),
-                Deed::SetOpen { thing, open: true } => (&mut self.opens, thing),
-                Deed::Take(thing) | Deed::Push(thing) => (&mut self.carries, thing),
+        for primitive in planned.steps.iter().flatten().flat_map(|directive| directive.primitives())
+        {
+            let (list, name) = match primitive {
+                Primitive::SetDoor { door, status: DoorStatus::Open } => (&mut self.opens, door),
+                Primitive::SetOpen { thing, open: true } => (&mut self.opens, thing),
+                Primitive::Take(thing) | Primitive::Push(thing) => (&mut self.carries, thing),
                 _ => continue,
             };
             if !list.contains(&name) {

@@ -15,7 +15,7 @@ use crate::units::{Bilingual, ReplicaId, Stop, name_key};
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
-/// The predicates of which a deed of the robot, or where it stands after one, makes a fact true.
+/// The predicates of which a primitive of the robot, or where it stands after one, makes a fact true.
 const DRIVEN: [&str; 20] = [
     predicate::STANDS_OPEN,
     predicate::STANDS_SHUT,
@@ -43,7 +43,7 @@ impl State {
     /// Plans a scenario from what the robot believes, and has a vehicle drive it, as [`State::carry_out_with`] does.
     ///
     /// # Errors
-    /// What of the scenario cannot be driven, all of it at once: facts that the map does not give, goals that no deed of
+    /// What of the scenario cannot be driven, all of it at once: facts that the map does not give, goals that no primitive of
     /// the robot brings about. That there is no plan, and that the vehicle fails, is an answer.
     pub fn drive_scenario(
         &self,

@@ -230,7 +230,7 @@ impl State {
         self.now.take();
         self.robot.take();
         self.stands_until.take();
-        Arc::make_mut(&mut self.changes).note_deed();
+        Arc::make_mut(&mut self.changes).note_action();
     }
 
     /// The number of the last change of the map; 0 for a map in memory.

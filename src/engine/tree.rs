@@ -1,8 +1,8 @@
 //! A plan as a behaviour tree: XML of BehaviorTree.CPP 4, which Groot2 shows.
 //!
-//! A directive is a Sequence, named by its number and words; in it stand its deeds in their order, each an Action whose
-//! ID is a verb of the vehicle protocol (docs/vehicle.md) and whose ports are names on the map. Directives of one step
-//! may be done in any order, and are done one after another: there is one robot. Where a deed drives to a named place the
+//! A directive is a Sequence, named by its number and words; in it stand its primitives in their order, each an Action
+//! whose ID is a verb of the vehicle protocol (docs/vehicle.md) and whose ports are names on the map. Directives of one step
+//! may be done in any order, and are done one after another: there is one robot. Where a primitive drives to a named place the
 //! port `goal` holds `x;y;heading` in metres and radians in the frame of its Map.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 
 use crate::language::Language;
 use crate::map::{DoorStatus, World};
-use crate::robot::{Deed, Directive, Planned};
+use crate::robot::{Directive, Planned, Primitive};
 
 use super::{Error, State, directive_in_words};
 
@@ -91,31 +91,31 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// The deeds of a directive; one that has none is called by its name alone, for whoever knows its rule.
+/// The primitives of a directive; one that has none is called by its name alone, for whoever knows its rule.
 fn actions(world: &World, directive: &Directive) -> Vec<(&'static str, Ports)> {
-    let deeds = directive.deeds();
-    if deeds.is_empty() {
+    let primitives = directive.primitives();
+    if primitives.is_empty() {
         let ports = vec![
             ("action", directive.action.to_string()),
             ("args", directive.args.iter().map(ToString::to_string).collect::<Vec<_>>().join(";")),
         ];
         return vec![("Directive", ports)];
     }
-    deeds.into_iter().map(|deed| action(world, deed)).collect()
+    primitives.into_iter().map(|primitive| action(world, primitive)).collect()
 }
 
-fn action(world: &World, deed: Deed) -> (&'static str, Ports) {
+fn action(world: &World, primitive: Primitive) -> (&'static str, Ports) {
     let flag = |on: bool| if on { "true" } else { "false" }.to_owned();
-    match deed {
-        Deed::GoToPlace(place) => {
+    match primitive {
+        Primitive::GoToPlace(place) => {
             let goal = goal_of(world, &place);
             let mut ports = vec![("place", place)];
             ports.extend(goal.map(|goal| ("goal", goal)));
             ("GoToPlace", ports)
         }
-        Deed::GoToDoor(door) => ("GoToDoor", vec![("door", door)]),
-        Deed::Cross { door, into } => ("Cross", vec![("door", door), ("into", into)]),
-        Deed::SetDoor { door, status } => {
+        Primitive::GoToDoor(door) => ("GoToDoor", vec![("door", door)]),
+        Primitive::Cross { door, into } => ("Cross", vec![("door", door), ("into", into)]),
+        Primitive::SetDoor { door, status } => {
             let status = match status {
                 DoorStatus::Open => "open",
                 DoorStatus::Closed => "closed",
@@ -123,23 +123,27 @@ fn action(world: &World, deed: Deed) -> (&'static str, Ports) {
             };
             ("SetDoor", vec![("door", door), ("status", status.to_owned())])
         }
-        Deed::CallLift { lift, door } => ("CallLift", vec![("lift", lift), ("door", door)]),
-        Deed::Ride { lift, to, door } => ("Ride", vec![("lift", lift), ("to", to), ("door", door)]),
-        Deed::SetOpen { thing, open } => ("SetOpen", vec![("thing", thing), ("open", flag(open))]),
-        Deed::Push(thing) => ("Push", vec![("thing", thing)]),
-        Deed::Take(thing) => ("Take", vec![("thing", thing)]),
-        Deed::Put { thing, onto } => {
+        Primitive::CallLift { lift, door } => ("CallLift", vec![("lift", lift), ("door", door)]),
+        Primitive::Ride { lift, to, door } => {
+            ("Ride", vec![("lift", lift), ("to", to), ("door", door)])
+        }
+        Primitive::SetOpen { thing, open } => {
+            ("SetOpen", vec![("thing", thing), ("open", flag(open))])
+        }
+        Primitive::Push(thing) => ("Push", vec![("thing", thing)]),
+        Primitive::Take(thing) => ("Take", vec![("thing", thing)]),
+        Primitive::Put { thing, onto } => {
             let mut ports = vec![("thing", thing)];
             ports.extend(onto.map(|onto| ("onto", onto)));
             ("Put", ports)
         }
-        Deed::HandOver { thing, person } => {
+        Primitive::HandOver { thing, person } => {
             ("HandOver", vec![("thing", thing), ("person", person)])
         }
-        Deed::Switch { device, on } => ("Switch", vec![("device", device), ("on", flag(on))]),
-        Deed::LookRound => ("LookRound", Vec::new()),
-        Deed::Seek(thing) => ("Seek", vec![("thing", thing)]),
-        Deed::Call(person) => ("Call", vec![("person", person)]),
+        Primitive::Switch { device, on } => ("Switch", vec![("device", device), ("on", flag(on))]),
+        Primitive::LookRound => ("LookRound", Vec::new()),
+        Primitive::Seek(thing) => ("Seek", vec![("thing", thing)]),
+        Primitive::Call(person) => ("Call", vec![("person", person)]),
     }
 }
 

@@ -29,9 +29,9 @@ pub struct Effect {
     pub args: Vec<String>,
 }
 
-/// What a directive asks for, in the names of the Map.
+/// One action primitive: what a directive has the vehicle do, in the names of the Map.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Deed {
+pub enum Primitive {
     /// Drive within the Area to a place, or to the place before a thing.
     GoToPlace(String),
     /// Drive within the Area to a door.
@@ -151,22 +151,22 @@ impl Directive {
 
     /// What the vehicle has to do, in this order. Empty for an action that only changes what is known.
     #[must_use]
-    pub fn deeds(&self) -> Vec<Deed> {
-        let mut deeds = Vec::new();
+    pub fn primitives(&self) -> Vec<Primitive> {
+        let mut primitives = Vec::new();
         if let Some([lift, door]) = self.added(predicate::CABIN_AT) {
             let (lift, door) = (lift.clone(), door.clone());
-            deeds.push(match self.added(predicate::ROBOT_IN) {
-                Some([to, ..]) => Deed::Ride { lift, to: to.clone(), door },
-                _ => Deed::CallLift { lift, door },
+            primitives.push(match self.added(predicate::ROBOT_IN) {
+                Some([to, ..]) => Primitive::Ride { lift, to: to.clone(), door },
+                _ => Primitive::CallLift { lift, door },
             });
         } else if let Some([place]) = self.added(predicate::ROBOT_AT_PLACE) {
-            deeds.push(Deed::GoToPlace(place.clone()));
+            primitives.push(Primitive::GoToPlace(place.clone()));
         } else if let Some([door]) = self.added(predicate::ROBOT_AT_DOOR) {
-            deeds.push(Deed::GoToDoor(door.clone()));
+            primitives.push(Primitive::GoToDoor(door.clone()));
         } else if let (Some([area]), Some([door])) =
             (self.added(predicate::ROBOT_IN), find(&self.needs, predicate::ROBOT_AT_DOOR))
         {
-            deeds.push(Deed::Cross { door: door.clone(), into: area.clone() });
+            primitives.push(Primitive::Cross { door: door.clone(), into: area.clone() });
         }
         let states = [
             (predicate::DOOR_OPEN, DoorStatus::Open),
@@ -175,33 +175,33 @@ impl Directive {
         ];
         for (name, status) in states {
             if let Some([door, ..]) = self.added(name) {
-                deeds.push(Deed::SetDoor { door: door.clone(), status });
+                primitives.push(Primitive::SetDoor { door: door.clone(), status });
             }
         }
         for (name, open) in [(predicate::STANDS_OPEN, true), (predicate::STANDS_SHUT, false)] {
             if let Some([thing]) = self.added(name) {
-                deeds.push(Deed::SetOpen { thing: thing.clone(), open });
+                primitives.push(Primitive::SetOpen { thing: thing.clone(), open });
             }
         }
         if let Some([thing, ..]) = find(&self.deletes, predicate::BLOCKS_DOOR) {
-            deeds.push(Deed::Push(thing.clone()));
+            primitives.push(Primitive::Push(thing.clone()));
         }
         if let Some([thing]) = self.added(predicate::ROBOT_HOLDS) {
-            deeds.push(Deed::Take(thing.clone()));
+            primitives.push(Primitive::Take(thing.clone()));
         }
         if let Some([thing]) = find(&self.deletes, predicate::ROBOT_HOLDS) {
             let thing = thing.clone();
-            deeds.push(if let Some([_, person]) = self.added(predicate::HANDED_OVER) {
-                Deed::HandOver { thing, person: person.clone() }
+            primitives.push(if let Some([_, person]) = self.added(predicate::HANDED_OVER) {
+                Primitive::HandOver { thing, person: person.clone() }
             } else {
                 let put = self.added(predicate::THING_ON).or(self.added(predicate::THING_IN));
                 let onto = put.and_then(|args| args.get(1)).cloned();
-                Deed::Put { thing, onto }
+                Primitive::Put { thing, onto }
             });
         }
         for (predicate, on) in [(predicate::DEVICE_ON, true), (predicate::DEVICE_OFF, false)] {
             if let Some([device]) = self.added(predicate) {
-                deeds.push(Deed::Switch { device: device.clone(), on });
+                primitives.push(Primitive::Switch { device: device.clone(), on });
             }
         }
         let lit = [(self.added(predicate::ROOM_LIT), true)]
@@ -209,19 +209,19 @@ impl Directive {
             .chain([(find(&self.deletes, predicate::ROOM_LIT), false)]);
         for (_, on) in lit.filter(|(room, _)| room.is_some()) {
             if let Some([lamp, _]) = find(&self.needs, predicate::SWITCH_OF_LIGHT) {
-                deeds.push(Deed::Switch { device: lamp.clone(), on });
+                primitives.push(Primitive::Switch { device: lamp.clone(), on });
             }
         }
         if self.added(predicate::ROOM_INSPECTED).is_some() {
-            deeds.push(Deed::LookRound);
+            primitives.push(Primitive::LookRound);
         }
         if let Some([thing]) = self.added(predicate::FOUND) {
-            deeds.push(Deed::Seek(thing.clone()));
+            primitives.push(Primitive::Seek(thing.clone()));
         }
         if let Some([person]) = self.added(predicate::CALLED) {
-            deeds.push(Deed::Call(person.clone()));
+            primitives.push(Primitive::Call(person.clone()));
         }
-        deeds
+        primitives
     }
 
     /// Whether a fact of this predicate holds afterwards.

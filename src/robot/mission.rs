@@ -27,7 +27,7 @@ pub(super) use names::before_passage;
 
 use super::barred::{Answer, Barred};
 use super::belief::Belief;
-use super::directive::{Deed, Directive};
+use super::directive::{Directive, Primitive};
 use super::idle::without_idle;
 use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
@@ -408,8 +408,10 @@ impl<'r> Mission<'r> {
             (reins.tell)(&Event::Started { number, of: directives.len(), directive });
             let begun = reins.time();
             let mut leg = Leg::default();
-            let result =
-                directive.deeds().iter().try_for_each(|deed| self.perform(deed, reins, &mut leg));
+            let result = directive
+                .primitives()
+                .iter()
+                .try_for_each(|primitive| self.perform(primitive, reins, &mut leg));
             leg.seconds = reins.time() - begun;
             self.belief.pose = reins.pose().1;
             if let Err(unfinished) = result {
@@ -507,11 +509,12 @@ impl<'r> Mission<'r> {
             // How large it is nobody knows: the way of this directive is given up, others may be free.
             Surprise::Blocked { .. } if self.is_new(surprise) => {
                 self.name_this_point();
-                let aims = directive.deeds().into_iter().filter_map(|deed| match deed {
-                    Deed::GoToPlace(name) | Deed::GoToDoor(name) => Some(name),
-                    Deed::Cross { door, .. } => Some(door),
-                    _ => None,
-                });
+                let aims =
+                    directive.primitives().into_iter().filter_map(|primitive| match primitive {
+                        Primitive::GoToPlace(name) | Primitive::GoToDoor(name) => Some(name),
+                        Primitive::Cross { door, .. } => Some(door),
+                        _ => None,
+                    });
                 // Each of them is noted.
                 aims.map(|name| self.belief.no_way_for_now(name)).filter(|news| *news).count() > 0
             }

@@ -8,7 +8,7 @@
 //!
 //! What a directive asks of the vehicle is read from its effects, never from its name. Every surprise must teach
 //! something, or the mission ends. It ends at once when it is told to stop, and what is believed is so. A vehicle is
-//! believed to be only where it can be (`robot/reins`); one that fails ends the mission, and of the deed under way
+//! believed to be only where it can be (`robot/reins`); one that fails ends the mission, and of the order under way
 //! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
 //! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
@@ -47,7 +47,7 @@ mod wishes;
 
 pub use barred::{Answer, Barred};
 pub use belief::{Belief, IN_MIDDLE, Person, STARTING_POINT, Spot, Station, facts_of_map};
-pub use directive::{Deed, Directive, Effect};
+pub use directive::{Directive, Effect, Primitive};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };

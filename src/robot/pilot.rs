@@ -191,7 +191,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
     fn ask<Why>(
         &mut self,
         watch: &mut Watch<'_>,
-        deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Result<(), Unfinished<Why>>,
+        order: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Result<(), Unfinished<Why>>,
     ) -> Result<(), Unfinished<Why>> {
         watch.check()?;
         let mut heard: Heard = Vec::new();
@@ -214,7 +214,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
             }
             if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let done = deed(&mut *self.body, &mut Watch::new(stop, &mut hear));
+        let done = order(&mut *self.body, &mut Watch::new(stop, &mut hear));
         for (odometry, scan) in heard {
             self.take_in(odometry, &scan);
         }
@@ -361,13 +361,13 @@ impl<'g, 'v> Pilot<'g, 'v> {
         self.odometry * (self.pose.inverse() * p)
     }
 
-    /// A deed of the hand, at a door or a lift.
+    /// An order to the hand, to a door or a lift.
     fn act(
         &mut self,
         watch: &mut Watch<'_>,
-        deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
+        order: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
     ) -> Done {
-        let done = self.ask(watch, deed);
+        let done = self.ask(watch, order);
         self.find_itself(watch)?;
         done
     }

@@ -9,7 +9,7 @@
 use crate::map::{DoorStatus, Entity};
 use crate::units::{AreaId, ReplicaId, Stop};
 
-use super::directive::{Deed, Directive};
+use super::directive::{Directive, Primitive};
 use super::mission::{Event, Mission, Surprise};
 use super::reins::Reins;
 use super::simulator::Simulator;
@@ -39,7 +39,9 @@ pub(super) fn rehearse(
     directives: &[&Directive],
     stop: &Stop,
 ) -> Result<(), (Known, Surprise)> {
-    let seeks = |d: &&&Directive| d.deeds().iter().any(|deed| matches!(deed, Deed::Seek(_)));
+    let seeks = |d: &&&Directive| {
+        d.primitives().iter().any(|primitive| matches!(primitive, Primitive::Seek(_)))
+    };
     let known = directives.iter().position(|d| seeks(&d)).unwrap_or(directives.len());
     if known == 0 {
         return Ok(());

@@ -153,10 +153,10 @@ impl<'v> Reins<'v> {
     /// Something that leaves the vehicle where it stands.
     pub(super) fn act(
         &mut self,
-        deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
+        order: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
     ) -> Done {
         let here = [self.at.1.at];
-        let done = self.watched(&here, deed);
+        let done = self.watched(&here, order);
         if !matches!(done, Err(Unfinished::Failed(_))) {
             self.take_over(&here).map_err(Unfinished::Failed)?;
         }
@@ -167,11 +167,11 @@ impl<'v> Reins<'v> {
     pub(super) fn ride(
         &mut self,
         to: (MapId, Pose),
-        deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
+        order: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
     ) -> Done {
         self.check_stop()?;
         let watch = &mut Watch::of(&self.stop);
-        let done = deed(&mut *self.vehicle, watch);
+        let done = order(&mut *self.vehicle, watch);
         match &done {
             Err(Unfinished::Failed(_)) => {}
             Err(Unfinished::Stopped) if self.vehicle.pose().0 == self.at.0 => {
@@ -196,7 +196,7 @@ impl<'v> Reins<'v> {
     fn watched<Why>(
         &mut self,
         way: &[Point],
-        deed: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Result<(), Unfinished<Why>>,
+        order: impl FnOnce(&mut dyn Vehicle, &mut Watch<'_>) -> Result<(), Unfinished<Why>>,
     ) -> Result<(), Unfinished<Why>> {
         self.check_stop()?;
         let Self { vehicle, stop, tell, at, time, seen, is_displaced } = self;
@@ -222,7 +222,7 @@ impl<'v> Reins<'v> {
             }
             ControlFlow::Continue(())
         };
-        let done = deed(&mut **vehicle, &mut Watch::new(stop.clone(), &mut hear));
+        let done = order(&mut **vehicle, &mut Watch::new(stop.clone(), &mut hear));
         match lie {
             Some(failure) => Err(Unfinished::Failed(failure)),
             None => done,

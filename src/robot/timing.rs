@@ -13,7 +13,7 @@ use crate::semantics::planning::{self, PlaceSource, RobotAt, RobotState};
 use crate::semantics::{Join, Lift, Relations, lifts, predicate};
 use crate::units::{AreaId, Deg, Gather as _, MapId, Point, name_key};
 
-use super::directive::{Deed, Directive, Effect};
+use super::directive::{Directive, Effect, Primitive};
 use super::mission::before_passage;
 
 /// Seconds to press a button.
@@ -107,8 +107,11 @@ impl<'a> Clock<'a> {
     }
 
     pub(super) fn takes(&mut self, directive: &Directive) -> Takes {
-        let deeds = directive.deeds();
-        let seconds = deeds.iter().map(|deed| self.deed(directive, deed)).sum::<Result<f64, _>>();
+        let primitives = directive.primitives();
+        let seconds = primitives
+            .iter()
+            .map(|primitive| self.primitive(directive, primitive))
+            .sum::<Result<f64, _>>();
         match seconds {
             Ok(seconds) => Takes::Seconds(seconds),
             Err(Untimed::NoWay) => Takes::NoWay,
@@ -116,14 +119,14 @@ impl<'a> Clock<'a> {
         }
     }
 
-    fn deed(&mut self, directive: &Directive, deed: &Deed) -> Result<f64, Untimed> {
+    fn primitive(&mut self, directive: &Directive, primitive: &Primitive) -> Result<f64, Untimed> {
         let look_round = 360.0 / self.world.robot.turn_rate;
-        Ok(match deed {
-            Deed::GoToPlace(place) => {
+        Ok(match primitive {
+            Primitive::GoToPlace(place) => {
                 let from = self.begins(directive)?;
                 self.drive(from, Spot::Place(name_key(place)))?
             }
-            Deed::GoToDoor(door) => {
+            Primitive::GoToDoor(door) => {
                 let from = self.begins(directive)?;
                 let area = match &from {
                     Spot::Door(_, area) => *area,
@@ -131,18 +134,20 @@ impl<'a> Clock<'a> {
                 };
                 self.drive(from, Spot::Door(name_key(door), area))?
             }
-            Deed::Cross { door, into } => {
+            Primitive::Cross { door, into } => {
                 let (from, into) = (self.begins(directive)?, self.area(into)?);
                 self.drive(from, Spot::Door(name_key(door), into))?
             }
-            Deed::SetDoor { .. } | Deed::SetOpen { .. } => DOOR_TIME,
-            Deed::CallLift { door, .. } => LIFT_WAIT + self.opens(door),
-            Deed::Ride { lift, to, door } => self.ride(directive, lift, to)? + self.opens(door),
-            Deed::Push(_) => PUSH_TIME,
-            Deed::Take(_) | Deed::Put { .. } | Deed::HandOver { .. } => GRASP_TIME,
-            Deed::Switch { .. } => SWITCH_TIME,
-            Deed::LookRound | Deed::Seek(_) => look_round,
-            Deed::Call(_) => CALL_TIME,
+            Primitive::SetDoor { .. } | Primitive::SetOpen { .. } => DOOR_TIME,
+            Primitive::CallLift { door, .. } => LIFT_WAIT + self.opens(door),
+            Primitive::Ride { lift, to, door } => {
+                self.ride(directive, lift, to)? + self.opens(door)
+            }
+            Primitive::Push(_) => PUSH_TIME,
+            Primitive::Take(_) | Primitive::Put { .. } | Primitive::HandOver { .. } => GRASP_TIME,
+            Primitive::Switch { .. } => SWITCH_TIME,
+            Primitive::LookRound | Primitive::Seek(_) => look_round,
+            Primitive::Call(_) => CALL_TIME,
         })
     }
 

@@ -167,7 +167,7 @@ pub enum RuleError {
         at: SourceSpan,
     },
 
-    /// A scenario that is to be driven wants what no deed of the robot brings about.
+    /// A scenario that is to be driven wants what nothing that the robot does brings about.
     #[error("этого робот исполнить не может: {fact}")]
     #[diagnostic(code(strips::not_driven), help("{help}"))]
     NotDriven {

@@ -71,7 +71,7 @@ fn a_scenario_is_driven_or_refused_at_its_place() {
     let walk = walk();
     let args = with(&["do", "--scenario", &walk, "--reset", "--truth", "truth.toml"]);
     assert!(place.run(&args).is(0).out.contains("путь преграждает Дверь-ZY"));
-    // What the map does not know, what is not so, and what no deed brings about.
+    // What the map does not know, what is not so, and what nothing that the robot does brings about.
     let rules = project("rules/service-robot.strips").display().to_string();
     let text = format!(
         "Включить: {rules}\nФакты:\nПОЗИЦИЯ_НАХОДИТСЯ-В_(Точка-Ю, Комната-В)\nДВЕРЬ_ИЗ_В_ЗАПЕРТА_(Дверь-ВZ, Комната-В, Комната-Z)\nЦель:\nОБСТАНОВКА-СООБЩЕНА_(Комната-Z)\nНЕ РОБОТ-НАХОДИТСЯ-В_(Комната-В)\n"

@@ -40,11 +40,11 @@ class Cart(orthoframe.Vehicle):
         if heading is not None:
             self.at = (*self.at[:3], heading)
 
-    def deed(self, *args, **named):
+    def obey(self, *args, **named):
         self.done.append(named)
         self.clock += 1.0
 
-    set_door = call_lift = take = put = hand_over = take_back = switch = call = look_round = deed
+    set_door = call_lift = take = put = hand_over = take_back = switch = call = look_round = obey
 
 
 @pytest.fixture

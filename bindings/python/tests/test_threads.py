@@ -56,10 +56,10 @@ def test_eight_threads_ask_edit_and_drive(house):
 
     def work(n):
         dice = random.Random(n)
-        deeds = [ask, relations, arrays, edit, nonsense, drive]
+        steps = [ask, relations, arrays, edit, nonsense, drive]
         try:
             while time.monotonic() < over:
-                dice.choice(deeds)(n, dice)
+                dice.choice(steps)(n, dice)
                 counts[n] += 1
         except BaseException as error:  # noqa: BLE001
             faults.append(error)

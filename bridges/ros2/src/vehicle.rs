@@ -245,7 +245,7 @@ impl Vehicle {
             Some("sees" | "look_at") => End::Say(json!({ "say": "seen", "sighting": null })),
             // What is no longer under way cannot be stopped.
             Some("cancel") => return Ok(()),
-            Some(deed) => End::Failed(format!("a robot of ROS 2 that only drives cannot {deed}")),
+            Some(verb) => End::Failed(format!("a robot of ROS 2 that only drives cannot {verb}")),
             None => End::Failed("an order was not understood".to_owned()),
         };
         self.listen();

@@ -1,7 +1,7 @@
-//! What a mission has its vehicle do, deed by deed: going and turning, riding, doors, taking and putting.
+//! What a mission has its vehicle do, primitive by primitive: going and turning, riding, doors, taking and putting.
 
 use crate::belief::Station;
-use crate::directive::Deed;
+use crate::directive::Primitive;
 use crate::geometry::{
     Barrier, Blocker, DoorStates, FloorPlan, Method, NoRoute, PlacedZone, Ride, Route, Target,
 };
@@ -18,12 +18,12 @@ use super::{Leg, Mission, Surprise, blocked, look_round, refused};
 impl Mission<'_> {
     pub(super) fn perform(
         &mut self,
-        deed: &Deed,
+        primitive: &Primitive,
         reins: &mut Reins<'_>,
         leg: &mut Leg,
     ) -> Result<(), Unfinished<Surprise>> {
-        match deed {
-            Deed::GoToPlace(name) => {
+        match primitive {
+            Primitive::GoToPlace(name) => {
                 let target = self.place_target(name)?;
                 self.go(name, target, &[self.belief.area], reins, leg)?;
                 let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
@@ -38,13 +38,13 @@ impl Mission<'_> {
                 }
                 self.belief.station = Station::Place(name.clone());
             }
-            Deed::GoToDoor(name) => {
+            Primitive::GoToDoor(name) => {
                 let area = self.belief.area;
                 let target = self.door_target(name, area, area)?;
                 self.go_out(name, target, &[area], reins, leg)?;
                 self.belief.station = Station::Door(name.clone());
             }
-            Deed::Cross { door: name, into } => {
+            Primitive::Cross { door: name, into } => {
                 let into = self.area(into)?;
                 let areas = [self.belief.area, into];
                 let target = self.door_target(name, self.belief.area, into)?;
@@ -52,40 +52,40 @@ impl Mission<'_> {
                 self.belief.area = into;
                 self.belief.station = Station::Door(name.clone());
             }
-            Deed::SetDoor { door, status } => self.set_door(door, *status, reins)?,
-            Deed::CallLift { lift, door } => {
+            Primitive::SetDoor { door, status } => self.set_door(door, *status, reins)?,
+            Primitive::CallLift { lift, door } => {
                 let opening = self.opening(door)?;
                 let called = reins.act(|vehicle, watch| vehicle.call_lift(opening, watch));
                 called.map_err(|r| refused(r, reins))?;
                 self.cabin_stands_at(lift, door, opening);
             }
-            Deed::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
-            Deed::SetOpen { thing, open } => {
+            Primitive::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
+            Primitive::SetOpen { thing, open } => {
                 let id = self.replica(thing)?;
                 self.within_reach(id, reins, leg, |v, watch| v.set_open(id, *open, watch))?;
                 self.belief.set_open(id, *open);
             }
-            Deed::Push(name) => {
+            Primitive::Push(name) => {
                 let id = self.replica(name)?;
                 self.push(id, reins, leg)?;
             }
-            Deed::Take(name) => self.take(name, reins, leg)?,
-            Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
-            Deed::HandOver { thing, person } => {
+            Primitive::Take(name) => self.take(name, reins, leg)?,
+            Primitive::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
+            Primitive::HandOver { thing, person } => {
                 let held = self.held(thing)?;
                 let given = reins.act(|vehicle, watch| vehicle.hand_over(held, watch));
                 given.map_err(|r| refused(r, reins))?;
                 let replica = self.belief.held.take().expect("checked by held()");
                 self.belief.handed_over.push((replica, person.clone()));
             }
-            Deed::Switch { device, on } => {
+            Primitive::Switch { device, on } => {
                 let id = self.replica(device)?;
                 self.within_reach(id, reins, leg, |v, watch| v.switch(id, *on, watch))?;
                 self.belief.switch(id, *on);
             }
-            Deed::LookRound => look_round(reins)?,
-            Deed::Seek(name) => self.seek(name, reins, leg)?,
-            Deed::Call(person) => {
+            Primitive::LookRound => look_round(reins)?,
+            Primitive::Seek(name) => self.seek(name, reins, leg)?,
+            Primitive::Call(person) => {
                 let called = reins.act(|vehicle, watch| vehicle.call(person, watch));
                 called.map_err(|r| refused(r, reins))?;
             }

@@ -289,9 +289,9 @@ impl SensingRobot {
     }
 
     /// Something that the hand does: the world may look otherwise afterwards.
-    fn act(&mut self, watch: &mut Watch<'_>, deed: impl FnOnce(&mut Simulator) -> Done) -> Done {
+    fn act(&mut self, watch: &mut Watch<'_>, order: impl FnOnce(&mut Simulator) -> Done) -> Done {
         watch.check()?;
-        let done = deed(&mut self.body);
+        let done = order(&mut self.body);
         self.faces = Faces::of(&self.body, self.senses.height);
         self.tell(watch, true);
         done

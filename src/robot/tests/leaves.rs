@@ -85,8 +85,10 @@ fn the_robot_never_stands_where_a_leaf_sweeps_that_it_opens() {
         let mut robot = Simulator::new(world.clone(), map, pose);
         let mut tell = |event: &Event<'_>| match event {
             Event::Finished { directive, belief, .. } => {
-                for deed in directive.deeds() {
-                    let Deed::SetDoor { door, status: DoorStatus::Open } = deed else { continue };
+                for primitive in directive.primitives() {
+                    let Primitive::SetDoor { door, status: DoorStatus::Open } = primitive else {
+                        continue;
+                    };
                     let id = world.find(&door).into_iter().find_map(|entity| match entity {
                         Entity::Door(id) => Some(id),
                         _ => None,

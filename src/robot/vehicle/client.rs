@@ -269,7 +269,7 @@ impl RemoteVehicle {
         failure
     }
 
-    /// A deed that is done, refused or stopped.
+    /// An order that is carried out, refused or stopped.
     fn act(&mut self, asked: &'static str, wish: Wish, watch: &mut Watch<'_>) -> Done {
         watch.check()?;
         match self.ask(asked, wish, watch).map_err(Unfinished::Failed)? {

@@ -255,12 +255,12 @@ impl<'w> Watch<'w> {
     }
 }
 
-/// What a deed of the hand, a door or a lift comes to.
+/// What an order to the hand, to a door or a lift comes to.
 pub type Done = Result<(), Unfinished<Refusal>>;
 
 /// A vehicle with a hand. All positions are of its Map's frame, cm; times are seconds since it was switched on.
 ///
-/// A drive that is stopped ends where it then is. Any other deed is done wholly or not at all: one that is told to stop
+/// A drive that is stopped ends where it then is. Any other order is carried out wholly or not at all: one that is told to stop
 /// while it is under way may be done to its end, and then it says that it is done.
 pub trait Vehicle {
     /// Where the vehicle knows itself to be.

@@ -55,7 +55,7 @@ class _Over(BaseException):
 
 
 class Vehicle:
-    """What a mission asks of a robot. `pose` and `follow` must be written; of deeds those that the robot can do.
+    """What a mission asks of a robot. `pose` and `follow` must be written; of the other orders those that the robot can do.
 
     A method that returns has done what was asked. While it is at work it calls `going`, once a second or more often:
     that tells where the robot is, and raises `Stopped` when the order is cancelled.
