@@ -121,7 +121,10 @@ pub(crate) fn told(survey: &Survey) -> String {
     }
     for told in &survey.told {
         let (taken, found) = (told.count.taken, told.count.found);
-        out += &format!("\n! {:?} {}: {} ({taken} из {found})", told.deed, told.source, told.text);
+        out += &format!(
+            "\n! {:?} {}: {} ({taken} из {found})",
+            told.treatment, told.source, told.text
+        );
     }
     out + "\n"
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use orthoframe::engine::{Change, Engine, Memory, Timestamp};
 use orthoframe_exchange::{
-    Deed, ImportError, Imported, Options, Room, What, file_text, read, read_rmf,
+    ImportError, Imported, Options, Room, Treatment, What, file_text, read, read_rmf,
 };
 use orthoframe_map::{DoorState, World, check};
 use orthoframe_units::{AreaId, Cm, MapId, Point};
@@ -136,7 +136,7 @@ fn passages_of_osmag_join_the_areas_that_they_name() {
     assert_eq!((rooms.len(), passages.len()), (177, 200));
     assert_eq!(taken(&school, What::Room), (177, 177), "{}", school.report);
     // Three pairs of rooms of one name lie over one another, and nothing in the file says lift or stairs.
-    let skipped = school.report.notes.iter().filter(|n| n.deed == Deed::Skipped);
+    let skipped = school.report.notes.iter().filter(|n| n.treatment == Treatment::Skipped);
     let skipped: Vec<_> = skipped.map(|n| (n.what, n.source.as_str())).collect();
     let shafts = ["E1-P1", "E1-P2", "E1-S1"].map(|name| (What::Lift, name));
     assert_eq!(skipped, shafts, "{}", school.report);
@@ -417,7 +417,7 @@ fn a_strict_import_refuses_what_had_to_be_mended() {
     assert_eq!(clean.world.areas.len(), 1);
     std::fs::write(&path, text + "      - [1, 77, {}]\n").expect("written");
     let loose = read(&path, &Options::default()).expect("it goes through");
-    assert_eq!(loose.report.count(Deed::Mended), 1);
+    assert_eq!(loose.report.count(Treatment::Mended), 1);
     assert!(matches!(read(&path, &strict), Err(ImportError::Strict { .. })));
 }
 

@@ -1,7 +1,7 @@
 //! Why a foreign file gives no map, or not all of one, in English.
 
 use super::report::Why;
-use super::{Deed, ImportError, ReadError};
+use super::{ImportError, ReadError, Treatment};
 use crate::units::{Bilingual, InEnglish, Language};
 
 fn en(words: &Bilingual) -> &str {
@@ -75,8 +75,8 @@ impl InEnglish for ImportError {
             Self::Synonyms { message, .. } => format!("table of synonyms: {}", en(message)),
             Self::Strict { report } => format!(
                 "strict import: {} mended, {} left out",
-                report.count(Deed::Mended),
-                report.count(Deed::Skipped)
+                report.count(Treatment::Mended),
+                report.count(Treatment::Skipped)
             ),
             Self::Map(faults) => faults.in_english().to_string(),
         }

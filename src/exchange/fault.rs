@@ -47,8 +47,8 @@ pub enum ImportError {
     /// Something was mended or left out, and that was not wanted.
     #[error(
         "строгий импорт: исправлено {mended}, пропущено {skipped}",
-        mended = .report.count(super::Deed::Mended),
-        skipped = .report.count(super::Deed::Skipped)
+        mended = .report.count(super::Treatment::Mended),
+        skipped = .report.count(super::Treatment::Skipped)
     )]
     #[diagnostic(
         code(import::strict),

@@ -50,7 +50,7 @@ pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
 pub use osmag::read as read_osmag;
 pub use read::{Format, Imported, Options, read, read_grid};
-pub use report::{Count, Deed, Note, Report, What, Why};
+pub use report::{Count, Note, Report, Treatment, What, Why};
 pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 use survey::zero_of;

@@ -369,7 +369,7 @@ fn assembled(
     }
     for told in &survey.told {
         let why = Why::Other { text: told.text.clone() };
-        report.note(told.deed, told.what, &told.source, why);
+        report.note(told.treatment, told.what, &told.source, why);
         report.found(told.what, told.count.found);
         report.taken(told.what, told.count.taken);
     }

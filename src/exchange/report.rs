@@ -15,7 +15,7 @@ use crate::units::{Bilingual, InEnglish, Language};
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Deed {
+pub enum Treatment {
     /// It arrived, but not as the file has it.
     Mended,
     /// It did not arrive.
@@ -250,7 +250,7 @@ impl Why {
 /// One thing that happened to one record of the file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Note {
-    pub deed: Deed,
+    pub treatment: Treatment,
     pub what: What,
     /// The record's id in the file.
     pub source: String,
@@ -285,20 +285,20 @@ impl Report {
         Self { format: format.to_owned(), file: file.to_owned(), ..Self::default() }
     }
 
-    pub fn note(&mut self, deed: Deed, what: What, source: &str, why: Why) {
-        self.notes.push(Note { deed, what, source: source.to_owned(), why });
+    pub fn note(&mut self, treatment: Treatment, what: What, source: &str, why: Why) {
+        self.notes.push(Note { treatment, what, source: source.to_owned(), why });
     }
 
     pub fn mended(&mut self, what: What, source: &str, why: Why) {
-        self.note(Deed::Mended, what, source, why);
+        self.note(Treatment::Mended, what, source, why);
     }
 
     pub fn skipped(&mut self, what: What, source: &str, why: Why) {
-        self.note(Deed::Skipped, what, source, why);
+        self.note(Treatment::Skipped, what, source, why);
     }
 
     pub fn noted(&mut self, what: What, source: &str, why: Why) {
-        self.note(Deed::Noted, what, source, why);
+        self.note(Treatment::Noted, what, source, why);
     }
 
     /// Counts records that the file has.
@@ -312,14 +312,14 @@ impl Report {
     }
 
     #[must_use]
-    pub fn count(&self, deed: Deed) -> usize {
-        self.notes.iter().filter(|note| note.deed == deed).count()
+    pub fn count(&self, treatment: Treatment) -> usize {
+        self.notes.iter().filter(|note| note.treatment == treatment).count()
     }
 
     /// Whether everything arrived as the file has it.
     #[must_use]
     pub fn is_clean(&self) -> bool {
-        self.notes.iter().all(|note| note.deed == Deed::Noted)
+        self.notes.iter().all(|note| note.treatment == Treatment::Noted)
     }
 
     /// The report as data: counts by sort, notes with stable codes.
@@ -337,7 +337,7 @@ impl Report {
             .iter()
             .map(|n| {
                 serde_json::json!({
-                    "deed": n.deed,
+                    "treatment": n.treatment,
                     "what": n.what,
                     "source": n.source,
                     "code": n.why.code(),
@@ -349,8 +349,8 @@ impl Report {
             "format": self.format,
             "file": self.file,
             "read": counts,
-            "mended": self.count(Deed::Mended),
-            "skipped": self.count(Deed::Skipped),
+            "mended": self.count(Treatment::Mended),
+            "skipped": self.count(Treatment::Skipped),
             "notes": notes,
         })
     }
@@ -384,19 +384,19 @@ impl Report {
             let read = language.pick("Прочитано", "Read");
             told.push_str(&format!("\n{read}: {}.", counts.join(", ")));
         }
-        for (deed, title) in [
-            (Deed::Mended, language.pick("Исправлено", "Mended")),
-            (Deed::Skipped, language.pick("Пропущено", "Left out")),
-            (Deed::Noted, language.pick("Замечено", "Noted")),
+        for (treatment, title) in [
+            (Treatment::Mended, language.pick("Исправлено", "Mended")),
+            (Treatment::Skipped, language.pick("Пропущено", "Left out")),
+            (Treatment::Noted, language.pick("Замечено", "Noted")),
         ] {
             let mut groups: BTreeMap<(String, What), Vec<&Note>> = BTreeMap::new();
-            for note in self.notes.iter().filter(|n| n.deed == deed) {
+            for note in self.notes.iter().filter(|n| n.treatment == treatment) {
                 groups.entry((note.why.code(), note.what)).or_default().push(note);
             }
             if groups.is_empty() {
                 continue;
             }
-            told.push_str(&format!("\n{title}: {}.", self.count(deed)));
+            told.push_str(&format!("\n{title}: {}.", self.count(treatment)));
             // Of the whole file no id is told.
             let about = |note: &Note, before: &str| match note.source.is_empty() {
                 true => String::new(),

@@ -12,7 +12,7 @@
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, OpensTo, Permeability, Properties};
 use crate::units::{Bilingual, Cm, Deg, Point};
 
-use super::report::{Count, Deed, What};
+use super::report::{Count, Treatment, What};
 
 /// A building as a foreign file describes it.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,7 +39,7 @@ pub struct Survey {
 /// What a reader tells of records of its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Told {
-    pub deed: Deed,
+    pub treatment: Treatment,
     pub what: What,
     /// The file's id of the record, or the name of a whole class of records.
     pub source: String,

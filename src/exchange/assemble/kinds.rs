@@ -262,6 +262,6 @@ mod tests {
         let built = build(&kind, None, &mut report);
         let area: f64 = built.bodies.iter().map(|b| doubled_area(&b.corners) / 2.0).sum();
         assert!((area - 6000.0).abs() < 1.0, "{area}");
-        assert_eq!(report.count(crate::Deed::Mended), 1);
+        assert_eq!(report.count(crate::Treatment::Mended), 1);
     }
 }

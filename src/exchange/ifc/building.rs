@@ -6,7 +6,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use crate::units::{Bilingual, Cm, InOrder as _, Point, bilingual};
-use crate::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
+use crate::{Count, Level, ReadError, Remark, Survey, Told, Treatment, What, outline, shafts};
 
 use super::classes::{self, Becomes};
 use super::place::Place;
@@ -164,18 +164,24 @@ impl<'a> Reader<'a> {
     /// the same.
     pub(super) fn tell(
         &mut self,
-        (deed, what): (Deed, What),
+        (treatment, what): (Treatment, What),
         (found, taken): (usize, usize),
         source: &str,
         text: impl Into<Bilingual>,
     ) {
         let (source, text) = (source.to_owned(), text.into());
-        self.survey.told.push(Told { deed, what, source, text, count: Count { found, taken } });
+        self.survey.told.push(Told {
+            treatment,
+            what,
+            source,
+            text,
+            count: Count { found, taken },
+        });
     }
 
     /// A record that does not arrive.
     pub(super) fn lose(&mut self, what: What, source: &str, text: impl Into<Bilingual>) {
-        self.tell((Deed::Skipped, what), (1, 0), source, text);
+        self.tell((Treatment::Skipped, what), (1, 0), source, text);
     }
 
     /// Elements that become what is asked for, by class, in the order of the file.
@@ -359,7 +365,7 @@ impl<'a> Reader<'a> {
                     format!("{count} шт.: {russian}"),
                     format!("{count}: {english}"),
                 );
-                self.tell((Deed::Noted, What::Record), (count, 0), kind, text);
+                self.tell((Treatment::Noted, What::Record), (count, 0), kind, text);
             }
         }
     }

@@ -14,7 +14,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Properties};
 use crate::units::{Cm, Point, Vector, bilingual};
-use crate::{Deed, Opening, OpeningKind, What};
+use crate::{Opening, OpeningKind, Treatment, What};
 
 use super::body::Body;
 use super::building::{Reader, source};
@@ -105,14 +105,14 @@ impl Reader<'_> {
                 "{others} шт.: пустые отверстия, сквозь которые не пройти или которые не соединяют помещений",
                 "{others}: empty openings that cannot be passed or join no rooms"
             );
-            self.tell((Deed::Noted, What::Record), (others, 0), "IFCOPENINGELEMENT", text);
+            self.tell((Treatment::Noted, What::Record), (others, 0), "IFCOPENINGELEMENT", text);
         }
         if passed > 0 {
             let text = bilingual!(
                 "{passed} шт. сверх {MOST_OPENINGS}, пропущены",
                 "{passed} beyond {MOST_OPENINGS} are left out"
             );
-            self.tell((Deed::Skipped, What::Record), (passed, 0), "IFCDOOR", text);
+            self.tell((Treatment::Skipped, What::Record), (passed, 0), "IFCDOOR", text);
         }
     }
 

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::Properties;
 use crate::units::{Cm, Point, Vector, bilingual};
-use crate::{Deed, Opening, OpeningKind, What, outline};
+use crate::{Opening, OpeningKind, Treatment, What, outline};
 
 use super::body::Body;
 use super::building::{Reader, source};
@@ -109,7 +109,7 @@ impl Reader<'_> {
                 "{placeless} мнимых границ без поверхности и без второго помещения",
                 "{placeless} virtual boundaries without a surface and without a second room"
             );
-            self.tell((Deed::Noted, What::Record), (0, 0), "IFCRELSPACEBOUNDARY", text);
+            self.tell((Treatment::Noted, What::Record), (0, 0), "IFCRELSPACEBOUNDARY", text);
         }
         for ((level, one, other), stretches) in found {
             for stretch in stretches {
@@ -122,7 +122,7 @@ impl Reader<'_> {
                 "{elements} шт.: сами они не тела; проходы берутся из границ помещений",
                 "{elements}: they are no bodies themselves; passages are taken from the boundaries of rooms"
             );
-            self.tell((Deed::Noted, What::Record), (elements, 0), "IFCVIRTUALELEMENT", text);
+            self.tell((Treatment::Noted, What::Record), (elements, 0), "IFCVIRTUALELEMENT", text);
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::map::Properties;
 use crate::units::Cm;
-use crate::{Deed, ReadError, Room, What, outline};
+use crate::{ReadError, Room, Treatment, What, outline};
 
 use super::body::{Body, together};
 use super::building::{Reader, source};
@@ -39,7 +39,7 @@ impl Reader<'_> {
                     "помещение состоит из других, взяты они",
                     "the room consists of others, which are taken",
                 );
-                self.tell((Deed::Noted, What::Room), (1, 1), &source, text);
+                self.tell((Treatment::Noted, What::Room), (1, 1), &source, text);
                 continue;
             }
             // A whole storey's area, for sums of money.
@@ -48,7 +48,7 @@ impl Reader<'_> {
                     "это площадь этажа (GFA), а не помещение",
                     "this is a storey’s area (GFA), and no room",
                 );
-                self.tell((Deed::Noted, What::Room), (1, 0), &source, text);
+                self.tell((Treatment::Noted, What::Room), (1, 0), &source, text);
                 continue;
             }
             let place = self.place_of(space);
@@ -92,14 +92,14 @@ impl Reader<'_> {
                 "пол помещения из нескольких частей, взята наибольшая",
                 "the room’s floor is in several parts, the largest is taken",
             );
-            self.tell((Deed::Mended, What::Room), (0, 0), &source, text);
+            self.tell((Treatment::Mended, What::Room), (0, 0), &source, text);
         }
         if bodies.iter().any(|b| b.is_round) {
             let text = (
                 "стены кривые: взят выпуклый контур их рёбер",
                 "the walls are curved: the convex outline of their edges is taken",
             );
-            self.tell((Deed::Mended, What::Room), (0, 0), &source, text);
+            self.tell((Treatment::Mended, What::Room), (0, 0), &source, text);
         }
         let holes = floor.holes.iter().filter_map(|h| ring(h)).collect();
         let level = self.level_of(id, low);

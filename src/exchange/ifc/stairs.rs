@@ -19,7 +19,7 @@ use crate::assemble::ring::{
 use crate::map::Properties;
 use crate::shafts::vertical;
 use crate::units::{Cm, InOrder as _, Point, Vector, bilingual};
-use crate::{Deed, Lift, Opening, OpeningKind, Room, What, outline};
+use crate::{Lift, Opening, OpeningKind, Room, Treatment, What, outline};
 
 use super::body::{Body, rings, together};
 use super::building::{Reader, source};
@@ -94,7 +94,7 @@ impl Reader<'_> {
                 of_others.len()
             );
             let count = (of_others.len(), of_others.len());
-            self.tell((Deed::Noted, What::Record), count, "IFCSTAIRFLIGHT", text);
+            self.tell((Treatment::Noted, What::Record), count, "IFCSTAIRFLIGHT", text);
         }
         every.extend(self.elements(Becomes::Lift));
         for (no, (id, record)) in every.into_iter().enumerate() {
@@ -140,10 +140,10 @@ impl Reader<'_> {
             "it leads to no other storey: it is taken as an obstacle",
         );
         if parts.is_empty() {
-            self.tell((Deed::Mended, What::Lift), (0, 0), own, text);
+            self.tell((Treatment::Mended, What::Lift), (0, 0), own, text);
             self.steps.push(id);
         } else {
-            self.tell((Deed::Mended, What::Lift), (1, 1), own, text);
+            self.tell((Treatment::Mended, What::Lift), (1, 1), own, text);
             self.steps.extend(parts);
         }
     }
@@ -243,7 +243,7 @@ impl Reader<'_> {
                 "помещение занято лестницей: оно и есть лестница",
                 "the room is taken up by stairs: it is the stairs",
             );
-            self.tell((Deed::Noted, What::Room), (0, 0), &own, text);
+            self.tell((Treatment::Noted, What::Room), (0, 0), &own, text);
             return Some(room);
         }
         let (one, other) = (rings(&[floor]), rings(std::slice::from_ref(&way.floor)));
@@ -328,7 +328,7 @@ impl Reader<'_> {
                 properties: Properties::new(),
             }),
             None => self.tell(
-                (Deed::Mended, What::Lift),
+                (Treatment::Mended, What::Lift),
                 (0, 0),
                 &own,
                 ("вход не найден", "its entrance is not found"),
@@ -363,7 +363,7 @@ impl Reader<'_> {
                 "вместе с другими маршами того же лестничного колодца",
                 "with other flights of the same shaft",
             );
-            return self.tell((Deed::Noted, What::Lift), (1, 1), &way.source, text);
+            return self.tell((Treatment::Noted, What::Lift), (1, 1), &way.source, text);
         }
         // Of one name, each after the first with its number.
         let like = lifts.iter().filter(|l| l.name.starts_with(&way.name)).count();

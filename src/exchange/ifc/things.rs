@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
 use crate::units::{Bilingual, Cm, Deg, InOrder as _, Point};
-use crate::{Deed, Kind, Part, Thing, What, outline};
+use crate::{Kind, Part, Thing, Treatment, What, outline};
 
 use super::body::{Body, area, hull, rings, together};
 use super::building::{Reader, source};
@@ -100,7 +100,7 @@ impl Reader<'_> {
                     "заготовка отверстия, а не вещь",
                     "this provides for an opening, and is no thing",
                 );
-                self.tell((Deed::Noted, What::Thing), (1, 0), &source, text);
+                self.tell((Treatment::Noted, What::Thing), (1, 0), &source, text);
                 continue;
             }
             let place = self.place_of(thing);
@@ -112,7 +112,7 @@ impl Reader<'_> {
                     "состоит из других вещей, взяты они",
                     "it consists of other things, which are taken",
                 );
-                self.tell((Deed::Noted, What::Thing), (1, 1), &source, text);
+                self.tell((Treatment::Noted, What::Thing), (1, 1), &source, text);
                 continue;
             }
             if is_pillar && !self.stands_free(id, &place, &look) {
@@ -154,7 +154,7 @@ impl Reader<'_> {
                 let (russian, english) = why;
                 let text = Bilingual::new(format!("{n} шт.: {russian}"), format!("{n}: {english}"));
                 let count = (n * found, n * taken);
-                self.tell((Deed::Noted, What::Thing), count, kind, text);
+                self.tell((Treatment::Noted, What::Thing), count, kind, text);
             }
         }
     }
@@ -192,7 +192,7 @@ impl Reader<'_> {
             );
         };
         if let Some(doubt) = look.doubt {
-            self.tell((Deed::Mended, What::Thing), (0, 0), &source_id, doubt);
+            self.tell((Treatment::Mended, What::Thing), (0, 0), &source_id, doubt);
         }
         let word = self.word(id, thing);
         let key = format!("{word} {:?}", look.parts);

@@ -1,8 +1,8 @@
 //! Surveys with every sort of dirt become worlds, and what was done to them is told.
 
 use orthoframe_exchange::{
-    Deed, Kind, Level, Lift, Opening, OpeningKind, Report, Room, Spot, Survey, Synonyms, Thing,
-    assemble,
+    Kind, Level, Lift, Opening, OpeningKind, Report, Room, Spot, Survey, Synonyms, Thing,
+    Treatment, assemble,
 };
 use orthoframe_map::plane::doubled_area;
 use orthoframe_map::{
@@ -227,7 +227,7 @@ fn things_places_courts_and_storeys() {
     assert_eq!(names, ["Стул-1", "Стул-2", "Gizmo-1"], "{report}");
     assert_eq!(world.places.len(), 1);
     assert!(codes(&report).contains(&"in-court import::outside".to_owned()), "{report}");
-    assert_eq!(report.count(Deed::Skipped), 1);
+    assert_eq!(report.count(Treatment::Skipped), 1);
     assert!(!codes(&report).iter().any(|c| c.ends_with("island")), "{report}");
 }
 

@@ -13,13 +13,13 @@ pub(super) struct Row {
     title: &'static str,
     about: &'static str,
     pub(super) needs: Role,
-    deed: Deed,
+    effect: Effect,
     takes: fn() -> Value,
 }
 
 /// What a tool does to the world.
 #[derive(Clone, Copy, PartialEq)]
-enum Deed {
+enum Effect {
     Reads,
     /// Adds to what is known, or proposes.
     Adds,
@@ -50,7 +50,7 @@ const ROWS: &[Row] = &[
         title: "Ask a question",
         about: "Answers a question in plain English or Russian about rooms, doors, things, how they lie to each other, ways, and the robot. Never acts. The dialogue is remembered: \"and what is under it?\" works.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "text": text("The question"), "lang": { "enum": ["en", "ru"], "description": "Of the answer, where the question does not tell" } }),
@@ -63,7 +63,7 @@ const ROWS: &[Row] = &[
         title: "Query in the rules' language",
         about: "Runs a Datalog query over relations and measurements, e.g. ?- ON_TOP_OF(X, \"Table 1\"), distance_between(X, \"Window 1\", D).order D.limit 3",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "query": text("A query, with rules of its own before it if it likes") }),
@@ -76,7 +76,7 @@ const ROWS: &[Row] = &[
         title: "Where is it",
         about: "Where a thing is believed to be and how surely, where it was seen and when, its properties and relations; without a name, where the robot is.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || of(&json!({ "name": text(THING) }), &[]),
     },
     Row {
@@ -84,7 +84,7 @@ const ROWS: &[Row] = &[
         title: "Relations",
         about: "Relations derived from the map's geometry: all of one name, all about one thing, or both.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "name": text("Of the relation, e.g. ON_TOP_OF, NEXT_TO, INSIDE"), "of": text(THING) }),
@@ -97,7 +97,7 @@ const ROWS: &[Row] = &[
         title: "Why does it hold",
         about: "The proof of a relation down to what was measured, e.g. relation ON_TOP_OF of [\"Cup 1\", \"Table 1\"].",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: fact,
     },
     Row {
@@ -105,7 +105,7 @@ const ROWS: &[Row] = &[
         title: "Why does it not hold",
         about: "Of a relation that does not hold: the rule that came closest, and the number that was missing.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: fact,
     },
     Row {
@@ -113,7 +113,7 @@ const ROWS: &[Row] = &[
         title: "A way",
         about: "The shortest way for the robot between two places, with its length, doors and points; where there is none, what bars it and what would open it.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "from": text("Where from: a name, or \"X,Y\" in cm"), "to": text("Where to") }),
@@ -126,7 +126,7 @@ const ROWS: &[Row] = &[
         title: "The map",
         about: "A picture of a storey or a room (PNG), and the same as data: outlines of rooms, things, doors and places in cm.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "name": text("A storey or a room; the lowest storey without one"), "picture": { "type": "boolean", "description": "With the picture (default), or the data alone" } }),
@@ -139,7 +139,7 @@ const ROWS: &[Row] = &[
         title: "History of the map",
         about: "Revisions of the map with author, time and reason, the newest last; with `from`, what changed since that revision.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 } }),
@@ -152,7 +152,7 @@ const ROWS: &[Row] = &[
         title: "Ask about the past",
         about: "Answers a question about the map as it stood at a revision.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || {
             of(
                 &json!({ "revision": { "type": "integer", "minimum": 1 }, "text": text("The question") }),
@@ -165,7 +165,7 @@ const ROWS: &[Row] = &[
         title: "Tasks",
         about: "What the robot does, what waits, and how the last tasks ended.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || of(&json!({}), &[]),
     },
     Row {
@@ -173,7 +173,7 @@ const ROWS: &[Row] = &[
         title: "What is elsewhere",
         about: "Things that are believed to stand elsewhere than the map says; a person confirms or rejects them.",
         needs: Role::Look,
-        deed: Deed::Reads,
+        effect: Effect::Reads,
         takes: || of(&json!({}), &[]),
     },
     Row {
@@ -181,7 +181,7 @@ const ROWS: &[Row] = &[
         title: "Plan a task",
         about: "Plans what the robot would do for an order in plain English or Russian, e.g. \"Bring the medicine\". Gives the plan's id, its steps, the proof that none is shorter, and what it assumes. Moves nothing.",
         needs: Role::Drive,
-        deed: Deed::Adds,
+        effect: Effect::Adds,
         takes: || {
             of(&json!({ "text": text("The order"), "lang": { "enum": ["en", "ru"] } }), &["text"])
         },
@@ -191,7 +191,7 @@ const ROWS: &[Row] = &[
         title: "Carry out a plan",
         about: "Has the robot carry out a plan by its id, that plan and no other. A person is asked first. Refused when the map, or anything that the plan rests on, has changed since. Tells of its progress, as a task where the client speaks of tasks; cancelling stops the robot.",
         needs: Role::Drive,
-        deed: Deed::Acts,
+        effect: Effect::Acts,
         takes: || {
             of(
                 &json!({ "id": { "type": "integer", "minimum": 1, "description": "As `plan` gave it" } }),
@@ -204,7 +204,7 @@ const ROWS: &[Row] = &[
         title: "Stop the robot",
         about: "Stops the robot at once and drops what waits. Needs nobody's word.",
         needs: Role::Look,
-        deed: Deed::Adds,
+        effect: Effect::Adds,
         takes: || of(&json!({}), &[]),
     },
     Row {
@@ -212,7 +212,7 @@ const ROWS: &[Row] = &[
         title: "Note an observation",
         about: "Notes that a thing was seen at a place of its storey, or that it was not where it was expected. Changes what is believed, never the surveyed map.",
         needs: Role::Drive,
-        deed: Deed::Adds,
+        effect: Effect::Adds,
         takes: || {
             of(
                 &json!({
@@ -230,7 +230,7 @@ const ROWS: &[Row] = &[
         title: "Propose an edit of the map",
         about: "Checks an edit of the map (the steps of `ortho edit --file`, as JSON) and tells what it would change. A person is asked before it is written; where nobody can be asked, it is laid beside the store for the operator.",
         needs: Role::Edit,
-        deed: Deed::Acts,
+        effect: Effect::Acts,
         takes: || {
             of(
                 &json!({
@@ -264,10 +264,10 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 pub(super) fn all() -> Vec<Tool> {
     let one = |row: &Row| {
         let Value::Object(schema) = (row.takes)() else { unreachable!("a schema is an object") };
-        let reads = row.deed == Deed::Reads;
+        let reads = row.effect == Effect::Reads;
         let hints = ToolAnnotations::with_title(row.title)
             .read_only(reads)
-            .destructive(row.deed == Deed::Acts)
+            .destructive(row.effect == Effect::Acts)
             .idempotent(reads || row.name == "stop")
             .open_world(false);
         Tool::new(row.name, row.about, Arc::new(schema)).with_title(row.title).annotate(hints)

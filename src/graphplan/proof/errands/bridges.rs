@@ -120,7 +120,7 @@ impl Bridges {
     }
 
     /// Steps in which something is done so that a bridge can be crossed at all, and nothing else that must be done.
-    pub(super) fn deeds(
+    pub(super) fn enabling_steps(
         &self,
         (task, groups): (&Task, &[Group]),
         places: &Places,

@@ -121,16 +121,16 @@ impl Errands {
         }
         // What is done at a place visited counts as well, where it is nothing else and goes beside nothing else.
         let mut actions = 2 * carried.len();
-        let deeds: Vec<Vec<OperatorId>> =
+        let by_goal: Vec<Vec<OperatorId>> =
             visited.iter().map(|(goal, _)| bringers(task, *goal).collect()).collect();
-        let all_deeds: Vec<OperatorId> = deeds.iter().flatten().copied().collect();
-        let with: BTreeSet<OperatorId> = counted.iter().chain(&all_deeds).copied().gather();
+        let bringers: Vec<OperatorId> = by_goal.iter().flatten().copied().collect();
+        let with: BTreeSet<OperatorId> = counted.iter().chain(&bringers).copied().gather();
         let excludes = |counted: &BTreeSet<OperatorId>| {
             let counted: Vec<OperatorId> = counted.iter().copied().collect();
             counted.len() <= MOST_COUNTED && all_exclude(task, groups, &counted)
         };
-        if with.len() == counted.len() + all_deeds.len() && excludes(&with) {
-            actions += deeds.len();
+        if with.len() == counted.len() + bringers.len() && excludes(&with) {
+            actions += by_goal.len();
         } else if !excludes(&counted) {
             return None;
         }
@@ -168,9 +168,9 @@ impl Errands {
         let bridges = Bridges::of(&places);
         let crossed = bridges.moves(&distance, (&points, carried, &spanned));
         let needed: Vec<usize> = spanned.iter().map(|&point| points[point]).collect();
-        let deeds = bridges.deeds((task, groups), &places, (&needed, &busy));
+        let enabling = bridges.enabling_steps((task, groups), &places, (&needed, &busy));
         let walked = (loaded + assigned).max(walk(&distance, &spanned)).max(crossed);
-        let at_least = actions + walked + deeds;
+        let at_least = actions + walked + enabling;
         let order = order(&distance, &errands);
         let stages = stages((task, &places), &settled, (&points, &errands, &order), &things);
         Some(Self { at_least, stages })
