@@ -45,7 +45,7 @@ pub(crate) const NOUN: Category = 0;
 pub(crate) const VALUE: Category = 1;
 pub(crate) const NUMBER: Category = 2;
 pub(crate) const PROPERTY: Category = 3;
-/// What serves for a deed that words say, by the part that it has: the first of [`PARTS`] and those after it.
+/// What serves for an activity that words say, by the part that it has: the first of [`PARTS`] and those after it.
 pub(crate) const SERVING: Category = 4;
 pub(crate) const PARTS: [Part; 6] =
     [Part::With, Part::From, Part::At, Part::By, Part::To, Part::Any];

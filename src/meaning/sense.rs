@@ -382,7 +382,7 @@ fn call(function: Function, values: Vec<Sense>, roles: &Signatures) -> Option<Se
         (Function::Exceeds, Me(measure), Some(D(than)), _) => {
             Some(M(vec![Mod::Exceeds(measure, than)]))
         }
-        // What serves for a deed, whatever it is done to.
+        // What serves for an activity, whatever it is done to.
         (Function::Of, D(desc), Some(D(_)), _) => Some(D(desc)),
         (Function::Beyond, Me(measure), Some(Sense::Number(n)), _) => {
             Some(M(vec![Mod::Beyond(measure, n)]))

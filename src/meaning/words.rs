@@ -39,8 +39,8 @@ pub(crate) struct Edge {
 
 /// Words of the longest name that is looked for.
 const LONGEST_NAME: usize = 7;
-/// Words of the longest deed, with what it is done to.
-const LONGEST_DEED: usize = 8;
+/// Words of the longest activity, with what it is done to.
+const LONGEST_ACTIVITY: usize = 8;
 /// Of more names alike the gender of each does not matter.
 const FEW_NAMES: usize = 8;
 
@@ -163,7 +163,7 @@ impl Sentence<'_> {
             let marks = self.tokens[from..].iter().position(Token::is_mark);
             let most = marks.unwrap_or(self.tokens.len() - from);
             self.nouns(from, most.min(LONGEST_NAME), &mut edges);
-            self.deeds(from, most, tongue, &mut edges);
+            self.activities(from, most, tongue, &mut edges);
             let mut key = String::new();
             let longest = tongue.longest.max(self.words.longest);
             for (n, token) in self.tokens[from..].iter().take(longest.max(1)).enumerate() {
@@ -211,12 +211,12 @@ impl Sentence<'_> {
         edges
     }
 
-    /// What serves for a deed that begins at a word. What it is done to need not be on the map, but is no word of the
-    /// grammar: «порезать хлеб».
-    fn deeds(&self, from: usize, most: usize, tongue: &Tongue, edges: &mut Vec<Edge>) {
+    /// What serves for an activity that begins at a word. What it is done to need not be on the map, but is no word of
+    /// the grammar: «порезать хлеб».
+    fn activities(&self, from: usize, most: usize, tongue: &Tongue, edges: &mut Vec<Edge>) {
         let keys: Vec<String> = self.tokens[from..from + most]
             .iter()
-            .take(LONGEST_DEED)
+            .take(LONGEST_ACTIVITY)
             .map(|t| t.key.clone())
             .collect();
         let Some(doing) = Doing::of(&keys) else { return };

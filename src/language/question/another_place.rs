@@ -141,8 +141,8 @@ impl Asker<'_> {
         (bare && owns && of.restrictions.is_empty()).then(|| last.clone().of_another(owner))
     }
 
-    /// «Есть что поесть на кухне? А попить?», "And to drink?": the same with another deed.
-    pub(super) fn another_deed(
+    /// «Есть что поесть на кухне? А попить?», "And to drink?": the same with another activity.
+    pub(super) fn another_activity(
         &self,
         sentence: &Sentence<'_>,
         last: &Query,
@@ -153,15 +153,15 @@ impl Asker<'_> {
         let mut rest = items
             .iter()
             .skip_while(|item| matches!(item, Item::Mark(Mark::And) | Item::Link(Rel::To)));
-        let (Some(Item::Mark(Mark::Deed(_))), None) = (rest.next(), rest.next()) else {
+        let (Some(Item::Mark(Mark::Activity(_))), None) = (rest.next(), rest.next()) else {
             return None;
         };
-        let deed = sentence.text.trim_end_matches(['?', '.', ' ']);
+        let activity = sentence.text.trim_end_matches(['?', '.', ' ']);
         let first =
             sentence.keys.iter().position(|key| !matches!(&**key, "а" | "и" | "and" | "to"))?;
-        let deed = &deed[sentence.words.get(first)?.start..];
+        let activity = &activity[sentence.words.get(first)?.start..];
         let lead = sentence.language.pick("Что можно", "What can I");
-        let Ok(Query::Serving { sort, of, .. }) = self.read(&format!("{lead} {deed}?"), memory)
+        let Ok(Query::Serving { sort, of, .. }) = self.read(&format!("{lead} {activity}?"), memory)
         else {
             return None;
         };

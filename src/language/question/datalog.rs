@@ -241,7 +241,7 @@ impl Rule<'_, '_> {
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee
-            | Query::Deeds
+            | Query::Done
             | Query::Changed
             | Query::Unseen
             | Query::Sureness

@@ -22,7 +22,7 @@ const VERBS: [(&str, &str); 11] = [
     ("выруби", "выключен"),
 ];
 
-/// A text that asks for the state in place of the deed.
+/// A text that asks for the state in place of the action.
 pub(super) fn as_it_is(text: &str) -> Option<String> {
     let (at, keys) = (word_ranges(text), word_keys(text));
     match Language::of(text) {
@@ -57,8 +57,8 @@ fn russian(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
             ends.then_some(*state)
         })
     };
-    let mut deeds = keys.iter().enumerate().filter_map(|(n, key)| Some((n, past(key)?)));
-    let (deed, state) = deeds.next().filter(|_| deeds.next().is_none())?;
+    let mut actions = keys.iter().enumerate().filter_map(|(n, key)| Some((n, past(key)?)));
+    let (action, state) = actions.next().filter(|_| actions.next().is_none())?;
     // «Кто-нибудь закрыл дверь?» asks of the door.
     let any = |key: &String| ["нибудь", "то", "либо"].contains(&key.as_str());
     let someone = keys.windows(2).position(|two| two[0] == "кто" && any(&two[1]));
@@ -69,7 +69,7 @@ fn russian(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
         return None;
     }
     let mut plain = text.to_owned();
-    let mut changes = vec![(at[deed].clone(), state)];
+    let mut changes = vec![(at[action].clone(), state)];
     changes.extend(someone.map(|n| (at[n].start..at[n + 1].end, "")));
     changes.order_by_key(|(range, _)| std::cmp::Reverse(range.start));
     for (range, by) in changes {
@@ -82,7 +82,7 @@ fn russian(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
 fn english(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
     const SOMEONE: [&str; 9] =
         ["i", "we", "he", "she", "they", "anyone", "anybody", "someone", "somebody"];
-    let [did, someone, deed, .., last] = keys else { return None };
+    let [did, someone, action, .., last] = keys else { return None };
     let whether = ["did", "have", "has"].contains(&did.as_str());
     if !whether || !SOMEONE.contains(&someone.as_str()) {
         return None;
@@ -93,7 +93,7 @@ fn english(text: &str, at: &[Range<usize>], keys: &[String]) -> Option<String> {
         _ => None,
     };
     let end = keys.len();
-    let (thing, state) = match deed.as_str() {
+    let (thing, state) = match action.as_str() {
         "close" | "closed" | "shut" => (3..end, "closed"),
         "open" | "opened" => (3..end, "open"),
         "lock" | "locked" => (3..end, "locked"),
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_deed_of_somebody_is_asked_after_by_the_state() {
+    fn an_action_of_somebody_is_asked_after_by_the_state() {
         let check = |text: &str, expected: Option<&str>| {
             assert_eq!(as_it_is(text).as_deref(), expected, "{text}");
         };

@@ -121,7 +121,7 @@ impl Asker<'_> {
         if let Some(query) = self.placed_there(text, last, memory) {
             return Some(query);
         }
-        if let Some(query) = self.another_deed(&sentence, last, memory) {
+        if let Some(query) = self.another_activity(&sentence, last, memory) {
             return Some(query);
         }
         if let Some(query) = self.anything_such(text, last, memory) {

@@ -68,7 +68,7 @@ pub(super) enum Mark {
     /// «положить», "put": where can one
     PutDown,
     /// «почитать», "drink from": what is done with things, by its number in `uses`
-    Deed(u16),
+    Activity(u16),
     /// "can I", «можно»
     Can,
     /// «держишь», "holding"

@@ -156,7 +156,7 @@ pub enum Query {
         /// Whether there is one at all, rather than which.
         whether: bool,
     },
-    /// What serves for a deed: things of a sort, as it was asked for.
+    /// What serves for an activity: things of a sort, as it was asked for.
     Serving {
         sort: u16,
         of: Noun,
@@ -186,7 +186,7 @@ pub enum Query {
     Courtesy(Courtesy),
     WhatDoYouSee,
     /// What the robot did last.
-    Deeds,
+    Done,
     /// What is not as the map has it.
     Changed,
     /// What of the map the robot has not seen.
@@ -239,7 +239,7 @@ pub enum Passing {
     Long,
 }
 
-/// What is asked of things that serve for a deed.
+/// What is asked of things that serve for an activity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Asked {
     What,
@@ -392,7 +392,7 @@ impl Query {
             | Self::Help
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
-            | Self::Deeds
+            | Self::Done
             | Self::Changed
             | Self::Unseen
             | Self::Sureness
@@ -445,7 +445,7 @@ impl Query {
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
-            Self::Deeds => "deeds",
+            Self::Done => "done",
             Self::Changed => "changed",
             Self::Unseen => "unseen",
             Self::Sureness => "sureness",

@@ -70,10 +70,11 @@ impl Asker<'_> {
             let at_once = |n: usize| {
                 let reported = is_reported(&keys[..n]) || n == 0 && led;
                 let joint = reported && JOINTS.contains(&keys[n].as_str());
-                // «Собираюсь заваривать чай, а где чайник?»: a deed by itself does not ask, and "what's" is one word.
-                let deed = matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Deed(_))));
+                // «Собираюсь заваривать чай, а где чайник?»: an activity alone does not ask, and "what's" is one word.
+                let activity =
+                    matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Activity(_))));
                 let cuts = span[..words[n].start].ends_with(['\'', '’']);
-                let asks = keys[n] != "ли" && !deed && opening::asks_at_once(&keys[n..]);
+                let asks = keys[n] != "ли" && !activity && opening::asks_at_once(&keys[n..]);
                 !joint && !cuts && (n == 0 || reported || asks)
             };
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));
@@ -328,7 +329,7 @@ impl Asker<'_> {
                 Item::Place { .. } => n > 0,
                 Item::Unknown(words) => self.is_word(sentence.said(words)),
                 Item::Mark(mark) => {
-                    matches!(mark, Mark::Deed(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
+                    matches!(mark, Mark::Activity(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)
                 }
                 _ => false,
             })

@@ -1,4 +1,4 @@
-//! What serves for a deed, by the part of it that is asked for: for whoever reads sentences in another way.
+//! What serves for an activity, by the part of it that is asked for: for whoever reads sentences in another way.
 
 use super::lexicon::{KindId, Lexicon};
 use super::purposes::{self, Role};
@@ -12,10 +12,10 @@ pub struct Doing {
     pub words: usize,
     /// Whether what it is done to may follow: «порезать хлеб».
     pub takes_object: bool,
-    deed: u16,
+    activity: u16,
 }
 
-/// Which part in a deed is asked for.
+/// Which part in an activity is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// «чем», "with"
@@ -51,11 +51,11 @@ impl Doing {
     /// What words, in [`name_key`](crate::units::name_key) form, begin with.
     #[must_use]
     pub fn of(words: &[String]) -> Option<Self> {
-        let (taken, deed) = uses::longest(words)?;
-        Some(Self { words: taken, takes_object: uses::takes_object(deed), deed })
+        let (taken, activity) = uses::longest(words)?;
+        Some(Self { words: taken, takes_object: uses::takes_object(activity), activity })
     }
 
-    /// Whether a word may stand before what a deed is done to, and says nothing.
+    /// Whether a word may stand before what an activity is done to, and says nothing.
     #[must_use]
     pub fn passes(word: &str) -> bool {
         things().between.iter().any(|own| own == word)
@@ -63,10 +63,10 @@ impl Doing {
 }
 
 impl Lexicon {
-    /// The kinds of a map that serve for a deed, the sort's own first; none where the part is none of it.
+    /// The kinds of a map that serve for an activity, the sort's own first; none where the part is none of it.
     #[must_use]
     pub fn serving(&self, doing: Doing, part: Part) -> Option<Vec<KindId>> {
-        let sorts: Vec<u16> = uses::sorts(doing.deed).collect();
+        let sorts: Vec<u16> = uses::sorts(doing.activity).collect();
         let of_role = |role: &Role| sorts.iter().find(|sort| purposes::role(**sort) == *role);
         part.roles().iter().find_map(of_role).map(|sort| self.kinds_of_sort(*sort))
     }

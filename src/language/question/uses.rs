@@ -1,7 +1,7 @@
 //! What people do with things, in the words of a question: «чем моют посуду», "where can I wash my hands?"
 //!
-//! Which things serve is told by the sorts of `purposes`. Invariant: of the sorts of a deed each has another role or
-//! other words; a deed that has a sort of things is never told of another sort's.
+//! Which things serve is told by the sorts of `purposes`. Invariant: of the sorts of an activity each has another role
+//! or other words; an activity that has a sort of things is never told of another sort's.
 
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use super::purposes;
 use crate::units::Gather as _;
-use crate::words::things::{Deed, Role, things};
+use crate::words::things::{Activity, Role, things};
 use Role::{Instrument, Location, Patient, Source, Theme};
 
 type Phrases = HashMap<String, Vec<(Vec<String>, u16)>>;
@@ -19,22 +19,22 @@ fn phrases() -> &'static Phrases {
     static PHRASES: OnceLock<Phrases> = OnceLock::new();
     PHRASES.get_or_init(|| {
         let mut all = Phrases::new();
-        for (n, Deed { said, .. }) in things().deeds.iter().enumerate() {
-            let deed = u16::try_from(n).unwrap_or(u16::MAX);
+        for (n, Activity { said, .. }) in things().activities.iter().enumerate() {
+            let activity = u16::try_from(n).unwrap_or(u16::MAX);
             for words in said.iter().flat_map(|phrase| in_all_forms(bare(phrase))) {
-                all.entry(words[0].clone()).or_default().push((words, deed));
+                all.entry(words[0].clone()).or_default().push((words, activity));
             }
         }
         all
     })
 }
 
-/// A phrase without the place of what the deed is done to.
+/// A phrase without the place of what the activity is done to.
 fn bare(phrase: &str) -> &str {
     phrase.trim_end_matches(" …")
 }
 
-/// A phrase with each word in all its forms; in Russian what the deed is done to may stand first.
+/// A phrase with each word in all its forms; in Russian what the activity is done to may stand first.
 fn in_all_forms(phrase: &str) -> Vec<Vec<String>> {
     let keys = |text: &str| text.split_whitespace().map(crate::units::name_key).collect::<Vec<_>>();
     let forms = |part: &str| things().forms.iter().find(|group| group[0] == part);
@@ -65,12 +65,12 @@ fn in_all_forms(phrase: &str) -> Vec<Vec<String>> {
     all
 }
 
-/// The deed that these words, in [`name_key`](crate::units::name_key) form, begin with, and how many they are.
+/// The activity that these words, in [`name_key`](crate::units::name_key) form, begin with, and how many they are.
 pub(super) fn longest(words: &[String]) -> Option<(usize, u16)> {
     let fitting = phrases()
         .get(words.first()?)?
         .iter()
-        .filter_map(|(phrase, deed)| Some((fits(phrase, words)?, *deed)));
+        .filter_map(|(phrase, activity)| Some((fits(phrase, words)?, *activity)));
     // Of equally long ones the first: what is listed before stands for more.
     fitting.fold(None, |best, next| match best {
         Some((taken, _)) if taken >= next.0 => best,
@@ -93,28 +93,29 @@ fn fits(phrase: &[String], words: &[String]) -> Option<usize> {
     Some(at)
 }
 
-/// The sorts of things that serve for a deed.
-pub(super) fn sorts(deed: u16) -> impl Iterator<Item = u16> {
-    let named = things().deeds.get(usize::from(deed)).map_or(&[][..], |deed| &deed.sorts);
+/// The sorts of things that serve for an activity.
+pub(super) fn sorts(activity: u16) -> impl Iterator<Item = u16> {
+    let named =
+        things().activities.get(usize::from(activity)).map_or(&[][..], |activity| &activity.sorts);
     named.iter().filter_map(|name| purposes::sort_called(name))
 }
 
-/// The sorts that serve for some deed, what is merely moved or switched left out.
+/// The sorts that serve for some activity, what is merely moved or switched left out.
 pub(super) fn all_sorts() -> impl Iterator<Item = u16> {
-    let deeds = 0..u16::try_from(things().deeds.len()).unwrap_or(u16::MAX);
-    let all: BTreeSet<u16> = deeds.flat_map(sorts).gather();
+    let activities = 0..u16::try_from(things().activities.len()).unwrap_or(u16::MAX);
+    let all: BTreeSet<u16> = activities.flat_map(sorts).gather();
     all.into_iter().filter(|sort| !matches!(purposes::role(*sort), Theme))
 }
 
-/// Whether a deed is to move or switch something: then nothing serves for it.
-pub(super) fn moves(deed: u16) -> bool {
-    sorts(deed).any(|sort| purposes::role(sort) == Theme)
+/// Whether an activity is to move or switch something: then nothing serves for it.
+pub(super) fn moves(activity: u16) -> bool {
+    sorts(activity).any(|sort| purposes::role(sort) == Theme)
 }
 
-/// Whether a deed is done to something that its phrase does not name: «чем порезать хлеб».
-pub(super) fn takes_object(deed: u16) -> bool {
-    let deed = things().deeds.get(usize::from(deed));
-    deed.is_some_and(|deed| deed.said.iter().any(|phrase| phrase.contains('…')))
+/// Whether an activity is done to something that its phrase does not name: «чем порезать хлеб».
+pub(super) fn takes_object(activity: u16) -> bool {
+    let activity = things().activities.get(usize::from(activity));
+    activity.is_some_and(|activity| activity.said.iter().any(|phrase| phrase.contains('…')))
 }
 
 /// A thing that an order names by its use: the words, and the sorts that will do, the likeliest first.
@@ -150,7 +151,7 @@ pub(super) fn wanted(keys: &[String]) -> Option<Wanted> {
         joints.push(keys[next].as_str());
         next += 1;
     }
-    let (taken, deed) = longest(&keys[next..])?;
+    let (taken, activity) = longest(&keys[next..])?;
     let mut end = next + taken;
     // What it is done to, and a preposition whose noun is what is wanted.
     let object =
@@ -158,7 +159,7 @@ pub(super) fn wanted(keys: &[String]) -> Option<Wanted> {
     let stranded = (end..keys.len().min(end + 4)).find(|n| is(*n, &["with"]));
     match stranded {
         Some(with) => end = with + 1,
-        None if takes_object(deed) => {
+        None if takes_object(activity) => {
             let between = &things().between;
             end += usize::from(keys.get(end).is_some_and(|key| between.contains(key)));
             end += usize::from(end < keys.len() && object(&end));
@@ -173,12 +174,12 @@ pub(super) fn wanted(keys: &[String]) -> Option<Wanted> {
     let roles = match () {
         () if said("with") || said("чем") => &[Instrument, Location][..],
         () if said("from") || said("out") || said("чего") => &[Source, Instrument],
-        () if sorts(deed).any(|sort| matches!(purposes::role(sort), Patient | Theme)) => {
+        () if sorts(activity).any(|sort| matches!(purposes::role(sort), Patient | Theme)) => {
             &[Patient, Theme]
         }
         () => &[Instrument, Source, Location],
     };
-    let of_role = |role: Role| sorts(deed).filter(move |sort| purposes::role(*sort) == role);
+    let of_role = |role: Role| sorts(activity).filter(move |sort| purposes::role(*sort) == role);
     Some(Wanted { words: start..end, sorts: roles.iter().copied().flat_map(of_role).collect() })
 }
 
@@ -187,14 +188,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_sort_of_a_deed_is_there_and_every_form_leads_to_its_deed() {
-        for (n, Deed { said, sorts: named }) in things().deeds.iter().enumerate() {
-            let deed = u16::try_from(n).unwrap();
-            assert_eq!(sorts(deed).count(), named.len(), "{named:?}");
+    fn every_sort_of_an_activity_is_there_and_every_form_leads_to_its_activity() {
+        for (n, Activity { said, sorts: named }) in things().activities.iter().enumerate() {
+            let activity = u16::try_from(n).unwrap();
+            assert_eq!(sorts(activity).count(), named.len(), "{named:?}");
             for phrase in said {
                 let words: Vec<String> =
                     bare(phrase).split_whitespace().map(crate::units::name_key).collect();
-                assert_eq!(longest(&words), Some((words.len(), deed)), "{phrase}");
+                assert_eq!(longest(&words), Some((words.len(), activity)), "{phrase}");
             }
         }
     }
@@ -203,7 +204,7 @@ mod tests {
     fn determiners_and_the_other_order_change_nothing() {
         let check = |text: &str, expected: Option<&str>| {
             let words: Vec<String> = text.split_whitespace().map(crate::units::name_key).collect();
-            let sort = longest(&words).and_then(|(_, deed)| sorts(deed).next());
+            let sort = longest(&words).and_then(|(_, activity)| sorts(activity).next());
             assert_eq!(
                 sort.map(|s| &*things().sorts[usize::from(s)].english[0]),
                 expected,

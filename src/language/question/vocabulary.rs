@@ -219,17 +219,17 @@ fn phrases() -> Vec<(Mark, String)> {
 }
 
 /// The mark of the longest phrase at the beginning of these words (in [`name_key`] form), with the number of words it
-/// takes. Where a phrase is listed twice, the first list wins, and all go before a deed's.
+/// takes. Where a phrase is listed twice, the first list wins, and all go before an activity's.
 pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
     let fits = |phrase: &[String]| words.get(..phrase.len()) == Some(phrase);
     let listed = table().get(words.first()?).and_then(|phrases| {
         let phrase = phrases.iter().find(|(phrase, _)| fits(phrase));
         phrase.map(|(phrase, mark)| (phrase.len(), *mark))
     });
-    let deed = uses::longest(words).map(|(taken, deed)| (taken, Mark::Deed(deed)));
-    match (listed, deed) {
-        (Some(listed), Some(deed)) if deed.0 > listed.0 => Some(deed),
-        (listed, deed) => listed.or(deed),
+    let activity = uses::longest(words).map(|(taken, activity)| (taken, Mark::Activity(activity)));
+    match (listed, activity) {
+        (Some(listed), Some(activity)) if activity.0 > listed.0 => Some(activity),
+        (listed, activity) => listed.or(activity),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What `things.txt` says: words for one sort of thing, sorts of things, and what people do with them.
 //!
-//! Invariant: every line reads (a test parses all of them); sorts and deeds keep the order of the file, which settles
-//! what goes before.
+//! Invariant: every line reads (a test parses all of them); sorts and activities keep the order of the file, which tells what
+//! goes before.
 
 use std::sync::OnceLock;
 
@@ -44,7 +44,7 @@ impl Sort {
 
 /// Phrases of something that is done, «…» for what it is done to, and the English names of the sorts that serve for it.
 #[derive(Debug)]
-pub(crate) struct Deed {
+pub(crate) struct Activity {
     pub(crate) said: Vec<String>,
     pub(crate) sorts: Vec<String>,
 }
@@ -55,11 +55,11 @@ pub(crate) struct Things {
     pub(crate) same: Vec<Vec<String>>,
     /// The number of a sort is its place here.
     pub(crate) sorts: Vec<Sort>,
-    /// Words that may stand before what a deed is done to.
+    /// Words that may stand before what an activity is done to.
     pub(crate) between: Vec<String>,
     /// Forms that stand for one another, the first for all.
     pub(crate) forms: Vec<Vec<String>>,
-    pub(crate) deeds: Vec<Deed>,
+    pub(crate) activities: Vec<Activity>,
     /// Names of properties: what the program calls one, and the words for it.
     pub(crate) properties: Vec<(String, Vec<String>)>,
     /// Names of properties that nobody asks for by a word of their own, as imports and maps give them, in both languages.
@@ -119,9 +119,9 @@ impl Things {
             "same" => self.same.push(words(rest)),
             "forms" => self.forms.push(words(rest)),
             "between" => self.between.extend(words(rest)),
-            "deed" => {
+            "activity" => {
                 let (said, sorts) = rest.split_once(" : ")?;
-                self.deeds.push(Deed { said: words(said), sorts: words(sorts) });
+                self.activities.push(Activity { said: words(said), sorts: words(sorts) });
             }
             "sort" => {
                 let mut parts = rest.split(" : ");
@@ -177,8 +177,8 @@ mod tests {
             assert!(properties.iter().any(|(name, _)| *name == value.property), "{value:?}");
             assert!(!value.english.is_empty(), "{value:?}");
         }
-        for deed in &things().deeds {
-            assert!(!deed.said.is_empty() && !deed.sorts.is_empty(), "{deed:?}");
+        for activity in &things().activities {
+            assert!(!activity.said.is_empty() && !activity.sorts.is_empty(), "{activity:?}");
         }
     }
 }

@@ -158,7 +158,7 @@ impl Knowledge<'_> {
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::Sees(noun) => self.sees(noun)?,
-            Query::Deeds => self.deeds(),
+            Query::Done => self.done(),
             Query::Changed => self.changed(),
             Query::Unseen => self.unseen(),
             Query::Sureness => self.sureness(),

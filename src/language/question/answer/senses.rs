@@ -215,7 +215,7 @@ impl Knowledge<'_> {
         Draft::new(Said::Found, text.to_owned())
     }
 
-    pub(super) fn deeds(&self) -> Draft {
+    pub(super) fn done(&self) -> Draft {
         let none = self
             .pick("в этом разговоре я ещё ничего не делал", "I have done nothing yet in this talk");
         match &self.memory.done {

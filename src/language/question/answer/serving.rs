@@ -1,4 +1,4 @@
-//! What serves for a deed: which things and where they are, "Knife 1 (on Counter 1 in the kitchen) will do."
+//! What serves for an activity: which things and where they are, "Knife 1 (on Counter 1 in the kitchen) will do."
 //!
 //! Invariant: who asks for something to use is told where it is: a few things by their places, more by their rooms.
 

@@ -18,14 +18,14 @@ impl Frame<'_, '_> {
             return Some(Query::WhatDoYouHold);
         }
         if self.has(Mark::Help)
-            && self.deed_said().is_none()
+            && self.activity_said().is_none()
             && self.nouns.is_empty()
             && self.spots.is_empty()
         {
             return Some(Query::Help);
         }
         if self.has(Mark::Did) && self.nouns.is_empty() && self.spots.is_empty() {
-            return Some(Query::Deeds);
+            return Some(Query::Done);
         }
         let own = [
             (Mark::Changed, Query::Changed),
@@ -54,7 +54,7 @@ impl Frame<'_, '_> {
         if me
             && asks
             && nowhere
-            && self.deed_said().is_none()
+            && self.activity_said().is_none()
             && !self.has(Mark::HowGet)
             && !self.has(Mark::Move)
         {
@@ -209,7 +209,7 @@ impl Frame<'_, '_> {
         }
         // «Где можно посидеть и почитать?» asks for a seat.
         let rests = self.has(Mark::Where) && (self.has(Mark::Sit) || self.has(Mark::LieDown));
-        if let Some(query) = self.deed().filter(|_| !rests) {
+        if let Some(query) = self.activity().filter(|_| !rests) {
             return Some(query);
         }
         let asks = self.has(Mark::Where)

@@ -26,11 +26,11 @@ fn is_only_from(items: &[Item]) -> bool {
     places.next() == Some(Rel::From) && places.next().is_none()
 }
 
-/// Whether an item stands where a deed names what it is done to: «порезать хлеб», "cut the bread".
+/// Whether an item stands where an activity names what it is done to: «порезать хлеб», "cut the bread".
 fn done_to(items: &[Item], at: usize) -> bool {
     let article = |item: &Item| matches!(item, Item::Mark(Mark::The | Mark::A));
     let before = items[..at].iter().rev().find(|item| !article(item));
-    matches!(before, Some(Item::Mark(Mark::Deed(deed))) if uses::takes_object(*deed))
+    matches!(before, Some(Item::Mark(Mark::Activity(activity))) if uses::takes_object(*activity))
 }
 
 /// Whether a preposition governs no noun but whatever there is, "on anything", «ни на чём»; and whether that is denied, "on nothing".
@@ -274,7 +274,7 @@ impl<'s, 't> Frame<'s, 't> {
         }
         // "What else is there?"
         let bare = frame.nouns.is_empty() && frame.spots.is_empty() && frame.there.is_none();
-        let bare = bare && !frame.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
+        let bare = bare && !frame.marks.iter().any(|(mark, _)| matches!(mark, Mark::Activity(_)));
         if bare && frame.asks() && frame.has(Mark::Other) && frame.has(Mark::Exists) {
             let meant = referent(Pronoun::There, None);
             frame.there = (!meant.is_empty()).then(|| things(meant, "there"));

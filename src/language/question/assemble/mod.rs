@@ -5,10 +5,10 @@
 
 mod about;
 mod account;
+mod activity;
 mod attach;
 mod claim;
 mod compare;
-mod deed;
 mod elided;
 mod frame;
 mod passing;
@@ -255,7 +255,7 @@ struct Frame<'s, 't> {
     except: Vec<Noun>,
     /// All that is excepted, whatever of.
     excepted: Vec<Noun>,
-    /// What a deed is done to, where nothing knows the word.
+    /// What an activity is done to, where nothing knows the word.
     undone: Option<String>,
     /// A number that counts nothing was said.
     idle: bool,
@@ -270,7 +270,7 @@ fn things(things: Vec<Thing>, text: &str) -> Noun {
 impl Frame<'_, '_> {
     fn read(&self) -> Option<Query> {
         if self.has(Mark::Why) || self.has(Mark::WhyNot) {
-            return match self.deed_done_with() {
+            return match self.activity_done_with() {
                 Some(query) => query,
                 None => Some(self.why()),
             };

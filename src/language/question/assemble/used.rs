@@ -213,7 +213,7 @@ impl Frame<'_, '_> {
             | Query::WhereAreYou(_)
             | Query::WhereAmI
             | Query::WhatDoYouSee
-            | Query::Deeds
+            | Query::Done
             | Query::Changed
             | Query::Unseen
             | Query::Sureness
@@ -239,7 +239,7 @@ impl Frame<'_, '_> {
         }
         // "Which room would you go to to cook?": no room is told by what is done there.
         let rooms = |noun: &Noun| self.is_area(noun) && self.asks_only(noun);
-        if self.deed_said().is_some() && matches!(query, Query::Find(noun) if rooms(noun)) {
+        if self.activity_said().is_some() && matches!(query, Query::Find(noun) if rooms(noun)) {
             return Some(self.sentence.text.to_owned());
         }
         if !self.serves(query) && self.undone.is_some() {
@@ -316,13 +316,15 @@ impl Frame<'_, '_> {
             return Some(noun.text.clone());
         }
         // "On what do cats fry eggs?" is not asked of eggs alone.
-        let own = |deed: u16| uses::sorts(deed).flat_map(|sort| self.lexicon.kinds_of_sort(sort));
-        let done =
-            |deed: u16| own(deed).any(|kind| used.heads.iter().any(|h| h.kinds.contains(&kind)));
+        let own =
+            |activity: u16| uses::sorts(activity).flat_map(|sort| self.lexicon.kinds_of_sort(sort));
+        let done = |activity: u16| {
+            own(activity).any(|kind| used.heads.iter().any(|h| h.kinds.contains(&kind)))
+        };
         let served = matches!(query, Query::Serving { .. } | Query::Place { .. });
-        if let Some((deed, _)) = self.deed_said()
+        if let Some((activity, _)) = self.activity_said()
             && !served
-            && !done(deed)
+            && !done(activity)
         {
             return Some(self.sentence.text.to_owned());
         }
@@ -330,8 +332,8 @@ impl Frame<'_, '_> {
         // Where a door leads is told with all its rooms.
         let leads = matches!(query, Query::Leads(_));
         // «Чем порезать хлеб?»: what is cut limits nothing.
-        let object = self.object_of_deed().filter(|_| serving).map(|s| s.at);
-        let apart: Vec<usize> = self.beside_deed().filter(|_| serving).map(|s| s.at).collect();
+        let object = self.object_of_activity().filter(|_| serving).map(|s| s.at);
+        let apart: Vec<usize> = self.beside_activity().filter(|_| serving).map(|s| s.at).collect();
         let nouns = self.nouns.iter().filter(|s| Some(s.at) != object).map(|s| &s.noun);
         let places = self.spots.iter().filter(|s| !apart.contains(&s.at)).flat_map(|s| &s.nouns);
         let tells = |noun: &&Noun| {

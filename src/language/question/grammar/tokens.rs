@@ -78,7 +78,7 @@ impl<'t> Sentence<'t> {
         // "for cutting bread", but "a cutting board"
         let noun_like = keys[0].ends_with("ing") && (at == 0 || self.keys[at - 1] != "for");
         let mark = mark.filter(
-            |(_, mark)| !matches!(mark, Mark::Deed(deed) if noun_like && !uses::moves(*deed)),
+            |(_, mark)| !matches!(mark, Mark::Activity(activity) if noun_like && !uses::moves(*activity)),
         );
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
@@ -250,18 +250,18 @@ impl<'t> Sentence<'t> {
         }
     }
 
-    /// "something to cut an apple with": a preposition of a deed whose noun is what is asked for.
+    /// "something to cut an apple with": a preposition of an activity whose noun is what is asked for.
     fn drop_stranded(&mut self) {
-        let deed = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Deed(_)));
-        let Some(first) = self.tokens.iter().position(deed) else { return };
+        let activity = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Activity(_)));
+        let Some(first) = self.tokens.iter().position(activity) else { return };
         let link = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Link(_)));
         let stranded: Vec<usize> = (0..self.tokens.len())
             .filter(|n| link(&self.tokens[*n]))
             .filter(|n| {
                 let next = self.tokens.get(n + 1);
                 // "for cutting bread"
-                let before_deed = next.is_some_and(deed);
-                before_deed || (*n > first && next.is_none_or(link))
+                let before_activity = next.is_some_and(activity);
+                before_activity || (*n > first && next.is_none_or(link))
             })
             .collect();
         for n in stranded.into_iter().rev() {
@@ -312,7 +312,7 @@ impl<'t> Sentence<'t> {
         // "something to sit on"
         let before = self.tokens.last().map(|t| t.kind);
         let used = matches!(before, Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown)))
-            || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Deed(_))));
+            || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Activity(_))));
         let joint = matches!(next, Some("or" | "and"));
         let ends = !used && (joint || self.ends_in_small_words(at + 1));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);

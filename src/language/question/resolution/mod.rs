@@ -99,7 +99,7 @@ impl Asker<'_> {
         let text = self.with_one_of_those(text, memory);
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
-        let text = self.with_deed(text, language).map_err(misread)?;
+        let text = self.with_activity(text, language).map_err(misread)?;
         let numbers = command::lost(&said, &word_keys(&text)).into_iter();
         if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
             return Err(misread(Doubt::not_understood(&number)));
@@ -200,7 +200,7 @@ impl Asker<'_> {
     }
 
     /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
-    fn with_deed(&self, text: String, language: Language) -> Result<String, Doubt> {
+    fn with_activity(&self, text: String, language: Language) -> Result<String, Doubt> {
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         let Some(wanted) = uses::wanted(&keys) else { return Ok(text) };
         let memory = Memory::default();

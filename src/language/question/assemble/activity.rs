@@ -1,7 +1,7 @@
 //! What things are used for: «чем моют посуду», "where can I wash my hands?", "something to cut an apple with".
 //!
-//! Invariant: what a deed is done to limits nothing; every other noun narrows what serves for it, or the question is
-//! not understood.
+//! Invariant: what an activity is done to limits nothing; every other noun narrows what serves for it, or the question
+//! is not understood.
 
 use super::{Frame, Subject};
 use crate::question::lexicon::Extension;
@@ -12,25 +12,25 @@ use crate::question::uses;
 use crate::words::Language;
 
 impl Frame<'_, '_> {
-    /// The deed that a sentence speaks of, and its place there.
-    pub(super) fn deed_said(&self) -> Option<(u16, usize)> {
+    /// The activity that a sentence speaks of, and its place there.
+    pub(super) fn activity_said(&self) -> Option<(u16, usize)> {
         let said = || {
             self.marks.iter().filter_map(|(mark, at)| match mark {
-                Mark::Deed(deed) => Some((*deed, *at)),
+                Mark::Activity(activity) => Some((*activity, *at)),
                 _ => None,
             })
         };
         // "Bring me something to write with": it is to be brought because one writes with it.
-        said().find(|(deed, _)| !uses::moves(*deed)).or_else(|| said().next())
+        said().find(|(activity, _)| !uses::moves(*activity)).or_else(|| said().next())
     }
 
-    /// What the deed is done to, which need not be on the map: «порезать хлеб».
-    pub(super) fn object_of_deed(&self) -> Option<&Subject> {
-        let (deed, at) = self.deed_said()?;
+    /// What the activity is done to, which need not be on the map: «порезать хлеб».
+    pub(super) fn object_of_activity(&self) -> Option<&Subject> {
+        let (activity, at) = self.activity_said()?;
         let beside = |place: usize| {
             let free =
                 |s: &&Subject| s.at == place && !self.is_area(&s.noun) && !self.is_things(&s.noun);
-            self.nouns.iter().find(free).filter(|_| uses::takes_object(deed))
+            self.nouns.iter().find(free).filter(|_| uses::takes_object(activity))
         };
         // «хлеб порезать»; in English what stands before is no object.
         let russian = self.sentence.language == Language::Russian;
@@ -39,12 +39,12 @@ impl Frame<'_, '_> {
     }
 
     /// «Что можно почитать?», "Where can I wash my hands?": the things of a sort, or where they are.
-    pub(super) fn deed(&self) -> Option<Query> {
-        let (deed, _) = self.deed_said()?;
-        if let Some(query) = self.deed_with(deed) {
+    pub(super) fn activity(&self) -> Option<Query> {
+        let (activity, _) = self.activity_said()?;
+        if let Some(query) = self.activity_with(activity) {
             return Some(query);
         }
-        let sort = self.sort_for(deed)?;
+        let sort = self.sort_for(activity)?;
         let role = purposes::role(sort);
         let asks = self.has(Mark::Where)
             || self.has(Mark::Whither)
@@ -79,7 +79,8 @@ impl Frame<'_, '_> {
             let noun = self.with_rest(noun, &[at]);
             return Some(Query::Find(Noun { plural: true, indefinite: true, ..noun }));
         }
-        let object = self.object_of_deed().filter(|_| !matches!(role, Role::Patient | Role::Theme));
+        let object =
+            self.object_of_activity().filter(|_| !matches!(role, Role::Patient | Role::Theme));
         let others: Vec<&Subject> =
             self.nouns.iter().filter(|s| object.is_none_or(|object| object.at != s.at)).collect();
         let noun = match others[..] {
@@ -91,7 +92,7 @@ impl Frame<'_, '_> {
             _ => return None,
         };
         // «вытереть пыль с полки»: what it is done to as well.
-        let apart: Vec<usize> = self.beside_deed().map(|s| s.at).collect();
+        let apart: Vec<usize> = self.beside_activity().map(|s| s.at).collect();
         let noun = Noun { plural: true, indefinite: true, ..self.with_rest(noun, &apart) };
         // "What else is there to eat?"
         let noun = Noun { other: noun.other || self.has(Mark::Other), ..noun };
@@ -112,7 +113,7 @@ impl Frame<'_, '_> {
     }
 
     /// "Can I drink from the mug?": whether such things serve for it.
-    fn deed_with(&self, deed: u16) -> Option<Query> {
+    fn activity_with(&self, activity: u16) -> Option<Query> {
         let [spot] = &self.spots[..] else { return None };
         let role = match spot.rel {
             Rel::From => Role::Source,
@@ -122,20 +123,21 @@ impl Frame<'_, '_> {
         };
         let noun = &spot.nouns[0];
         let fits = |sort: &u16| purposes::role(*sort) == role && self.covers(*sort, noun);
-        let sort = uses::sorts(deed).find(fits)?;
-        let others = self.nouns.iter().any(|s| self.object_of_deed().is_none_or(|o| o.at != s.at));
+        let sort = uses::sorts(activity).find(fits)?;
+        let others =
+            self.nouns.iter().any(|s| self.object_of_activity().is_none_or(|o| o.at != s.at));
         let of = Noun { plural: true, indefinite: true, ..noun.clone() };
         let whether = self.asks_whether() && !others && spot.nouns.len() == 1;
         whether.then_some(Query::Serving { sort, of, asked: Asked::Suits })
     }
 
-    /// "Why can I drink from the mug?": of what is used, where a sentence names it; none where no deed is spoken of.
-    pub(super) fn deed_done_with(&self) -> Option<Option<Query>> {
-        let (deed, _) = self.deed_said()?;
-        if uses::moves(deed) {
+    /// "Why can I drink from the mug?": of what is used, where a sentence names it; none where nothing is done.
+    pub(super) fn activity_done_with(&self) -> Option<Option<Query>> {
+        let (activity, _) = self.activity_said()?;
+        if uses::moves(activity) {
             return None;
         }
-        let sorts: Vec<u16> = uses::sorts(deed).collect();
+        let sorts: Vec<u16> = uses::sorts(activity).collect();
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let nouns = nouns.chain(self.spots.iter().flat_map(|s| &s.nouns));
         let about = nouns.into_iter().find_map(|noun| {
@@ -160,9 +162,9 @@ impl Frame<'_, '_> {
         asked.then(|| Query::Purpose(self.with_rest(of, &[])))
     }
 
-    /// Places that tell of the deed and not of what serves for it: «с полки», «в тарелку».
-    pub(super) fn beside_deed(&self) -> impl Iterator<Item = &super::Spot> {
-        let takes = self.deed_said().is_some_and(|(deed, _)| uses::takes_object(deed));
+    /// Places that tell of the activity and not of what serves for it: «с полки», «в тарелку».
+    pub(super) fn beside_activity(&self) -> impl Iterator<Item = &super::Spot> {
+        let takes = self.activity_said().is_some_and(|(activity, _)| uses::takes_object(activity));
         self.spots.iter().filter(move |s| {
             takes && matches!(s.rel, Rel::From | Rel::To | Rel::Of) && !self.is_area(&s.nouns[0])
         })
@@ -189,9 +191,9 @@ impl Frame<'_, '_> {
         !kinds.is_empty() && kinds.iter().all(|kind| own.contains(kind))
     }
 
-    /// Of the sorts of a deed the one whose role is asked for.
-    fn sort_for(&self, deed: u16) -> Option<u16> {
-        let sorts: Vec<u16> = uses::sorts(deed).collect();
+    /// Of the sorts of an activity the one whose role is asked for.
+    fn sort_for(&self, activity: u16) -> Option<u16> {
+        let sorts: Vec<u16> = uses::sorts(activity).collect();
         // «Где почитать книгу?» asks for the book.
         let patient = |sort: &&u16| {
             purposes::role(**sort) == Role::Patient
@@ -205,12 +207,12 @@ impl Frame<'_, '_> {
         self.roles_asked().into_iter().find_map(of_role)
     }
 
-    /// The role of what the deed of the sentence asks for.
+    /// The role of what the activity of the sentence asks for.
     pub(super) fn role_said(&self) -> Option<Role> {
-        Some(purposes::role(self.sort_for(self.deed_said()?.0)?))
+        Some(purposes::role(self.sort_for(self.activity_said()?.0)?))
     }
 
-    /// Which part in the deed is asked for, the likeliest first.
+    /// Which part in the activity is asked for, the likeliest first.
     fn roles_asked(&self) -> Vec<Role> {
         use Role::{Instrument, Location, Patient, Source, Theme};
         const TO_USE: [&str; 12] = [
