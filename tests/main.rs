@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one file a capability.
 
 mod accounted;
+mod agreement;
 mod architecture;
 mod assembly;
 mod broken_scenarios;
@@ -12,7 +13,6 @@ mod corridor_floors;
 mod corridor_lattice;
 mod counted_before;
 mod datalog_files;
-mod deeds;
 mod dialogue;
 mod doors;
 mod doubts;

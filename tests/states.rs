@@ -9,7 +9,7 @@ use orthoframe_map::{DoorState, Edits, Entity, Format, Permeability, Replica, Wo
 use orthoframe_store::Change;
 use orthoframe_units::{Language, ReplicaId, Source};
 
-use crate::deeds::row_of_rooms;
+use crate::agreement::row_of_rooms;
 use crate::generated_worlds::Dice;
 use crate::worlds::rb2;
 

@@ -84,7 +84,7 @@ fn same(followed: &Relations, anew: &Relations, world: &World, how: &str) {
 
 /// Whatever a robot does, also from storey to storey: what it takes, carries elsewhere and puts back is followed.
 #[test]
-fn many_deeds_one_after_another_are_followed() {
+fn many_changes_one_after_another_are_followed() {
     let file = crate::files::project("maps/two-storeys.toml");
     let surveyed = World::load(file).expect("the map is sound");
     for seed in 0..3 {
