@@ -417,18 +417,18 @@ pub fn solve_without(
     Ok(Replanned { before, after, withdrawn: gone, learned_before })
 }
 
-/// Of a goal that can be met in several ways, the way that the plan takes; the operator that only says so is no step.
-fn settle(task: &mut Task, outcome: &mut Outcome) {
+/// Of a goal of several disjuncts the one that the plan meets; the operator that only says so is no step.
+fn choose_disjunct(task: &mut Task, outcome: &mut Outcome) {
     if task.goal_steps == 0 {
         return;
     }
     match outcome {
-        Outcome::Plan(plan) => task.settle_goal(&mut plan.steps),
+        Outcome::Plan(plan) => task.choose_disjunct(&mut plan.steps),
         Outcome::NoPlan { .. } => {}
         Outcome::LimitReached(known) => {
             known.at_least = known.at_least.saturating_sub(1);
             if let Some(plan) = &mut known.plan {
-                task.settle_goal(&mut plan.steps);
+                task.choose_disjunct(&mut plan.steps);
             }
         }
     }
@@ -453,7 +453,7 @@ fn told(
         }
         _ => None,
     };
-    settle(&mut task, &mut outcome);
+    choose_disjunct(&mut task, &mut outcome);
     let at_least = match &outcome {
         Outcome::Plan(plan) => bounded.unwrap_or(plan.steps.len()),
         Outcome::LimitReached(known) => known.at_least,

@@ -106,8 +106,8 @@ impl Task {
         id.index() + self.goal_steps >= self.operators.len()
     }
 
-    /// Takes the way by which steps meet a goal of several ways to be the goal; the steps end where it is met.
-    pub fn settle_goal(&mut self, steps: &mut Vec<Vec<OperatorId>>) {
+    /// Takes the disjunct by which steps meet a goal of several to be the goal; the steps end where it is met.
+    pub fn choose_disjunct(&mut self, steps: &mut Vec<Vec<OperatorId>>) {
         let is_met = |step: &Vec<OperatorId>| step.iter().position(|&id| self.is_goal_step(id));
         let met = steps.iter().enumerate().find_map(|(at, step)| Some((at, step[is_met(step)?])));
         let Some((at, by)) = met else { return };

@@ -6,8 +6,8 @@ use crate::map::Properties;
 use crate::units::{Cm, Deg, Point};
 use crate::{Feet, Kind, Thing};
 
-use super::settle;
 use super::shape::{self, Build, Crate};
+use super::stacking;
 
 /// One thing as its file gives it. Lengths in cm.
 #[derive(Debug, Clone)]
@@ -89,8 +89,8 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
             top: p.bottom + p.height,
         })
         .collect();
-    let feet = settle::feet(&boxes);
-    for (n, bottom) in settle::settled(&boxes).into_iter().enumerate() {
+    let feet = stacking::feet(&boxes);
+    for (n, bottom) in stacking::stacked(&boxes).into_iter().enumerate() {
         pieces[n].bottom = bottom;
         (boxes[n].bottom, boxes[n].top) = (bottom, bottom + pieces[n].height);
     }

@@ -57,9 +57,9 @@ fn plans(domain: &Path, problem: &Path) -> Vec<String> {
         .iter()
         .filter_map(Outcome::plan)
         .map(|plan| {
-            let (mut settled, mut steps) = (task.clone(), plan.steps.clone());
-            settled.settle_goal(&mut steps);
-            PlanText::write(&settled, &steps)
+            let (mut chosen, mut steps) = (task.clone(), plan.steps.clone());
+            chosen.choose_disjunct(&mut steps);
+            PlanText::write(&chosen, &steps)
         })
         .collect();
     for plan in &plans {

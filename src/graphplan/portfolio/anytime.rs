@@ -159,7 +159,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         }
         current.iter().for_each(|plan| best.offer(working.own(plan.clone())));
     }
-    let mut is_settled = errands.is_some();
+    let mut has_stepwise = errands.is_some();
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
         if best.is_proven() {
@@ -173,10 +173,10 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         let within =
             Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
         // What was found soon may be far from the best that is found step by step.
-        if !is_settled {
+        if !has_stepwise {
             match any::step_by_step(working.task(), effort, &some) {
                 Ok(Some(plan)) => {
-                    is_settled = true;
+                    has_stepwise = true;
                     best.offer(working.own(plan.clone()));
                     current.push(plan);
                 }

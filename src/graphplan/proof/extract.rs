@@ -338,7 +338,7 @@ impl<'a> Search<'a> {
 }
 
 impl<'g> Level<'g> {
-    /// Goals that appear late have the fewest ways to be had, and are settled first.
+    /// Goals that appear late have the fewest ways to be had, and are chosen for first.
     fn new(graph: &'g PlanningGraph, level: usize, goals: &[FactId], deep: bool) -> Self {
         let mut goals = goals.to_vec();
         goals.sort_by_key(|&goal| (std::cmp::Reverse(graph.fact_level(goal)), goal));

@@ -38,7 +38,7 @@ impl Reduced {
         let pairs = ReachedPairs::of(task, limits)?;
         let uses = Uses::of(task, &pairs);
         let mut relevance = Relevance::new(task, &pairs, &uses);
-        relevance.settle(limits)?;
+        relevance.fixpoint(limits)?;
         let (kept, needed) = (relevance.kept, relevance.needed);
         let operators: Vec<OperatorId> =
             task.operator_ids().filter(|id| kept[id.index()]).collect();
@@ -133,7 +133,7 @@ impl<'a> Relevance<'a> {
 
     /// Keeps operators until none that is left must be kept. What one round believed of facts beyond may turn out
     /// wrong when more is kept; the last round changes nothing, so that in it all was judged by what is kept at last.
-    fn settle(&mut self, limits: &Limits) -> Result<(), Limit> {
+    fn fixpoint(&mut self, limits: &Limits) -> Result<(), Limit> {
         loop {
             self.given_up.fill(false);
             self.missing.fill(false);

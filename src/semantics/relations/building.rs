@@ -299,7 +299,7 @@ impl Relations {
         self.building_rows(after, &touched, &names, &replicas, |rel, row| {
             rows.into.insert((rel, row));
         });
-        self.settle(&mut rows)?;
+        self.apply(&mut rows)?;
         self.live.update()?;
         self.follow(fresh);
         self.symbols.retire(&gone, |_| false);

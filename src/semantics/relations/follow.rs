@@ -148,12 +148,12 @@ impl Relations {
             if let Some(map) = self.measured.map_of(id).filter(|_| self.measured.asks_of_all()) {
                 rows.into.insert(self.asked(id, map));
             }
-            self.settle(&mut rows)?;
+            self.apply(&mut rows)?;
         }
         self.openings_and_properties(after, &hung, &replicas, &doors, |rel, row| {
             rows.into.insert((rel, row));
         });
-        self.settle(&mut rows)?;
+        self.apply(&mut rows)?;
         self.live.update()?;
         self.follow(BTreeSet::new());
         self.symbols.retire(&symbols, |_| false);
@@ -261,7 +261,7 @@ impl Relations {
     }
 
     /// Takes rows out and puts others in; those in both stay as they are. What the rule text does not declare is in neither.
-    pub(super) fn settle(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
+    pub(super) fn apply(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
         let mut fault: Option<FactError> = None;
         let Difference { out, into } = std::mem::take(rows);
         let program = self.rules.program();

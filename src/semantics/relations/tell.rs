@@ -143,7 +143,7 @@ impl Relations {
             return Ok(());
         }
         let out = std::mem::replace(&mut self.told, rows.clone());
-        self.settle(&mut Difference { out, into: rows })?;
+        self.apply(&mut Difference { out, into: rows })?;
         self.live.update()?;
         self.follow(BTreeSet::new());
         Ok(())

@@ -87,14 +87,14 @@ impl Errands {
         let mut carried = Vec::new();
         let mut counted: BTreeSet<OperatorId> = places.moves.clone();
         let mut visits = Vec::new();
-        let mut settled = Vec::new();
+        let mut rest = Vec::new();
         let holds = |fact: &FactId| task.init.contains(fact);
         for &goal in &task.goal {
             let carrier =
                 hand.filter(|_| !holds(&goal)).and_then(|hand| Carried::of(task, hand, goal));
             match carrier {
                 Some(thing) => carried.push((goal, thing)),
-                None if holds(&goal) => settled.push(goal),
+                None if holds(&goal) => rest.push(goal),
                 None => visits.push(goal),
             }
         }
@@ -103,7 +103,7 @@ impl Errands {
         carried.retain(|(goal, thing): &(FactId, Carried)| {
             let is_new = held.insert(thing.held);
             if !is_new {
-                settled.push(*goal);
+                rest.push(*goal);
             }
             is_new
         });
@@ -116,7 +116,7 @@ impl Errands {
             let bringers: Vec<OperatorId> = bringers(task, goal).collect();
             match places.spot(task, &bringers) {
                 Some(spot) => visited.push((goal, spot)),
-                None => settled.push(goal),
+                None => rest.push(goal),
             }
         }
         // What is done at a place visited counts as well, where it is nothing else and goes beside nothing else.
@@ -172,7 +172,7 @@ impl Errands {
         let walked = (loaded + assigned).max(walk(&distance, &spanned)).max(crossed);
         let at_least = actions + walked + enabling;
         let order = order(&distance, &errands);
-        let stages = stages((task, &places), &settled, (&points, &errands, &order), &things);
+        let stages = stages((task, &places), &rest, (&points, &errands, &order), &things);
         Some(Self { at_least, stages })
     }
 }
@@ -180,7 +180,7 @@ impl Errands {
 /// What is to hold at the beginning and at the end of each leg of a walk in which things may be put down on the way.
 fn stages(
     (task, places): (&Task, &Places),
-    settled: &[FactId],
+    rest: &[FactId],
     (points, errands, order): (&[usize], &[Errand], &[usize]),
     things: &[Carried],
 ) -> Vec<Vec<FactId>> {
@@ -210,7 +210,7 @@ fn stages(
     let mut now: BTreeMap<usize, FactId> = BTreeMap::new();
     let mut stages = Vec::new();
     let mut add = |now: &BTreeMap<usize, FactId>| {
-        let mut stage: Vec<FactId> = settled.iter().chain(now.values()).copied().collect();
+        let mut stage: Vec<FactId> = rest.iter().chain(now.values()).copied().collect();
         stage.sort_unstable();
         stage.dedup();
         stages.push(stage);

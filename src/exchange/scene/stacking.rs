@@ -38,7 +38,7 @@ enum Rest {
 
 /// The bottoms of all things after each was set down on what is beneath it, for nothing hovers and nothing sinks in:
 /// a box is off by some centimetres. What stands within a box goes along with it.
-pub(super) fn settled(things: &[Crate]) -> Vec<f64> {
+pub(super) fn stacked(things: &[Crate]) -> Vec<f64> {
     let near = Neighbours::of(things);
     let rests: Vec<Option<Rest>> = things.iter().map(|t| rest(things, &near, t)).collect();
     let levels = levels(things);
@@ -125,7 +125,7 @@ mod tests {
             thing(Build::Block, (300.0, 0.0), 20.0, 65.0, 80.0),
             thing(Build::Block, (340.0, 0.0), 5.0, 120.0, 140.0),
         ];
-        assert_eq!(settled(&things), [0.0, 90.0, 91.0, 0.0, 0.0, 50.0, 120.0]);
+        assert_eq!(stacked(&things), [0.0, 90.0, 91.0, 0.0, 0.0, 50.0, 120.0]);
         assert!(levels(&things)[0].is_empty(), "nothing stands within the table");
     }
 
@@ -144,6 +144,6 @@ mod tests {
             thing(Build::Case, (900.0, 0.0), 20.0, 14.0, 34.0),
             thing(Build::Case, (900.0, 0.0), 20.0, 37.0, 57.0),
         ];
-        assert_eq!(settled(&things), [0.0, 104.0, 106.5, 0.0, 45.0, 0.0, 14.0, 37.0]);
+        assert_eq!(stacked(&things), [0.0, 104.0, 106.5, 0.0, 45.0, 0.0, 14.0, 37.0]);
     }
 }
