@@ -5,7 +5,7 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Said, Senses, Settled,
+    Answer, Asker, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said, Senses,
     Sighting, Thing, Unanswered, Way, unaddressed,
 };
 use crate::language::report::Detail;
@@ -142,8 +142,8 @@ impl State {
         Ok(self.asker(&senses)?.proof(fact, language))
     }
 
-    /// A command with its descriptions replaced by names: see [`Asker::settle`].
-    pub(super) fn settle(&self, sentence: &str, memory: &mut Memory) -> Result<Settled, Error> {
+    /// A command with its descriptions replaced by names: see [`Asker::resolve`].
+    pub(super) fn resolve(&self, sentence: &str, memory: &mut Memory) -> Result<Resolved, Error> {
         self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         let forms = self.forms()?;
@@ -154,7 +154,7 @@ impl State {
                 _ => None,
             }
         };
-        self.asker(&senses)?.settle(sentence, memory, &strict).map_err(|Misread(unanswered)| {
+        self.asker(&senses)?.resolve(sentence, memory, &strict).map_err(|Misread(unanswered)| {
             let several = unanswered.doubt.kind() == "ambiguous";
             let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
             misheard(unanswered).into()

@@ -109,7 +109,7 @@ impl Evaluation<'_> {
     fn abreast(&mut self, strata: &[Stratum]) -> Result<(), EvaluateError> {
         let plans: Vec<Vec<Plan>> = strata.iter().map(|stratum| self.plans(stratum)).collect();
         self.make_indexes(&plans);
-        self.finished.words.settle();
+        self.finished.words.consolidate();
         let shared = Shared {
             program: self.program,
             words: self.finished.words.share(),
@@ -190,7 +190,7 @@ impl Evaluation<'_> {
         wanted.retain(|of, columns| {
             indexes.get(of).is_none_or(|index: &Arc<Index>| index.places(columns).is_none())
         });
-        words.settle();
+        words.consolidate();
         let (known, threads) = (words.share(), watch.limits().threads);
         let tasks = wanted.into_iter().map(|(of, columns)| {
             let index = indexes.remove(&of).map(Arc::unwrap_or_clone);

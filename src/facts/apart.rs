@@ -96,7 +96,7 @@ impl Apart<'_> {
         rows: Box<dyn Growing>,
     ) -> Result<SharedRows, Unfinished> {
         let (limits, threads) = (finished.watch.limits(), finished.watch.threads());
-        finished.words.settle();
+        finished.words.consolidate();
         let words = finished.words.share();
         let sources: Vec<_> = self.rounds.iter().map(|(_, plan)| finished.plain(plan)).collect();
         let base = finished.bytes();

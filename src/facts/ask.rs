@@ -188,7 +188,7 @@ impl Program {
             rows[relation.index()] = sorted.sort();
         }
         drop(demand);
-        words.settle();
+        words.consolidate();
         Ok(Derived::new(self, words, rows, told))
     }
 }

@@ -216,7 +216,7 @@ impl Database {
             .schema
             .encode(relation, tuple, |value, kind| words.of(value, kind).unwrap_or(NO_WORD))?;
         self.schema.check_records(relation, tuple, &row)?;
-        words.settle();
+        words.consolidate();
         Ok((relation, row))
     }
 
@@ -253,8 +253,8 @@ impl Database {
     }
 
     /// Puts the tuples of each relation together, so that evaluations share them.
-    pub(super) fn settle(&mut self) {
-        self.tables.iter_mut().for_each(|table| table.settle());
+    pub(super) fn consolidate(&mut self) {
+        self.tables.iter_mut().for_each(|table| table.consolidate());
     }
 
     /// Takes a tuple out; false when it was not there.
@@ -380,7 +380,7 @@ impl Loader<'_> {
 
     pub fn finish(self) {
         let Self { database, rows, .. } = self;
-        database.words.settle();
+        database.words.consolidate();
         database.asked = Asked::default();
         for ((rows, table), info) in
             rows.into_iter().zip(&mut database.tables).zip(database.schema.relations.iter())

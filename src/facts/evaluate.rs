@@ -202,7 +202,7 @@ impl<'a> Evaluation<'a> {
         let rows = self.finished.rows.into_iter().zip(&self.given);
         let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
         let mut words = self.finished.words;
-        words.settle();
+        words.consolidate();
         let mut derived = Derived::new(self.program, words, rows, self.given);
         derived.notes = self.notes;
         derived

@@ -160,7 +160,7 @@ fn columns(
 ) -> Vec<Vec<Word>> {
     let mut made: Vec<Option<Vec<Word>>> = exprs.iter().map(|_| None).collect();
     if threads > 1 && exprs.len() > 1 && rows.len() >= MANY {
-        words.settle();
+        words.consolidate();
         let known = words.share();
         // What is computed takes longest.
         let mut tasks: Vec<(&Expr, &mut Option<Vec<Word>>)> =

@@ -272,8 +272,8 @@ impl Kept {
         for n in 0..self.rows.len() {
             let edit = std::mem::take(&mut self.edits[n]);
             edit.removed.into_iter().for_each(|slot| self.purge(RelationId(n as u32), slot));
-            if self.rows[n].is_unsettled() {
-                self.rows[n].settle();
+            if self.rows[n].is_fragmented() {
+                self.rows[n].consolidate();
                 self.indexes[n].clear();
                 dropped = true;
                 self.distinct[n].iter_mut().for_each(|known| *known = OnceLock::new());

@@ -55,7 +55,7 @@ impl Live {
     /// # Errors
     /// [`EvaluateError`] as from [`Program::evaluate`].
     pub fn new(program: Program, mut database: Database) -> Result<Self, EvaluateError> {
-        database.settle();
+        database.consolidate();
         let derived = program.evaluate(&database)?;
         Ok(Self::resume(program, database, derived))
     }
@@ -176,7 +176,7 @@ impl Live {
         if self.derived.kept.commit() {
             self.deltas.plan_anew();
         }
-        self.derived.kept.words.settle();
+        self.derived.kept.words.consolidate();
         self.database.words = self.derived.kept.words.share();
         self.touched.clear();
         let mut changed: Vec<RelationId> = self.last.keys().copied().collect();

@@ -75,7 +75,7 @@ impl Explainer {
         best: &mut Option<Best>,
         tried: &mut usize,
     ) {
-        self.settle(clause, body, &mut open, &mut search);
+        self.judge_bound(clause, body, &mut open, &mut search);
         *tried += 1;
         if best.as_ref().is_some_and(|best| best.distance <= search.distance) {
             return;
@@ -130,7 +130,7 @@ impl Explainer {
     }
 
     /// Judges and computes everything whose variables are known.
-    fn settle(
+    fn judge_bound(
         &mut self,
         clause: usize,
         body: &[Literal],

@@ -72,7 +72,7 @@ impl Live {
                 return None;
             }
         }
-        words.settle();
+        words.consolidate();
         // The constants of the rules must mean what they meant.
         let same = program.words.symbols().zip(words.symbols()).all(|(one, other)| one == other)
             && program.words.numbers().zip(words.numbers()).all(|(one, other)| one == other)

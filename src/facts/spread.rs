@@ -160,7 +160,7 @@ impl Join<'_> {
             (0..threads).map(|_| sink.branch(self.is_any_order)).collect();
         let plain: Option<Vec<_>> = sources.iter().map(Plain::of).collect();
         let (Some(branches), Some(plain)) = (branches, plain) else { return false };
-        words.settle();
+        words.consolidate();
         let known = words.share();
         let pieces = Pieces::new(rows, threads * PIECES);
         let shares = branches.into_iter().map(|branch| (branch, watch.branch()));

@@ -6,7 +6,7 @@
 //!   later   d' b'                rows that came later, found through a tree
 //! ```
 //!
-//! **Invariant**: a row keeps its [`Slot`] until it is removed or the rows are settled, so that indexes over
+//! **Invariant**: a row keeps its [`Slot`] until it is removed or the rows are consolidated, so that indexes over
 //! slots stay true through any number of edits; an edit costs the logarithm of the size.
 
 use std::collections::BTreeMap;
@@ -44,9 +44,9 @@ pub(super) trait Stored: Send + Sync + Debug {
     /// All rows, sorted; put together once after an edit.
     fn rows(&self) -> SharedRows;
     /// So much came later that the base should take it in.
-    fn is_unsettled(&self) -> bool;
+    fn is_fragmented(&self) -> bool;
     /// Takes everything into the base; slots change.
-    fn settle(&mut self);
+    fn consolidate(&mut self);
     /// Adds many rows at once, one after the other; slots change.
     fn extend(&mut self, words: &[Word], columns: usize);
     fn clear(&mut self);
@@ -256,11 +256,11 @@ impl<const N: usize> Stored for StoredRows<N> {
         self.merged()
     }
 
-    fn is_unsettled(&self) -> bool {
+    fn is_fragmented(&self) -> bool {
         self.places.len() > self.base.elements.len() / 2 + 4096
     }
 
-    fn settle(&mut self) {
+    fn consolidate(&mut self) {
         *self = Self::over(self.merged());
     }
 
@@ -310,7 +310,7 @@ mod tests {
         assert_eq!(rows.remove(&[1, 3]), Some(later));
         assert_eq!(rows.insert(&[0, 7]), Some(later));
         assert_eq!((rows.len(), rows.rows().len()), (5, 5));
-        rows.settle();
+        rows.consolidate();
         assert_eq!(all(&rows, &[]), [[0, 7], [1, 2], [1, 5], [2, 2], [3, 1]]);
     }
 }

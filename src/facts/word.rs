@@ -159,16 +159,16 @@ pub(super) enum Note {
 }
 
 impl Words {
-    /// Another table that starts with the shared words of this one; costs nothing after [`Self::settle`].
+    /// Another table that starts with the shared words of this one; costs nothing after [`Self::consolidate`].
     pub(super) fn share(&self) -> Self {
         let mut all = self.clone();
-        all.settle();
+        all.consolidate();
         (all.counter, all.note) = (0, None);
         all
     }
 
     /// Moves all words into the layers that [`Self::share`] shares.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn consolidate(&mut self) {
         if self.own.len() == 0 {
             return;
         }
@@ -394,7 +394,7 @@ mod tests {
         let mut words = Words::default();
         let table = words.symbol("стол");
         let large = words.number(i64::MAX);
-        words.settle();
+        words.consolidate();
         let mut more = words.share();
         assert_eq!((more.symbol("стол"), more.number(i64::MAX)), (table, large));
         let chair = more.symbol("стул");

@@ -114,14 +114,14 @@ impl State {
     ) -> Result<Vec<Command<Entity>>, Error> {
         without_clock(sentence)?;
         let (sentence, spots) = self.rooms_for_points(sentence)?;
-        let settled = self.settle(&sentence, memory)?;
+        let resolved = self.resolve(&sentence, memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),
             _ => None,
         };
-        let last = settled.last.iter().copied().filter_map(entity).collect();
+        let last = resolved.last.iter().copied().filter_map(entity).collect();
         let nearest = |all: &[Entity]| self.nearest(all);
-        let meant = settled.meant.iter().copied().filter_map(entity).collect();
+        let meant = resolved.meant.iter().copied().filter_map(entity).collect();
         let world = self.world()?;
         let fixed = |entity: &Entity| match entity {
             Entity::Replica(id) => !world.has_trait(*id, "portable"),
@@ -133,9 +133,9 @@ impl State {
             .choosing(&nearest)
             .clearing(&fixed);
         let windows: Vec<(Entity, Option<u32>)> =
-            settled.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
-        let settled = settled.text;
-        let mut commands = match listener.hear(&settled) {
+            resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
+        let resolved = resolved.text;
+        let mut commands = match listener.hear(&resolved) {
             Ok(commands) => commands,
             Err(misheard) => {
                 // «На карте нет «лекарсво». Есть «Лекарство».» – «Да.»
@@ -144,12 +144,12 @@ impl State {
                     && let [only] = self.world()?.find(name)[..]
                 {
                     let at = at.offset()..at.offset() + at.len();
-                    let language = Language::of(&settled);
-                    memory.wait(&settled, at, vec![Thing::Entity(only)], language);
+                    let language = Language::of(&resolved);
+                    memory.wait(&resolved, at, vec![Thing::Entity(only)], language);
                 }
                 // What was spoken of may have left the map.
                 if let Misheard::Incomplete { .. } = &misheard
-                    && let Some(gone) = memory.lost_topic(Language::of(&settled))
+                    && let Some(gone) = memory.lost_topic(Language::of(&resolved))
                 {
                     return Err(Misheard::NoneSuch(Box::new(gone)).into());
                 }
@@ -162,7 +162,7 @@ impl State {
             return Err(RequestError::OnlyGoneTo { x, y }.into());
         }
         if let [Command::ComeBack] = commands[..] {
-            if let Some(gone) = memory.lost_place(Language::of(&settled)) {
+            if let Some(gone) = memory.lost_place(Language::of(&resolved)) {
                 return Err(Misheard::NoneSuch(Box::new(gone)).into());
             }
             if let Some(Thing::Entity(anchor)) = memory.place_left() {

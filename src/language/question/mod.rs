@@ -79,7 +79,7 @@ pub use outlive::{Departed, Stamp};
 pub use query::{
     Best, Claim, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };
-pub use resolution::{Settled, Strict};
+pub use resolution::{Resolved, Strict};
 pub use senses::{Crossing, News, Past, RoomPath, Senses, Sighting, Way};
 pub use serving::{Doing, Part};
 pub use several::sentences;

@@ -78,7 +78,7 @@ impl Knowledge<'_> {
             },
             extreme => {
                 let all = self.find(&unordered, true).unwrap_or_default();
-                self.measure_words(self.settled(extreme, &all), first)
+                self.measure_words(self.by_place_or_size(extreme, &all), first)
             }
         };
         let counts = matches!(best.extreme, Extreme::Most | Extreme::Fewest);
@@ -280,7 +280,7 @@ impl Knowledge<'_> {
         if let (Extreme::LeftMost | Extreme::RightMost, [a, b]) = (extreme, &things[..]) {
             return Ok(self.further_aside([*a, *b], extreme, true));
         }
-        let extreme = self.settled(extreme, &things);
+        let extreme = self.by_place_or_size(extreme, &things);
         let Some(compared) = self.compared(&things, extreme, to) else {
             return Ok(self.incomparable(&things, extreme));
         };
@@ -381,7 +381,7 @@ impl Knowledge<'_> {
         if matches!(extreme, Extreme::LeftMost | Extreme::RightMost) {
             return Ok(self.further_aside([a, b], extreme, false));
         }
-        let extreme = self.settled(extreme, &[a, b]);
+        let extreme = self.by_place_or_size(extreme, &[a, b]);
         let Some(compared) = self.compared(&[a, b], extreme, to) else {
             return Ok(self.incomparable(&[a, b], extreme));
         };

@@ -583,7 +583,7 @@ impl Knowledge<'_> {
                 found.iter().map(|t| (sign * number(*t), *t)).collect()
             }
             extreme => {
-                let extreme = self.settled(extreme, &found);
+                let extreme = self.by_place_or_size(extreme, &found);
                 let sign = if extreme.is_less() { 1.0 } else { -1.0 };
                 found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()
             }

@@ -129,7 +129,11 @@ impl Knowledge<'_> {
     }
 
     /// «Выше всех» by their place; by their size, where all begin equally high or have no such measure.
-    pub(in crate::question) fn settled(&self, extreme: Extreme, things: &[Thing]) -> Extreme {
+    pub(in crate::question) fn by_place_or_size(
+        &self,
+        extreme: Extreme,
+        things: &[Thing],
+    ) -> Extreme {
         let equal = self.relations.thresholds().level_equal;
         if extreme == extreme.of_size() {
             return extreme;

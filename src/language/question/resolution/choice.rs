@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::Settler;
+use super::Resolver;
 use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::{AreaId, InOrder as _};
 
-impl Settler<'_, '_> {
+impl Resolver<'_, '_> {
     pub(super) fn candidates(
         &self,
         noun: &Noun,

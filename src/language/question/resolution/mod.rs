@@ -53,7 +53,7 @@ impl Edit {
 
 /// A command with names for descriptions, and what the names mean, in the order of the text.
 #[derive(Debug, Clone)]
-pub struct Settled {
+pub struct Resolved {
     pub text: String,
     pub meant: Vec<Thing>,
     /// What "them" means in it, the one that "it" means at the end.
@@ -65,15 +65,15 @@ impl Asker<'_> {
     ///
     /// # Errors
     /// A description that several things fit, or none; then the memory waits for an answer.
-    pub fn settle(
+    pub fn resolve(
         &self,
         text: &str,
         memory: &mut Memory,
         strict: &Strict<'_>,
-    ) -> Result<Settled, Misread> {
+    ) -> Result<Resolved, Misread> {
         let waiting = memory.waiting.take();
         if command::is_too_long(text) {
-            return Ok(Settled { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
+            return Ok(Resolved { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
         let (gathered, not_meant) = command::gathered_of(text);
         let language = crate::words::Language::of(text);
@@ -108,16 +108,16 @@ impl Asker<'_> {
         let described = command::without_verbs(&text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
         let language = sentence.language;
-        let settled = {
+        let resolved = {
             let knowledge = self.knowledge(language, memory);
             let spoken = match waiting {
                 Some(waiting) => waiting.candidates,
                 None => memory.last.clone(),
             };
-            let settler = Settler { knowledge: &knowledge, sentence: &sentence, strict, spoken };
-            settler.settle(&text)
+            let resolver = Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken };
+            resolver.resolve(&text)
         };
-        match settled {
+        match resolved {
             Ok(mut edits) => {
                 edits.order_by_key(|edit| edit.at.start);
                 if !edits.iter().any(|edit| edit.object)
@@ -141,17 +141,17 @@ impl Asker<'_> {
                 });
                 memory.ordered = amendable.or(memory.ordered.take());
                 let meant = edits.iter().flat_map(|edit| edit.things.clone()).collect();
-                let mut settled = text;
+                let mut resolved = text;
                 let mut until = usize::MAX;
                 // From the end, so that the places before stay where they are.
                 for edit in edits.into_iter().rev().filter(|edit| !edit.at.is_empty()) {
                     if edit.at.end <= until {
                         until = edit.at.start;
-                        settled.replace_range(edit.at, &edit.name);
+                        resolved.replace_range(edit.at, &edit.name);
                     }
                 }
-                let last = self.spoken_of(&settled, memory);
-                Ok(Settled { text: settled, meant, last })
+                let last = self.spoken_of(&resolved, memory);
+                Ok(Resolved { text: resolved, meant, last })
             }
             Err((doubt, at)) => {
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
@@ -264,7 +264,7 @@ impl Knowledge<'_> {
     }
 }
 
-struct Settler<'s, 'k> {
+struct Resolver<'s, 'k> {
     knowledge: &'s Knowledge<'k>,
     sentence: &'s Sentence<'s>,
     strict: &'s Strict<'s>,
@@ -272,14 +272,14 @@ struct Settler<'s, 'k> {
     spoken: Vec<Thing>,
 }
 
-impl<'s, 'k> Settler<'s, 'k> {
-    /// One that reads a sentence, and settles nothing.
+impl<'s, 'k> Resolver<'s, 'k> {
+    /// One that reads a sentence, and resolves nothing.
     fn reading(knowledge: &'s Knowledge<'k>, sentence: &'s Sentence<'s>) -> Self {
         Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new() }
     }
 }
 
-impl Settler<'_, '_> {
+impl Resolver<'_, '_> {
     fn bytes(&self, words: &Range<usize>) -> Range<usize> {
         match (
             self.sentence.words.get(words.start),
@@ -357,7 +357,7 @@ impl Settler<'_, '_> {
         Ok(last)
     }
 
-    fn settle(&self, text: &str) -> Result<Vec<Edit>, (Doubt, Range<usize>)> {
+    fn resolve(&self, text: &str) -> Result<Vec<Edit>, (Doubt, Range<usize>)> {
         let clauses = command::clauses(text);
         let clause_at =
             |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
@@ -379,7 +379,7 @@ impl Settler<'_, '_> {
                 _ => None,
             });
             let clause = Clause { sort: sort(clause), items: &items, objects: objects.collect() };
-            self.settle_clause(&clause, own, &mut told, &mut edits)?;
+            self.resolve_clause(&clause, own, &mut told, &mut edits)?;
         }
         if let [_] = clauses[..] {
             edits.extend(self.borne_by_pronoun(sort(0), &items));
@@ -388,7 +388,7 @@ impl Settler<'_, '_> {
     }
 
     /// What one verb is done to, and whither.
-    fn settle_clause<'i>(
+    fn resolve_clause<'i>(
         &self,
         clause: &Clause<'i>,
         mut own: Vec<&Spot<'i>>,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Settler;
+use super::Resolver;
 use super::choice::with;
 use super::place::Spot;
 use crate::command::Sort;
@@ -38,7 +38,7 @@ pub(super) struct More {
     pub(super) told: Vec<Thing>,
 }
 
-impl Settler<'_, '_> {
+impl Resolver<'_, '_> {
     /// What a clause speaks of.
     pub(super) fn object(
         &self,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::choice::{is_described, with};
-use super::{Edit, Settler};
+use super::{Edit, Resolver};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::question::Doubt;
@@ -28,7 +28,7 @@ pub(super) struct Spot<'i> {
     pub(super) item: usize,
 }
 
-impl Settler<'_, '_> {
+impl Resolver<'_, '_> {
     /// Places whose thing was not found out keep their words; those that mean one thing become its name.
     pub(super) fn left_standing(&self, spots: &[&&Spot<'_>], edits: &mut Vec<Edit>) {
         for spot in spots {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Settler;
+use super::Resolver;
 use crate::command;
 use crate::map::Entity;
 use crate::question::assemble;
@@ -192,12 +192,12 @@ impl Asker<'_> {
         let place =
             &plain[sentence.words[words.start - link].start..sentence.words[words.end - 1].end];
         let knowledge = self.knowledge(ordered.language, memory);
-        let settler = Settler::reading(&knowledge, &sentence);
+        let resolver = Resolver::reading(&knowledge, &sentence);
         let Item::Place { rel, .. } = items.iter().find(|i| matches!(i, Item::Place { .. }))?
         else {
             return None;
         };
-        if settler.is_whither(*rel, nouns.first()?) == Some(true) {
+        if resolver.is_whither(*rel, nouns.first()?) == Some(true) {
             return None;
         }
         let mut whole = ordered.without_places(object.end);

@@ -1,7 +1,7 @@
 //! Orders without a verb, «К холодильнику!», "The medicine, please", and orders that only amend the one before:
 //! «Нет, в спальню», "not that one, the red one", «а теперь на кухню».
 
-use super::{Ordered, Settler};
+use super::{Ordered, Resolver};
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
@@ -87,13 +87,13 @@ impl Asker<'_> {
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let language = sentence.language;
         let knowledge = self.knowledge(language, memory);
-        let settler = Settler::reading(&knowledge, &sentence);
+        let resolver = Resolver::reading(&knowledge, &sentence);
         let is_room =
             |things: &[Thing]| !things.is_empty() && things.iter().all(|t| t.area().is_some());
         let verb = sentence.items().into_iter().find_map(|item| match item {
             Item::Place { rel, nouns, .. } => {
                 let phrase = nouns.first()?;
-                let whither = settler.is_whither(rel, phrase) == Some(true);
+                let whither = resolver.is_whither(rel, phrase) == Some(true);
                 whither.then(|| language.pick("поезжай", "go"))
             }
             Item::Noun(phrase) if phrase.person.is_none() && phrase.pronoun.is_none() => {
@@ -194,7 +194,7 @@ impl Asker<'_> {
         let plain = self.plain(rest);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let settler = Settler::reading(&knowledge, &sentence);
+        let resolver = Resolver::reading(&knowledge, &sentence);
         let items = sentence.items();
         let lone =
             matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
@@ -204,7 +204,7 @@ impl Asker<'_> {
         // What is said anew: of what it is done to, of whither.
         let goal = items.iter().position(|item| match item {
             Item::Place { rel, nouns, .. } => {
-                nouns.first().is_some_and(|p| settler.is_whither(*rel, p) == Some(true))
+                nouns.first().is_some_and(|p| resolver.is_whither(*rel, p) == Some(true))
             }
             _ => false,
         });

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Settler;
+use super::Resolver;
 use super::choice::with;
 use super::place::Spot;
 use crate::command::{self, Sort};
@@ -11,7 +11,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{Noun, Rel, Restriction};
 use crate::question::values::ValueId;
 
-impl Settler<'_, '_> {
+impl Resolver<'_, '_> {
     /// «чашку белую»: the value behind its noun.
     pub(super) fn value_after(
         &self,
