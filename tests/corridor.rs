@@ -144,7 +144,7 @@ fn a_u_turn_comes_first_when_the_way_starts_back() {
 }
 
 #[test]
-fn an_unknown_heading_is_settled_by_the_door_beside_the_robot() {
+fn an_unknown_heading_is_told_by_the_door_beside_the_robot() {
     let found = way(&paper(), "202", None, "208");
     assert_eq!(
         russian(&found),

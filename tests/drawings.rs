@@ -440,8 +440,8 @@ fn a_route_shows_its_way_and_its_goal() {
     assert!(of("goal") >= 2 && of("route") >= 2 && of("start") == 1, "goal, arrows and start");
     // Where the way does not end on the sheet there is no goal.
     let legs = vec![(1, vec![end, Point::new(end.x + 50.0, end.y)])];
-    let onward = engine.draw(leg.map, &Drawing { legs, ..Drawing::default() }).unwrap();
-    assert!(!onward.contains("class=\"goal\""));
+    let cut_off = engine.draw(leg.map, &Drawing { legs, ..Drawing::default() }).unwrap();
+    assert!(!cut_off.contains("class=\"goal\""));
 }
 
 /// Movable is what has the trait, not what is likely to be moved.

@@ -130,7 +130,7 @@ pub(crate) fn million() {
         for k in 0..things {
             index.insert(ThingId(k as u32), &stored(Kind::Generic, k, SEGMENTS, 0.3));
         }
-        index.settle();
+        index.merge();
         let row =
             measure((&index, &library), Kind::Generic, things, (0.5, Hiding::Side), views, false);
         let comparisons =

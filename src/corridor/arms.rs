@@ -69,8 +69,8 @@ impl Layout {
 
     /// Gives every stretch of a junction its port, and the junction its arms.
     ///
-    /// The first declaration settles the arms, the others must agree with it.
-    pub(super) fn settle(
+    /// The first declaration tells the arms, the others must agree with it.
+    pub(super) fn assign_ports(
         &mut self,
         vertex: VertexIx,
         number: u32,
@@ -82,7 +82,7 @@ impl Layout {
         let (first, others) = all.split_first().expect("a vertex that was seen was seen once");
         let neighbour = |end: &End| number_of(self.far(*end).vertex);
         let mut work =
-            Settling { number, ends: &self.ends[vertex.0], neighbour: &neighbour, faults };
+            Assignment { number, ends: &self.ends[vertex.0], neighbour: &neighbour, faults };
         let Some(arms) = work.arms(first) else { return none };
         // The way back is the arm at 180°.
         let angle = |turn: Option<Turn>| match turn {
@@ -113,14 +113,14 @@ impl Layout {
 /// The arms of a junction: the turn into each (none for the way back) and its stretch (none for a blind one).
 type Arms = Vec<(Option<Turn>, Option<End>)>;
 
-struct Settling<'a> {
+struct Assignment<'a> {
     number: u32,
     ends: &'a [End],
     neighbour: &'a dyn Fn(&End) -> u32,
     faults: &'a mut Vec<CorridorFault>,
 }
 
-impl Settling<'_> {
+impl Assignment<'_> {
     fn arms(&mut self, seen: &Seen) -> Option<Arms> {
         let Declared { kind, at, neighbours, blind } = &seen.declared;
         let mut free: Vec<End> = self.ends.iter().copied().filter(|e| *e != seen.back).collect();
@@ -204,7 +204,7 @@ impl Settling<'_> {
         None
     }
 
-    /// Another description of a settled junction, from the same or from another corridor.
+    /// Another description of a junction whose arms are told, from the same or from another corridor.
     fn compare(&mut self, junction: &Junction, arms: &Arms, first: &Seen, other: &Seen) {
         let Some(from) = arms.iter().position(|(_, end)| *end == Some(other.back)) else { return };
         let ways = junction.ways(from);

@@ -353,9 +353,10 @@ impl Reader {
         }
         for (at, vertex) in vertices.iter_mut().enumerate() {
             if let VertexKind::Junction(junction) = &mut vertex.kind {
-                *junction = layout.settle(VertexIx(at), vertex.number, &mut self.faults, |v| {
-                    index.iter().find(|(_, i)| **i == v).map_or(0, |(number, _)| *number)
-                });
+                *junction =
+                    layout.assign_ports(VertexIx(at), vertex.number, &mut self.faults, |v| {
+                        index.iter().find(|(_, i)| **i == v).map_or(0, |(number, _)| *number)
+                    });
             }
         }
         self.check_ahead(corridors, &index, &layout);
@@ -434,7 +435,7 @@ impl Reader {
             }
             let port = |stop: usize, forth: usize| {
                 let vertex = index[&stops[stop].number];
-                // The port of a junction is settled when all its stretches are known.
+                // The port of a junction is known when all its stretches are known.
                 let port = if vertices[vertex.0].entrance().is_some() { forth } else { usize::MAX };
                 Port { vertex, port }
             };

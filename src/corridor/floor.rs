@@ -381,7 +381,7 @@ struct Walk {
 
 impl Parts {
     fn add(&mut self, mut floor: Floor) {
-        floor.segments.iter_mut().for_each(settle_doors);
+        floor.segments.iter_mut().for_each(order_doors);
         let mut junctions = BTreeMap::new();
         for node in 0..floor.nodes.len() {
             let ends = floor.ends_at(node);
@@ -464,7 +464,7 @@ impl Parts {
 }
 
 /// Orders the doors of a segment; of several doors in one end wall only the middle one is straight ahead.
-fn settle_doors(segment: &mut Segment) {
+fn order_doors(segment: &mut Segment) {
     for end in segment.t {
         let in_end = |d: &Door| d.ahead && (d.t - end).abs() < 1.0;
         let middle = segment.doors.iter().filter(|d| in_end(d)).map(|d| d.offset.abs());
@@ -510,14 +510,16 @@ fn walks(floor: &Floor, junctions: &Junctions) -> Vec<Walk> {
     let mut walked = BTreeSet::new();
     let mut found = Vec::new();
     // The end of another segment at which a corridor goes on.
-    let onward = |(segment, end): (usize, usize)| {
+    let continuation = |(segment, end): (usize, usize)| {
         let node = floor.segments[segment].nodes[end].filter(|n| !junctions.contains_key(n))?;
         floor.ends_at(node).into_iter().find(|other| *other != (segment, end))
     };
     let follow = |start: (usize, usize), walked: &mut BTreeSet<usize>| {
         let mut along = vec![start];
         walked.insert(start.0);
-        while let Some(next) = onward((along[along.len() - 1].0, 1 - along[along.len() - 1].1)) {
+        while let Some(next) =
+            continuation((along[along.len() - 1].0, 1 - along[along.len() - 1].1))
+        {
             if !walked.insert(next.0) {
                 break;
             }
@@ -528,7 +530,8 @@ fn walks(floor: &Floor, junctions: &Junctions) -> Vec<Walk> {
     for closed in [false, true] {
         for segment in 0..floor.segments.len() {
             for end in [0, 1] {
-                if walked.contains(&segment) || (!closed && onward((segment, end)).is_some()) {
+                if walked.contains(&segment) || (!closed && continuation((segment, end)).is_some())
+                {
                     continue;
                 }
                 found.push(Walk { along: follow((segment, end), &mut walked), closed });

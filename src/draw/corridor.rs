@@ -329,7 +329,7 @@ fn least(joined: &BTreeSet<(usize, usize)>, i: usize, j: usize) -> f64 {
 /// Moves marks that stand too near each other apart, each half the way, and out of the way of arcs that are not theirs,
 /// until all have place or enough was tried.
 fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &CorridorDrawing) {
-    /// A little farther than need be, so that few rounds settle it.
+    /// A little farther than need be, so that few rounds do.
     const BEYOND: f64 = 1.02;
     // Of two in one place each goes to its own side of the corridor, or else by their order.
     let way = |i: usize, j: usize, off: Vector| {
@@ -339,12 +339,12 @@ fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &Corr
         ways.into_iter().find_map(|way| way.try_normalize(1e-6)).unwrap_or_else(Vector::x)
     };
     for _ in 0..MOST_NUDGES {
-        let mut is_settled = true;
+        let mut is_stable = true;
         for i in 0..points.len() {
             for j in i + 1..points.len() {
                 let (off, least) = (points[j] - points[i], least(joined, i, j));
                 if off.norm() < least {
-                    is_settled = false;
+                    is_stable = false;
                     let by = way(i, j, off) * (BEYOND * least - off.norm()) / 2.0;
                     points[i] -= by;
                     points[j] += by;
@@ -356,7 +356,7 @@ fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &Corr
                 let near = crate::geometry::nearest_on_segment(points[i], points[a], points[b]);
                 let (off, least) = (points[i] - near, RADIUS + 2.0 * LANE);
                 if off.norm() < least {
-                    is_settled = false;
+                    is_stable = false;
                     let along = points[b] - points[a];
                     let aside = Vector::new(-along.y, along.x);
                     let by = [off, aside].into_iter().find_map(|way| way.try_normalize(1e-6));
@@ -367,7 +367,7 @@ fn nudge(points: &mut [Point], joined: &BTreeSet<(usize, usize)>, drawing: &Corr
                 }
             }
         }
-        if is_settled {
+        if is_stable {
             break;
         }
     }
@@ -394,10 +394,10 @@ fn shorten(points: &mut [Point], along: fn(&mut Point) -> &mut f64) {
 /// stood apart come nearer.
 fn spread(points: &mut [Point], joined: &BTreeSet<(usize, usize)>) {
     // Each opening keeps what is apart; a second look finds what moved with one of a crowd.
-    let mut is_settled = false;
+    let mut is_stable = false;
     let mut looks = 0;
-    while !is_settled && looks < MOST_LOOKS {
-        is_settled = true;
+    while !is_stable && looks < MOST_LOOKS {
+        is_stable = true;
         looks += 1;
         let pairs = (0..points.len()).flat_map(|i| (i + 1..points.len()).map(move |j| (i, j)));
         for (i, j) in pairs.collect::<Vec<_>>() {
@@ -406,7 +406,7 @@ fn spread(points: &mut [Point], joined: &BTreeSet<(usize, usize)>) {
             if off.norm() >= least - 1e-9 {
                 continue;
             }
-            is_settled = false;
+            is_stable = false;
             let is_level = off.x.abs() >= off.y.abs();
             let along = |p: &Point| if is_level { p.x } else { p.y };
             let (one, other) = (along(&points[i]), along(&points[j]));

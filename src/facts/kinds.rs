@@ -44,8 +44,8 @@ impl Builder<'_> {
                 }
             }
         }
-        // Each round settles at least one variable, or nothing changes any more.
-        // A whole number alone may be of any kind of number: it settles what nothing else does.
+        // Each round finds the kind of at least one variable, or nothing changes any more.
+        // A whole number alone may be of any kind of number: it decides what nothing else does.
         let compares = || {
             premises.iter().filter_map(|premise| match premise {
                 Premise::Compare { left, right, .. } => Some((*left, *right)),
@@ -90,7 +90,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Settles what one side of a comparison tells of the other; true when something was new.
+    /// Infers what one side of a comparison tells of the other; true when something was new.
     fn compare_kinds(&mut self, left: &syntax::Expr, right: &syntax::Expr, scope: &Scope) -> bool {
         let Some(kind) = self.common_kind(left, right, scope) else { return false };
         let mut changed = false;

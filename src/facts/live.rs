@@ -2,7 +2,7 @@
 //!
 //! Delete and rederive (Gupta, Mumick, Subrahmanian 1993), stratum by stratum. What lower strata lost and won names
 //! the tuples that may fall and the tuples that may rise. A tuple that may fall is tried by running its rules
-//! backwards: in a stratum without recursion that settles it. In a recursive stratum a tuple could hold itself up
+//! backwards: in a stratum without recursion that suffices. In a recursive stratum a tuple could hold itself up
 //! through others, so first everything that hangs on a fallen tuple falls too, and then what still has a rule that
 //! derives it, and all that follows from it, rises again. Negation and aggregates read lower strata only, so that what
 //! they lost and won is known. A stratum of which a good part would fall is evaluated anew, which is then cheaper.

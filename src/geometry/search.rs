@@ -387,7 +387,7 @@ impl Search {
         }
     }
 
-    /// The part of the only edge onward that a root sees, if nothing else is to be looked at: what
+    /// The part of the only edge ahead that a root sees, if nothing else is to be looked at: what
     /// [`Self::expand_cone`] finds where it bends nowhere.
     #[inline(always)]
     fn straight_on(&self, node: &SearchNode, edge: Edge) -> Option<SearchNode> {

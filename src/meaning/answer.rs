@@ -209,10 +209,10 @@ impl Asking<'_> {
             }
             Form::Both(a, b) | Form::OneOf(a, b) => {
                 let (a, b) = (self.answer(a)?, self.answer(b)?);
-                // The truth that settles it whatever the other is.
-                let settles = Found::Truth(matches!(form, Form::OneOf(..)));
+                // The truth that decides it whatever the other is.
+                let decisive = Found::Truth(matches!(form, Form::OneOf(..)));
                 Ok(match (a, b) {
-                    (a, b) if a == settles || b == settles => settles,
+                    (a, b) if a == decisive || b == decisive => decisive,
                     (Found::Truth(a), Found::Truth(_)) => Found::Truth(a),
                     _ => Found::Unknown,
                 })

@@ -69,7 +69,7 @@ impl<'g> Building<'g> {
             }
         }
         loop {
-            let mut is_settled = true;
+            let mut is_fixpoint = true;
             for (rule, name) in rules() {
                 let at = self.category(&name.text).expect("it was just declared");
                 if self.categories[usize::from(at)].1.is_some() {
@@ -78,7 +78,7 @@ impl<'g> Building<'g> {
                 let of = match &rule.meaning {
                     None => Some(Type::Nothing),
                     Some(meaning) => rule.patterns.iter().find_map(|pattern| {
-                        // By a rule over what has no type yet nothing is settled.
+                        // By a rule over what has no type yet nothing is known.
                         if !pattern.iter().all(|element| self.is_typed(element)) {
                             return None;
                         }
@@ -88,10 +88,10 @@ impl<'g> Building<'g> {
                 };
                 if of.is_some() {
                     self.categories[usize::from(at)].1 = of;
-                    is_settled = false;
+                    is_fixpoint = false;
                 }
             }
-            if is_settled {
+            if is_fixpoint {
                 break;
             }
         }

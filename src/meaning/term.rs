@@ -1,7 +1,7 @@
 //! Logical forms: what a sentence means, before anything is looked up.
 //!
 //! A [`Desc`] is a conjunctive query in the shape of a tree; a [`Form`] says what is wanted of it. Both are typed: what
-//! may be said of a thing is settled by its [`Sorts`] when a phrase is built, so that no chair leads "to the kitchen".
+//! may be said of a thing is decided by its [`Sorts`] when a phrase is built, so that no chair leads "to the kitchen".
 
 use std::ops::{BitAnd, BitOr};
 

@@ -335,7 +335,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
     }
 
     /// After a piece of the way: knows where it is, or tells that it found itself elsewhere.
-    fn settle(&mut self, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
+    fn confirm_pose(&mut self, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         self.find_itself(watch)?;
         if std::mem::take(&mut self.has_jumped) {
             let (time, map, pose) = (self.body.time(), self.map, Pose::from(self.pose));

@@ -9,7 +9,7 @@ use super::chart::Chart;
 const STEPS: usize = 12;
 const NARROW: usize = 5;
 /// A step by less than this is the last, in cm and rad.
-const SETTLED: (f64, f64) = (0.05, 1e-4);
+const CONVERGED: (f64, f64) = (0.05, 1e-4);
 /// Returns farther from every line than this take no part, in cm: at first where the pose is only roughly known, and in the
 /// end.
 pub(crate) const WIDE: f64 = 40.0;
@@ -66,7 +66,7 @@ pub(crate) fn refine(
         pose = Isometry2::new(pose.translation.vector + by.xy(), pose.rotation.angle() + by.z);
         let spread = (squares / f64::from(count)).sqrt().max(sigma);
         covariance = Some(inverse * (spread * spread));
-        if step > NARROW && by.xy().norm() < SETTLED.0 && by.z.abs() < SETTLED.1 {
+        if step > NARROW && by.xy().norm() < CONVERGED.0 && by.z.abs() < CONVERGED.1 {
             break;
         }
     }

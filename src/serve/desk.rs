@@ -77,11 +77,11 @@ impl Desk {
         self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
         let answer = answered.await.map_err(|_gone| Gone)?;
         // When this one is begun, the state of the one before is shared.
-        self.settle().await?;
+        self.flush().await?;
         Ok(answer)
     }
 
-    async fn settle(&self) -> Result<(), Gone> {
+    async fn flush(&self) -> Result<(), Gone> {
         let (answer, answered) = oneshot::channel();
         let nothing = move |_: &mut Engine| {
             // Who asked may have gone.
@@ -113,13 +113,13 @@ impl Desk {
         };
         self.work.send(Box::new(work)).map_err(|_gone| Gone)?;
         let answer = answered.recv().map_err(|_gone| Gone)?;
-        let (settled, has_settled) = mpsc::channel();
+        let (flushed, has_flushed) = mpsc::channel();
         let nothing = move |_: &mut Engine| {
-            let _ = settled.send(());
+            let _ = flushed.send(());
             None
         };
         self.work.send(Box::new(nothing)).map_err(|_gone| Gone)?;
-        has_settled.recv().map_err(|_gone| Gone)?;
+        has_flushed.recv().map_err(|_gone| Gone)?;
         Ok(answer)
     }
 }

@@ -186,7 +186,7 @@ impl Vehicle {
 
     /// Waits until it was told anew where the robot stands: what was said before its goal was reached may come after. A robot
     /// that says nothing more is told of by [`Self::place`].
-    fn settle(&mut self) {
+    fn await_place(&mut self) {
         let (until, told) = (Instant::now() + self.robot.patience, self.told + 2);
         while self.told < told && Instant::now() < until {
             std::thread::sleep(GLANCE);
@@ -312,7 +312,7 @@ impl Vehicle {
                 end => return Ok(end),
             }
         }
-        self.settle();
+        self.await_place();
         Ok(End::Say(json!({ "say": "done" })))
     }
 

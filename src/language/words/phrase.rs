@@ -192,7 +192,7 @@ impl NounPhrase {
         }
     }
 
-    /// The words of the name that decline, with where the forms of each come from; those that agree are settled by
+    /// The words of the name that decline, with where the forms of each come from; those that agree are decided by
     /// their endings. Forms that the map gives of the whole name stand apart ([`Self::evidence_of`]).
     #[must_use]
     pub fn sources(&self) -> Vec<(String, Evidence)> {

@@ -113,7 +113,7 @@ impl Pilot<'_, '_> {
                 unfinished
                     .map(|_| Bump { at: Pose::from(self.pose), against: Obstruction::Something })
             })?;
-            self.settle(watch)?;
+            self.confirm_pose(watch)?;
         }
         let met = self.in_the_way(path);
         if met.is_empty() {
@@ -182,7 +182,7 @@ impl Pilot<'_, '_> {
     fn back_off(&mut self, way: Vector, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         let goal = self.to_odometry(self.at() - way.normalize() * AWAY);
         match self.ask(watch, |body, watch| body.follow(&[goal], None, watch)) {
-            Ok(()) | Err(Unfinished::Met(_)) => self.settle(watch),
+            Ok(()) | Err(Unfinished::Met(_)) => self.confirm_pose(watch),
             Err(unfinished) => Err(unfinished),
         }
     }
@@ -300,7 +300,7 @@ impl Pilot<'_, '_> {
                 Ok(()) => {}
                 Err(Unfinished::Met(bump)) => {
                     contacts += 1;
-                    self.settle(watch)?;
+                    self.confirm_pose(watch)?;
                     // Below or above what the laser sees: it stands before the body.
                     let felt = self.front(way);
                     let is_new = !self.sees_beside() && !self.may_be_known(&felt);
@@ -314,7 +314,7 @@ impl Pilot<'_, '_> {
                 }
                 Err(unfinished) => return Err(unfinished),
             }
-            self.settle(watch)?;
+            self.confirm_pose(watch)?;
         }
     }
 
@@ -330,9 +330,9 @@ impl Pilot<'_, '_> {
             }
             let goal = Deg::from_radians(self.odometry.rotation.angle()) + Deg::of(off);
             match self.ask(watch, |body, watch| body.follow(&[], Some(goal), watch)) {
-                Ok(()) => self.settle(watch)?,
+                Ok(()) => self.confirm_pose(watch)?,
                 Err(Unfinished::Met(_)) => {
-                    self.settle(watch)?;
+                    self.confirm_pose(watch)?;
                     self.back_off(self.away(), watch)?;
                 }
                 Err(unfinished) => return Err(unfinished),

@@ -46,7 +46,7 @@ pub(super) fn place(
     let places = candidates(outline, mapped, &points);
     let mut tried: Vec<(f64, Frame, f64)> = places
         .into_iter()
-        .map(|frame| settled(outline, &points, frame))
+        .map(|frame| aligned(outline, &points, frame))
         .filter_map(|frame| {
             if explained(outline, &points, &frame) < LEAST {
                 return None;
@@ -117,7 +117,7 @@ fn candidates(outline: &[Line], mapped: &Frame, points: &[Point2<f64>]) -> Vec<F
 }
 
 /// A frame made exact: points that lie near the outline, against it, by least squares.
-fn settled(outline: &[Line], points: &[Point2<f64>], start: Frame) -> Frame {
+fn aligned(outline: &[Line], points: &[Point2<f64>], start: Frame) -> Frame {
     let mut pose = Isometry2::new(start.origin().coords, start.angle.radians());
     for _ in 0..8 {
         let mut normal = nalgebra::Matrix3::identity() * 1e-3;

@@ -244,7 +244,7 @@ const acts = {
   select: (name) => select(name),
   go: (thing) => send(L(`Поезжай к: ${thing.name}`, `Go to ${N(thing)}`)),
   edit: () => { if (!S.edit) edit.toggle(); S.tab = 'map'; render(); },
-  turn: (by) => edit.nudge(0, 0, by), place: edit.put, add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: async () => { await tools.settle(); await edit.write(); }, drop: edit.drop, onTop: edit.onTop,
+  turn: (by) => edit.nudge(0, 0, by), place: edit.put, add: edit.add, rename: edit.rename, remove: edit.remove, door: edit.door, write: async () => { await tools.flush(); await edit.write(); }, drop: edit.drop, onTop: edit.onTop,
   undo: async () => { const done = await change('/api/undo'); if (done) { S.toast = null; announce(L('Отменено', 'Undone')); } },
   redo: async () => { const done = await change('/api/redo'); if (done) announce(L('Возвращено', 'Redone')); },
   restore: async () => { if (await change('/api/restore', { revision: S.asOf })) asOf(Infinity); },

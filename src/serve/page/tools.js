@@ -359,7 +359,7 @@ async function tied(name, points) {
 /* the fields: what a pointer draws, and what it cannot */
 let timer = 0;
 /** What was typed last becomes steps before they are written. */
-export async function settle() { if (timer) { clearTimeout(timer); timer = 0; await rebuild(); } }
+export async function flush() { if (timer) { clearTimeout(timer); timer = 0; await rebuild(); } }
 function set(name, value) {
   S.edit.fields[name] = value;
   if (['one', 'other'].includes(name)) { S.edit.spot = null; S.edit.fields.along = 0; }
@@ -412,7 +412,7 @@ export function form() {
       choice('kind', L('Какая', 'Which'), [['hinged', L('распашная', 'hinged')], ['sliding', L('раздвижная', 'sliding')], ['passage', L('проход без створки', 'passage without a leaf')]]));
     if (S.edit.fields.kind !== 'passage') parts.push(choice('hinge', L('Петли', 'Hinges'), [['left', L('слева', 'left')], ['right', L('справа', 'right')]]), choice('opens', L('Открывается', 'Opens'), [['inside', L('внутрь первого', 'into the first room')], ['outside', L('наружу из него', 'out of it')]]));
   }
-  return el('form', { class: 'draft', onsubmit: async (event) => { event.preventDefault(); await settle(); write(); } }, el('p', { class: 'sub' }, hint()), parts, el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
+  return el('form', { class: 'draft', onsubmit: async (event) => { event.preventDefault(); await flush(); write(); } }, el('p', { class: 'sub' }, hint()), parts, el('button', { class: 'vh', tabindex: '-1', 'aria-hidden': 'true' }));
 }
 
 /** Shows where the draft lies, for who draws by numbers. */

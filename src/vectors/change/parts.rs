@@ -176,7 +176,7 @@ where
         }
         let mut motions = best.motions.clone();
         motions.push(motion);
-        let more = settle(pairs, next, motions, best.fitted_to.clone());
+        let more = alternate(pairs, next, motions, best.fitted_to.clone());
         let saved = best.squared.iter().sum::<f64>() - more.squared.iter().sum::<f64>();
         if saved < least {
             break;
@@ -204,7 +204,7 @@ where
         let explained = |k: usize, motion: &Motion<D>| CAP - distance(&pairs[k], motion).0;
         motion = foremost(all, &every, explained).unwrap_or(*guess);
     }
-    settle(pairs, next, vec![motion], Vec::new())
+    alternate(pairs, next, vec![motion], Vec::new())
 }
 
 /// The motion that gains most of some pairs: of many, a few tell which are worth asking all of them.
@@ -228,7 +228,7 @@ fn foremost<const D: usize>(
 }
 
 /// Assigns pairs to motions and fits the motions to their pairs, in turn; `fitted_to` tells which already are.
-fn settle<const D: usize>(
+fn alternate<const D: usize>(
     pairs: &[(Segment<D>, Segment<D>)],
     next: &[Option<usize>],
     mut motions: Vec<Motion<D>>,
@@ -243,7 +243,7 @@ where
     let mut now = costs(&motions);
     let mut labels = assign(&now, next);
     fitted_to.resize(motions.len(), Vec::new());
-    // Assignment and fit both lower one sum, up to what the caps hide: it settles, or nearly.
+    // Assignment and fit both lower one sum, up to what the caps hide: it converges, or nearly.
     for _ in 0..6 {
         for (m, motion) in motions.iter_mut().enumerate() {
             let own: Vec<usize> =

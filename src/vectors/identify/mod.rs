@@ -116,7 +116,7 @@ where
         for (k, model) in models.iter().enumerate() {
             index.add(ThingId(k as u32), model, Table::append);
         }
-        index.settle();
+        index.merge();
         index
     }
 
@@ -148,8 +148,8 @@ where
     }
 
     /// Sorts what was added; asking works without, but slower.
-    pub fn settle(&mut self) {
-        self.table.settle();
+    pub fn merge(&mut self) {
+        self.table.merge();
     }
 
     /// Adds a thing, or replaces it.

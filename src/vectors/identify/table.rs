@@ -54,11 +54,11 @@ impl Table {
         self.recent.entry(posting.cell).or_default().push(posting);
         self.pending += 1;
         if self.pending > 4096.max(self.sorted.len() / 2) {
-            self.settle();
+            self.merge();
         }
     }
 
-    /// Adds one of many; nothing is found before they are settled.
+    /// Adds one of many; nothing is found before they are merged.
     pub(crate) fn append(&mut self, key: &Key, slot: u32, segments: (u16, u16)) {
         let posting = self.posting(key, slot, segments);
         self.sorted.push(posting);
@@ -72,7 +72,7 @@ impl Table {
     }
 
     /// Merges what was added since.
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn merge(&mut self) {
         self.sorted.extend(std::mem::take(&mut self.recent).into_values().flatten());
         self.pending = 0;
         self.sorted.sort_unstable_by(|a, b| a.cell.cmp(&b.cell).then(a.value.total_cmp(&b.value)));

@@ -75,9 +75,9 @@ where
         // Until the same segments are found twice; the motion hardly moves any more.
         for _ in 0..3 {
             let found = self.matches(&best.motion, counters)?;
-            let settled = found == pairs;
+            let converged = found == pairs;
             pairs = found;
-            if settled {
+            if converged {
                 break;
             }
             best = self.refine(best.motion, &pairs)?;

@@ -14,7 +14,7 @@ use crate::line::ROUGHNESS;
 /// Steps at most.
 const STEPS: usize = 8;
 /// A step that saves less of the sum than this share is the last.
-const SETTLED: f64 = 1e-3;
+const CONVERGED: f64 = 1e-3;
 
 /// A polyline where its beams are most likely.
 pub(super) struct Adjusted {
@@ -50,10 +50,10 @@ pub(super) fn adjust(sensor: &Sensor, hits: &[Hit], vertices: &[Vector2<f64>]) -
         };
         let saved = now.sum - next.sum;
         vertices = moved;
-        let is_settled = saved < SETTLED * now.sum;
+        let has_converged = saved < CONVERGED * now.sum;
         now = next;
         damping *= 0.1;
-        if is_settled {
+        if has_converged {
             break;
         }
     }

@@ -101,7 +101,7 @@ impl Extractor {
     fn find(&mut self, sensor: &Sensor, ranges: &[f64], start: usize) {
         self.gather(sensor, ranges, start);
         self.split(sensor);
-        self.settle(sensor);
+        self.place_borders(sensor);
         self.merge(sensor);
         self.share_out(sensor);
     }
@@ -254,7 +254,7 @@ impl Extractor {
     }
 
     /// Step 4, first half: points at the borders.
-    fn settle(&mut self, sensor: &Sensor) {
+    fn place_borders(&mut self, sensor: &Sensor) {
         for left in 0..self.runs.len().saturating_sub(1) {
             let (a, b) = (self.runs[left], self.runs[left + 1]);
             if a.to != b.from || a.to - a.from < 3 || b.to - b.from < 3 {

@@ -7,7 +7,7 @@
 //! first order, is linear in α and β: what an edge costs is a quadratic form over sums that are kept from hit to hit.
 //!
 //! ```text
-//!  open   B(j+1) = min( B(j) + lost(j),  A(j) )              hits before j + 1 are settled, no polyline goes on
+//!  open   B(j+1) = min( B(j) + lost(j),  A(j) )              hits before j + 1 are explained, no polyline goes on
 //!  vertex A(j)   = λ + min over i of min( B(i) + λ, A(i) ) + edge(i, j)         a polyline has come to hit j
 //! ```
 
@@ -119,7 +119,7 @@ impl<'a> Hops<'a> {
     fn at_price(&self, price: f64) -> Vec<Vec<usize>> {
         let count = self.hits.len();
         // Of each hit: cost so far with a polyline that has come here, or begins here; and where it came from.
-        let mut onward = vec![f64::INFINITY; count];
+        let mut starts = vec![f64::INFINITY; count];
         let mut ends = vec![f64::INFINITY; count];
         let mut from = vec![usize::MAX; count];
         let mut open = vec![0.0; count + 1];
@@ -128,13 +128,13 @@ impl<'a> Hops<'a> {
             let costs = &self.costs[row..row + at - low];
             let mut least = f64::INFINITY;
             for (k, cost) in costs.iter().enumerate() {
-                let sum = onward[low + k] + f64::from(*cost);
+                let sum = starts[low + k] + f64::from(*cost);
                 if sum < least {
                     (least, from[at]) = (sum, low + k);
                 }
             }
             ends[at] = least + price;
-            onward[at] = ends[at].min(open[at] + price);
+            starts[at] = ends[at].min(open[at] + price);
             open[at + 1] = ends[at].min(open[at] + self.lost[at]);
         }
         let mut lines: Vec<Vec<usize>> = Vec::new();
@@ -148,7 +148,7 @@ impl<'a> Hops<'a> {
             let mut vertex = from[at - 1];
             loop {
                 line.push(vertex);
-                if onward[vertex] < ends[vertex] {
+                if starts[vertex] < ends[vertex] {
                     break;
                 }
                 vertex = from[vertex];

@@ -63,7 +63,7 @@ impl Graph {
     fn parting(&self, gaps: &[(usize, Point)]) -> Vec<bool> {
         let mut graph = self.led(gaps);
         let ends: Vec<(usize, usize)> = gaps.iter().map(|&(end, q)| (end, graph.node(q))).collect();
-        let (_, cycles) = graph.settle();
+        let (_, cycles) = graph.bound();
         let mut sides: HashMap<(usize, usize), f64> = HashMap::new();
         for cycle in &cycles {
             let ring: Vec<Point> = cycle.iter().map(|&(n, _)| graph.points[n]).collect();

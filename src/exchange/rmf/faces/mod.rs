@@ -87,7 +87,7 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.part_doors();
     graph.span_doors();
     let wide = graph.wide_gaps();
-    let (loose, cycles) = graph.settle();
+    let (loose, cycles) = graph.bound();
     let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
     let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
     let loose = loose
@@ -226,7 +226,7 @@ impl Graph {
     }
 
     /// Takes away all that bounds nothing: arms, and bridges to inner rings. What is left has a face on either side.
-    fn settle(&mut self) -> (Vec<(usize, usize, usize)>, Vec<Cycle>) {
+    fn bound(&mut self) -> (Vec<(usize, usize, usize)>, Vec<Cycle>) {
         let mut loose = self.prune();
         let mut cycles = self.cycles();
         loop {
@@ -245,7 +245,7 @@ impl Graph {
 
     /// The doors that have one face on both sides, and everything else that bounds nothing.
     fn one_sided(&self) -> (BTreeSet<usize>, Vec<(usize, usize, usize)>) {
-        let (loose, _) = self.clone().settle();
+        let (loose, _) = self.clone().bound();
         (loose.iter().map(|e| e.2).filter(|&tag| tag > 0 && tag != OPEN).collect(), loose)
     }
 

@@ -1,6 +1,6 @@
 //! Declension of Russian nouns by principal parts, and the principal parts by ending.
 //!
-//! A noun is settled by five forms: nominative and genitive singular, instrumental singular, nominative and
+//! A noun is determined by five forms: nominative and genitive singular, instrumental singular, nominative and
 //! genitive plural. [`Parts::by_ending`] guesses them from the ending, the word list overrides what it knows, and
 //! [`Parts::paradigm`] fills in the rest, where nothing is left to guess.
 //! Invariant: the nominative of the noun's own number is the word itself.

@@ -1,4 +1,4 @@
-//! Principal parts: five forms that settle a noun, by its ending, and the forms that follow from them.
+//! Principal parts: five forms that determine a noun, by its ending, and the forms that follow from them.
 //!
 //! Invariant: the nominative of the noun's own number is the word itself.
 

@@ -2,9 +2,9 @@
 
 mod bonds;
 mod brings;
+mod late;
 mod names;
 mod records;
-mod settled;
 mod standing;
 mod things;
 mod traits;
@@ -29,8 +29,8 @@ use crate::file::read::{MOST_GUESSES, Reader};
 use crate::file::schema::{Coordinates, Number};
 use crate::units::{Cm, Deg, Frame, ReplicaId, ZoneId};
 
+use late::Late;
 use names::Keys;
-use settled::Late;
 use zones::Draft;
 
 /// A world on its way through edits.
@@ -147,7 +147,7 @@ impl<'a> Steps<'a> {
                 self.misprints.push(*fault);
             }
         }
-        self.settle();
+        self.finish();
     }
 
     fn step(&mut self, told: &Told) -> Done {

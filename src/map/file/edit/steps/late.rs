@@ -24,7 +24,7 @@ impl Late {
 }
 
 impl Steps<'_> {
-    pub(super) fn settle(&mut self) {
+    pub(super) fn finish(&mut self) {
         for (id, draft) in std::mem::take(&mut self.zones) {
             if self.broken.contains(&Record::Zone(id)) {
                 continue;
