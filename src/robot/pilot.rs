@@ -28,6 +28,8 @@ use crate::vehicle::{
 
 mod way;
 
+// How a laser and wheels err, and what may be believed of them: set by the sensors, so no rule reads it.
+
 /// A return so far from all that is known is of something else, cm.
 const UNKNOWN: f64 = 9.0;
 /// So sure must it be of what it tells.

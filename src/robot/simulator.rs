@@ -41,7 +41,7 @@ use contact::placed;
 
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
-/// How far the arm reaches beyond the footprint, cm.
+/// How far the arm of the simulated body reaches beyond its footprint, cm.
 const ARM_REACH: f64 = 90.0;
 /// How often a motion tells of itself and can be stopped, seconds of simulated time.
 const STEP: f64 = 0.25;
@@ -624,7 +624,7 @@ impl Simulator {
     }
 }
 
-/// How far a thing is told from others, cm.
+/// How far the eye of the simulated body tells a thing from others, cm; what is spoken of is nearer («robot sight»).
 const SIGHT_RANGE: f64 = 1_000.0;
 
 fn edges_of(polygon: &Polygon, of: Obstruction) -> impl Iterator<Item = Edge> + '_ {

@@ -9,7 +9,8 @@ use crate::geometry::{Bounds, Polygon, convex_hull};
 use crate::map::{Object, Permeability, SideRef, World};
 use crate::units::{AreaId, Frame, MapId, ObjectId, Point, ReplicaId, Vector};
 
-/// Orthoframes whose bases lie within this of the lowest one, in cm, are what the thing stands on.
+/// Orthoframes whose bases lie within this of the lowest one, in cm, are what the thing stands on: drawings of one foot
+/// differ by as much. How far a foot may be from what bears it the rules say.
 const FOOT_SLACK: f64 = 0.5;
 
 /// One Orthoframe, in the Object's frame or in the Map's.

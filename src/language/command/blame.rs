@@ -76,7 +76,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
 /// Whether a word of a name is like one of a reference in its letters: what a name is found by besides may be anything.
 /// Names in other letters cannot be compared.
 fn is_alike(name: &str, reference: &str) -> bool {
-    /// From 0 to 1: «вилку» is no «миска» (0.6), «чашку» is «чашка» (0.8).
+    /// Of letters, and no meaning, from 0 to 1: «вилку» is no «миска» (0.6), «чашку» is «чашка» (0.8).
     const ALIKE: f64 = 0.7;
     let (names, said) = (word_keys(name), word_keys(reference));
     let like =

@@ -12,7 +12,7 @@ use super::Belief;
 
 /// Of more unknown things no way past them is looked for.
 const MOST_UNKNOWN: usize = 40;
-/// An unknown thing whose corners moved by no more is as it was, cm.
+/// An unknown thing whose corners moved by no more is as it was, cm: so much two looks of one laser differ.
 const SAME: f64 = 5.0;
 /// What is left of a thing beside the robot keeps off it by so much more than it must, cm.
 const OFF: f64 = 0.5;
