@@ -394,6 +394,34 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
     }
 }
 
+/// Storeys, touching and room on a table: what is said of them changes with its threshold.
+#[test]
+fn what_is_said_changes_with_its_threshold() {
+    let of = |map: &str, rules: &str| {
+        engine_of(&World::load(project(&format!("maps/{map}.toml"))).unwrap(), rules)
+    };
+    for (map, from, to, question) in [
+        (
+            "two-storeys",
+            "\"storey share\",        50",
+            "\"storey share\", 1000",
+            "Какие комнаты находятся над Холлом-1?",
+        ),
+        (
+            "two-storeys",
+            "\"level equal\",        100",
+            "\"level equal\", 100000",
+            "Какие комнаты находятся над Холлом-1?",
+        ),
+        ("rb2", "\"touch gap\",          100", "\"touch gap\", 3000", "Где Стул-1?"),
+        ("rb2", "\"top free\",            50", "\"top free\", 1000", "Свободен ли Стол-1?"),
+    ] {
+        let [before, after] =
+            [STANDARD, &changed(from, to)].map(|rules| answer(&of(map, rules), question));
+        assert_ne!(before, after, "{to}");
+    }
+}
+
 /// What is doubted of a map is doubted by the thresholds of the rules: within them a thing stands, hangs or bars a door.
 #[test]
 fn a_map_is_doubted_by_the_thresholds_of_the_rules() {

@@ -56,6 +56,9 @@ pub struct Differing {
     pub found: Vec<FoundAt>,
 }
 
+/// A pose that a log tells is off by no more, cm: what fits farther off is another place.
+const TOLD_OFF: f64 = 30.0;
+
 impl State {
     /// What scans of a log see that a map has otherwise, by a laser at `height` cm above the Map's zero: of the scan `only`,
     /// from 1, or of all. Their poses are found on the map, and followed by odometry where the log has it; or the log tells
@@ -95,7 +98,7 @@ impl State {
                     let near = localiser.near(sensor, &scan.ranges, pose);
                     // What the log tells is made exact where the map allows it.
                     let is_near = |fit: &Fit| {
-                        (fit.pose.translation.vector - pose.translation.vector).norm() <= 30.0
+                        (fit.pose.translation.vector - pose.translation.vector).norm() <= TOLD_OFF
                     };
                     let told = || Fit {
                         pose,

@@ -239,6 +239,7 @@ pub(super) fn move_in_words(by: Move, language: Language) -> String {
     let mut steps = Vec::new();
     if degrees >= 1.0 {
         let left = by.turn > 0.0;
+        // The turn itself is told, not how people speak of one: the threshold «turn round» is of ways.
         steps.push(match (degrees >= 175.0, left, language) {
             (true, _, Language::Russian) => "развернуться".to_owned(),
             (true, _, Language::English) => "turn round".to_owned(),
