@@ -16,7 +16,8 @@
 //! ```
 //!
 //! A relation that somebody computes when asked is a [`Computed`]: it stands among the premises of a question and of the
-//! question's rules like any other.
+//! question's rules like any other. Where the program declares it as `.input`, the program's own rules read it too: what
+//! they derive from it is then derived for the question.
 
 use std::cmp::Ordering;
 use std::ops::Deref;
@@ -31,10 +32,11 @@ use super::derived::{Derived, values};
 use super::evaluate::given;
 use super::kept::Kept;
 use super::limits::{Limits, Watch};
-use super::program::{Column, Program, RelationId};
+use super::program::{Clause, Column, Program, RelationId};
 use super::proof::{Explainer, Proof};
 use super::question::Question;
 use super::rows::heap;
+use super::strata::reads;
 use super::stored::Stored;
 use super::word::{Value, Word, Words};
 use crate::units::Source;
@@ -97,8 +99,8 @@ impl Derived {
     ) -> Result<Answers<'a>, AskError> {
         let kept = Held::Lent(&self.kept);
         let is_stored = vec![true; self.program.relations.len()];
-        let mut answers = Answers::new(&self.program, kept, is_stored, question, computed, limits)?;
-        answers.given.clone_from(&self.given);
+        let told = (kept, self.given.clone(), is_stored);
+        let mut answers = Answers::new(&self.program, told, question, computed, limits)?;
         answers.answer()?;
         Ok(answers)
     }
@@ -134,8 +136,8 @@ impl Program {
             let derived = self.evaluate_within(database, limits).map_err(AskError::from)?;
             let is_stored = vec![true; self.relations.len()];
             let kept = Held::Shared(Arc::new(derived.kept));
-            let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
-            answers.given = derived.given;
+            let told = (kept, derived.given, is_stored);
+            let mut answers = Answers::new(self, told, question, computed, limits)?;
             answers.answer()?;
             return Ok(answers);
         }
@@ -146,10 +148,9 @@ impl Program {
         });
         let mut is_stored = vec![true; columns.len()];
         self.clauses.iter().for_each(|clause| is_stored[clause.head.index()] = false);
-        let told = all.iter().map(|of| Some(kept.rows(*of).boxed_clone())).collect();
-        let kept = Held::Shared(kept);
-        let mut answers = Answers::new(self, kept, is_stored, question, computed, limits)?;
-        answers.given = told;
+        let given = all.iter().map(|of| Some(kept.rows(*of).boxed_clone())).collect();
+        let told = (Held::Shared(kept), given, is_stored);
+        let mut answers = Answers::new(self, told, question, computed, limits)?;
         answers.answer()?;
         Ok(answers)
     }
@@ -193,33 +194,79 @@ impl Program {
     }
 }
 
+impl Program {
+    /// The relations that rules derive from some others, by whatever way.
+    fn depend_on(&self, relations: impl Iterator<Item = RelationId>) -> Vec<RelationId> {
+        let given: Vec<RelationId> = relations.collect();
+        let mut reached = given.clone();
+        let mut at = 0;
+        while let Some(from) = reached.get(at).copied() {
+            at += 1;
+            for clause in self.clauses.iter().filter(|clause| clause.reads(from)) {
+                if !reached.contains(&clause.head) {
+                    reached.push(clause.head);
+                }
+            }
+        }
+        reached.split_off(given.len())
+    }
+}
+
+impl Clause {
+    /// Whether a relation is among what it reads.
+    fn reads(&self, relation: RelationId) -> bool {
+        let mut is_read = false;
+        reads(&self.body, false, &mut |of, _, _| is_read |= of == relation);
+        is_read
+    }
+}
+
 impl<'a> Answers<'a> {
+    /// Over rows that are kept, what of them was told, and which relations are there as a whole.
     fn new(
         program: &Program,
-        kept: Held<'a>,
-        is_stored: Vec<bool>,
+        (kept, given, is_stored): (Held<'a>, Vec<Option<Box<dyn Stored>>>, Vec<bool>),
         source: &Source,
         computed: &[&'a dyn Computed],
         limits: Limits,
     ) -> Result<Self, AskError> {
         let mut words = kept.words.share();
+        let own = |by: &&'a dyn Computed| {
+            let name = names(by.declaration().text()).next()?;
+            program.relation(name).filter(|id| !program.info(*id).inputs.is_empty())
+        };
+        let (inputs, others): (Vec<&'a dyn Computed>, Vec<_>) =
+            computed.iter().partition(|by| own(by).is_some());
+        let inputs = inputs.into_iter().filter_map(|by| Some((own(&by)?, by)));
+        let mut computed: Vec<(RelationId, &'a dyn Computed)> = inputs.collect();
         // What the question does not name need not be declared.
         let named = |by: &&&'a dyn Computed| {
             names(by.declaration().text()).any(|name| source.text().contains(name))
         };
-        let computed: Vec<&'a dyn Computed> = computed.iter().filter(named).copied().collect();
-        let more: Vec<&Source> = computed.iter().map(|by| by.declaration()).collect();
+        let others: Vec<&'a dyn Computed> = others.iter().filter(named).copied().collect();
+        let more: Vec<&Source> = others.iter().map(|by| by.declaration()).collect();
         let question = program.question(source, &more, &mut words)?;
         let limits = limits.within(question.program.limits);
         let unknown = words.symbols().skip(kept.words.symbols().count()).cloned().collect();
         let relation = |n: usize| RelationId((question.known + n) as u32);
-        let computed = computed.iter().enumerate().map(|(n, by)| (relation(n), *by)).collect();
+        let (mut kept, mut is_stored) = (kept, is_stored);
+        let anew = program.depend_on(computed.iter().map(|(relation, _)| *relation));
+        let of_question = &question.program.clauses[program.clauses.len()..];
+        if of_question.iter().any(|clause| anew.iter().any(|relation| clause.reads(*relation))) {
+            let mut own = Kept::clone(&kept);
+            for relation in anew {
+                is_stored[relation.index()] = false;
+                own.put_back(relation, given[relation.index()].as_deref());
+            }
+            kept = Held::Shared(Arc::new(own));
+        }
+        computed.extend(others.iter().enumerate().map(|(n, by)| (relation(n), *by)));
         Ok(Self {
             question,
             kept,
             is_stored,
             computed,
-            given: Vec::new(),
+            given,
             words,
             limits,
             unknown,

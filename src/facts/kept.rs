@@ -143,6 +143,18 @@ impl Kept {
         Some(index)
     }
 
+    /// Puts other rows in the place of a relation's, none where none are given.
+    pub(super) fn put_back(&mut self, relation: RelationId, rows: Option<&dyn Stored>) {
+        let at = relation.index();
+        match rows {
+            Some(rows) => self.rows[at] = rows.boxed_clone(),
+            None => self.rows[at].clear(),
+        }
+        self.indexes[at].clear();
+        self.shelf.all().retain(|(of, _)| *of != relation);
+        self.distinct[at].iter_mut().for_each(|known| *known = OnceLock::new());
+    }
+
     /// Before an update: what questions asked for follows the edits from now on.
     pub(super) fn take_shelf(&mut self) {
         let shelf = std::mem::take(&mut *self.shelf.all());

@@ -60,6 +60,7 @@ mod apart;
 mod ask;
 mod beside;
 mod called;
+mod calls;
 mod check;
 mod clause;
 mod component;

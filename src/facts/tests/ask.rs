@@ -336,6 +336,51 @@ fn computed_relations_stand_in_every_kind_of_premise() {
     assert_eq!(by.asked.get(), 1);
 }
 
+/// An input that is computed when asked gives the program's own rules what the same rows would give if they were told.
+#[test]
+fn rules_read_what_is_computed_as_if_it_were_told() {
+    let rules = format!(
+        "{NUMBERS} .decl plus(a: number, b: number, c: number) .input plus
+         .decl next(x: number, y: number) .output next next(X, Y) :- n(X), plus(X, 1, Y).
+         .decl chain(x: number, y: number) .output chain chain(X, Y) :- next(X, Y), n(Y). chain(X, Z) :- chain(X, Y), next(Y, Z).
+         .decl last(x: number) .output last last(X) :- n(X), !next_known(X).
+         .decl next_known(x: number) next_known(X) :- next(X, Y), n(Y).
+         .decl odd(x: number) .output odd odd(X) :- n(X), X % 2 = 1."
+    );
+    let program = Program::parse(&Source::new("n.dl", &*rules)).unwrap();
+    let mut told = program.database();
+    for (a, b) in (0..12).flat_map(|a| (0..12).map(move |b| (a, b))) {
+        told.insert("plus", &[a, b, a + b].map(Value::Number)).unwrap();
+    }
+    let (whole, empty) = (program.evaluate(&told).unwrap(), program.database());
+    let bare = program.evaluate(&empty).unwrap();
+    for question in [
+        "?- next(X, Y)", "?- next(X, 5)", "?- chain(X, Y)", "?- chain(1, Y)", "?- next_known(X)", "?- n(X), next_known(X)", "?- n(X), !next_known(X)", "?- last(X)", "?- !last(1)",
+        "?- odd(X), next(X, Y), !chain(X, Y)", "?- n(X), C = count : { chain(X, _) }", "?- plus(2, 3, X)",
+    ] {
+        let source = Source::new("?", question);
+        let expected = whole.ask(&source).unwrap().rows().to_vec();
+        for held in [&program.evaluate(&told).unwrap(), &bare] {
+            let by = sum();
+            let answers = held.ask_with(&source, &[&by], Limits::default()).unwrap();
+            assert_eq!(answers.rows(), expected, "{question}");
+            for n in 0..answers.rows().len() {
+                assert!(answers.why(n).unwrap().is_some(), "{question}");
+            }
+        }
+        let by = sum();
+        let answers = program.ask_with(&empty, &source, &[&by], Limits::default()).unwrap();
+        assert_eq!(answers.rows(), expected, "{question}");
+    }
+    // What does not rest on it is not derived again, and what cannot be computed so is refused.
+    let by = sum();
+    bare.ask_with(&Source::new("?", "?- odd(X)"), &[&by], Limits::default()).unwrap();
+    assert_eq!(by.asked.get(), 0);
+    let source = Source::new("?", "?- plus(X, Y, Z)");
+    let error = bare.ask_with(&source, &[&by], Limits::default()).unwrap_err();
+    assert!(matches!(error, AskError::Blocked { .. }), "{error}");
+}
+
 #[test]
 fn faults_of_a_question_have_their_places() {
     let program = Program::parse(&Source::new("n.dl", NUMBERS)).unwrap();
@@ -424,4 +469,34 @@ fn answers_come_in_the_order_asked_for() {
         let answers = answers.unwrap_or_else(|error| panic!("{question}: {error}"));
         assert_eq!(numbers(&answers), expected, "{question}");
     }
+}
+
+#[test]
+fn a_tuple_tells_what_its_rules_ask_of_others() {
+    let program = Program::parse(&Source::new(
+        "n.dl",
+        r#".decl way(a: symbol, b: symbol, how: symbol, d: number) .input way
+           .decl size(a: symbol, d: number) .input size
+           .decl near(a: symbol, b: symbol) .output near
+           near(A, B) :- wide(A, B), size(A, _).
+           near(A, B) :- near(B, A), !size("wall", 3).
+           .decl wide(a: symbol, b: symbol)
+           wide(A, B) :- way(A, B, "along", D), D < 3.
+           wide("gate", B) :- way(B, _, "across", _)."#,
+    ))
+    .unwrap();
+    let of = ["way", "size"].map(|name| program.relation(name).unwrap());
+    let told = |tuple: [&str; 2]| {
+        let calls = program.calls("near", &tuple.map(Value::from), &of).unwrap();
+        let told = calls.iter().map(|(relation, known)| {
+            let known = known.iter().map(|k| k.as_ref().map_or("_".to_owned(), Value::to_string));
+            format!("{}({})", program.info(*relation).name, known.collect::<Vec<_>>().join(","))
+        });
+        told.collect::<std::collections::BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(" ")
+    };
+    let plain = "size(a,_) size(b,_) size(wall,3) way(a,b,along,_) way(b,a,along,_)";
+    assert_eq!(told(["a", "b"]), plain);
+    let gate = "size(b,_) size(gate,_) size(wall,3) way(b,_,across,_) way(b,gate,along,_) way(gate,b,along,_)";
+    assert_eq!(told(["gate", "b"]), gate);
+    assert!(program.calls("near", &[Value::Number(1)], &of).is_err());
 }
