@@ -42,7 +42,7 @@ pub use orthoframe_geometry::{
 
 /// Relations, and the robot that a task is given to.
 pub use orthoframe_robot::{Simulator, Vehicle};
-pub use orthoframe_semantics::{RelationRules, Relations};
+pub use orthoframe_semantics::{Around, RelationRules, Relations};
 
 /// What moves the robot: a simulator, what speaks the protocol of docs/vehicle.md, or a type of one's own.
 ///

@@ -7,7 +7,7 @@ use orthoframe_facts::{Value, WhyNot};
 use orthoframe_language::question::Memory;
 use orthoframe_map::{Entity, Format, Profile, World};
 use orthoframe_semantics::{
-    MEASURED, RelationError, RelationRules, Relations, STANDARD, Spot, THRESHOLDS, derive,
+    Around, MEASURED, Made, RelationError, RelationRules, Relations, STANDARD, Spot, THRESHOLDS, derive,
     measured_table,
 };
 use orthoframe_units::{Deg, Frame, Point, Pose, Source};
@@ -196,8 +196,9 @@ fn a_changed_threshold_changes_the_relation_and_the_answer() {
             false => (after, before),
         };
         assert!(with.holds(relation, tuple) && !without.holds(relation, tuple), "{to}");
-        assert!(with.why(relation, tuple).unwrap().is_some(), "{to}");
-        let why_not = without.why_not(relation, tuple).unwrap();
+        let around = Around::new(standard.world().unwrap());
+        assert!(with.why(&around, relation, tuple).unwrap().is_some(), "{to}");
+        let why_not = without.why_not(&around, relation, tuple).unwrap();
         assert!(matches!(why_not, WhyNot::Nearest(_)), "{to}: {why_not:?}");
     }
 }
@@ -230,13 +231,14 @@ fn a_reach_grows_with_the_threshold_that_needs_it() {
     }
 }
 
+fn at(engine: &Engine, x: f64, y: f64) -> Spot {
+    let map = *engine.world().unwrap().maps.keys().next().unwrap();
+    let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
+    engine.locate(map, pose, false).unwrap().terms.spot
+}
+
 #[test]
 fn a_report_takes_its_thresholds_from_the_rules() {
-    let at = |engine: &Engine, x: f64, y: f64| {
-        let map = *engine.world().unwrap().maps.keys().next().unwrap();
-        let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
-        engine.locate(map, pose, false).unwrap().terms.spot
-    };
     let standard = engine(STANDARD, "");
     type Is = fn(&Spot) -> bool;
     let cases: [(&str, &str, (f64, f64), Is); 5] = [
@@ -280,7 +282,7 @@ fn a_text_that_lacks_thresholds_and_sections_gets_those_of_the_program() {
     })
     .map(|line| format!("{line}\n"))
     .collect();
-    assert!(!older.contains("AT_WALL") && !older.contains("limit(\"common\",   \"wall gap\""));
+    assert!(!older.contains("= AT_WALL") && !older.contains("limit(\"common\",   \"wall gap\""));
     let (older, standard) = (engine(&older, ""), engine(STANDARD, ""));
     let names = standard.relations().unwrap().counts();
     for name in names {
@@ -375,7 +377,7 @@ fn the_table_of_measured_relations_is_that_of_the_rules_and_of_the_guide() {
             format!(".decl {0}({1})\n.input {0}\n", info.name, columns.join(", "))
         })
         .collect();
-    let always = MEASURED.iter().filter(|measured| !measured.on_demand);
+    let always = MEASURED.iter().filter(|measured| measured.made != Made::OnDemand);
     let mut table: Vec<String> = always.map(|measured| measured.declaration()).collect();
     let mut declared = declared;
     declared.sort();
@@ -533,4 +535,19 @@ fn the_robot_stands_before_a_thing_as_the_rules_say() {
     let other = changed("\"robot aside\",       3000", "\"robot aside\", 9000");
     let (near, far) = (away(STANDARD), away(&other));
     assert!(far > near + 30.0, "{near} {far}");
+}
+
+/// A text that knows nothing of what is asked gets the section about it, and keeps its own thresholds.
+#[test]
+fn a_text_from_before_what_is_asked_answers_it() {
+    let (before, rest) = STANDARD.split_once("// ═══ Когда спрашивают").unwrap();
+    let (_, after) = rest.split_once("// ═══ Часть").unwrap();
+    let older = format!("{before}// ═══ Часть{after}");
+    assert!(!older.contains("BETWEEN"));
+    let narrow = older.replace("\"robot door\",       13000", "\"robot door\",        3000");
+    let (older, narrow, standard) = (engine(&older, ""), engine(&narrow, ""), engine(STANDARD, ""));
+    for (x, y) in [(550.0, 120.0), (590.0, 200.0), (300.0, 200.0), (20.0, 20.0)] {
+        assert_eq!(at(&older, x, y), at(&standard, x, y));
+    }
+    assert_ne!(at(&narrow, 550.0, 120.0), at(&standard, 550.0, 120.0));
 }

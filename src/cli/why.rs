@@ -17,22 +17,25 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
     let engine = open(common)?;
     let relations = engine.relations()?;
     let names = Names { relations, lang: common.lang };
-    let of = engine.arguments(&of)?;
-    let proof = relations.why(name, &of)?;
+    let because = engine.why(name, &of)?;
     if common.json {
         say(&super::json::why(&engine, name, &of, common.lang.language())?.to_string())?;
-        return Ok(if proof.is_some() == not { Answer::No } else { Answer::Yes });
+        return Ok(if because.is_ok() == not { Answer::No } else { Answer::Yes });
     }
-    if let Some(proof) = proof {
-        if not {
-            say(common.lang.pick("Это так:", "It does hold:"))?;
+    let nearest = match because {
+        Ok(proof) => {
+            if not {
+                say(common.lang.pick("Это так:", "It does hold:"))?;
+            }
+            say(names.translate(&proof.to_string()).trim_end())?;
+            return Ok(if not { Answer::No } else { Answer::Yes });
         }
-        say(names.translate(&proof.to_string()).trim_end())?;
-        return Ok(if not { Answer::No } else { Answer::Yes });
-    }
+        Err(nearest) => nearest,
+    };
+    let of = engine.arguments(&of)?;
     let shown = names.name(name);
     let head = format!("{shown}({})", of.join(", "));
-    match relations.why_not(name, &of)? {
+    match nearest {
         WhyNot::Nearest(rule) => {
             let text = common
                 .lang

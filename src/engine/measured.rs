@@ -59,12 +59,9 @@ impl State {
         language: Language,
     ) -> Result<Reason, Error> {
         let relations = self.relations()?;
+        let because = self.why(relation, of)?;
         let of = &self.arguments(of)?;
         let mut found = Found { state: self, about: Vec::new(), facts: Vec::new() };
-        let because = match relations.why(relation, of)? {
-            Some(proof) => Ok(proof),
-            None => Err(relations.why_not(relation, of)?),
-        };
         match &because {
             Ok(proof) => found.of_proof(proof),
             Err(WhyNot::Nearest(rule)) => found.of_failed(rule),

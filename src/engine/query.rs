@@ -8,7 +8,7 @@
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
 use crate::map::Entity;
-use crate::semantics::{OnDemand, Subject, length, on_demand, robot_eye, things_in_view};
+use crate::semantics::{Around, OnDemand, Subject, length, on_demand, robot_eye, things_in_view};
 use crate::units::{Deg, Pose, Source};
 
 use super::known::Known;
@@ -56,7 +56,8 @@ impl State {
             Asked::new(SEEN, vec![(0b01, 30.0)], (around, relations), seen),
             Asked::new(WAY, vec![(0b11, 1.0)], (around, relations), way),
         ];
-        let measured = on_demand(around.world(), relations);
+        let place = Around::new(around.world()).with_robot(self.robot_pose());
+        let measured = on_demand(&place, relations);
         let measured = measured.iter().map(|one| one as &dyn Computed);
         let is_read = |name: &str| reads(question, name);
         let tell = || self.told(around, around.moment(), is_read("sees"));

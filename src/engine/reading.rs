@@ -1,5 +1,7 @@
 //! A position report read back: from a sentence to the region of poses of which it is true (SPEC T5).
 
+use std::collections::BTreeSet;
+
 use crate::geometry::{Bounds, FloorPlan};
 use crate::language::FormIndex;
 use crate::language::names::hints;
@@ -78,7 +80,7 @@ impl State {
     /// There is no map.
     pub fn region_contains(&self, region: &Region, pose: Pose) -> Result<bool, Error> {
         let (world, relations) = (self.world()?, self.relations()?);
-        Ok(region.has_point(world, relations, pose.at)
+        Ok(!region.held_at(world, relations, &[pose.at]).is_empty()
             && region.has_heading(world, relations, self.floor(region.map)?, pose))
     }
 
@@ -94,12 +96,14 @@ impl State {
         let count = |length: f64| (length / step).floor().clamp(0.0, 2000.0) as u32;
         let mut points = Vec::new();
         for row in 0..=count(max.y - min.y) {
-            for column in 0..=count(max.x - min.x) {
-                let at = min + crate::units::Vector::new(f64::from(column), f64::from(row)) * step;
+            let of_row = (0..=count(max.x - min.x)).map(|column| {
+                min + crate::units::Vector::new(f64::from(column), f64::from(row)) * step
+            });
+            let of_row: Vec<Point> = of_row.collect();
+            for at in region.held_at(world, relations, &of_row).into_iter().map(|n| of_row[n]) {
                 let turned = |k: u32| Pose { at, heading: Deg::of(f64::from(k) * 15.0) };
-                if region.has_point(world, relations, at)
-                    && (region.facing.is_none()
-                        || (0..24).any(|k| region.has_heading(world, relations, floor, turned(k))))
+                if region.facing.is_none()
+                    || (0..24).any(|k| region.has_heading(world, relations, floor, turned(k)))
                 {
                     points.push(at);
                 }
@@ -110,7 +114,8 @@ impl State {
 }
 
 impl Region {
-    fn has_point(&self, world: &World, relations: &Relations, at: Point) -> bool {
+    /// The places of those of some points at which the claim holds.
+    fn held_at(&self, world: &World, relations: &Relations, at: &[Point]) -> BTreeSet<usize> {
         claim_holds(world, relations, (self.map, self.area), &self.claim, at)
     }
 

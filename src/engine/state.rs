@@ -7,10 +7,11 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
+use crate::facts::{Proof, WhyNot};
 use crate::geometry::{FloorPlan, Openings};
 use crate::language::FormIndex;
 use crate::map::{Entity, World, Zone};
-use crate::semantics::{Followed, Relations, Told, robot_eye, things_in_view};
+use crate::semantics::{Around, Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{
     AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Timestamp, bilingual,
@@ -369,6 +370,24 @@ impl State {
                 .into())
             }
         }
+    }
+
+    /// Why a relation holds on the map as surveyed, or what it lacks.
+    ///
+    /// # Errors
+    /// There is no map, or it knows no such relation, or nothing of such a name.
+    pub(crate) fn why(&self, relation: &str, of: &[&str]) -> Result<Result<Proof, WhyNot>, Error> {
+        let (relations, around) = (self.relations()?, self.place()?);
+        let of = &self.arguments(of)?;
+        Ok(match relations.why(&around, relation, of)? {
+            Some(proof) => Ok(proof),
+            None => Err(relations.why_not(&around, relation, of)?),
+        })
+    }
+
+    /// From what is measured when the relations of the surveyed map are asked.
+    pub(super) fn place(&self) -> Result<Around<'_>, Error> {
+        Ok(Around::new(self.world()?).with_robot(self.robot_pose()))
     }
 
     /// What the arguments of a fact are called in the facts: a number, or a word that some fact has, is that; anything

@@ -36,8 +36,8 @@ use super::program::{Clause, Column, Program, RelationId};
 use super::proof::{Explainer, Proof};
 use super::question::Question;
 use super::rows::heap;
-use super::strata::reads;
 use super::stored::Stored;
+use super::strata::reads;
 use super::word::{Value, Word, Words};
 use crate::units::Source;
 
@@ -60,6 +60,9 @@ enum Held<'a> {
     Lent(&'a Kept),
     Shared(Arc<Kept>),
 }
+
+/// Rows that are kept, what of each relation was told, and which relations are there as a whole.
+type Told<'a> = (Held<'a>, Vec<Option<Box<dyn Stored>>>, Vec<bool>);
 
 impl Deref for Held<'_> {
     type Target = Kept;
@@ -222,10 +225,9 @@ impl Clause {
 }
 
 impl<'a> Answers<'a> {
-    /// Over rows that are kept, what of them was told, and which relations are there as a whole.
     fn new(
         program: &Program,
-        (kept, given, is_stored): (Held<'a>, Vec<Option<Box<dyn Stored>>>, Vec<bool>),
+        (kept, given, is_stored): Told<'a>,
         source: &Source,
         computed: &[&'a dyn Computed],
         limits: Limits,

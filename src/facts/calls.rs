@@ -9,6 +9,9 @@ use super::database::{FactError, RelationKey, Schema};
 use super::program::{Clause, Expr, Literal, Program, RelationId, Term};
 use super::word::{NO_WORD, Value, Word};
 
+/// A relation, and a row of it as far as it is known.
+pub type KnownRow = (RelationId, Vec<Option<Value>>);
+
 /// A relation and the words that are known of a row, [`NO_WORD`] for the others.
 type Call = (RelationId, Vec<Word>);
 
@@ -22,13 +25,14 @@ impl Program {
         relation: impl RelationKey,
         tuple: &[Value],
         of: &[RelationId],
-    ) -> Result<Vec<(RelationId, Vec<Option<Value>>)>, FactError> {
+    ) -> Result<Vec<KnownRow>, FactError> {
         let mut words = self.words.share();
         let schema = Schema::of(self);
         let relation = relation.find(&schema)?;
         let row = schema
             .encode(relation, tuple, |value, kind| words.of(value, kind).unwrap_or(NO_WORD))?;
-        let (mut made, mut open) = (BTreeSet::from([(relation, row.clone())]), vec![(relation, row)]);
+        let (mut made, mut open) =
+            (BTreeSet::from([(relation, row.clone())]), vec![(relation, row)]);
         while let Some((relation, row)) = open.pop() {
             for clause in self.clauses.iter().filter(|clause| clause.head == relation) {
                 for call in clause.calls(&row) {
@@ -40,9 +44,8 @@ impl Program {
         }
         let value = |(relation, row): &Call| {
             let columns = self.info(*relation).columns.iter().zip(row);
-            let known = columns.map(|(column, word)| {
-                (*word != NO_WORD).then(|| words.value(*word, column.kind))
-            });
+            let known = columns
+                .map(|(column, word)| (*word != NO_WORD).then(|| words.value(*word, column.kind)));
             (*relation, known.collect())
         };
         Ok(made.iter().filter(|(relation, _)| of.contains(relation)).map(value).collect())

@@ -138,6 +138,7 @@ mod witness;
 mod word;
 
 pub use ask::Answers;
+pub use calls::KnownRow;
 pub use computed::{AskError, Computed};
 pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use decimal::{Decimal, NoDecimal};
@@ -155,4 +156,4 @@ pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleIns
 pub use syntax::{Aggregation, Comparison};
 pub use trace::{Join, RuleTrace};
 pub use why_not::{Below, FailedRule, WhyNot};
-pub use word::Value;
+pub use word::{Value, quoted};

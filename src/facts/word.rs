@@ -37,6 +37,13 @@ pub enum Value {
     Record(Arc<str>),
 }
 
+/// A text as the rules' language writes it.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    let text = text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
+    format!("\"{text}\"")
+}
+
 impl From<Decimal> for Value {
     fn from(decimal: Decimal) -> Self {
         Self::Decimal(decimal)

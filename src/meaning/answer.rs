@@ -1,9 +1,10 @@
 //! What a form comes to: run on the rules, as data.
 
-use super::query::{Asking, amount, number, number_of, quoted};
+use super::query::{Asking, amount, number, number_of};
 use super::read::Reading;
 use super::term::{Desc, Dimension, Form, Head, Mod, Quant, Sorts};
 use crate::facts::Value;
+use crate::facts::quoted;
 use crate::language::question::{Property, ValueId};
 
 /// What was found.

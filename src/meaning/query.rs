@@ -13,7 +13,7 @@ use super::grammar::Grammar;
 use super::read::Map;
 use super::sense::{Signatures, taking};
 use super::term::{Desc, Dimension, Head, Measure, Mod, Quant, RoleId, Sorts};
-use crate::facts::Value;
+use crate::facts::{Value, quoted};
 use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
 use crate::map::Entity;
 use crate::semantics::Subject;
@@ -547,11 +547,6 @@ pub(crate) fn number(row: &[Value], column: usize) -> Option<i64> {
 /// The number in the first row.
 pub(crate) fn number_of(rows: &[Vec<Value>]) -> Option<i64> {
     number(rows.first()?, 0)
-}
-
-/// A text of the rules' language.
-pub(crate) fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 /// Any of these premises.

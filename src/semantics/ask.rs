@@ -1,12 +1,13 @@
-//! Measures that are taken when somebody asks: between any two things, of one, and what lies between two.
+//! Measures that are taken when somebody asks: between any two things, of one; and what lies between two.
 //!
 //! The relations hold what is near; a question may be about what is far. Lengths are cm, areas cm².
 
-use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
-use crate::geometry::{Polygon, convex_hull};
+use crate::facts::{Value, quoted};
+use crate::geometry::Polygon;
+use crate::geometry::contact::{Footprint, gap, overlap_area};
 use crate::units::{AreaId, InOrder as _, MapId, Point, ReplicaId, Vector};
 
-use super::body::Body;
+use super::asked::{Around, way_between};
 use super::measure::surface_distance;
 use super::relations::Relations;
 
@@ -21,11 +22,6 @@ pub struct Extent {
     /// Of its outline, cm².
     pub base: f64,
 }
-
-/// A strip that a thing covers less of is touched by it, cm².
-const TOUCHED: f64 = 1.0;
-/// A strip shorter than this lies before no wall, cm.
-const SHORTEST: f64 = 1.0;
 
 impl Relations {
     /// Distance between the surfaces of two things of one Map, cm.
@@ -121,56 +117,23 @@ impl Relations {
         gaps.map(|g| g.distance).reduce(f64::min)
     }
 
-    /// What stands between two things: across the shortest way from one to the other or beside it, or with a good
-    /// part of itself where both see each other, as the thresholds say. Between two things on one support is only what is on that too.
+    /// What is between two things by the rules, in its order on the way from the first to the second.
     #[must_use]
-    pub fn standing_between(&self, a: ReplicaId, b: ReplicaId) -> Vec<ReplicaId> {
-        let (bodies, near) = (&self.measurements().bodies, self.thresholds());
+    pub fn standing_between(
+        &self,
+        around: &Around<'_>,
+        a: ReplicaId,
+        b: ReplicaId,
+    ) -> Vec<ReplicaId> {
+        let bodies = &self.measurements().bodies;
         let (Some(first), Some(second)) = (bodies.get(&a), bodies.get(&b)) else {
             return Vec::new();
         };
-        if first.map != second.map {
-            return Vec::new();
-        }
-        let way = gap(&first.hull, &second.hull);
-        let (from, to) =
-            if way.distance > 0.0 { (way.from, way.to) } else { (first.centre, second.centre) };
-        let Some(along) = (to - from).try_normalize(1e-6) else { return Vec::new() };
-        let side = Vector::new(along.y, -along.x) * near.between_aside;
-        let band =
-            Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
-        let (low, high) = (first.bottom.min(second.bottom), first.top.max(second.top));
-        let corners = [&first.hull, &second.hull].map(|h| h.polygon.corners.clone()).concat();
-        let amid = Footprint::new(Polygon::new(convex_hull(corners)));
-        let is_amid = |body: &Body| {
-            body.bottom < first.top.min(second.top)
-                && overlap_area(&body.hull, &amid)
-                    - overlap_area(&body.hull, &first.hull)
-                    - overlap_area(&body.hull, &second.hull)
-                    >= near.between_amid * body.hull.area
-        };
-        let shared = self.support_of(a).filter(|support| self.support_of(b) == Some(*support));
-        let crosses = |id: &ReplicaId| {
-            let body = &bodies[id];
-            *id != a
-                && *id != b
-                && body.map == first.map
-                && body.bottom < high
-                && body.top > low
-                && self.area_of(*id) == self.area_of(a)
-                && !self.holds_up(a, *id)
-                && !self.holds_up(b, *id)
-                && !self.holds_up(*id, a)
-                && !self.holds_up(*id, b)
-                && shared.is_none_or(|support| self.holds_up(*id, support))
-                && (length_within(from, to, &body.hull) >= near.between_way
-                    || overlap_area(&body.hull, &band) > 0.0
-                    || is_amid(body))
-        };
-        let mut found: Vec<ReplicaId> = bodies.keys().copied().filter(|id| crosses(id)).collect();
-        // A table stands between, rather than all that is on it.
-        let bearers = found.clone();
-        found.retain(|id| !bearers.iter().any(|bearer| self.holds_up(*id, *bearer)));
+        let ends = [a, b].map(|id| quoted(self.symbols().replica(id)));
+        let question = format!("?- BETWEEN(X, {}, {})", ends[0], ends[1]);
+        let mut found = self.things(around, &question);
+        let (from, to) = way_between(first, second);
+        let along = (to - from).try_normalize(1e-6).unwrap_or_else(Vector::zeros);
         found.order_by(|x, y| {
             let at = |id: &ReplicaId| (bodies[id].centre - from).dot(&along);
             at(x).total_cmp(&at(y))
@@ -178,53 +141,21 @@ impl Relations {
         found
     }
 
-    /// How far a thing is from a wall, cm, and what stands in the strip between the thing's whole side and the wall.
+    /// What is between a thing and the walls near to it, by the rules.
     #[must_use]
-    pub fn before_wall(&self, a: ReplicaId, wall: (Point, Point)) -> Option<(f64, Vec<ReplicaId>)> {
-        let bodies = &self.measurements().bodies;
-        let (body, away) = (bodies.get(&a)?, self.distance_to_segment(a, wall)?);
-        let along = (wall.1 - wall.0).try_normalize(1e-9)?;
-        let inwards = Vector::new(-along.y, along.x);
-        let places = body.hull.polygon.corners.iter().map(|p| (p - wall.0).dot(&along));
-        let (from, to) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-            (low.min(at), high.max(at))
-        });
-        let (from, to) = (from.max(0.0), to.min((wall.1 - wall.0).norm()));
-        if to - from < SHORTEST {
-            return None;
-        }
-        let corner = |at: f64, off: f64| wall.0 + along * at + inwards * off;
-        let strip = Footprint::new(Polygon::new(vec![
-            corner(from, 0.0),
-            corner(to, 0.0),
-            corner(to, away),
-            corner(from, away),
-        ]));
-        let within = |id: &ReplicaId| {
-            let other = &bodies[id];
-            *id != a
-                && other.map == body.map
-                && other.bottom < body.top
-                && other.top > body.bottom
-                && self.area_of(*id) == self.area_of(a)
-                && !self.holds_up(a, *id)
-                && !self.holds_up(*id, a)
-                && overlap_area(&other.hull, &strip) >= TOUCHED
-        };
-        Some((away, bodies.keys().copied().filter(within).collect()))
+    pub fn before_walls(&self, around: &Around<'_>, a: ReplicaId) -> Vec<ReplicaId> {
+        let end = quoted(self.symbols().replica(a));
+        self.things(around, &format!("?- BETWEEN_WALL_AND(X, {end})"))
     }
 
-    /// Whether `b` is under `a` as its support, or the support of that.
-    fn holds_up(&self, a: ReplicaId, b: ReplicaId) -> bool {
-        let mut at = a;
-        for _ in 0..32 {
-            match self.support_of(at) {
-                Some(support) if support == b => return true,
-                Some(support) => at = support,
-                None => return false,
-            }
-        }
-        false
+    /// The things in the first column of the answers.
+    pub(crate) fn things(&self, around: &Around<'_>, question: &str) -> Vec<ReplicaId> {
+        let rows = self.found(around, question);
+        let symbol = |row: &Vec<Value>| match row.first() {
+            Some(Value::Symbol(symbol)) => self.symbols().replica_of(Some(symbol)),
+            _ => None,
+        };
+        rows.iter().filter_map(symbol).collect()
     }
 
     /// The top of a thing: its area and how much of that nothing covers, cm².

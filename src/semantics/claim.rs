@@ -3,12 +3,15 @@
 //! A claim is weaker than the choice of [`whereabouts`](super::whereabouts): who stands in a corner stands by a wall
 //! too. Invariant: what `whereabouts` says of a pose holds there as a claim.
 
+use std::collections::BTreeSet;
+
+use crate::facts::Value;
+use crate::geometry::Bounds;
 use crate::map::World;
 use crate::units::{AreaId, MapId, OpeningId, Point, ReplicaId};
 
-use super::position::{Spot, by_walls, in_doorway};
+use super::asked::Around;
 use super::relations::Relations;
-use crate::geometry::{Bounds, OpenSide, Opening, nearest_on_segment};
 
 /// Something said of a spot. One of the openings is meant.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,51 +26,58 @@ pub enum Claim {
     InMiddle,
 }
 
-/// Whether a claim about an Area of a Map holds at a point.
+/// The places of those of some points of a Map at which a claim about an Area holds.
 #[must_use]
 pub fn claim_holds(
     world: &World,
     relations: &Relations,
     (map, area): (MapId, AreaId),
     claim: &Claim,
-    at: Point,
-) -> bool {
-    let (measured, openings) = (relations.measurements(), relations.openings());
-    let near = relations.thresholds();
+    at: &[Point],
+) -> BTreeSet<usize> {
+    let measured = relations.measurements();
     let Some(room) = measured.rooms.get(&area).filter(|room| room.map == map) else {
-        return false;
+        return BTreeSet::new();
     };
-    let meant = |places: &[OpeningId], holds: &dyn Fn(&Opening) -> bool| {
-        places.iter().filter_map(|place| openings.opening(*place)).any(holds)
+    let within = |n: &usize| room.parts.iter().any(|(part, ..)| part.contains(at[*n]));
+    let spots: Vec<(MapId, Point)> = at.iter().map(|p| (map, *p)).collect();
+    let around = Around { world, robot: None, spots: &spots };
+    let symbols = relations.symbols();
+    // The points of which a relation holds with one of the wanted second terms.
+    let held = |premise: String, is_meant: &dyn Fn(&Value) -> bool| -> BTreeSet<usize> {
+        let rows = relations.found(&around, &premise);
+        let rows = rows.iter().filter(|row| is_meant(&row[1]));
+        rows.filter_map(|row| row[0].to_string().parse().ok()).collect()
     };
-    if let Claim::InDoorway(places) = claim {
-        let here = measured.area_at(map, at);
-        return meant(places, &|o| in_doorway(o, at, here, near));
-    }
-    if !room.parts.iter().any(|(part, ..)| part.contains(at)) {
-        return false;
-    }
-    match claim {
-        Claim::InArea => true,
-        Claim::InDoorway(_) => false,
-        Claim::AtDoor(places) => meant(places, &|o| {
-            let away = |s: &OpenSide| (at - nearest_on_segment(at, s.ends.0, s.ends.1)).norm();
-            o.sides.iter().any(|side| away(side) <= near.robot_door)
-        }),
-        Claim::On(thing) => measured
-            .bodies
-            .get(thing)
-            .is_some_and(|body| body.outline.iter().any(|part| part.distance_to(at) <= 0.0)),
-        Claim::NextTo(thing) => measured.bodies.get(thing).is_some_and(|body| {
-            body.outline.iter().any(|part| part.distance_to(at) <= near.robot_thing)
-        }),
-        Claim::InCorner => by_walls(world, relations, area, at) == Spot::InCorner,
-        Claim::AlongWall => {
-            let spot = by_walls(world, relations, area, at);
-            matches!(spot, Spot::InCorner | Spot::AlongWall)
-        }
-        Claim::InMiddle => by_walls(world, relations, area, at) == Spot::InMiddle,
-    }
+    let of_openings = |relation: &str, places: &[OpeningId]| {
+        held(
+            format!("?- {relation}(P, _, N, _)"),
+            &|value| matches!(value, Value::Number(n) if places.iter().any(|place| i64::from(place.0) == *n)),
+        )
+    };
+    let of_thing = |relation: &str, thing: ReplicaId| {
+        held(
+            format!("?- {relation}(P, X)"),
+            &|value| matches!(value, Value::Symbol(symbol) if symbols.replica_of(Some(symbol)) == Some(thing)),
+        )
+    };
+    let of_area = |relation: &str| {
+        held(
+            format!("?- {relation}(P, R)"),
+            &|value| matches!(value, Value::Symbol(symbol) if symbols.area_of(Some(symbol)) == Some(area)),
+        )
+    };
+    let found = match claim {
+        Claim::InDoorway(places) => return of_openings("SPOT_IN_DOORWAY", places),
+        Claim::InArea => (0..at.len()).collect(),
+        Claim::AtDoor(places) => of_openings("SPOT_AT_DOOR", places),
+        Claim::On(thing) => of_thing("SPOT_OVER", *thing),
+        Claim::NextTo(thing) => of_thing("SPOT_NEXT_TO", *thing),
+        Claim::InCorner => of_area("SPOT_IN_CORNER"),
+        Claim::AlongWall => of_area("SPOT_AT_WALL"),
+        Claim::InMiddle => of_area("SPOT_IN_MIDDLE"),
+    };
+    found.into_iter().filter(within).collect()
 }
 
 /// A box around an Area, with the thickness of its doorways; none for an Area that lies on no Map.

@@ -14,9 +14,18 @@ pub struct Measured {
     /// Name, type in the rule text, and what it holds.
     pub columns: &'static [(&'static str, &'static str, &'static str)],
     pub order: Order,
-    /// Made only for rule texts that use it.
-    pub on_demand: bool,
+    pub made: Made,
     pub meaning: &'static str,
+}
+
+/// When its rows are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Made {
+    Always,
+    /// Only for rule texts that use it.
+    OnDemand,
+    /// When a question asks for them, and for no longer.
+    WhenAsked,
 }
 
 /// In what order two things stand.
@@ -40,12 +49,13 @@ macro_rules! measured {
             name: stringify!($name),
             columns: &[$((stringify!($column), stringify!($kind), $unit)),+],
             order: Order::$order,
-            on_demand: measured!(@flag $($flag)?),
+            made: measured!(@flag $($flag)?),
             meaning: $meaning,
         },)+];
     };
-    (@flag) => { false };
-    (@flag on_demand) => { true };
+    (@flag) => { Made::Always };
+    (@flag on_demand) => { Made::OnDemand };
+    (@flag asked) => { Made::WhenAsked };
 }
 
 measured! {
@@ -73,8 +83,8 @@ measured! {
         "what stands between two things that are beside each other, and what share of their common height it fills";
     sector(x: Thing = "", anchor: Thing = "", bearing: number = ANGLE, d: number = LENGTH, level: number = SHARE) Told
         "x from the front of the anchor, counter-clockwise";
-    view(x: Thing = "", anchor: Thing = "", bearing: number = ANGLE, d: number = LENGTH, level: number = SHARE) Told
-        "the same from the anchor's side that is turned to the viewer; while a viewer asks";
+    #[asked] view(x: Thing = "", anchor: Thing = "", bearing: number = ANGLE, d: number = LENGTH, level: number = SHARE) Told
+        "the same from the anchor's side that is turned to the robot";
     opening(o: Opening = "", kind: symbol = "door or passage", width: number = LENGTH, height: number = LENGTH) Told
         "a side of an Area that can be gone through";
     links(o: Opening = "", x: Area = "", y: Area = "") Told "a link of the Map, the lower id first";
@@ -100,6 +110,26 @@ measured! {
         "from the middle of the Area where it is or of what it is over, in the plan; up to half the narrower side";
     narrow_side(r: Area = "", d: number = LENGTH) Told "the smaller size of an Area along its own axes";
     asked(x: Thing = "", map: symbol = "") Told "of what OUTSIDE is derived";
+    #[asked] amid(x: Thing = "", a: Thing = "", b: Thing = "", how: symbol = "way, aside, share", v: number = "0.1 mm or ‰") Told
+        "x between a and b in the plan: what it takes of the shortest way from one to the other, how far beside that way it is, the share of it that lies where both are in sight";
+    #[asked] before_wall(x: Thing = "", a: Thing = "", r: Area = "", wall: number = "which wall", d: number = LENGTH) Told
+        "x in the strip between the whole side of a and a wall; how far a is from it";
+    #[asked] shelf(x: Thing = "", kind: symbol = "of the Orthoframe", top: number = LENGTH) Told
+        "the parts of a thing, by the heights of their tops";
+    #[asked] about_robot(x: Thing = "", ahead: number = LENGTH, left: number = LENGTH, d: number = LENGTH) Told
+        "of what is in the robot's Area: how far before it and to its left the middle is, how far away it begins";
+    #[asked] faced(x: Thing = "", of: symbol = "a Thing, door or Area", as: symbol = "thing, area, side", ahead: number = LENGTH, left: number = LENGTH, bearing: number = ANGLE, d: number = LENGTH) Told
+        "x from the middle of a thing or from where one stands in an Area, for one who faces something; as side, for the thing's own front or the robot";
+    #[asked] spot(p: Spot = "робот, or the number of a point", r: Area = "") Told "the point is on the floor of an Area";
+    #[asked] spot_side(p: Spot = "", o: Opening = "", n: number = "which opening", r: Area = "whose side", out: number = LENGTH, thick: number = LENGTH) Told
+        "the point is alongside a side of an opening: how far out of it, and how thick the wall is";
+    #[asked] spot_opening(p: Spot = "", o: Opening = "", n: number = "which opening", r: Area = "of which it is", d: number = LENGTH) Told
+        "to the nearest side of an opening";
+    #[asked] spot_thing(p: Spot = "", x: Thing = "", d: number = LENGTH) Told "to a thing, in the plan";
+    #[asked] spot_wall(p: Spot = "", r: Area = "", wall: number = "which wall", d: number = LENGTH, way: number = ANGLE) Told
+        "to a wall of the Area where it is, and which way that looks outwards";
+    #[asked] spot_middle(p: Spot = "", r: Area = "", share: number = SHARE) Told
+        "how far from the Area's centroid towards the rim";
     #[on_demand] at(x: Thing = "", r: Area = "whose frame", x_at: number = LENGTH, y_at: number = LENGTH, z_at: number = LENGTH, angle: number = ANGLE) Told
         "where the Map puts a thing, in the frame of its own Area";
     #[on_demand] apart(a: Thing = "", b: Thing = "", d: number = LENGTH) Told
@@ -138,10 +168,11 @@ pub fn measured_table() -> String {
             unit => format!("`{name}` ({unit})"),
         };
         let columns: Vec<String> = relation.columns.iter().map(column).collect();
-        let order = match (relation.order, relation.on_demand) {
+        let order = match (relation.order, relation.made) {
             (Order::Either, _) => "both",
-            (Order::Told, true) => "as told; on demand",
-            (Order::Told, false) => "as told",
+            (Order::Told, Made::OnDemand) => "as told; on demand",
+            (Order::Told, Made::WhenAsked) => "as told; when asked",
+            (Order::Told, Made::Always) => "as told",
         };
         let (name, columns) = (relation.name, columns.join(", "));
         let _ = writeln!(text, "| `{name}` | {columns} | {order} | {} |", relation.meaning);

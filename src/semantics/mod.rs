@@ -5,12 +5,12 @@
 //! `rules/relations.dl`, which says what they mean. Every threshold and every relation stands in that text, which is
 //! read at run time: a user adds a relation without recompiling.
 //!
-//! **Invariant:** no threshold stands in code. Rules compare measurements with them; where code must – a pose, what lies
-//! between two things, what is asked for once – it reads them from the rule text as [`Thresholds`].
+//! **Invariant:** no threshold stands in code. Rules compare measurements with them; where code must – how far measuring
+//! looks, what a way passes – it reads them from the rule text as [`Thresholds`].
 //!
 //! ```
 //! use orthoframe_map::{Format, World};
-//! use orthoframe_semantics::{Profile, RelationRules, derive};
+//! use orthoframe_semantics::{Around, Profile, RelationRules, derive};
 //! use orthoframe_units::Source;
 //!
 //! let map = Source::new("дом.toml", r#"
@@ -38,7 +38,7 @@
 //!
 //! assert!(relations.holds("ON_TOP_OF", &["Чашка-1", "Стол-1"]));
 //! assert!(relations.holds("НАХОДИТСЯ_ВНУТРИ", &["Чашка-1", "Комната"]));
-//! let proof = relations.why("ON_TOP_OF", &["чашка-1", "стол-1"])?.expect("it holds");
+//! let proof = relations.why(&Around::new(&world), "ON_TOP_OF", &["чашка-1", "стол-1"])?.expect("it holds");
 //! assert!(proof.steps.iter().any(|step| step.fact.name == "over")); // down to the measurement
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -76,12 +76,11 @@ pub mod predicate;
 mod relations;
 mod thresholds;
 mod told;
-mod view;
 
 pub use crate::geometry::{OpenSide, Opening, Openings};
 pub use crate::map::Profile;
 pub use ask::Extent;
-pub use asked::{Listed, OnDemand, Rows, length, on_demand};
+pub use asked::{Around, Listed, OnDemand, Rows, length, on_demand};
 pub use cargo::{cargo, carried_to, shut_around};
 pub use claim::{Claim, claim_bounds, claim_holds};
 pub use lifts::{Lift, lifts, storey_name};
@@ -89,7 +88,7 @@ pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
     Single, Within,
 };
-pub use measured::{MEASURED, Measured, Order, measured_table};
+pub use measured::{MEASURED, Made, Measured, Order, measured_table};
 pub use names::{Subject, Symbols};
 pub use position::{Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
@@ -98,4 +97,3 @@ pub use relations::{
 };
 pub use thresholds::{KNOWN as THRESHOLDS, Known as Threshold, ThresholdFault, Thresholds, Unit};
 pub use told::{Told, robot_eye, things_in_view};
-pub use view::Seen;

@@ -1,5 +1,6 @@
 //! Relations of SPEC R on small worlds made by hand, each world straight and turned, and on random ones.
 
+mod asked;
 mod doors;
 mod follow;
 mod holders;

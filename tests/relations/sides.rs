@@ -1,7 +1,8 @@
 //! What is next to, near or leaning against what, and on which side of it.
 
 use expect_test::expect;
-use orthoframe_units::Point;
+use orthoframe_semantics::Around;
+use orthoframe_units::{Deg, Point, Pose};
 
 use super::{check, derived, room};
 
@@ -129,12 +130,17 @@ fn left_for_the_viewer_is_not_left_of_the_thing() {
     let relations = derived(&world);
     let map = *world.maps.keys().next().expect("one map");
     let seen = |y: f64| -> String {
-        relations
-            .seen_from(map, Point::new(390.0, y))
-            .expect("standard rules")
-            .iter()
-            .map(|s| format!("{}: {}, {}\n", s.relation_en, s.thing, s.anchor))
-            .collect()
+        let robot = Pose { at: Point::new(390.0, y), heading: Deg::ZERO };
+        let around = Around::new(&world).with_robot(Some((map, robot)));
+        let told = |side: &str| {
+            let rows = relations.ask(&around, &format!("?- {side}_FOR_VIEWER(X, A)")).unwrap();
+            rows.iter().map(|row| format!("{side}_FOR_VIEWER: {}, {}\n", row[0], row[1])).collect()
+        };
+        ["IN_FRONT", "BEHIND", "LEFT", "RIGHT"]
+            .map(told)
+            .into_iter()
+            .collect::<Vec<String>>()
+            .concat()
     };
     expect![[r#"
         LEFT_FOR_VIEWER: шкаф, куб

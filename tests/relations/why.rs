@@ -2,6 +2,7 @@
 
 use expect_test::expect;
 use orthoframe_facts::WhyNot;
+use orthoframe_semantics::Around;
 
 use super::{derived, room};
 
@@ -13,8 +14,10 @@ const LIFTED: &str = r#"
 
 #[test]
 fn a_proof_goes_down_to_the_measurements() {
-    let relations = derived(&room(0.0, LIFTED));
-    let proof = relations.why("ON_TOP_OF", &["чашка-1", "куб"]).expect("it is asked rightly");
+    let world = room(0.0, LIFTED);
+    let (relations, around) = (derived(&world), Around::new(&world));
+    let proof =
+        relations.why(&around, "ON_TOP_OF", &["чашка-1", "куб"]).expect("it is asked rightly");
     let told: Vec<String> = proof
         .expect("it holds")
         .steps
@@ -35,19 +38,23 @@ fn a_proof_goes_down_to_the_measurements() {
         limit: common, support share, 500
     "#]]
     .assert_eq(&told.concat());
-    assert_eq!(relations.why("ON_TOP_OF", &["чашка-2", "куб"]).expect("it is asked rightly"), None);
+    assert_eq!(
+        relations.why(&around, "ON_TOP_OF", &["чашка-2", "куб"]).expect("it is asked rightly"),
+        None
+    );
 }
 
 #[test]
 fn why_not_names_the_premise_that_failed_with_its_numbers() {
-    let relations = derived(&room(
+    let world = room(
         0.0,
         r#"
 { name = "Шкаф", object = "wardrobe", at = [300, 300] },
 { name = "Куб", object = "cube", at = [430, 310] },
 "#,
-    ));
-    let question = relations.why_not("НАХОДИТСЯ_ПЕРЕД", &["куб", "шкаф"]);
+    );
+    let question =
+        derived(&world).why_not(&Around::new(&world), "НАХОДИТСЯ_ПЕРЕД", &["куб", "шкаф"]);
     let WhyNot::Nearest(rule) = question.expect("asked rightly") else {
         panic!("it does not hold, and rules derive it");
     };

@@ -14,13 +14,12 @@ use crate::semantics::Relations;
 /// There is no map, or it knows no such relation, or nothing of such a name.
 pub fn why(state: &State, relation: &str, of: &[&str], language: Language) -> Result<Value, Error> {
     let relations = state.relations()?;
-    let of = &state.arguments(of)?;
-    if let Some(proof) = relations.why(relation, of)? {
-        return Ok(json!({ "holds": true, "proof": self::proof(relations, &proof, language) }));
-    }
-    let nearest = match relations.why_not(relation, of)? {
-        WhyNot::Nearest(rule) => failed_rule(relations, &rule, language),
-        WhyNot::NotTold | WhyNot::Holds => Value::Null,
+    let nearest = match state.why(relation, of)? {
+        Ok(proof) => {
+            return Ok(json!({ "holds": true, "proof": self::proof(relations, &proof, language) }));
+        }
+        Err(WhyNot::Nearest(rule)) => failed_rule(relations, &rule, language),
+        Err(WhyNot::NotTold | WhyNot::Holds) => Value::Null,
     };
     Ok(json!({ "holds": false, "nearest": nearest }))
 }

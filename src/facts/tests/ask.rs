@@ -355,8 +355,18 @@ fn rules_read_what_is_computed_as_if_it_were_told() {
     let (whole, empty) = (program.evaluate(&told).unwrap(), program.database());
     let bare = program.evaluate(&empty).unwrap();
     for question in [
-        "?- next(X, Y)", "?- next(X, 5)", "?- chain(X, Y)", "?- chain(1, Y)", "?- next_known(X)", "?- n(X), next_known(X)", "?- n(X), !next_known(X)", "?- last(X)", "?- !last(1)",
-        "?- odd(X), next(X, Y), !chain(X, Y)", "?- n(X), C = count : { chain(X, _) }", "?- plus(2, 3, X)",
+        "?- next(X, Y)",
+        "?- next(X, 5)",
+        "?- chain(X, Y)",
+        "?- chain(1, Y)",
+        "?- next_known(X)",
+        "?- n(X), next_known(X)",
+        "?- n(X), !next_known(X)",
+        "?- last(X)",
+        "?- !last(1)",
+        "?- odd(X), next(X, Y), !chain(X, Y)",
+        "?- n(X), C = count : { chain(X, _) }",
+        "?- plus(2, 3, X)",
     ] {
         let source = Source::new("?", question);
         let expected = whole.ask(&source).unwrap().rows().to_vec();

@@ -77,7 +77,7 @@ impl Knowledge<'_> {
         }
         let name = self.relations.display_name(relation, Language::English);
         let given: Vec<&str> = symbols.iter().map(String::as_str).collect();
-        let proof = self.relations.why(&name, &given);
+        let proof = self.relations.why(&self.around(), &name, &given);
         // Too many or too few names for the relation.
         let proof = proof.map_err(|_schema| {
             Doubt::not_understood(&format!("{relation}({})", args.join(", ")))

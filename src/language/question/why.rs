@@ -156,7 +156,7 @@ impl Knowledge<'_> {
     fn reasons(&self, fact: &Fact) -> Vec<String> {
         let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
         if fact.holds {
-            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
+            let Ok(Some(proof)) = self.relations.why(&self.around(), &fact.relation, &args) else {
                 return Vec::new();
             };
             let mut lines = self.measured(&proof, fact.relation == "INSIDE");
@@ -166,7 +166,7 @@ impl Knowledge<'_> {
         if let Some(instead) = self.elsewhere(fact) {
             return vec![instead];
         }
-        match self.relations.why_not(&fact.relation, &args) {
+        match self.relations.why_not(&self.around(), &fact.relation, &args) {
             Ok(WhyNot::Nearest(failed)) => {
                 let mut lines: Vec<String> =
                     failed.failed().map(|premise| self.premise(premise)).collect();
@@ -204,13 +204,13 @@ impl Knowledge<'_> {
     pub(super) fn proof_lines(&self, fact: &Fact) -> Vec<String> {
         let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
         if fact.holds {
-            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
+            let Ok(Some(proof)) = self.relations.why(&self.around(), &fact.relation, &args) else {
                 return Vec::new();
             };
             let steps = proof.steps.iter();
             return steps.map(|s| tuple(&self.shown(&s.fact.name), &s.fact.values)).collect();
         }
-        match self.relations.why_not(&fact.relation, &args) {
+        match self.relations.why_not(&self.around(), &fact.relation, &args) {
             Ok(WhyNot::Nearest(failed)) => {
                 let sign = |holds: Option<bool>| match holds {
                     Some(true) => "+",

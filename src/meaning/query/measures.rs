@@ -3,7 +3,8 @@
 use crate::answer::NoAnswer;
 use crate::term::{Desc, Dimension, Measure, Mod, Quant, Sorts};
 
-use super::{Asking, Body, amount, number, quoted};
+use super::{Asking, Body, amount, number};
+use crate::facts::quoted;
 
 impl Asking<'_> {
     /// The premise by which a superlative measures a thing, the variable of the measure, and whether more of it wins.

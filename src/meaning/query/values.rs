@@ -7,7 +7,8 @@ use crate::language::question::{Property, ValueId};
 use crate::map::DoorStatus;
 use crate::term::Sorts;
 
-use super::{Asking, FALSE, either, quoted};
+use super::{Asking, FALSE, either};
+use crate::facts::quoted;
 use crate::units::Gather as _;
 
 impl Asking<'_> {

@@ -14,7 +14,7 @@ use orthoframe_language::question::{
 use orthoframe_language::report::Detail;
 use orthoframe_map::World;
 use orthoframe_meaning::{Answer, FILES, Form, Found, Grammar, Map, MapWords, NoAnswer, Outcome};
-use orthoframe_semantics::{RelationRules, Relations, derive, on_demand};
+use orthoframe_semantics::{Around, RelationRules, Relations, derive, on_demand};
 use orthoframe_units::{MapId, Pose, ReplicaId, Source};
 
 /// A robot that sees nothing: what is asked of the map alone needs no more.
@@ -105,7 +105,8 @@ impl House {
     }
 
     fn rows(&self, question: &str) -> Result<Vec<Vec<Value>>, String> {
-        let measured = on_demand(&self.world, &self.relations);
+        let around = Around::new(&self.world);
+        let measured = on_demand(&around, &self.relations);
         let computed: Vec<&dyn Computed> =
             measured.iter().map(|one| one as &dyn Computed).collect();
         let source = Source::new("?", question);

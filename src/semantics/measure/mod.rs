@@ -321,6 +321,6 @@ pub(super) fn hundredths(degrees: f64) -> i64 {
     (degrees * 100.0).round() as i64
 }
 
-fn per_mille(share: f64) -> i64 {
+pub(super) fn per_mille(share: f64) -> i64 {
     (share * 1000.0).round() as i64
 }

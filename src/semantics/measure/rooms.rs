@@ -6,6 +6,7 @@ use crate::map::{Item, World};
 use crate::units::{AreaId, Frame, MapId, Point};
 
 use super::Measurements;
+use crate::body::Body;
 
 /// The floor of one Area, ready for measuring.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +64,20 @@ impl Measurements {
         let mut near = Vec::new();
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+}
+
+impl Measurements {
+    /// The things of a Map whose bounds come as near to a point, in cm.
+    pub(crate) fn near_to(&self, map: MapId, p: Point, reach: f64) -> impl Iterator<Item = &Body> {
+        let bounds = Bounds { min: p, max: p }.grown(reach);
+        let mut near = Vec::new();
+        if let Some(grid) = self.grids.get(&map) {
+            grid.near(&bounds, &mut near);
+        }
+        near.into_iter()
+            .filter_map(|id| self.bodies.get(&id))
+            .filter(move |b| b.bounds.meets(&bounds))
     }
 }
 

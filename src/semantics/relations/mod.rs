@@ -23,7 +23,6 @@ use super::thresholds::Thresholds;
 use crate::geometry::Openings;
 
 pub use follow::Followed;
-pub(super) use rows::Rows;
 use rows::{Load, note, tuple};
 pub(crate) use rules::MAX_FILE_BYTES;
 pub use rules::{RelationError, RelationRules, STANDARD};

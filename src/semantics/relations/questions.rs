@@ -1,16 +1,22 @@
 //! What is asked of derived relations.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
+use crate::asked::{Around, ROBOT, on_demand};
+use crate::facts::{
+    AskError, Computed, Database, Derived, Kind, Limits, Live, Proof, RelationId, RelationInfo,
+    Value, WhyNot,
+};
 use crate::geometry::Openings;
 use crate::map::{Entity, Profile, World};
 use crate::measure::Measurements;
 use crate::names::{Subject, Symbols};
 use crate::openings::by_name;
 use crate::thresholds::Thresholds;
-use crate::units::{AreaId, Gather as _, Language, MapId, ReplicaId, name_key, nearest_name};
+use crate::units::{
+    AreaId, Gather as _, Language, MapId, ReplicaId, Source, name_key, nearest_name,
+};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
 
@@ -80,7 +86,7 @@ impl Relations {
         self.derived().contains(name, &tuple).unwrap_or(false)
     }
 
-    /// Whether anything is called so: a subject of the facts, in any spelling, or a word that some fact has.
+    /// Whether anything is called so: a subject of the facts, in any spelling, a word that some fact has, or the robot's.
     #[must_use]
     pub fn knows(&self, name: &str) -> bool {
         let wanted = Value::from(name);
@@ -88,26 +94,114 @@ impl Relations {
             let tuples = self.derived().sorted(id).unwrap_or_default();
             tuples.iter().any(|tuple| tuple.contains(&wanted))
         };
-        self.symbols.find(name).is_some() || self.derived().relations().any(says)
+        name == ROBOT || self.symbols.find(name).is_some() || self.derived().relations().any(says)
     }
 
     /// Why a tuple holds: its rules and premises, down to what was measured. None when it does not hold.
     ///
     /// # Errors
     /// [`RelationError::UnknownRelation`], [`RelationError::Schema`] for too many or too few names.
-    pub fn why(&self, name: &str, symbols: &[&str]) -> Result<Option<Proof>, RelationError> {
+    pub fn why(
+        &self,
+        around: &Around<'_>,
+        name: &str,
+        symbols: &[&str],
+    ) -> Result<Option<Proof>, RelationError> {
         let (relation, tuple) = self.question(name, symbols)?;
-        self.derived().why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
+        let told = self.told_of(around, relation, &tuple)?;
+        let derived = told.as_ref().map_or(self.derived(), Live::derived);
+        derived.why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
     }
 
     /// Why a tuple does not hold: the rule that came closest and the premise that failed, with its numbers.
     ///
     /// # Errors
     /// As [`Relations::why`].
-    pub fn why_not(&self, name: &str, symbols: &[&str]) -> Result<WhyNot, RelationError> {
+    pub fn why_not(
+        &self,
+        around: &Around<'_>,
+        name: &str,
+        symbols: &[&str],
+    ) -> Result<WhyNot, RelationError> {
         let (relation, tuple) = self.question(name, symbols)?;
-        let answer = self.derived().explain().why_not(relation, &tuple);
+        let told = self.told_of(around, relation, &tuple)?;
+        let derived = told.as_ref().map_or(self.derived(), Live::derived);
+        let answer = derived.explain().why_not(relation, &tuple);
         answer.map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// A copy that is told what is measured when this tuple is asked of; none where its rules read nothing of the kind.
+    fn told_of(
+        &self,
+        around: &Around<'_>,
+        relation: RelationId,
+        tuple: &[Value],
+    ) -> Result<Option<Live>, RelationError> {
+        let program = self.rules.program();
+        let measured = on_demand(around, self);
+        let by_relation =
+            measured.iter().filter_map(|one| Some((program.relation(one.name())?, one)));
+        let measured: BTreeMap<RelationId, &dyn Computed> =
+            by_relation.map(|(relation, one)| (relation, one as &dyn Computed)).collect();
+        let of: Vec<RelationId> = measured.keys().copied().collect();
+        let schema = |fault| RelationError::Schema { fault };
+        let calls = program.calls(relation, tuple, &of).map_err(schema)?;
+        if calls.is_empty() {
+            return Ok(None);
+        }
+        let (mut live, mut fault) = (self.live.clone(), None);
+        for (relation, known) in &calls {
+            let by = measured[relation];
+            let can = |needs: u32| {
+                known.iter().enumerate().all(|(n, k)| needs >> n & 1 == 0 || k.is_some())
+            };
+            if by.ways().iter().any(|(needs, _)| can(*needs)) {
+                by.rows(known, &mut |row| {
+                    if let Err(e) = live.insert(*relation, row) {
+                        fault.get_or_insert(e);
+                    }
+                });
+            }
+        }
+        if let Some(fault) = fault {
+            return Err(RelationError::Schema { fault });
+        }
+        live.update()?;
+        Ok(Some(live))
+    }
+
+    /// The answers to a question in the rules' own language, with what is measured when asked.
+    ///
+    /// # Errors
+    /// [`AskError`]: the rule text lacks what the question reads, or a limit was reached.
+    pub fn ask(&self, around: &Around<'_>, question: &str) -> Result<Vec<Vec<Value>>, AskError> {
+        let measured = on_demand(around, self);
+        let computed: Vec<&dyn Computed> =
+            measured.iter().map(|one| one as &dyn Computed).collect();
+        self.ask_of(&computed, question)
+    }
+
+    /// As [`Relations::ask`], for questions of the program's own: a rule text that goes without a relation says it of
+    /// nothing.
+    #[must_use]
+    pub fn found(&self, around: &Around<'_>, question: &str) -> Vec<Vec<Value>> {
+        let found = self.ask(around, question);
+        debug_assert!(matches!(found, Ok(_) | Err(AskError::Faults(_))), "{question}: {found:?}");
+        found.unwrap_or_default()
+    }
+
+    /// As [`Relations::ask`], of measurements that are made elsewhere.
+    ///
+    /// # Errors
+    /// As [`Relations::ask`].
+    pub fn ask_of(
+        &self,
+        computed: &[&dyn Computed],
+        question: &str,
+    ) -> Result<Vec<Vec<Value>>, AskError> {
+        let question = Source::new("?", question);
+        let answers = self.derived().ask_with(&question, computed, Limits::default())?;
+        Ok(answers.rows().to_vec())
     }
 
     /// A tuple as people spell it.
@@ -117,11 +211,16 @@ impl Relations {
         symbols: &[&str],
     ) -> Result<(RelationId, Vec<Value>), RelationError> {
         let relation = self.rules.program().relation(name).ok_or_else(|| self.unknown(name))?;
-        let symbol = |&s: &&str| match self.symbols.find(s) {
-            Some(subject) => Value::Symbol(Arc::clone(self.symbols.symbol(subject))),
-            None => Value::from(s),
+        let columns = &self.rules.program().info(relation).columns;
+        let value = |(n, &s): (usize, &&str)| {
+            let is_number = columns.get(n).is_some_and(|column| column.kind == Kind::Number);
+            match (s.parse(), self.symbols.find(s)) {
+                (Ok(number), _) if is_number => Value::Number(number),
+                (_, Some(subject)) => Value::Symbol(Arc::clone(self.symbols.symbol(subject))),
+                (_, None) => Value::from(s),
+            }
         };
-        Ok((relation, symbols.iter().map(symbol).collect()))
+        Ok((relation, symbols.iter().enumerate().map(value).collect()))
     }
 
     fn unknown(&self, name: &str) -> RelationError {

@@ -18,20 +18,6 @@ pub(super) fn note(kept: &mut Option<FactError>, fault: FactError) {
     }
 }
 
-/// Rows on their way into the database; the first that does not fit is kept.
-pub(crate) struct Rows {
-    pub(crate) database: Database,
-    pub(crate) fault: Option<FactError>,
-}
-
-impl Rows {
-    pub(crate) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
-        if let Err(fault) = self.database.insert(relation, &tuple(cells)) {
-            note(&mut self.fault, fault);
-        }
-    }
-}
-
 /// Rows on their way into the database, all at once. Names are looked up by where they stand, each but once.
 pub(super) struct Load<'a> {
     program: &'a Program,

@@ -244,22 +244,39 @@ fn declared(texts: &[Source]) -> Result<(Vec<Source>, Program), Faults> {
 /// what these need stays as it is.
 fn completed(texts: &[Source], program: Program) -> Program {
     let lacking = thresholds::lacking(&program);
-    let section = section(PLACES).filter(|section| {
+    let is_older = !lacking.is_empty();
+    let lacks = |program: &Program, section: &str| {
         let names = section.lines().filter_map(|line| line.strip_prefix(".decl "));
         let mut names = names.filter_map(|line| line.split('(').next());
-        !lacking.is_empty() && names.all(|name| program.relation(name).is_none())
-    });
-    if lacking.is_empty() && section.is_none() {
-        return program;
+        names.all(|name| program.relation(name).is_none())
+    };
+    let sections = SECTIONS.iter().filter_map(|heading| section(heading));
+    let places = sections.clone().take(1).filter(|_| is_older);
+    let (mut own, mut program) = (lacking, program);
+    let read = |own: &str| {
+        let own = Source::own(OwnText::Relations, own);
+        let texts: Vec<Source> = texts.iter().cloned().chain([own]).collect();
+        Program::parse_all(&texts).ok()
+    };
+    if is_older {
+        match read(&own) {
+            Some(read) => program = read,
+            None => return program,
+        }
     }
-    let of_standard = format!("{lacking}{}", section.unwrap_or_default());
-    let own = Source::own(OwnText::Relations, of_standard);
-    let texts: Vec<Source> = texts.iter().cloned().chain([own]).collect();
-    Program::parse_all(&texts).unwrap_or(program)
+    for section in places.chain(sections.skip(1)) {
+        if lacks(&program, section)
+            && let Some(read) = read(&format!("{own}{section}"))
+        {
+            (own, program) = (format!("{own}{section}"), read);
+        }
+    }
+    program
 }
 
-/// The section of the standard text about walls, doors and middles, which needs nothing but what stands before it.
-const PLACES: &str = "У стены, у двери, посередине";
+/// The sections of the standard text that an older one may lack: about walls, doors and middles, which needs nothing but
+/// what stands before it; and what is derived when asked.
+const SECTIONS: [&str; 2] = ["У стены, у двери, посередине", "Когда спрашивают"];
 
 /// A section of the standard text, from its heading to the next.
 fn section(heading: &str) -> Option<&'static str> {

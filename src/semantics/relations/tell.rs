@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::asked::Listed;
+use crate::asked::{Listed, ROBOT};
 use crate::facts::Value;
 use crate::map::{Entity, World};
 use crate::measure::{hundredths, tenths};
@@ -22,8 +22,6 @@ const SEES: &str = "sees";
 const BELIEVED: &str = "believed";
 const CARRIED_BY: &str = "carried_by";
 const AT: &str = "at";
-/// Whoever carries what the robot has itself.
-const ROBOT: &str = "робот";
 impl RelationRules {
     /// Whether the rule text asks what a robot knows.
     #[must_use]

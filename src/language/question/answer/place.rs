@@ -631,7 +631,7 @@ impl Knowledge<'_> {
         for (n, (_, b)) in near.iter().enumerate() {
             for (_, a) in &near[..n] {
                 let (Some(x), Some(y)) = (a.replica(), b.replica()) else { continue };
-                if self.relations.standing_between(x, y).contains(&id) {
+                if self.relations.standing_between(&self.around(), x, y).contains(&id) {
                     return vec![*a, *b];
                 }
             }

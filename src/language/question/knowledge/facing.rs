@@ -3,9 +3,11 @@
 //! Invariant: where that person stands is said in the answer, and is the robot's place or the middle of the room.
 
 use super::{Frame, Knowledge};
+use crate::facts::Value;
 use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::query::{Noun, Rel, Side, Thing};
+use crate::semantics::{Listed, length};
 use crate::units::Point;
 use std::collections::HashSet;
 
@@ -30,7 +32,6 @@ impl Knowledge<'_> {
         thing: Thing,
         of: Thing,
     ) -> Option<Rel> {
-        let aside = self.relations.thresholds().view_aside;
         if self.area_of(thing) != self.area_of(of) {
             return None;
         }
@@ -42,15 +43,21 @@ impl Knowledge<'_> {
                 ((own == map).then_some(from - pose.at)?.try_normalize(1.0)?, -1.0)
             }
         };
-        let (left, before) = (ahead.perp(&(at - from)), seen * ahead.dot(&(at - from)));
-        let of_side = |rel: Rel| match rel {
-            Rel::LeftOf => left > aside,
-            Rel::RightOf => left < -aside,
-            Rel::InFrontOf => before > aside,
-            Rel::Behind => before < -aside,
-            _ => false,
+        let away = at - from;
+        let (left, before) = (ahead.perp(&away), seen * ahead.dot(&away));
+        let row = self.faced(thing, of, "side", (before, left), 0.0)?;
+        let found = self.as_faced("RATHER_AT_SIDE(_, _, S)", vec![row]);
+        let is_so = |rel: &Rel| {
+            let side = match rel {
+                Rel::LeftOf => "left",
+                Rel::RightOf => "right",
+                Rel::InFrontOf => "front",
+                Rel::Behind => "behind",
+                _ => return false,
+            };
+            found.contains(side)
         };
-        sides.into_iter().find(|rel| of_side(*rel))
+        sides.into_iter().find(is_so)
     }
 
     /// What is to the left or right of a thing, or in the whole room, for one who faces another, or the same thing.
@@ -65,24 +72,42 @@ impl Knowledge<'_> {
         let Some((((from, _), (_, at)), area)) = seen else { return Ok(HashSet::new()) };
         let Some(ahead) = (at - from).try_normalize(1.0) else { return Ok(HashSet::new()) };
         let around = if side.of_all() { from } else { self.point(of).map_or(from, |(_, p)| p) };
-        let near = self.relations.thresholds();
-        let sideways = near.sector_half..=180.0 - near.sector_half;
         let in_room = self.related(Rel::In, Thing::Entity(Entity::Area(area)));
-        let aside = |thing: &Thing| {
-            let Some((_, p)) = self.point(*thing).filter(|_| thing.replica().is_some()) else {
-                return false;
-            };
+        let others = in_room.into_iter().filter(|t| *t != of && *t != faced);
+        let row = |thing: Thing| {
+            let (_, p) = self.point(thing).filter(|_| thing.replica().is_some())?;
             let away = p - around;
-            let angle = ahead.perp(&away).atan2(ahead.dot(&away)).to_degrees();
-            let angle = if side.is_left() { angle } else { -angle };
+            let offset = (ahead.dot(&away), ahead.perp(&away));
             match side.of_all() {
-                true => (near.view_ahead..near.view_behind).contains(&angle),
-                false => {
-                    sideways.contains(&angle)
-                        && self.distance(*thing, of).is_some_and(|d| d <= near.sector_distance)
-                }
+                true => self.faced(thing, Thing::Entity(Entity::Area(area)), "area", offset, 0.0),
+                false => self.faced(thing, of, "thing", offset, self.distance(thing, of)?),
             }
         };
-        Ok(in_room.into_iter().filter(|t| *t != of && *t != faced && aside(t)).collect())
+        let relation = if side.is_left() { "LEFT_AS_FACED" } else { "RIGHT_AS_FACED" };
+        let found = self.as_faced(&format!("{relation}(X, _)"), others.filter_map(row).collect());
+        Ok(found.iter().filter_map(|symbol| self.thing(symbol)).collect())
+    }
+
+    /// A row of `faced`: how far before and to the left of something a thing is, and how far from it, cm.
+    fn faced(
+        &self,
+        thing: Thing,
+        of: Thing,
+        kind: &str,
+        (ahead, left): (f64, f64),
+        away: f64,
+    ) -> Option<Vec<Value>> {
+        let names = [self.symbol(thing), self.symbol(of), kind.to_owned()].map(Value::from);
+        let bearing = Value::Number((left.atan2(ahead).to_degrees() * 100.0).round() as i64);
+        let lengths = [length(ahead)?, length(left)?, bearing, length(away)?];
+        Some(names.into_iter().chain(lengths).collect())
+    }
+
+    /// The words that the rules give for how things lie to one who faces something.
+    fn as_faced(&self, premise: &str, rows: Vec<Vec<Value>>) -> HashSet<String> {
+        let Some(faced) = Listed::of("faced", rows) else { return HashSet::new() };
+        // Rules that go without the relation say it of nothing.
+        let found = self.relations.ask_of(&[&faced], &format!("?- {premise}")).unwrap_or_default();
+        found.iter().filter_map(|row| row.first()).map(ToString::to_string).collect()
     }
 }

@@ -499,7 +499,7 @@ impl Knowledge<'_> {
             return Ok(gates.into_iter().chain(rooms).collect());
         }
         let (Some(a), Some(b)) = (a.replica(), b.replica()) else { return Ok(HashSet::new()) };
-        let between = self.relations.standing_between(a, b);
+        let between = self.relations.standing_between(&self.around(), a, b);
         Ok(between.into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect())
     }
 

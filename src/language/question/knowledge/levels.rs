@@ -1,9 +1,10 @@
 //! Shelves, drawers and other parts told by their height: «верхняя полка стеллажа», "the second drawer from the bottom".
 //!
-//! Invariant: levels are parts of one thing as the map has them; what is on a level begins at or above it and below
-//! the next one.
+//! Invariant: levels are parts of one thing as the map has them; which heights are one level, and what is on it, the
+//! rules say.
 
 use super::Knowledge;
+use crate::facts::{Value, quoted};
 use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::lexicon::Extension;
@@ -18,8 +19,8 @@ pub(in crate::question) struct Level {
     pub(in crate::question) place: usize,
     /// How many there are.
     pub(in crate::question) of: usize,
-    /// Where it begins and where the next one does, cm above the Map's zero.
-    heights: (f64, f64),
+    /// The height of its top in the rules.
+    top: i64,
 }
 
 impl Knowledge<'_> {
@@ -91,9 +92,21 @@ impl Knowledge<'_> {
             .support_chain(thing)
             .iter()
             .find(|t| !self.level_heights(**t, part).is_empty())?;
-        let bottom = self.measure(Extreme::Bottommost, thing)?;
-        let heights = self.level_heights(owner, part);
-        let place = heights.iter().rposition(|height| *height <= bottom + self.sunk())?;
+        let tops = self.level_heights(owner, part);
+        let (thing, of) = [thing, owner].map(|thing| quoted(&self.symbol(thing))).into();
+        let rows =
+            self.relations.found(&self.around(), &format!("?- ON_LEVEL({thing}, {of}, K, H)"));
+        let kinds = self.part_kinds(part);
+        let is_on = |top: i64| {
+            let row = |row: &Vec<Value>| match &row[..] {
+                [Value::Symbol(kind), Value::Number(own)] => {
+                    *own == top && kinds.contains(&&**kind)
+                }
+                _ => false,
+            };
+            rows.iter().any(row)
+        };
+        let place = tops.iter().rposition(|top| is_on(*top))?;
         self.level_at(owner, part, place)
     }
 
@@ -101,24 +114,16 @@ impl Knowledge<'_> {
     pub(super) fn on_level(&self, level: &Level) -> HashSet<Thing> {
         let mut found = self.related(Rel::On, level.owner);
         found.extend(self.related(Rel::In, level.owner));
-        let (from, to) = (level.heights.0 - self.sunk(), level.heights.1 - self.sunk());
-        let here = |t: &Thing| {
-            self.measure(Extreme::Bottommost, *t)
-                .is_some_and(|bottom| bottom >= from && bottom < to)
-        };
-        found.into_iter().filter(here).collect()
-    }
-
-    /// By how much what stands on a part sinks into it, cm.
-    fn sunk(&self) -> f64 {
-        self.relations.thresholds().level_sunk
+        let owner = quoted(&self.symbol(level.owner));
+        let top = level.top;
+        let here: HashSet<Thing> =
+            self.things_asked(&format!("?- ON_LEVEL(X, {owner}, _, {top})")).into_iter().collect();
+        found.into_iter().filter(|thing| here.contains(thing)).collect()
     }
 
     fn level_at(&self, owner: Thing, part: &Noun, place: usize) -> Option<Level> {
-        let heights = self.level_heights(owner, part);
-        let next = heights.get(place + 1).copied().unwrap_or(f64::INFINITY);
-        let heights_of = (*heights.get(place)?, next);
-        Some(Level { owner, place, of: heights.len(), heights: heights_of })
+        let tops = self.level_heights(owner, part);
+        Some(Level { owner, place, of: tops.len(), top: *tops.get(place)? })
     }
 
     pub(in crate::question) fn has_part_kinds(&self, noun: &Noun) -> bool {
@@ -126,27 +131,33 @@ impl Knowledge<'_> {
         noun.head.kinds.iter().any(part)
     }
 
-    /// How high the parts of some kinds of a thing are, the lowest first, cm above the Map's zero.
-    fn level_heights(&self, owner: Thing, part: &Noun) -> Vec<f64> {
-        let object = owner
-            .replica()
-            .and_then(|id| self.world.objects.get(&self.world.replicas.get(&id)?.object));
-        let (Some(object), Some(foot)) = (object, self.measure(Extreme::Bottommost, owner)) else {
+    /// How high the levels of some kinds of a thing are by the rules, the lowest first.
+    fn level_heights(&self, owner: Thing, part: &Noun) -> Vec<i64> {
+        if owner.replica().is_none() {
             return Vec::new();
+        }
+        let of = quoted(&self.symbol(owner));
+        let rows = self.relations.found(&self.around(), &format!("?- level({of}, K, H)"));
+        let kinds = self.part_kinds(part);
+        let top = |row: &Vec<Value>| match &row[..] {
+            [Value::Symbol(kind), Value::Number(top)] => kinds.contains(&&**kind).then_some(*top),
+            _ => None,
         };
+        let mut tops: Vec<i64> = rows.iter().filter_map(top).collect();
+        tops.sort_unstable();
+        tops.dedup();
+        tops
+    }
+
+    /// The kinds of parts that a noun means, as the rules call them.
+    fn part_kinds(&self, part: &Noun) -> Vec<&str> {
         let kinds = part.head.kinds.iter().map(|k| self.lexicon().kind(*k).extension);
-        let kinds: Vec<Extension> = kinds.collect();
-        let lowest =
-            object.items.iter().map(|item| item.frame.z.get()).fold(f64::INFINITY, f64::min);
-        let of_kind = object.items.iter().filter_map(|item| {
-            let frame = self.world.orthoframes.get(&item.orthoframe)?;
-            let kind = Extension::Part(frame.frame_type?);
-            let top = item.frame.z.get() + frame.height.get();
-            kinds.contains(&kind).then_some(foot + top - lowest)
-        });
-        let mut heights: Vec<f64> = of_kind.collect();
-        heights.sort_by(f64::total_cmp);
-        heights.dedup_by(|a, b| (*a - *b).abs() < self.sunk());
-        heights
+        let name = |extension| match extension {
+            Extension::Part(id) => {
+                self.world.types.orthoframe.get(Some(id)).map(|kind| kind.name.as_str())
+            }
+            _ => None,
+        };
+        kinds.filter_map(name).collect()
     }
 }

@@ -18,7 +18,7 @@ use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};
 use super::{Memory, Senses};
 use crate::map::{DoorKind, Entity, World};
-use crate::semantics::{Relations, Subject};
+use crate::semantics::{Around, Relations, Subject};
 use crate::units::{AreaId, InOrder as _, OpeningId, Point, ReplicaId, TypeId};
 use crate::words::Language;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -201,6 +201,13 @@ pub(super) struct Knowledge<'a> {
     pub(super) senses: &'a dyn Senses,
     pub(super) memory: &'a Memory,
     pub(super) language: Language,
+}
+
+impl<'a> Knowledge<'a> {
+    /// What is measured from when the relations are asked.
+    pub(super) fn around(&self) -> Around<'a> {
+        Around::new(self.world).with_robot(self.senses.robot())
+    }
 }
 
 impl Knowledge<'_> {

@@ -5,10 +5,11 @@
 use super::Frame;
 use super::Knowledge;
 use super::bases;
+use crate::facts::{Value, quoted};
 use crate::map::{Entity, Mark};
 use crate::question::lexicon::Extension;
 use crate::question::query::{Rel, Thing};
-use crate::units::{AreaId, Gather as _, InOrder as _, MapId, ReplicaId, Vector};
+use crate::units::{AreaId, Gather as _, InOrder as _, MapId, ReplicaId};
 use std::collections::{BTreeSet, HashSet};
 
 impl Knowledge<'_> {
@@ -323,48 +324,37 @@ impl Knowledge<'_> {
     }
 
     fn for_viewer(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
-        let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
-        let wanted = match rel {
+        let relation = match rel {
             Rel::LeftOf => "LEFT_FOR_VIEWER",
             Rel::RightOf => "RIGHT_FOR_VIEWER",
             Rel::Behind => "BEHIND_FOR_VIEWER",
             _ => "IN_FRONT_FOR_VIEWER",
         };
-        let symbol = self.symbol(anchor);
-        let seen = self.relations.seen_from(map, pose.at).unwrap_or_default();
-        let seen = seen.into_iter().filter(|s| s.relation_en == wanted && s.anchor == symbol);
-        seen.filter_map(|s| self.thing(&s.thing)).collect()
+        let of = quoted(&self.symbol(anchor));
+        self.things_asked(&format!("?- {relation}(X, {of})"))
     }
 
     /// What is ahead of the robot, behind it or at its sides, in its room, nearest first.
     fn beside_robot(&self, rel: Rel) -> Vec<Thing> {
-        let reach = self.relations.thresholds().robot_around;
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
-        let Some(area) = self.relations.measurements().area_at(map, pose.at) else {
-            return Vec::new();
+        let relation = match rel {
+            Rel::InFrontOf => "AHEAD_OF_ROBOT",
+            Rel::Behind => "BEHIND_ROBOT",
+            Rel::LeftOf => "LEFT_OF_ROBOT",
+            _ => "RIGHT_OF_ROBOT",
         };
-        let (sin, cos) = pose.heading.sin_cos();
-        let (ahead, left) = (Vector::new(cos, sin), Vector::new(-sin, cos));
-        let mut found: Vec<(f64, Thing)> = Vec::new();
-        for thing in self.by_relation(Rel::In, Thing::Entity(Entity::Area(area))) {
-            let Some(id) = thing.replica() else { continue };
-            let Some((_, at)) = self.relations.centre(id) else { continue };
-            let Some(distance) = self.relations.distance_to_point(id, map, pose.at) else {
-                continue;
-            };
-            let (forward, sideways) = ((at - pose.at).dot(&ahead), (at - pose.at).dot(&left));
-            let fits = match rel {
-                Rel::InFrontOf => forward >= sideways.abs(),
-                Rel::Behind => -forward >= sideways.abs(),
-                Rel::LeftOf => sideways > forward.abs(),
-                _ => -sideways > forward.abs(),
-            };
-            if fits && distance <= reach {
-                found.push((distance, thing));
-            }
-        }
-        found.order_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.into_iter().map(|(_, t)| t).collect()
+        let found = self.things_asked(&format!("?- {relation}(X)"));
+        nearest_first(found.into_iter(), |id| self.relations.distance_to_point(id, map, pose.at))
+    }
+
+    /// The things of the first column of a question's answers.
+    pub(super) fn things_asked(&self, question: &str) -> Vec<Thing> {
+        let rows = self.relations.found(&self.around(), question);
+        let thing = |row: &Vec<Value>| match row.first() {
+            Some(Value::Symbol(symbol)) => self.thing(symbol),
+            _ => None,
+        };
+        rows.iter().filter_map(thing).collect()
     }
 
     /// Whether a relation holds of two things; being on and in is passed on by what stands between.

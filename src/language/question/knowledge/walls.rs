@@ -60,18 +60,11 @@ impl Knowledge<'_> {
 }
 
 impl Knowledge<'_> {
-    fn walls_about(&self, thing: Thing) -> impl Iterator<Item = (Point, Point)> {
-        let area = self.area_of(thing).into_iter();
-        area.flat_map(|area| self.relations.measurements().walls(area))
-    }
-
     /// What stands between a thing and the walls near to it.
     pub(super) fn between_walls(&self, thing: Thing) -> HashSet<Thing> {
         let Some(id) = thing.replica() else { return HashSet::new() };
-        let near = self.walls_about(thing).filter_map(|wall| self.relations.before_wall(id, wall));
-        let reach = self.relations.thresholds().before_wall;
-        let near = near.filter(|(away, _)| *away <= reach);
-        near.flat_map(|(_, found)| found).map(|id| Thing::Entity(Entity::Replica(id))).collect()
+        let found = self.relations.before_walls(&self.around(), id).into_iter();
+        found.map(|id| Thing::Entity(Entity::Replica(id))).collect()
     }
 
     /// The relation of the rules that says what is at walls, on them or in corners.

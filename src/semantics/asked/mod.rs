@@ -1,15 +1,51 @@
-//! Relations that are computed when a question of the rules' language asks for them: how far two things are from each
-//! other, and how big one is. None of them is stored for all: the building has too many pairs.
+//! Relations that are measured when somebody asks: how far two things are from each other, how big one is, what lies
+//! between two, how things lie about the robot, where a point is. None of them is stored for all: the building has too
+//! many pairs, and any number of points.
 //!
-//! Lengths are tenths of a millimetre, areas cm², volumes cm³, as integers.
+//! Those that `rules/relations.dl` declares are read by its own rules: what follows from them is derived for the
+//! question, and why it holds or not is told from the same measurements.
+//!
+//! Lengths are tenths of a millimetre, angles hundredths of a degree, areas cm², volumes cm³, as integers.
+
+mod between;
+mod level;
+mod robot;
+mod spot;
 
 use crate::facts::{Computed, Value};
 use crate::map::{Entity, World};
-use crate::units::{Cm, OpeningId, ReplicaId, Source};
+use crate::units::{AreaId, Cm, MapId, OpeningId, Point, Pose, ReplicaId, Source};
 
-use super::measured::Measured;
+use super::measured::{MEASURED, Measured};
 use super::names::Subject;
 use super::relations::Relations;
+
+pub(crate) use between::way_between;
+pub(crate) use spot::ROBOT;
+
+/// What is known beside the relations when something is measured on asking.
+#[derive(Debug, Clone, Copy)]
+pub struct Around<'w> {
+    pub world: &'w World,
+    /// Where the robot stands.
+    pub robot: Option<(MapId, Pose)>,
+    /// Points that are asked of beside the robot's, by their places among these.
+    pub spots: &'w [(MapId, Point)],
+}
+
+impl<'w> Around<'w> {
+    /// Of a world in which no robot stands.
+    #[must_use]
+    pub fn new(world: &'w World) -> Self {
+        Self { world, robot: None, spots: &[] }
+    }
+
+    /// The same, with where the robot stands.
+    #[must_use]
+    pub fn with_robot(self, robot: Option<(MapId, Pose)>) -> Self {
+        Self { robot, ..self }
+    }
+}
 
 /// Between the surfaces of two things of one Map, or from a thing to a door or an Area in the plan.
 const DISTANCE: &str = "РАССТОЯНИЕ_МЕЖДУ(x: Any, y: Any, d: number) = distance_between";
@@ -38,9 +74,14 @@ impl<'w, W> OnDemand<'w, W> {
         (around, relations): (&'w W, &'w Relations),
         rows: Rows<W>,
     ) -> Self {
-        let name = declaration.rsplit(' ').next().unwrap_or_default();
+        let name = declaration.split('(').next().unwrap_or_default();
         let declaration = Source::new(name, format!(".decl {declaration}"));
         Self { declaration, ways, around, relations, rows }
+    }
+
+    /// What it is called in the rules.
+    pub(crate) fn name(&self) -> &str {
+        self.declaration.name()
     }
 
     /// What the rules call a thing.
@@ -72,7 +113,7 @@ impl<W> Computed for OnDemand<'_, W> {
     }
 }
 
-/// A relation of which all rows are there, that no rule text declares: for one question.
+/// A relation of which all rows are there for one question.
 pub struct Listed {
     declaration: Source,
     ways: [(u32, f64); 1],
@@ -80,6 +121,12 @@ pub struct Listed {
 }
 
 impl Listed {
+    /// Rows of a relation of the table; none where it has no such relation.
+    #[must_use]
+    pub fn of(name: &str, rows: Vec<Vec<Value>>) -> Option<Self> {
+        Some(Self::new(MEASURED.iter().find(|measured| measured.name == name)?, rows))
+    }
+
     pub(crate) fn new(relation: &Measured, rows: Vec<Vec<Value>>) -> Self {
         let declaration = Source::new(relation.name, relation.declared());
         Self { declaration, ways: [(0, rows.len() as f64)], rows }
@@ -109,25 +156,55 @@ pub fn length(cm: f64) -> Option<Value> {
     Cm::new(cm).ok().map(|cm| Value::Number(cm.to_tenths_mm()))
 }
 
-/// The relations of this file, over a world: `distance_between(+x, y, d)` or `(x, +y, d)`, and `size_of(+x, what, v)`.
+type Asked<'r, 'w> = OnDemand<'r, Around<'w>>;
+
+/// All that is measured on asking: `distance_between(+x, y, d)` or `(x, +y, d)`, `size_of(+x, what, v)`, and what
+/// `rules/relations.dl` declares of it.
 #[must_use]
-pub fn on_demand<'w>(world: &'w World, relations: &'w Relations) -> [OnDemand<'w, World>; 2] {
+pub fn on_demand<'r, 'w>(
+    around: &'r Around<'w>,
+    relations: &'r Relations,
+) -> Vec<OnDemand<'r, Around<'w>>> {
+    let both = (around, relations);
     let pairs = vec![(0b11, 1.0), (0b01, 1e4), (0b10, 1e4)];
-    [
-        OnDemand::new(DISTANCE, pairs, (world, relations), distances),
-        OnDemand::new(SIZE, vec![(0b11, 1.0), (0b01, 9.0)], (world, relations), sizes),
-    ]
+    let mut all = vec![
+        OnDemand::new(DISTANCE, pairs, both, distances),
+        OnDemand::new(SIZE, vec![(0b11, 1.0), (0b01, 9.0)], both, sizes),
+    ];
+    let declared: [(&str, u32, Rows<Around<'w>>); 11] = [
+        ("amid", 0b110, between::amid),
+        ("before_wall", 0b10, between::before_wall),
+        ("shelf", 0b1, level::shelves),
+        ("view", 0, robot::view),
+        ("about_robot", 0, robot::about),
+        ("spot", 0, spot::spots),
+        ("spot_side", 0, spot::sides),
+        ("spot_opening", 0, spot::openings),
+        ("spot_thing", 0, spot::things),
+        ("spot_wall", 0, spot::walls),
+        ("spot_middle", 0, spot::middles),
+    ];
+    all.extend(declared.into_iter().filter_map(|(name, needs, rows)| {
+        let measured = MEASURED.iter().find(|measured| measured.name == name)?;
+        Some(OnDemand::new(
+            measured.declared().trim_start_matches(".decl "),
+            vec![(needs, 30.0)],
+            both,
+            rows,
+        ))
+    }));
+    all
 }
 
 /// What has a place of its own.
 #[derive(Clone, Copy, PartialEq)]
 enum Placed {
     Thing(ReplicaId),
-    Area(crate::units::AreaId),
+    Area(AreaId),
     Opening(OpeningId),
 }
 
-impl OnDemand<'_, World> {
+impl Asked<'_, '_> {
     fn placed(&self, value: Option<&Value>) -> Option<Placed> {
         let Some(Value::Symbol(symbol)) = value else { return None };
         match self.subject(value) {
@@ -161,7 +238,7 @@ impl OnDemand<'_, World> {
 }
 
 fn distances(
-    asked: &OnDemand<'_, World>,
+    asked: &Asked<'_, '_>,
     known: &[Option<Value>],
     tell: &mut dyn FnMut(&[Value]),
 ) -> Option<()> {
@@ -184,12 +261,12 @@ fn distances(
         },
         (Some(first), None) => {
             let other = ends[0]?;
-            let all = asked.around.replicas.keys();
+            let all = asked.around.world.replicas.keys();
             all.for_each(|thing| tell_of(*thing, other, first.clone(), false));
         }
         (None, Some(second)) => {
             let other = ends[1]?;
-            let all = asked.around.replicas.keys();
+            let all = asked.around.world.replicas.keys();
             all.for_each(|thing| tell_of(*thing, other, second.clone(), true));
         }
         (None, None) => return None,
@@ -198,7 +275,7 @@ fn distances(
 }
 
 fn sizes(
-    asked: &OnDemand<'_, World>,
+    asked: &Asked<'_, '_>,
     known: &[Option<Value>],
     tell: &mut dyn FnMut(&[Value]),
 ) -> Option<()> {
