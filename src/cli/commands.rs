@@ -1,6 +1,5 @@
 //! One function a command.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
@@ -20,7 +19,6 @@ use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::teller::Teller;
 use super::{Answer, came_to, heeded, json, say, text};
-use crate::units::Gather as _;
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
 
@@ -274,9 +272,7 @@ pub(super) fn relations(
     say(&text::facts(&match common.lang {
         Lang::Ru => rows,
         Lang::En => {
-            let named = relations.counts().into_iter().filter(|row| !row.name_en.is_empty());
-            let names: BTreeMap<String, String> = named.map(|row| (row.name, row.name_en)).gather();
-            let called = |relation: String| names.get(&relation).cloned().unwrap_or(relation);
+            let called = |relation: String| relations.display_name(&relation, Language::English);
             rows.into_iter().map(|(relation, values)| (called(relation), values)).collect()
         }
     }))

@@ -264,7 +264,7 @@ impl State {
     /// Facts with their relations: those of one relation, those about one thing, or both.
     ///
     /// # Errors
-    /// The relation or the thing is unknown.
+    /// The relation or the thing is unknown, or between what it is asked has to be said ([`State::query`]).
     pub fn facts(
         &self,
         name: Option<&str>,
@@ -277,7 +277,13 @@ impl State {
         let Some(name) = name else {
             return Ok(of.map(|(_, of)| relations.of(&of)).unwrap_or_default());
         };
-        let tuples = relations.tuples(name)?;
+        let tuples = match relations.asked_by(name) {
+            Some(question) => {
+                let ask = |error| Error::Query(Box::new(error));
+                relations.ask(&self.place()?, &question).map_err(ask)?
+            }
+            None => relations.tuples(name)?,
+        };
         let wanted = |t: &Vec<Value>| {
             of.as_ref().is_none_or(|(_, of)| {
                 t.iter().any(|v| matches!(v, Value::Symbol(s) if **s == **of))

@@ -199,7 +199,8 @@ impl Program {
 
 impl Program {
     /// The relations that rules derive from some others, by whatever way.
-    fn depend_on(&self, relations: impl Iterator<Item = RelationId>) -> Vec<RelationId> {
+    #[must_use]
+    pub fn depend_on(&self, relations: impl Iterator<Item = RelationId>) -> Vec<RelationId> {
         let given: Vec<RelationId> = relations.collect();
         let mut reached = given.clone();
         let mut at = 0;

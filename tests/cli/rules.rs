@@ -187,3 +187,16 @@ fn a_datalog_run_explains_its_joins() {
     let limited = place.run(&["datalog", &program, "-D", &out, "--row-limit", "2"]);
     assert!(limited.code != 0 && limited.err.contains("больше 2 строк"), "{}", limited.err);
 }
+
+/// What is derived when asked is told where it can be, and never told to be of nothing where it cannot.
+#[test]
+fn what_is_derived_when_asked_is_not_told_to_be_of_nothing() {
+    let place = Place::with_rb2();
+    let listed = place.json(&["relations"], 0).to_string();
+    assert!(!listed.contains("BETWEEN") && listed.contains("NEXT_TO"), "{listed}");
+    let all = place.json(&["relations", "--name", "BETWEEN"], 2);
+    assert!(all.to_string().contains("amid"), "{all}");
+    let about = ["AHEAD_OF_ROBOT", "BEHIND_ROBOT", "LEFT_OF_ROBOT", "RIGHT_OF_ROBOT"];
+    let about = about.map(|name| place.json(&["relations", "--name", name], 0)["facts"].clone());
+    assert!(about.iter().any(|facts| !facts.as_array().unwrap().is_empty()), "{about:?}");
+}

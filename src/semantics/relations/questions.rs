@@ -11,6 +11,7 @@ use crate::facts::{
 use crate::geometry::Openings;
 use crate::map::{Entity, Profile, World};
 use crate::measure::Measurements;
+use crate::measured::{MEASURED, Made};
 use crate::names::{Subject, Symbols};
 use crate::openings::by_name;
 use crate::thresholds::Thresholds;
@@ -21,10 +22,13 @@ use crate::units::{
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
 
 impl Relations {
-    /// Every relation that the rule text puts out and names in both languages, in its order there.
+    /// Every relation that the rule text puts out and names in both languages, in its order there; those that are derived
+    /// when asked hold of nothing before.
     #[must_use]
     pub fn counts(&self) -> Vec<RelationCount> {
+        let asked = self.derived_when_asked();
         self.public()
+            .filter(|(id, _)| !asked.contains(id))
             .map(|(id, info)| RelationCount {
                 name: info.name.clone(),
                 name_en: info.second_name.clone().unwrap_or_default(),
@@ -33,7 +37,25 @@ impl Relations {
             .collect()
     }
 
-    /// The tuples of a relation, by either of its names, sorted.
+    fn derived_when_asked(&self) -> Vec<RelationId> {
+        let program = self.rules.program();
+        let asked = MEASURED.iter().filter(|measured| measured.made == Made::WhenAsked);
+        program.depend_on(asked.filter_map(|measured| program.relation(measured.name)))
+    }
+
+    /// The question for all tuples of a relation that is derived when asked; none of one whose tuples are there.
+    #[must_use]
+    pub fn asked_by(&self, name: &str) -> Option<String> {
+        let program = self.rules.program();
+        let relation =
+            program.relation(name).filter(|id| self.derived_when_asked().contains(id))?;
+        let columns = &program.info(relation).columns;
+        let variables: Vec<String> = (0..columns.len()).map(|n| format!("V{n}")).collect();
+        Some(format!("?- {name}({})", variables.join(", ")))
+    }
+
+    /// The tuples of a relation, by either of its names, sorted. What is derived when asked is not there: see
+    /// [`Relations::asked_by`].
     ///
     /// # Errors
     /// [`RelationError::UnknownRelation`] with the nearest name.
