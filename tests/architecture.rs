@@ -404,7 +404,7 @@ const IN_CIRCLES: [(&str, usize); 15] = [
     ("draw", 2),
     ("engine", 16),
     ("exchange", 3),
-    ("facts", 13),
+    ("facts", 4),
     ("graphplan", 4),
     ("language", 37),
     ("map", 4),

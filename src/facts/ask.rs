@@ -31,11 +31,11 @@ use super::derived::{Derived, values};
 use super::evaluate::given;
 use super::kept::Kept;
 use super::limits::{Limits, Watch};
-use super::program::{Column, Program, RelationId};
+use super::program::Program;
 use super::proof::{Explainer, Proof};
 use super::question::Question;
-use super::rows::heap;
-use super::stored::Stored;
+use super::relations::{Column, RelationId};
+use super::rows::{Stored, heap};
 use super::word::{Value, Word, Words};
 use crate::units::Source;
 
