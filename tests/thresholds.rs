@@ -7,8 +7,8 @@ use orthoframe_facts::{Value, WhyNot};
 use orthoframe_language::question::Memory;
 use orthoframe_map::{Entity, Format, Profile, World};
 use orthoframe_semantics::{
-    Around, MEASURED, Made, RelationError, RelationRules, Relations, STANDARD, Spot, THRESHOLDS, derive,
-    measured_table,
+    Around, MEASURED, Made, RelationError, RelationRules, Relations, STANDARD, Spot, THRESHOLDS,
+    derive, measured_table,
 };
 use orthoframe_units::{Deg, Frame, Point, Pose, Source};
 

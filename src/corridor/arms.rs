@@ -10,11 +10,21 @@ use miette::SourceSpan;
 use crate::units::{Bilingual, Deg};
 
 use super::fault::CorridorFault;
-use super::file::{Declared, kind_word, turn_word};
 use super::system::{Junction, JunctionKind, Port, Stretch, Turn, VertexIx};
+use super::words::{kind_word, turn_word};
 
 /// One end of a stretch: which stretch, which of its two ends.
 type End = (usize, usize);
+
+/// What a stop's `junction` says, seen by one who comes along the corridor.
+#[derive(Debug, Clone)]
+pub(super) struct Declared {
+    pub(super) kind: JunctionKind,
+    pub(super) at: SourceSpan,
+    /// Neighbour by turn, where the file names it.
+    pub(super) neighbours: Vec<(Turn, i64, SourceSpan)>,
+    pub(super) blind: Vec<(Turn, SourceSpan)>,
+}
 
 /// A declaration together with where it was made from.
 #[derive(Debug, Clone)]

@@ -7,7 +7,8 @@ use super::command::Command;
 use super::double::DoubleGraph;
 use super::single::SingleGraph;
 use super::system::{ArcIx, CorridorSystem, VertexIx};
-use super::weight::{Cost, in_people_units};
+use super::way::{Position, Way};
+use super::weight::in_people_units;
 
 /// Which of the paper's two road graphs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -33,24 +34,6 @@ impl Variant {
     pub fn numbered(number: u8) -> Option<Self> {
         [Self::Single, Self::Double].into_iter().find(|v| v.number() == number)
     }
-}
-
-/// Where the robot stopped, and over which arc it came; without it the heading is unknown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Position {
-    pub vertex: VertexIx,
-    pub last: Option<ArcIx>,
-}
-
-/// A shortest way, as either graph gives it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Way {
-    pub commands: Vec<Command>,
-    /// Vertices of the graph that were used: «1», «2'».
-    pub labels: Vec<String>,
-    pub cost: Cost,
-    /// The last arc: together with its head the position at the goal.
-    pub arrived_by: ArcIx,
 }
 
 /// One command in words.

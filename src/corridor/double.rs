@@ -14,11 +14,12 @@ use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::{EdgeRef, Reversed};
 
+use super::CorridorError;
 use super::command::Command;
 use super::single::command_of;
 use super::system::{ArcCode, ArcIx, CorridorSystem, VertexIx, side_seen};
+use super::way::{Position, Way};
 use super::weight::{Cost, arc_costs, u_turn_cost};
-use super::{CorridorError, Position, Way};
 
 /// A vertex of variant 2: at an entrance, with a direction of travel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

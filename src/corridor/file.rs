@@ -27,55 +27,19 @@ use toml::de::{DeTable, DeValue};
 
 use crate::units::{Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name};
 
-use super::arms;
+use super::arms::{self, Declared};
 use super::fault::{CorridorFault, CorridorFileError};
 use super::system::{
-    CorridorSystem, Entrance, Junction, JunctionKind, Measure, Port, Side, Stretch, Turn, Vertex,
-    VertexIx, VertexKind, Weights,
+    CorridorSystem, Entrance, Junction, Port, Side, Stretch, Turn, Vertex, VertexIx, VertexKind,
+    Weights,
 };
-
-/// A word of the file together with its other spellings; the first one is the one that is told to people.
-type Words<T> = &'static [(&'static [&'static str], T)];
-
-const SIDES: Words<Side> = &[
-    (&["right", "справа"], Side::Right),
-    (&["left", "слева"], Side::Left),
-    (&["ahead", "прямо"], Side::Ahead),
-];
-
-const KINDS: Words<JunctionKind> = &[
-    (&["crossing", "крестообразное"], JunctionKind::Crossing),
-    (&["tee", "т-образное"], JunctionKind::Tee),
-    (&["branch-right", "ответвление направо"], JunctionKind::BranchRight),
-    (&["branch-left", "ответвление налево"], JunctionKind::BranchLeft),
-    (&["turn-right", "поворот направо"], JunctionKind::TurnRight),
-    (&["turn-left", "поворот налево"], JunctionKind::TurnLeft),
-];
-
-const TURNS: Words<Turn> = &[
-    (&["straight", "прямо"], Turn::Straight),
-    (&["right", "направо"], Turn::Right),
-    (&["left", "налево"], Turn::Left),
-];
-
-const MEASURES: Words<Measure> =
-    &[(&["arcs", "дуги"], Measure::Arcs), (&["metres", "метры"], Measure::Metres)];
+use super::words::{KINDS, MEASURES, SIDES, TURNS, Words, turn_word};
 
 const FILE_FIELDS: &[&str] = &["format", "name", "name_en", "measure", "u_turn", "corridor"];
 const CORRIDOR_FIELDS: &[&str] = &["name", "closed", "along"];
 const STOP_FIELDS: &[&str] = &[
     "vertex", "room", "room_en", "side", "junction", "straight", "right", "left", "blind", "metres",
 ];
-
-/// The word of the file for a kind of junction.
-pub(super) fn kind_word(kind: JunctionKind) -> &'static str {
-    KINDS.iter().find(|(_, k)| *k == kind).map_or("", |(words, _)| words[0])
-}
-
-/// The word of the file for a turn.
-pub(super) fn turn_word(turn: Turn) -> &'static str {
-    TURNS.iter().find(|(_, t)| *t == turn).map_or("", |(words, _)| words[0])
-}
 
 impl CorridorSystem {
     /// Reads a corridor file.
@@ -94,16 +58,6 @@ impl CorridorSystem {
             }
         }
     }
-}
-
-/// What a stop's `junction` says, seen by one who comes along the corridor.
-#[derive(Debug, Clone)]
-pub(super) struct Declared {
-    pub(super) kind: JunctionKind,
-    pub(super) at: SourceSpan,
-    /// Neighbour by turn, where the file names it.
-    pub(super) neighbours: Vec<(Turn, i64, SourceSpan)>,
-    pub(super) blind: Vec<(Turn, SourceSpan)>,
 }
 
 /// One entry of `along`.

@@ -40,10 +40,12 @@ mod plan;
 mod schema;
 mod single;
 mod system;
+mod way;
 mod weight;
+mod words;
 
 pub use command::Command;
-pub use directions::{Directions, Position, Step, Variant, Way, directions};
+pub use directions::{Directions, Step, Variant, directions};
 pub use double::{Bearing, DoubleArc, DoubleArcKind, DoubleGraph};
 pub use error::CorridorError;
 pub use fault::{CorridorFault, CorridorFileError};
@@ -55,4 +57,5 @@ pub use system::{
     ArcCode, ArcIx, CorridorSystem, Entrance, Junction, JunctionKind, Measure, Port, Side, Stretch,
     Turn, Vertex, VertexIx, VertexKind, Weights,
 };
+pub use way::{Position, Way};
 pub use weight::Cost;

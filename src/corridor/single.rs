@@ -10,10 +10,11 @@ use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::{EdgeRef, Reversed};
 
+use super::CorridorError;
 use super::command::Command;
 use super::system::{ArcCode, ArcIx, CorridorSystem, Turn, VertexIx, side_seen};
+use super::way::{Position, Way};
 use super::weight::{Cost, arc_costs, u_turn_cost};
-use super::{CorridorError, Position, Way};
 
 /// An arc of variant 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,13 +11,16 @@ use datafrog::Iteration;
 
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
+use super::growing::{self, Growing};
 use super::head::Head;
 use super::limits::{self, Watch};
 use super::plan::{Plan, Request};
-use super::program::{Clause, Expr, Literal, Program, RelationId, Term};
-use super::rows::{self, Growing, RowSet, SharedRows, Taken};
+use super::program::{Clause, Expr, Literal, Program, Term};
+use super::relations::RelationId;
+use super::rows::{RowSet, SharedRows};
 use super::run::{Plain, Source, run};
 use super::shares::shared_out;
+use super::sink::Taken;
 use super::word::{Word, Words};
 
 /// The column that all recursive rules of a relation hand on, if there is one; each must read the relation once.
@@ -132,7 +135,7 @@ impl Apart<'_> {
         let limits = watch.limits();
         let info = self.program.info(self.relation);
         let mut iteration = Iteration::new();
-        let mut rows = rows::growing(&mut iteration, &info.name, info.columns.len());
+        let mut rows = growing::growing(&mut iteration, &info.name, info.columns.len());
         rows.seed(part);
         let shared_bytes = words.bytes();
         let mut counted = rows.len();

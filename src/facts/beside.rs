@@ -4,8 +4,8 @@
 //! bits there when it leaves it, all at once; what another thread has put meanwhile is that one's.
 
 use super::row::Row;
-use super::rows::{Branch, Sink, Taken};
 use super::seen::Seen;
+use super::sink::{Branch, Sink, Taken};
 use super::word::Word;
 
 pub(super) struct Beside<'a, const N: usize> {

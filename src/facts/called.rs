@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::program::{Expr, RelationId};
+use super::program::Expr;
+use super::relations::RelationId;
 use super::value::column_word;
 use super::word::{Word, Words};
 

@@ -6,7 +6,8 @@
 use std::collections::BTreeSet;
 
 use super::database::{FactError, RelationKey, Schema};
-use super::program::{Clause, Expr, Literal, Program, RelationId, Term};
+use super::program::{Clause, Expr, Literal, Program, Term};
+use super::relations::RelationId;
 use super::word::{NO_WORD, Value, Word};
 
 /// A relation, and a row of it as far as it is known.

@@ -3,15 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-use super::clause;
-use super::declare::{Declared, declare, direct, type_named};
-use super::fault::RuleError;
+use super::declare::{declare, direct, type_named};
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
 use super::limits::Ceilings;
-use super::program::{Clause, Fact, Found, Program, RelationId, Subsumption};
+use super::program::{Clause, Fact, Program, Subsumption};
+use super::relations::RelationId;
 use super::strata::{reads, strata};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
-use super::{idle, misuse, product, subsume, unify, witness};
+use super::{clause, idle, misuse, product, subsume, unify, witness};
 use crate::units::Source;
 
 pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {

@@ -4,14 +4,14 @@
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 
-use super::declare::Declared;
-use super::fault::RuleError;
-use super::pattern::Record;
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
 use super::program::{
-    Aggregate, Atom, Clause, Column, Compare, Expr, Found, Kind, Literal, RelationId, RelationInfo,
-    Term, Variable, VariableId, used_variables,
+    Aggregate, Atom, Clause, Compare, Expr, Kind, Literal, Term, Variable, VariableId,
+    used_variables,
 };
-use super::syntax::{self, Aggregation, Body, Comparison, Rule, Span};
+use super::relations::{Column, RelationId, RelationInfo};
+use super::syntax::{self, Aggregation, Body, Comparison, Record, Rule, Span};
 use super::word::Words;
 use crate::units::bilingual;
 
@@ -86,10 +86,10 @@ pub(super) fn asking(
         }
         asked
     });
-    let is_too_wide = exprs.len() > super::declare::MAX_COLUMNS;
+    let is_too_wide = exprs.len() > super::declared::MAX_COLUMNS;
     if is_too_wide || choices.iter().any(|choice| choice.len() > MAX_PREMISES) {
         let (what, limit) = match is_too_wide {
-            true => (("столбцов ответа", "columns of the answer"), super::declare::MAX_COLUMNS),
+            true => (("столбцов ответа", "columns of the answer"), super::declared::MAX_COLUMNS),
             false => (("посылок у вопроса", "premises of a question"), MAX_PREMISES),
         };
         faults.push(question.at, RuleError::TooLarge { what, limit, at: question.at.into() });

@@ -9,8 +9,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::fault::RuleError;
-use super::program::Found;
+use super::fault::{Found, RuleError};
 use super::syntax::{Atom, Body, Branch, Component, Expr, Item, Name, Role, Rule, Span, Type};
 use crate::units::{bilingual, nearest_name};
 

@@ -7,10 +7,11 @@ use thiserror::Error;
 
 use super::decimal::Decimal;
 use super::kept::Kept;
-use super::program::{Fact, Kind, Names, Program, RelationId, RelationInfo};
+use super::program::{Fact, Kind, Program};
 use super::record::{self, Making};
-use super::rows::SharedRows;
-use super::stored::{Stored, stored};
+use super::relations::{Names, RelationId, RelationInfo};
+use super::rows::{SharedRows, Stored};
+use super::stored::stored;
 use super::word::{NO_WORD, Value, Word, Words};
 use crate::units::nearest_name;
 

@@ -12,11 +12,13 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::growing::Version;
 use super::head::head_variables;
 use super::kept::Kept;
 use super::plan::{Plan, Request, Task, plan};
-use super::program::{Atom, Clause, Literal, Program, RelationId, Term, VariableId};
-use super::rows::{SharedRows, Version, heap};
+use super::program::{Atom, Clause, Literal, Program, Term, VariableId};
+use super::relations::RelationId;
+use super::rows::{SharedRows, heap};
 use super::turned::turned;
 use super::word::Word;
 

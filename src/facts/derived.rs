@@ -5,10 +5,10 @@ use std::fmt;
 use super::database::{FactError, RelationKey, Schema, find_word};
 use super::fault::FileFaults;
 use super::kept::Kept;
-use super::program::{Kind, Program, RelationId, RelationInfo};
+use super::program::{Kind, Program};
 use super::record::{self, Texts};
-use super::rows::SharedRows;
-use super::stored::{Starting, Stored};
+use super::relations::{RelationId, RelationInfo};
+use super::rows::{SharedRows, Starting, Stored};
 use super::syntax::Span;
 use super::word::{Note, Value, Word, Words};
 
@@ -58,7 +58,7 @@ impl Derived {
     #[must_use]
     pub fn notes(&self) -> Vec<FileFaults> {
         let fault = |(at, note): &(Span, Note)| (at.file, note.told(*at));
-        super::program::by_file(&self.program.sources, self.notes.iter().map(fault).collect())
+        super::fault::by_file(&self.program.sources, self.notes.iter().map(fault).collect())
     }
 
     /// Whether a tuple was told, by the text or the database.

@@ -4,9 +4,10 @@
 use std::time::Duration;
 
 use super::evaluate::Evaluation;
+use super::growing::Version;
 use super::plan::{Plan, Request};
-use super::program::{Clause, Expr, Program, RelationId};
-use super::rows::Version;
+use super::program::{Clause, Expr, Program};
+use super::relations::RelationId;
 use super::step::Step;
 use super::trace::{Join, RuleTrace, sorted};
 use crate::units::{Bilingual, Language};

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::limits::MAX_TEXT;
 use super::syntax::Span;
 use super::word::Note;
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, InOrder as _, Source};
 
 /// Words of a message, in Russian and in English.
 pub(super) type Told = (&'static str, &'static str);
@@ -429,4 +429,35 @@ fn head(files: &[FileFaults]) -> String {
 
 fn did_you_mean(nearest: Option<&str>, otherwise: &str) -> String {
     nearest.map_or_else(|| otherwise.to_owned(), |name| format!("может быть, «{name}»?"))
+}
+
+/// Faults with the number of their text.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    pub(super) all: Vec<(u32, RuleError)>,
+}
+
+impl Found {
+    pub(super) fn push(&mut self, at: Span, fault: RuleError) {
+        // A rule with several heads is checked once for each.
+        if !self.all.iter().rev().take(16).any(|(file, known)| *file == at.file && *known == fault)
+        {
+            self.all.push((at.file, fault));
+        }
+    }
+}
+
+pub(super) fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
+    faults.order_by_key(|(file, fault)| (*file, fault.span().offset()));
+    let mut files: Vec<(u32, FileFaults)> = Vec::new();
+    for (file, fault) in faults {
+        match files.last_mut() {
+            Some((last, here)) if *last == file => here.faults.push(fault),
+            _ => {
+                let source = sources[file as usize].clone();
+                files.push((file, FileFaults { source, faults: vec![fault] }));
+            }
+        }
+    }
+    files.into_iter().map(|(_, file)| file).collect()
 }

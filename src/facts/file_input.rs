@@ -8,7 +8,8 @@ use super::database::{Database, Known, Loader};
 use super::decimal::Decimal;
 use super::files_error::{FilesError, file_error};
 use super::layout::{delimiter, file_columns, file_name, has_headers, is_quoted, parameter};
-use super::program::{Column, Kind, Parameters, RelationId, RelationInfo};
+use super::program::Kind;
+use super::relations::{Column, Parameters, RelationId, RelationInfo};
 use super::value::whole;
 use crate::units::{FileFault, read_text};
 

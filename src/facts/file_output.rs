@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::derived::Derived;
 use super::layout::{delimiter, has_headers, is_quoted};
-use super::program::{Kind, Parameters, RelationId, RelationInfo};
+use super::program::Kind;
+use super::relations::{Parameters, RelationId, RelationInfo};
 use crate::units::write_file_with;
 
 /// The columns' names.

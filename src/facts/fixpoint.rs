@@ -12,10 +12,12 @@ use datafrog::Iteration;
 
 use super::apart::handed_on;
 use super::evaluate::{EvaluateError, Evaluation, no_parts, own_atoms};
+use super::growing::{self, Growing, Version};
 use super::limits::MAX_ROWS;
 use super::plan::{Plan, Request};
-use super::program::{Clause, RelationId, Stratum};
-use super::rows::{self, Growing, RowSet, Version};
+use super::program::{Clause, Stratum};
+use super::relations::RelationId;
+use super::rows::RowSet;
 use super::spread::Makes;
 use super::subsume::{Chosen, Dominated, Pruned, choosing};
 use super::word::Word;
@@ -46,7 +48,7 @@ impl Evaluation<'_> {
             let columns = info.columns.len();
             let rows: Box<dyn Growing> = match is_pruned {
                 true => Box::new(Pruned::new(columns)),
-                false => rows::growing(&mut iteration, &info.name, columns),
+                false => growing::growing(&mut iteration, &info.name, columns),
             };
             let given = &self.given[relation.index()];
             let mut chosen = self.chosen(*relation);

@@ -2,8 +2,8 @@
 
 use super::limits::{MAX_ROWS, Watch};
 use super::program::{Clause, Expr, Kind, Program, VariableId};
-use super::rows::Sink;
 use super::run::Goal;
+use super::sink::Sink;
 use super::value;
 use super::word::{Word, Words};
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::declare::Declared;
-use super::fault::RuleError;
-use super::program::{Atom, Clause, Compare, Expr, Fact, Found, Kind, Literal, Term};
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
+use super::program::{Atom, Clause, Compare, Expr, Fact, Kind, Literal, Term};
 use super::syntax::{Comparison, Span};
 use super::value;
 use super::word::Words;

@@ -9,9 +9,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::clause::{self, Made};
-use super::declare::Declared;
-use super::fault::RuleError;
-use super::program::{Found, RelationId};
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
+use super::relations::RelationId;
 use super::syntax::{Atom, Body, Comparison, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
 use crate::units::{Gather as _, bilingual};

@@ -9,11 +9,11 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::limits::Watch;
 use super::plan::{Plan, Request, Statistics};
-use super::program::{Expr, RelationId};
-use super::rows::{RowSet, SharedRows, distinct};
+use super::program::Expr;
+use super::relations::RelationId;
+use super::rows::{RowSet, SharedRows, Slot, Stored, distinct};
 use super::run::{Goal, Kept as KeptSource, Source, run};
 use super::slots::KeptIndex;
-use super::stored::{Slot, Stored};
 use super::word::{Word, Words};
 
 /// What an update has changed in a relation so far.

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 
 use super::clause::{Builder, Premise, Scope};
 use super::decimal::Decimal;
-use super::declare::is_declared;
+use super::declared::is_declared;
 use super::fault::RuleError;
-use super::program::{Expr, Kind, RelationId, VariableId};
+use super::program::{Expr, Kind, VariableId};
+use super::relations::RelationId;
 use super::syntax::{self, Aggregation, Body, Span};
 
 impl Builder<'_> {

@@ -1,6 +1,6 @@
 //! How the file of a relation is laid out, by the parameters of `.input` and `.output`.
 
-use super::program::{Parameters, RelationInfo};
+use super::relations::{Parameters, RelationInfo};
 
 pub(super) fn parameter<'a>(parameters: &'a Parameters, name: &str) -> Option<&'a str> {
     parameters.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())

@@ -20,10 +20,10 @@ use super::derived::{Derived, Tuple};
 use super::evaluate::{EvaluateError, Evaluation};
 use super::head::Rows;
 use super::kept::View;
-use super::limits::MAX_ROWS;
-use super::limits::{Limits, Watch};
-use super::program::{Program, RelationId, Stratum};
-use super::stored::Stored;
+use super::limits::{Limits, MAX_ROWS, Watch};
+use super::program::{Program, Stratum};
+use super::relations::RelationId;
+use super::rows::Stored;
 use super::strata::reads;
 use super::word::{NO_WORD, Value, Word, Words};
 

@@ -21,9 +21,8 @@ use super::demand::Demand;
 use super::evaluate::{EvaluateError, Evaluation};
 use super::finished::Finished;
 use super::plan::Statistics;
-use super::program::{
-    Atom, Clause, Expr, Literal, Program, RelationId, RelationInfo, Stratum, Term, used_variables,
-};
+use super::program::{Atom, Clause, Expr, Literal, Program, Stratum, Term, used_variables};
+use super::relations::{RelationId, RelationInfo};
 use super::rows::heap;
 use super::syntax::Comparison;
 use super::tables::{Besides, Way};

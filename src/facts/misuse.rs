@@ -3,9 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::declare::Declared;
-use super::fault::{RuleError, Told};
-use super::program::{Found, RelationId, Stratum};
+use super::declared::Declared;
+use super::fault::{Found, RuleError, Told};
+use super::program::Stratum;
+use super::relations::RelationId;
 use super::syntax::{Atom, Body, Expr, Functor, Item, Name, Role, Rule, Span};
 use super::unify::{names_of_body, names_of_expr};
 use crate::units::{Bilingual, bilingual};

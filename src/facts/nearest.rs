@@ -6,13 +6,12 @@
 //! wins; among equals the one whose failed comparison misses by least. Where more than one premise fails so, the
 //! rules are gone through once more, each premise in turn left out although something fits it.
 
+use super::growing::Version;
 use super::kept::View;
 use super::plan::{Task, plan};
-use super::program::{
-    Aggregate, Atom, Clause, Compare, Expr, Literal, RelationId, Term, VariableId,
-};
+use super::program::{Aggregate, Atom, Clause, Compare, Expr, Literal, Term, VariableId};
 use super::proof::Explainer;
-use super::rows::Version;
+use super::relations::RelationId;
 use super::syntax::{Aggregation, Comparison};
 use super::value;
 use super::word::{NO_WORD, Word, Words};

@@ -4,11 +4,10 @@ use super::clause::{Builder, Scope};
 use super::decimal;
 use super::fault::RuleError;
 use super::kinds::is_whole;
-use super::pattern::Record;
 use super::program::{Bounds, Compare, Expr, Kind, Literal, NumberRange};
-use super::record::NIL;
 use super::regular::{self, NoPattern};
-use super::syntax::{self, Comparison, Functor, Span};
+use super::syntax::{self, Comparison, Functor, Record, Span};
+use super::word::NIL;
 use crate::units::{bilingual, nearest_name};
 
 impl Builder<'_> {

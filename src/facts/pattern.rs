@@ -6,26 +6,8 @@
 use super::clause::{Builder, Scope};
 use super::fault::RuleError;
 use super::program::{Compare, Expr, Kind, Literal};
-use super::syntax::{self, Comparison, Functor, Span};
+use super::syntax::{self, Comparison, Functor, Record, Span};
 use super::word::NO_WORD;
-
-/// A record in a rule: its branch, its fields and its place.
-pub(super) struct Record<'a> {
-    pub(super) branch: Option<&'a syntax::Name>,
-    pub(super) args: &'a [syntax::Expr],
-    pub(super) at: Span,
-}
-
-impl<'a> Record<'a> {
-    pub(super) fn of(expr: &'a syntax::Expr) -> Option<Self> {
-        match expr {
-            syntax::Expr::Record { branch, args, at } => {
-                Some(Self { branch: branch.as_deref(), args, at: *at })
-            }
-            _ => None,
-        }
-    }
-}
 
 impl Builder<'_> {
     /// The number of the branch and the kinds of the fields; a fault where the record is not of the kind.
@@ -131,7 +113,7 @@ impl Builder<'_> {
             // Nothing is asked of the fields, but it is neither `nil` nor another branch.
             let (left, kind, op, right) = match tag {
                 NO_WORD => {
-                    let nil = Expr::Constant(super::record::NIL);
+                    let nil = Expr::Constant(super::word::NIL);
                     let kind = wanted.unwrap_or(Kind::Record(0));
                     (value.clone(), kind, Comparison::NotEqual, nil)
                 }

@@ -7,11 +7,11 @@
 use std::collections::HashMap;
 
 use super::filter::ColumnFilter;
+use super::growing::Version;
 use super::program::{
-    Aggregate, Atom, Clause, Compare, Expr, Literal, NumberRange, RelationId, Term, VariableId,
-    used_variables,
+    Aggregate, Atom, Clause, Compare, Expr, Literal, NumberRange, Term, VariableId, used_variables,
 };
-use super::rows::Version;
+use super::relations::RelationId;
 use super::step::{Scan, Step};
 use super::syntax::Comparison;
 use super::value;
@@ -439,7 +439,7 @@ impl<'a> Draft<'a> {
                 let Literal::Compare(compare) = &body[*other] else { continue };
                 if compare.op == Comparison::Equal
                     && let Some((column, _, value)) = self.separate(compare, atom)
-                    && key.len() < super::declare::MAX_COLUMNS
+                    && key.len() < super::declared::MAX_COLUMNS
                 {
                     key.push((column, value));
                     taken.push(*other);

@@ -3,11 +3,9 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::declare::Declared;
-use super::fault::RuleError;
-use super::program::{
-    Clause, Compare, Expr, Fact, Found, Literal, Term, VariableId, used_variables,
-};
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
+use super::program::{Clause, Compare, Expr, Fact, Literal, Term, VariableId, used_variables};
 use super::syntax::{Aggregation, Comparison};
 
 pub(super) fn warn(

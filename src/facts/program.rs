@@ -3,56 +3,16 @@
 //! **Invariant**: every variable of a clause gets its value from a positive premise or an equality,
 //! and no relation depends on its own negation or aggregate, so evaluation always has an order to run in.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::declare;
-use super::fault::{FileFaults, RuleError};
+use super::declared::Declared;
+use super::fault::FileFaults;
 use super::limits::Ceilings;
+use super::relations::{Names, RelationId, RelationInfo};
 pub use super::syntax::Kind;
 use super::syntax::{Aggregation, Comparison, Functor, Span};
 use super::word::{Value, Word, Words};
-use crate::units::{InOrder as _, Source, name_key};
-
-/// A relation of a program, by position.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct RelationId(pub(super) u32);
-
-impl RelationId {
-    pub(super) fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// A column of a relation, as declared.
-#[derive(Debug, Clone)]
-pub struct Column {
-    pub name: String,
-    pub kind: Kind,
-    /// The declared type: `symbol`, `number`, `unsigned`, `float` or one that `.type` introduced.
-    pub type_name: String,
-}
-
-/// A relation, as declared.
-#[derive(Debug, Clone, Default)]
-pub struct RelationInfo {
-    pub name: String,
-    /// The name in a second language, where the declaration gives one.
-    pub second_name: Option<String>,
-    pub columns: Vec<Column>,
-    /// `.input`, each time that it is said, with its parameters.
-    pub inputs: Vec<Parameters>,
-    /// `.output`, each time that it is said, with its parameters.
-    pub outputs: Vec<Parameters>,
-    pub print_size: bool,
-    /// `.limitsize`: evaluation of the relation stops at so many tuples.
-    pub limit_size: Option<usize>,
-    /// `choice-domain`: of the tuples that agree in all columns of one of these, the first that is found stays.
-    pub choices: Vec<Vec<usize>>,
-}
-
-/// `filename="…"`, `delimiter="…"` and the like.
-pub type Parameters = Vec<(String, String)>;
+use crate::units::Source;
 
 /// A rule for one head and one choice of each disjunction.
 #[derive(Debug, Clone)]
@@ -235,7 +195,7 @@ pub struct Program {
     pub(super) words: Words,
     pub(super) warnings: Arc<[FileFaults]>,
     /// What questions about the program's results name.
-    pub(super) declared: Arc<declare::Declared>,
+    pub(super) declared: Arc<Declared>,
 }
 
 impl Program {
@@ -303,69 +263,6 @@ impl Program {
         let source = &self.sources[at.file as usize];
         let (line, _) = source.position(at.start as usize);
         (source, line, &source.text()[at.range()])
-    }
-}
-
-/// Faults with the number of their text.
-#[derive(Debug, Default)]
-pub(super) struct Found {
-    pub(super) all: Vec<(u32, RuleError)>,
-}
-
-impl Found {
-    pub(super) fn push(&mut self, at: Span, fault: RuleError) {
-        // A rule with several heads is checked once for each.
-        if !self.all.iter().rev().take(16).any(|(file, known)| *file == at.file && *known == fault)
-        {
-            self.all.push((at.file, fault));
-        }
-    }
-}
-
-pub(super) fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
-    faults.order_by_key(|(file, fault)| (*file, fault.span().offset()));
-    let mut files: Vec<(u32, FileFaults)> = Vec::new();
-    for (file, fault) in faults {
-        match files.last_mut() {
-            Some((last, here)) if *last == file => here.faults.push(fault),
-            _ => {
-                let source = sources[file as usize].clone();
-                files.push((file, FileFaults { source, faults: vec![fault] }));
-            }
-        }
-    }
-    files.into_iter().map(|(_, file)| file).collect()
-}
-
-/// Relations by both names.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Names {
-    exact: HashMap<String, RelationId>,
-    /// By [`name_key`]; none where several relations share the key.
-    keys: HashMap<String, Option<RelationId>>,
-}
-
-impl Names {
-    pub(super) fn find(&self, name: &str) -> Option<RelationId> {
-        let exact = self.exact.get(name).copied();
-        exact.or_else(|| self.keys.get(&name_key(name)).copied().flatten())
-    }
-
-    /// False when the very name is taken.
-    pub(super) fn insert(&mut self, name: &str, relation: RelationId) -> bool {
-        if self.exact.contains_key(name) {
-            return false;
-        }
-        self.exact.insert(name.to_owned(), relation);
-        let key = self.keys.entry(name_key(name)).or_insert(Some(relation));
-        if *key != Some(relation) {
-            *key = None;
-        }
-        true
-    }
-
-    pub(super) fn all(&self) -> impl Iterator<Item = &str> {
-        self.exact.keys().map(String::as_str)
     }
 }
 

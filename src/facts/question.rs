@@ -23,12 +23,14 @@ use nom::sequence::preceded;
 
 use super::check::{equivalence, limits};
 use super::clause::{self, Made};
-use super::declare::{Declared, declare_more, kind_name};
-use super::fault::{Faults, RuleError};
+use super::declare::declare_more;
+use super::declared::{Declared, kind_name};
+use super::fault::{Faults, Found, RuleError, by_file};
 use super::lex::{self, Token, Word};
 use super::parse::{atom, disjunction, items_of};
-use super::program::{Clause, Column, Found, Kind, Program, RelationId, RelationInfo, by_file};
+use super::program::{Clause, Kind, Program};
 use super::read::{Furthest, Input, Read, list, name, number, sign};
+use super::relations::{Column, RelationId, RelationInfo};
 use super::strata::strata;
 use super::syntax::{self, Item, Rule, Span};
 use super::word::Words;

@@ -8,18 +8,7 @@ use std::fmt::Write as _;
 
 use super::decimal::Decimal;
 use super::program::Kind;
-use super::word::{Word, Words, small_number};
-
-/// The word of the record that is none.
-pub(super) const NIL: Word = 0;
-
-/// What the values of a declared type hold.
-#[derive(Debug, Clone)]
-pub(super) struct Shape {
-    /// For each branch its name and the kinds of its fields; a record has one.
-    pub(super) branches: Vec<(String, Vec<Kind>)>,
-    pub(super) is_record: bool,
-}
+use super::word::{NIL, Word, Words, small_number};
 
 /// The first word of a branch's records: its number.
 pub(super) fn tag(branch: usize) -> Word {

@@ -13,10 +13,9 @@ use super::filter::{ColumnFilter, choose, narrow, retain};
 use super::index::Index;
 use super::limits::Watch;
 use super::program::{Bounds, Compare, Expr, Kind};
-use super::rows::RowSet;
+use super::rows::{RowSet, Slot, Stored};
 use super::slots::KeptIndex;
 use super::step::{Scan, Step};
-use super::stored::{Slot, Stored};
 use super::syntax::Aggregation;
 use super::value::{self, column_word};
 use super::word::{NO_WORD, Note, Word, Words};
@@ -616,7 +615,7 @@ impl<'a> Machine<'a, '_> {
 }
 
 /// A key has at most the words of a row.
-const MAX_KEY: usize = super::declare::MAX_COLUMNS;
+const MAX_KEY: usize = super::declared::MAX_COLUMNS;
 
 struct Key {
     words: [Word; MAX_KEY],

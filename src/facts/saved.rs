@@ -11,8 +11,8 @@
 
 use super::live::Live;
 use super::program::Program;
-use super::rows::{SharedRows, heap};
-use super::stored::{Stored, stored};
+use super::rows::{SharedRows, Stored, heap};
+use super::stored::stored;
 use super::word::{Word, Words, is_in_place, large_at};
 use super::{Database, Derived};
 

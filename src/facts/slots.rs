@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::index::Index;
 use super::program::Expr;
-use super::stored::{Slot, Stored};
+use super::rows::{Slot, Stored};
 use super::value;
 use super::word::{Word, Words};
 

@@ -17,72 +17,9 @@ use std::sync::{Arc, OnceLock};
 use datafrog::Relation;
 
 use super::row::Row;
-use super::rows::{RowSet, SharedRows, at_width};
+use super::rows::{RowSet, SharedRows, Slot, Starting, Stored, at_width};
 use super::sorting::sorted;
 use super::word::Word;
-
-/// The place of a row.
-pub(super) type Slot = u32;
-
-/// A set of rows that is edited one by one.
-pub(super) trait Stored: Send + Sync + Debug {
-    fn len(&self) -> usize;
-    fn row(&self, slot: Slot) -> &[Word];
-    fn find(&self, row: &[Word]) -> Option<Slot>;
-    /// None when it was there.
-    fn insert(&mut self, row: &[Word]) -> Option<Slot>;
-    /// None when it was not there.
-    fn remove(&mut self, row: &[Word]) -> Option<Slot>;
-    /// Whether a slot of the base still has its row.
-    fn is_there(&self, slot: Slot) -> bool;
-    /// The rows that start with the key.
-    fn starting(&self, key: &[Word]) -> Starting;
-    /// The sorted part; slots below its length are its positions.
-    fn base(&self) -> SharedRows;
-    /// Slots of the rows that came later.
-    fn later(&self) -> Vec<Slot>;
-    /// All rows, sorted; put together once after an edit.
-    fn rows(&self) -> SharedRows;
-    /// So much came later that the base should take it in.
-    fn is_fragmented(&self) -> bool;
-    /// Takes everything into the base; slots change.
-    fn consolidate(&mut self);
-    /// Adds many rows at once, one after the other; slots change.
-    fn extend(&mut self, words: &[Word], columns: usize);
-    fn clear(&mut self);
-    fn boxed_clone(&self) -> Box<dyn Stored>;
-}
-
-/// Slots in the order of their rows.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Starting {
-    base: Range<Slot>,
-    /// Ascending by row, the next one last.
-    later: Vec<Slot>,
-    /// Rows still to come.
-    pub(super) len: usize,
-}
-
-impl Starting {
-    pub(super) fn next(&mut self, rows: &dyn Stored) -> Option<Slot> {
-        while self.base.start < self.base.end && !rows.is_there(self.base.start) {
-            self.base.start += 1;
-        }
-        let in_base = (self.base.start < self.base.end).then_some(self.base.start);
-        let slot = match (in_base, self.later.last()) {
-            (Some(one), Some(&other)) if rows.row(other) < rows.row(one) => other,
-            (Some(one), _) => one,
-            (None, other) => *other?,
-        };
-        if in_base == Some(slot) {
-            self.base.start += 1;
-        } else {
-            self.later.pop();
-        }
-        self.len -= 1;
-        Some(slot)
-    }
-}
 
 #[derive(Clone)]
 pub(super) struct StoredRows<const N: usize> {

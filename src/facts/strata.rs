@@ -6,9 +6,10 @@ use std::sync::Arc;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::declare::Declared;
-use super::fault::RuleError;
-use super::program::{Clause, Found, Literal, RelationId, Stratum, Subsumption};
+use super::declared::Declared;
+use super::fault::{Found, RuleError};
+use super::program::{Clause, Literal, Stratum, Subsumption};
+use super::relations::RelationId;
 use super::syntax::Span;
 use crate::units::{Bilingual, InOrder as _};
 

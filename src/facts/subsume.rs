@@ -9,10 +9,12 @@ use std::collections::{HashMap, HashSet};
 
 use datafrog::Iteration;
 
-use super::declare::{Declared, MAX_COLUMNS};
-use super::fault::RuleError;
-use super::program::{Column, Found, RelationId, RelationInfo};
-use super::rows::{Growing, Heap, RowSet, SharedRows, Sink, Version, heap};
+use super::declared::{Declared, MAX_COLUMNS};
+use super::fault::{Found, RuleError};
+use super::growing::{Growing, Version};
+use super::relations::{Column, RelationId, RelationInfo};
+use super::rows::{Heap, RowSet, SharedRows, heap};
+use super::sink::Sink;
 use super::syntax::{Atom, Body, Expr, Item, Name, Rule};
 use super::word::Word;
 

@@ -458,3 +458,21 @@ impl Functor {
         matches!(self, Self::Range | Self::RangeUnsigned | Self::RangeOfDecimals)
     }
 }
+
+/// A record in a rule: its branch, its fields and its place.
+pub(super) struct Record<'a> {
+    pub(super) branch: Option<&'a Name>,
+    pub(super) args: &'a [Expr],
+    pub(super) at: Span,
+}
+
+impl<'a> Record<'a> {
+    pub(super) fn of(expr: &'a Expr) -> Option<Self> {
+        match expr {
+            Expr::Record { branch, args, at } => {
+                Some(Self { branch: branch.as_deref(), args, at: *at })
+            }
+            _ => None,
+        }
+    }
+}

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use foldhash::fast::RandomState;
 
 use super::called::{Flat, Mask, columns_of};
-use super::program::RelationId;
+use super::relations::RelationId;
 use super::rows::SharedRows;
 use super::word::Word;
 

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::fault::{Faults, RuleError};
-use super::program::{Clause, Found, Program, RelationId, by_file};
+use super::fault::{Faults, Found, RuleError, by_file};
+use super::program::{Clause, Program};
+use super::relations::RelationId;
 use super::syntax::Item;
 use super::{check, component, misuse, parse, strata};
 use crate::units::{Source, bilingual};

@@ -1,6 +1,7 @@
 //! A clause as it is asked for a row of its head: every column of the head has a variable that the body knows.
 
-use super::program::{Clause, Column, Compare, Expr, Kind, Literal, Term, Variable, VariableId};
+use super::program::{Clause, Compare, Expr, Kind, Literal, Term, Variable, VariableId};
+use super::relations::Column;
 use super::syntax::Comparison;
 
 /// The clause with a variable for every column of its head and every `_` of its atoms.

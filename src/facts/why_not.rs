@@ -7,8 +7,9 @@ use std::fmt;
 
 use super::database::{FactError, RelationKey};
 use super::nearest::{Best, Search};
-use super::program::{Clause, Literal, RelationId, VariableId};
+use super::program::{Clause, Literal, VariableId};
 use super::proof::{Explainer, Premise, Proof, RuleInstance, premise, row_of, rule_instance};
+use super::relations::RelationId;
 use super::value;
 use super::word::{Value, Word};
 

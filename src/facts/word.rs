@@ -15,13 +15,15 @@ use foldhash::fast::RandomState;
 
 use super::decimal::Decimal;
 use super::program::Kind;
-use super::record::{self, Finding, Making, NIL, Shape};
 
 /// One word of a tuple.
 pub(super) type Word = u32;
 
 /// No value has this word; a computed column holds it where the computation has no result.
 pub(super) const NO_WORD: Word = u32::MAX;
+
+/// The word of the record that is none.
+pub(super) const NIL: Word = 0;
 
 /// Words from here on are positions in the list of large numbers.
 pub(super) const LARGE: Word = 1 << 31;
@@ -91,6 +93,14 @@ pub(super) fn small_number(number: i64) -> Option<Word> {
 /// The position in the list of large numbers.
 pub(super) fn large_at(word: Word) -> Option<usize> {
     (!is_in_place(word) && word != NO_WORD).then(|| (word - LARGE) as usize)
+}
+
+/// What the values of a declared type hold.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    /// For each branch its name and the kinds of its fields; a record has one.
+    pub(super) branches: Vec<(String, Vec<Kind>)>,
+    pub(super) is_record: bool,
 }
 
 /// One layer of interned symbols and large numbers.
@@ -336,39 +346,6 @@ impl Words {
     pub(super) fn find_number(&self, number: i64) -> Option<Word> {
         small_number(number)
             .or_else(|| self.layers().find_map(|layer| layer.number_words.get(&number)).copied())
-    }
-
-    /// The word of a value in a column of a kind, made where there is none yet; none for a text that is no record.
-    pub(super) fn of(&mut self, value: &Value, kind: Kind) -> Option<Word> {
-        Some(match value {
-            Value::Number(number) => self.number(*number),
-            Value::Decimal(decimal) => self.number(decimal.millionths()),
-            Value::Symbol(text) => self.symbol(text),
-            Value::Record(text) => return record::read(text, kind, &mut Making(self)),
-        })
-    }
-
-    /// The word of a value that is known already.
-    pub(super) fn find(&self, value: &Value, kind: Kind) -> Option<Word> {
-        match value {
-            Value::Number(number) => self.find_number(*number),
-            Value::Decimal(decimal) => self.find_number(decimal.millionths()),
-            Value::Symbol(text) => self.find_symbol(text),
-            Value::Record(text) => record::read(text, kind, &mut Finding(self)),
-        }
-    }
-
-    pub(super) fn value(&self, word: Word, kind: Kind) -> Value {
-        match kind {
-            Kind::Symbol => Value::Symbol(Arc::clone(self.text(word))),
-            Kind::Number | Kind::Unsigned => Value::Number(self.to_number(word)),
-            Kind::Float => Value::Decimal(Decimal::from_millionths(self.to_number(word))),
-            Kind::Record(_) => {
-                let mut text = String::new();
-                record::write(self, word, kind, record::Texts::Told, &mut text);
-                Value::Record(text.into())
-            }
-        }
     }
 
     pub(super) fn to_number(&self, word: Word) -> i64 {

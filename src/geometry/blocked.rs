@@ -13,10 +13,9 @@ use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId, Gather as _, InOrder as _, ZoneId};
 
 use super::blocker::Blocker;
-use super::cells::CellKey;
+use super::cells::{CellKey, Piece};
 use super::leaf::opening_of;
 use super::narrows::{Narrow, Narrows};
-use super::network::Piece;
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::scene::Scene;

@@ -21,6 +21,13 @@ pub enum Blocker {
     Zone { zone: ZoneId },
 }
 
+impl Blocker {
+    /// Jambs have no side of their own: they belong to the wall.
+    pub(super) fn jamb(area: AreaId) -> Self {
+        Self::Wall { area, item: 0, side: 0 }
+    }
+}
+
 /// A piece of floor that is taken, and the heights between which.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {

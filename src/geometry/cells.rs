@@ -5,6 +5,9 @@ use crate::units::Point;
 /// Cells of all Fragments: Fragment, cell.
 pub(super) type CellKey = (u32, u32);
 
+/// A piece of centre space that hangs together within its Fragment: Fragment, component.
+pub(super) type Piece = (u32, u32);
+
 /// What the search walks over.
 pub(super) trait Cells {
     /// Adds the edges of a cell that do not lead back to `from`, counter-clockwise, each with the cell behind it.

@@ -4,11 +4,9 @@
 //! which faces are not plain, that is, have names or let something through.
 
 use crate::map::{BaseVector, Permeability};
-use crate::units::{InOrder as _, Point};
+use crate::units::{AreaId, InOrder as _, Point};
 
 use super::blocker::{Blocker, Obstacle};
-use super::dead_zone::jamb;
-use super::floor::FragmentFloor;
 use super::passframe::Beyond;
 use super::site::Site;
 use super::storey::Side;
@@ -44,7 +42,7 @@ pub(super) struct Edging {
 impl Edging {
     pub(super) fn of(
         site: &Site<'_>,
-        floor: &FragmentFloor,
+        area: AreaId,
         obstacles: &[Obstacle],
         sides: Vec<Side>,
     ) -> Self {
@@ -68,8 +66,8 @@ impl Edging {
         }
         for Side { item, side, .. } in &sides {
             let (item, side) = (*item, *side);
-            if let Some(vector) = side_of(site, floor, item, side) {
-                mark(Blocker::Wall { area: floor.area, item, side }, side, vector);
+            if let Some(vector) = side_of(site, area, item, side) {
+                mark(Blocker::Wall { area, item, side }, side, vector);
             }
         }
         let place = |m: &Mark| (m.blocker, m.side);
@@ -77,62 +75,20 @@ impl Edging {
         // A thing without thickness takes floor as several strips.
         marks.dedup_by_key(|m| place(m));
         marks.shrink_to_fit();
-        Self { doorways: doorway_faces(site, floor, &sides), sides, marks }
-    }
-
-    /// All faces of a floor. Doors stand first, so that a door in a wall is named before the wall.
-    pub(super) fn faces(&self, floor: &FragmentFloor) -> Vec<Face> {
-        let face = |(start, end): (Point, Point), blocker: Blocker, side: usize| {
-            let found = self.marks.binary_search_by_key(&(blocker, side), |m| (m.blocker, m.side));
-            let mark = found.ok().map(|i| &self.marks[i]);
-            Face {
-                start,
-                end,
-                beyond: Beyond::Face { blocker, side: Some(side) },
-                permeability: mark.map_or(Permeability::Impermeable, |m| m.permeability),
-                names: mark.map_or_else(Vec::new, |m| m.names.clone()),
-            }
-        };
-        let of_thing = |o: &Obstacle| {
-            let edges = o.polygon.edges().enumerate();
-            let sides = edges.map(|(number, edge)| match o.side {
-                None => face(edge, o.blocker, number),
-                Some(side) => face(edge, o.blocker, side),
-            });
-            let mut sides: Vec<Face> = sides.collect();
-            if o.side.is_some() {
-                // Behind a strip is the thing itself, or what its other sides look at.
-                sides.remove(2);
-            }
-            sides
-        };
-        let of_side = |s: &Side| {
-            let blocker = Blocker::Wall { area: floor.area, item: s.item, side: s.side };
-            face((s.start, s.end), blocker, s.side)
-        };
-        let of_wall = |&(start, end): &(Point, Point)| {
-            let beyond = Beyond::Face { blocker: jamb(floor), side: None };
-            let permeability = Permeability::Impermeable;
-            Face { start, end, beyond, permeability, names: Vec::new() }
-        };
-        let mut faces = self.doorways.clone();
-        faces.extend(floor.obstacles().iter().flat_map(of_thing));
-        faces.extend(self.sides.iter().map(of_side));
-        faces.extend(floor.walls.iter().map(of_wall));
-        faces
+        Self { doorways: doorway_faces(site, area, &sides), sides, marks }
     }
 }
 
-fn doorway_faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
-    let area = &site.world.areas[&floor.area];
+fn doorway_faces(site: &Site<'_>, area: AreaId, sides: &[Side]) -> Vec<Face> {
+    let items = &site.world.areas[&area].items;
     let mut faces = Vec::new();
-    for (index, doorway, at) in site.doorways_of(floor.area) {
+    for (index, doorway, at) in site.doorways_of(area) {
         let beyond =
             Beyond::Doorway { doorway: index, door: doorway.door, area: doorway.areas[1 - at] };
         let reference = &doorway.sides[at].side;
-        let own = sides.iter().filter(|s| area.items[s.item].id == reference.item);
+        let own = sides.iter().filter(|s| items[s.item].id == reference.item);
         let names = own
-            .filter_map(|s| side_of(site, floor, s.item, s.side))
+            .filter_map(|s| side_of(site, area, s.item, s.side))
             .find(|vector| vector.id == reference.side)
             .map_or_else(Vec::new, |vector| vector.names.clone());
         let face = if at == 0 { 0.0 } else { doorway.gap };
@@ -153,13 +109,8 @@ fn doorway_faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<
 }
 
 /// The vector of an Area's side.
-fn side_of<'a>(
-    site: &Site<'a>,
-    floor: &FragmentFloor,
-    item: usize,
-    side: usize,
-) -> Option<&'a BaseVector> {
-    let item = site.world.areas[&floor.area].items.get(item)?;
+fn side_of<'a>(site: &Site<'a>, area: AreaId, item: usize, side: usize) -> Option<&'a BaseVector> {
+    let item = site.world.areas[&area].items.get(item)?;
     site.world.orthoframe_of(item).base.get(side)
 }
 

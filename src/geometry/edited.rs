@@ -241,7 +241,7 @@ impl FloorPlan {
         }
         self.network.portals = portals;
         let fresh: Vec<AreaId> = stale.iter().copied().collect();
-        let built = self.with_site(world, |site| super::plan::build_all(site, &fresh));
+        let built = self.with_site(world, |site| super::plan::built::build_all(site, &fresh));
         let kept = std::mem::take(&mut self.fragments).into_iter();
         let kept = kept.filter(|f| !stale.contains(&f.area) && number(&f.area).is_some());
         self.fragments = kept.chain(built).collect();

@@ -33,7 +33,7 @@ use super::obstacle::{leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::on_demand::{Folded, OnDemand};
 use super::opening::Opening;
-use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
+use super::passframe::{Beyond, Passframe, PassframeId, ids};
 use super::scene::Prism;
 use super::site::{SLACK, Site};
 use super::storey::{Storey, THIN};
@@ -154,7 +154,7 @@ impl FragmentFloor {
             cells,
             exits,
         };
-        built.edging = Edging::of(site, &built, &obstacles, storey.sides);
+        built.edging = Edging::of(site, area, &obstacles, storey.sides);
         built
     }
 
@@ -245,17 +245,6 @@ impl FragmentFloor {
     #[must_use]
     pub fn centre(&self) -> Vec<Region> {
         self.cells.outline()
-    }
-
-    /// The Passframes, sorted by place; see [`Passframe::id`].
-    pub fn passframes(&self) -> &[Passframe] {
-        self.passframes.get(|| passframes(self))
-    }
-
-    /// The Passframe that holds a point of the floor.
-    #[must_use]
-    pub fn passframe_at(&self, p: Point) -> Option<&Passframe> {
-        self.frames.locate(p, 1e-3).map(|cell| &self.passframes()[cell as usize])
     }
 
     /// The id of the Passframe that holds a point of the floor.

@@ -26,12 +26,11 @@ use crate::units::{InOrder as _, Point, Vector};
 
 use super::blocker::Blocker;
 use super::buckets::Buckets;
-use super::dead_zone::jamb;
+use super::cells::Piece;
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, difference, overlay};
 use super::mesh::Mesh;
 use super::mouth::thick;
-use super::network::Piece;
 use super::plan::FloorPlan;
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
@@ -342,7 +341,7 @@ impl<'a> Owners<'a> {
         let side = || floor.edging.sides.iter().filter(solid).find(|s| on(s.start, s.end));
         let wall =
             || side().map(|s| Blocker::Wall { area: floor.area, item: s.item, side: s.side });
-        let jamb = || floor.walls.iter().any(|&(a, b)| on(a, b)).then(|| jamb(floor));
+        let jamb = || floor.walls.iter().any(|&(a, b)| on(a, b)).then(|| Blocker::jamb(floor.area));
         thing.or_else(wall).or_else(jamb)
     }
 }

@@ -9,11 +9,9 @@ use petgraph::unionfind::UnionFind;
 
 use crate::units::Point;
 
-use super::cells::{CellKey, Cells, Edge};
+use super::Bounds;
+use super::cells::{CellKey, Piece};
 use super::floor::FragmentFloor;
-use super::mesh::{NONE, Passage};
-use super::plan::FloorPlan;
-use super::strait::Strait;
 
 /// Where two Fragments' centre spaces touch on a doorway's line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +25,43 @@ pub(super) struct Portal {
     pub(super) doorway: usize,
 }
 
-/// A piece of centre space that hangs together within its Fragment: Fragment, component.
-pub(super) type Piece = (u32, u32);
+/// Straight legs between two pieces of centre space, one for each way.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Strait {
+    pub(super) lanes: [Lane; 2],
+    /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
+    pub(super) doorways: Vec<(usize, [u32; 2])>,
+}
+
+impl Strait {
+    /// The cells at its ends.
+    pub(super) fn cells(&self) -> [CellKey; 2] {
+        self.lanes[0].cells
+    }
+
+    /// A box around its lanes.
+    pub(super) fn extent(&self) -> Bounds {
+        Bounds::of(self.lanes.iter().flat_map(|lane| lane.ends))
+    }
+}
+
+/// A straight leg from the first to the second of two places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lane {
+    pub(super) ends: [Point; 2],
+    pub(super) cells: [CellKey; 2],
+}
+
+impl Lane {
+    pub(super) fn length(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).norm()
+    }
+
+    pub(super) fn reversed(&self) -> Self {
+        let ([a, b], [from, to]) = (self.ends, self.cells);
+        Self { ends: [b, a], cells: [to, from] }
+    }
+}
 
 /// How the Fragments of a Map hang together.
 #[derive(Debug, Clone, Default)]
@@ -118,12 +151,17 @@ impl Network {
         self.branches.between(start, goal)
     }
 
+    /// How many cells the plan has.
+    pub(super) fn size(&self) -> u32 {
+        self.cells.last().copied().unwrap_or_default()
+    }
+
     /// A cell's number among all cells of the plan.
-    fn number(&self, (fragment, cell): CellKey) -> u32 {
+    pub(super) fn number(&self, (fragment, cell): CellKey) -> u32 {
         self.cells[fragment as usize] + cell
     }
 
-    fn portals_of(&self, cell: CellKey) -> impl Iterator<Item = &Portal> {
+    pub(super) fn portals_of(&self, cell: CellKey) -> impl Iterator<Item = &Portal> {
         let list = &self.portals[cell.0 as usize];
         let from = list.partition_point(|p| p.from < cell);
         list[from..].iter().take_while(move |p| p.from == cell)
@@ -205,136 +243,6 @@ impl Branches {
     }
 }
 
-/// The cells of a plan as a search for one goal may use them.
-pub(super) struct Walkable<'a> {
-    plan: &'a FloorPlan,
-    /// Fragments to stay in, sorted.
-    within: &'a [u32],
-    marks: &'a Marks,
-}
-
-/// A cell of a branch that leads to the goal or to a Fragment that may be passed: a way never enters the other
-/// branches, since it would have to come back over the same border.
-const LEADS: u32 = 1;
-/// A cell that such a branch hangs on, or with a doorway that may be passed.
-const FORKS: u32 = 2;
-
-/// What a search is to know of cells, by their numbers in the whole plan. What one search has marked means nothing to
-/// the next, so that nothing need be wiped.
-#[derive(Debug, Default)]
-pub(super) struct Marks {
-    /// With each cell's marks the number of the search that they are of.
-    cells: Vec<u32>,
-    search: u32,
-}
-
-impl Marks {
-    /// Forgets all marks, for a plan of so many cells.
-    fn clear(&mut self, cells: u32) {
-        self.search += 1;
-        if self.search >= u32::MAX >> 2 {
-            *self = Self { cells: Vec::new(), search: 1 };
-        }
-        if self.cells.len() < cells as usize {
-            self.cells.resize(cells as usize, 0);
-        }
-    }
-
-    fn of(&self, cell: u32) -> u32 {
-        let found = self.cells[cell as usize];
-        if found >> 2 == self.search { found & 3 } else { 0 }
-    }
-
-    /// Adds marks to a cell, and tells what it had.
-    fn add(&mut self, cell: u32, marks: u32) -> u32 {
-        let had = self.of(cell);
-        self.cells[cell as usize] = self.search << 2 | had | marks;
-        had
-    }
-}
-
-impl<'a> Walkable<'a> {
-    pub(super) fn toward(
-        plan: &'a FloorPlan,
-        within: &'a [u32],
-        goal: CellKey,
-        marks: &'a mut Marks,
-    ) -> Self {
-        let network = &plan.network;
-        marks.clear(network.cells.last().copied().unwrap_or_default());
-        let mut lead_to = |(number, mut cell): CellKey, mut own: u32| {
-            let cells = &plan.floor(number).cells;
-            loop {
-                let on = cells.trunk(cell);
-                let is_branch = on != NONE;
-                let had = marks
-                    .add(network.number((number, cell)), own | if is_branch { LEADS } else { 0 });
-                if !is_branch || had & LEADS != 0 {
-                    return;
-                }
-                (cell, own) = (on, FORKS);
-            }
-        };
-        lead_to(goal, 0);
-        for portal in within.iter().flat_map(|&n| &network.portals[n as usize]) {
-            if within.binary_search(&portal.to.0).is_ok() {
-                lead_to(portal.from, FORKS);
-            }
-        }
-        Self { plan, within, marks }
-    }
-}
-
-/// A passage of a Fragment's cell as an edge.
-fn over(fragment: u32, passage: &Passage) -> Edge {
-    let &Passage { right, left, right_bends, left_bends, to } = passage;
-    Edge { right, left, right_bends, left_bends, to: (fragment, to) }
-}
-
-impl Cells for Walkable<'_> {
-    #[inline(always)]
-    fn only_edge(&self, cell: CellKey, from: CellKey) -> Option<Edge> {
-        let network = &self.plan.network;
-        let [one, other] = self.plan.floor(cell.0).cells.passages(cell.1).0 else { return None };
-        let is_back = |passage: &Passage| (cell.0, passage.to) == from;
-        let on = match (is_back(one), is_back(other)) {
-            (true, false) => other,
-            (false, true) => one,
-            _ => return None,
-        };
-        let forks = self.marks.of(network.number(cell)) & FORKS != 0;
-        (!forks).then(|| over(cell.0, on))
-    }
-
-    #[inline(always)]
-    fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
-        let back = from.filter(|f| f.0 == cell.0).map_or(NONE, |f| f.1);
-        let over = |passage: &Passage| over(cell.0, passage);
-        let (through, branches) = self.plan.floor(cell.0).cells.passages(cell.1);
-        for passage in through {
-            if passage.to != back {
-                found.push(over(passage));
-            }
-        }
-        let network = &self.plan.network;
-        if self.marks.of(network.number(cell)) & FORKS == 0 {
-            return;
-        }
-        let leads = |to: u32| self.marks.of(network.number((cell.0, to))) & LEADS != 0;
-        for passage in branches {
-            if passage.to != back && leads(passage.to) {
-                found.push(over(passage));
-            }
-        }
-        for portal in network.portals_of(cell) {
-            let Portal { right, left, to, .. } = *portal;
-            if from != Some(to) && self.within.binary_search(&to.0).is_ok() {
-                found.push(Edge { right, left, right_bends: true, left_bends: true, to });
-            }
-        }
-    }
-}
-
 /// The stretch of `a`-`b` that the opposite edge `c`-`d` covers.
 pub(super) fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<(Point, Point)> {
     let along = (b - a).try_normalize(0.0)?;
@@ -343,26 +251,4 @@ pub(super) fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<
     let to = place(c).max(place(d)).min((b - a).norm());
     let end = |t: f64, p: Point, own: f64| if (t - own).abs() < 1e-9 { p } else { a + along * t };
     (to - from > 1e-6).then(|| (end(from, a, 0.0), end(to, b, (b - a).norm())))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn marks_are_of_one_search_alone() {
-        let mut marks = Marks::default();
-        for search in [1, 2, (u32::MAX >> 2) - 1, 1] {
-            marks.clear(8);
-            assert_eq!(marks.search, search);
-            assert!((0..8).all(|cell| marks.of(cell) == 0));
-            assert_eq!(
-                [marks.add(3, LEADS), marks.add(3, FORKS), marks.add(5, FORKS)],
-                [0, LEADS, 0]
-            );
-            assert_eq!([3, 4, 5].map(|cell| marks.of(cell)), [LEADS | FORKS, 0, FORKS]);
-            // As if many searches had gone by.
-            marks.search = if search == 2 { (u32::MAX >> 2) - 2 } else { marks.search };
-        }
-    }
 }

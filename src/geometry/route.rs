@@ -18,11 +18,11 @@ use super::anchor::{Anchor, Moved};
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::cells::CellKey;
 use super::lawful::{Ground, Rules, paces};
-use super::network::{Marks, Walkable};
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
 use super::search::shortest;
 use super::strait;
+use super::walkable::{Marks, Walkable};
 use super::zone::PlacedZone;
 
 /// Where to.

@@ -36,54 +36,16 @@ use crate::units::{InOrder as _, Point, Vector};
 
 use super::anchor::Anchor;
 use super::apart::{distance, segment_distance};
-use super::cells::CellKey;
+use super::cells::{CellKey, Piece};
 use super::coverage::{body, meeting, over, shrunk};
 use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, Shapes};
 use super::mesh::Mesh;
 use super::narrows::Narrows;
-use super::network::Piece;
+use super::network::{Lane, Strait};
 use super::plan::FloorPlan;
 use super::site::SLACK;
 use super::{Bounds, Polygon};
-
-/// Straight legs between two pieces of centre space, one for each way.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Strait {
-    pub(super) lanes: [Lane; 2],
-    /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
-    pub(super) doorways: Vec<(usize, [u32; 2])>,
-}
-
-impl Strait {
-    /// The cells at its ends.
-    pub(super) fn cells(&self) -> [CellKey; 2] {
-        self.lanes[0].cells
-    }
-
-    /// A box around its lanes.
-    pub(super) fn extent(&self) -> Bounds {
-        Bounds::of(self.lanes.iter().flat_map(|lane| lane.ends))
-    }
-}
-
-/// A straight leg from the first to the second of two places.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Lane {
-    pub(super) ends: [Point; 2],
-    pub(super) cells: [CellKey; 2],
-}
-
-impl Lane {
-    fn length(&self) -> f64 {
-        (self.ends[1] - self.ends[0]).norm()
-    }
-
-    fn reversed(&self) -> Self {
-        let ([a, b], [from, to]) = (self.ends, self.cells);
-        Self { ends: [b, a], cells: [to, from] }
-    }
-}
 
 /// Headings are tried at this step, in radians.
 const TURN: f64 = PI / 12.0;

@@ -9,20 +9,10 @@
 //! A *no-op* carries a fact from one level to the next. Facts, actions and non-mutexes only grow, so at some level the
 //! graph has *leveled off*: every later one is the same. Nothing here is made quick; [`crate::proof`] is.
 
+use super::action::Action;
 use super::mutex::{FactMutex, are_mutex};
-use crate::strips::{FactId, OperatorId, Task};
+use crate::strips::{FactId, Task};
 use crate::{Limit, Limits, NoPlanReason};
-
-/// An operator of the task, or the no-op of a fact.
-#[derive(Debug)]
-pub(super) struct Action {
-    /// None for a no-op.
-    pub(super) operator: Option<OperatorId>,
-    pub(super) preconditions: Vec<FactId>,
-    pub(super) add_effects: Vec<FactId>,
-    /// What it deletes, if only for a moment.
-    pub(super) takes: Vec<FactId>,
-}
 
 /// What may hold after so many steps.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -60,6 +60,7 @@
 use orthoframe_strips as strips;
 use orthoframe_units as units;
 
+mod action;
 mod bits;
 mod cheapest;
 mod extract;

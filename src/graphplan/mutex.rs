@@ -4,7 +4,7 @@
 //! excludes each other there. Two facts exclude each other when every way to have the one excludes every way to have
 //! the other. "Exclusive" is told soundly and not completely: pairs that are not told may still never meet.
 
-use super::graph::Action;
+use super::action::Action;
 use crate::strips::FactId;
 
 /// Pairs of facts that exclude each other at one level: a symmetric relation.

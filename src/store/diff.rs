@@ -14,8 +14,7 @@ use super::changes::Changes;
 use super::error::Result;
 use super::keep::Store;
 use super::reader::Reader;
-use super::schema::Record;
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table};
 
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

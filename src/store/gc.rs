@@ -9,14 +9,11 @@ use super::edits::{Change, Draft};
 use super::error::{Result, StoreError};
 use super::frame::Op;
 use super::keep::Store;
-use super::reader::replica_index;
+use super::reader::{FORGOTTEN, replica_index};
 use super::tables::{self as t, Table};
 use super::trees::{CHANGES, HISTORY, REPLICAS, Records};
 use super::vault::Change as Write;
 use super::version::{Stamp, Version};
-
-/// Under this name the first revision that can still be read stands among the last ids.
-pub(super) const FORGOTTEN: &str = "~forgotten";
 
 /// What forgetting came to.
 #[derive(Debug, Clone, PartialEq, Eq)]

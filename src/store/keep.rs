@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::map::{Replica, World};
-use crate::units::AreaId;
+use crate::units::{AreaId, Bilingual, Timestamp};
 
 use super::cell::Key;
 use super::changes::Changes;
@@ -18,14 +18,12 @@ use super::edits::{
 use super::error::{Result, StoreError, doing};
 use super::ids::{self, Known};
 use super::open::{Lock, Place, SledShelf, check_format, lock, write_format};
-use super::reader::{Reader, history_key, key_of_record, replica_index};
-use super::schema::Record;
+use super::reader::{Reader, history_key, replica_index};
 use super::sheet::Sheet;
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table, key_of_record};
 use super::trees::{HISTORY, REPLICAS};
 use super::vault::{OpenReport, Vault};
 use super::version::{Stamp, Version};
-use crate::units::{Bilingual, Timestamp};
 
 /// A store open for writing (or, with [`Store::open_read_only`], for reading).
 pub struct Store {

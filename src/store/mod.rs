@@ -67,11 +67,13 @@ mod sides;
 mod sim;
 mod snapshot;
 mod tables;
+mod touched;
 mod trees;
 mod undo;
 mod vault;
 mod version;
 mod wall;
+mod words;
 mod write;
 
 pub use crate::units::{Timestamp, TimestampError};
@@ -89,9 +91,9 @@ pub use observe::{Belief, Observation, Proposal, Seen};
 pub use queue::{Queue, QueuedTask};
 pub use reader::Reader;
 pub use robot::{FoundAt, RobotMemory, SeenObstacle};
-pub use schema::{Column, Origin, Record};
+pub use schema::{Column, Origin};
 pub use sheet::Sheet;
-pub use tables::Table;
+pub use tables::{Record, Table};
 pub use vault::OpenReport;
 pub use version::{Stamp, Version};
 

@@ -18,18 +18,16 @@
 use std::collections::BTreeMap;
 
 use crate::map::Replica;
-use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, Frame, MapId, Point, Pose, ReplicaId, Timestamp};
 
 use super::cell::Key;
 use super::edits::{Change, Draft, Edits, ImportReport};
 use super::error::{Result, StoreError};
 use super::keep::Store;
 use super::reader::Reader;
-use super::schema::Record;
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table};
 use super::version::{Stamp, Version};
 use super::write::replica_record;
-use crate::units::Timestamp;
 
 /// Where something was seen.
 #[derive(Debug, Clone, Copy, PartialEq)]

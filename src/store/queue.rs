@@ -9,8 +9,7 @@ use super::error::Result;
 use super::keep::Store;
 use super::observe::ROBOT;
 use super::reader::Reader;
-use super::schema::Record;
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table};
 use crate::units::{MapId, Point, Timestamp};
 
 const BEGUN: &str = "begun";

@@ -17,29 +17,34 @@ use crate::units::{
 };
 
 use super::error::{Result, StoreError};
-use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
-use super::tables::{self as t, Table};
-use super::write::{
+use super::tables::{self as t, Record, Table};
+use super::words::{
     CASES, CLOSED, DOOR_KINDS, GENDERS, KEEP_OUT, ONE_WAY, SLOW, STATUSES, SYNONYM, TRAIT, face,
 };
 
-pub(super) fn world(sheet: &Sheet) -> Result<Option<World>> {
-    let Some(domain) = sheet.all::<t::Domain>()?.into_iter().next() else { return Ok(None) };
-    let mut reader = Reader { sheet, forms: forms(sheet)? };
-    Ok(Some(World {
-        types: reader.types()?,
-        orthoframes: reader.orthoframes()?.into(),
-        doors: reader.doors()?.into(),
-        objects: reader.objects()?.into(),
-        areas: reader.areas()?.into(),
-        replicas: reader.replicas()?.into(),
-        places: reader.places()?.into(),
-        zones: reader.zones()?.into(),
-        maps: reader.maps()?.into(),
-        robot: reader.robot()?,
-        domain: reader.domain(domain)?,
-    }))
+impl Sheet {
+    /// The world of the records; none when there is no Domain.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] or [`StoreError::BrokenReference`] when the records make no world.
+    pub fn world(&self) -> Result<Option<World>> {
+        let Some(domain) = self.all::<t::Domain>()?.into_iter().next() else { return Ok(None) };
+        let mut reader = Reader { sheet: self, forms: forms(self)? };
+        Ok(Some(World {
+            types: reader.types()?,
+            orthoframes: reader.orthoframes()?.into(),
+            doors: reader.doors()?.into(),
+            objects: reader.objects()?.into(),
+            areas: reader.areas()?.into(),
+            replicas: reader.replicas()?.into(),
+            places: reader.places()?.into(),
+            zones: reader.zones()?.into(),
+            maps: reader.maps()?.into(),
+            robot: reader.robot()?,
+            domain: reader.domain(domain)?,
+        }))
+    }
 }
 
 /// A value that its column allows, but the model does not.

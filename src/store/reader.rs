@@ -6,17 +6,16 @@
 use std::sync::Arc;
 
 use crate::map::{Replica, World};
-use crate::units::{AreaId, DomainId, InOrder as _, MapId, ReplicaId};
+use crate::units::{AreaId, DomainId, InOrder as _, MapId, ReplicaId, Timestamp};
 
 use super::cell::{Key, Row};
 use super::edits::{Revision, revision};
 use super::error::{Result, StoreError};
-use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table};
+use super::touched::decode_touched;
 use super::trees::{CHANGES, HISTORY, REPLICAS, Records};
 use super::version::{Version, VersionHead};
-use crate::units::Timestamp;
 
 /// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
 #[derive(Clone)]
@@ -30,6 +29,9 @@ impl std::fmt::Debug for Reader {
         f.debug_struct("Reader").field("revision", &self.revision).finish_non_exhaustive()
     }
 }
+
+/// Under this name the first revision that can still be read stands among the last ids.
+pub(super) const FORGOTTEN: &str = "~forgotten";
 
 /// `table key revision`: where the history keeps an old version.
 pub(crate) fn history_key(table: Table, key: &[u8], revision: u64) -> Vec<u8> {
@@ -72,7 +74,7 @@ impl Reader {
 
     /// The earliest revision that can be read; 0 when nothing was forgotten.
     fn first_revision(&self) -> Result<u64> {
-        let mark = self.record::<t::LastIds>(&Key::new().text(super::gc::FORGOTTEN))?;
+        let mark = self.record::<t::LastIds>(&Key::new().text(FORGOTTEN))?;
         Ok(mark.map_or(0, |m| u64::from(m.last_id)))
     }
 
@@ -337,47 +339,4 @@ pub(super) fn record<T: Record>(row: &Row) -> Result<T> {
         table: T::TABLE.name(),
         key: describe_key(T::TABLE, row),
     })
-}
-
-/// The keys that a revision touched, in pieces that sled keeps within its pages.
-pub(crate) fn encode_touched<'a>(keys: impl Iterator<Item = &'a (Table, Key)>) -> Vec<Vec<u8>> {
-    const PIECE: usize = 16 << 10;
-    let mut pieces = vec![Vec::new()];
-    for (table, key) in keys {
-        if pieces.last().is_some_and(|p| p.len() > PIECE) {
-            pieces.push(Vec::new());
-        }
-        let piece = pieces.last_mut().expect("there is always a piece");
-        piece.push(table.code());
-        super::cell::put_bytes(piece, key.as_bytes());
-    }
-    for piece in &mut pieces {
-        let crc = crc32fast::hash(piece);
-        piece.extend(crc.to_be_bytes());
-    }
-    pieces
-}
-
-fn decode_touched(bytes: &[u8]) -> Option<Vec<(Table, Key)>> {
-    let (body, crc) = bytes.split_last_chunk::<4>()?;
-    if crc32fast::hash(body) != u32::from_be_bytes(*crc) {
-        return None;
-    }
-    let mut bytes = super::cell::Bytes(body);
-    let mut keys = Vec::new();
-    while !bytes.0.is_empty() {
-        let table = Table::from_code(bytes.byte()?)?;
-        keys.push((table, Key::from_bytes(bytes.slice()?)));
-    }
-    Some(keys)
-}
-
-/// The key of a record.
-pub(crate) fn key_of_record<T: Record>(record: &T) -> Key {
-    key_of_row::<T>(&record.to_row())
-}
-
-/// The key of a record by its row.
-pub(crate) fn key_of_row<T: Record>(row: &Row) -> Key {
-    key_of(T::TABLE.columns(), row).expect("a record's key fields are ids and texts")
 }

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use crate::map::{DoorState, DoorStatus};
-use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Timestamp};
 
 use super::cell::Key;
 use super::edits::Draft;
@@ -13,11 +13,9 @@ use super::error::Result;
 use super::keep::Store;
 use super::observe::{Observation, faded};
 use super::reader::Reader;
-use super::schema::Record;
-use super::tables::{self as t, Table};
+use super::tables::{self as t, Record, Table};
 use super::version::{Stamp, Version};
-use super::write::STATUSES;
-use crate::units::Timestamp;
+use super::words::STATUSES;
 
 /// Where the robot is, and what it left otherwise than the map has it.
 #[derive(Debug, Clone, PartialEq, Default)]

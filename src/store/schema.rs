@@ -1,6 +1,6 @@
 //! What a table is: its columns, its key, its origin; and the macro that declares one record type a table.
 
-use super::cell::{Cell, Field, Key, Kind, Row};
+use super::cell::{Cell, Field, Key, Kind};
 
 /// Where a table or a column comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,18 +23,6 @@ pub struct Column {
     pub is_key: bool,
     /// The paper's table lacks it.
     pub is_beyond: bool,
-}
-
-/// A record type: one struct a table.
-pub trait Record: Sized {
-    const TABLE: super::Table;
-
-    #[doc(hidden)]
-    fn to_row(&self) -> Row;
-
-    /// None when a cell does not fit its column.
-    #[doc(hidden)]
-    fn from_row(row: &[Cell]) -> Option<Self>;
 }
 
 /// The key of a row: its key columns in the order of the table, which is the paper's.

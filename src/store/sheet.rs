@@ -1,15 +1,13 @@
-//! A sheet: the live records of the map at one revision, and their passage from and to a [`World`].
+//! A sheet: the live records of the map at one revision. Written from a world in [`super::write`], read in [`super::read`].
 //!
 //! **Invariant**: `Sheet::of(world)?.world()? == world`, to the last bit and in the same order.
 
 use std::collections::BTreeMap;
 
-use crate::map::World;
-
 use super::cell::{Key, Row};
 use super::error::{Result, StoreError};
-use super::schema::{Record, key_of};
-use super::tables::Table;
+use super::schema::key_of;
+use super::tables::{Record, Table};
 
 /// Records of one revision by table and key.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,35 +16,6 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// The records of a world.
-    ///
-    /// # Errors
-    /// [`StoreError::Duplicate`] when two parts of the world have one key.
-    pub fn of(world: &World) -> Result<Self> {
-        super::write::records(world)
-    }
-
-    /// The records in which two worlds may differ, of each of them: what is in neither sheet is the same in both worlds.
-    pub(crate) fn of_change(before: &World, after: &World) -> Result<[Self; 2]> {
-        super::write::records_of_change(before, after)
-    }
-
-    /// The derived tables of a world: ObjectItemSides, AreaItemSides, AreaObjectSides, MapItemSides.
-    ///
-    /// # Errors
-    /// [`StoreError::Duplicate`] when two parts of the world have one key.
-    pub fn derived(world: &World) -> Result<Self> {
-        super::sides::derived(world)
-    }
-
-    /// The world of the records; none when there is no Domain.
-    ///
-    /// # Errors
-    /// [`StoreError::BadRecord`] or [`StoreError::BrokenReference`] when the records make no world.
-    pub fn world(&self) -> Result<Option<World>> {
-        super::read::world(self)
-    }
-
     pub(crate) fn put<T: Record>(&mut self, record: &T) -> Result<()> {
         let (table, row) = (T::TABLE, record.to_row());
         let key = key_of(table.columns(), &row).expect("a record's key fields are ids and texts");

@@ -70,39 +70,45 @@ macro_rules! sides {
     }};
 }
 
-pub(super) fn derived(world: &World) -> Result<Sheet> {
-    let mut sheet = Sheet::default();
-    let of_item = |item: &Item| item.is_base;
-    for object in world.objects.values() {
-        for side in placed(world, &object.items, &Frame::IDENTITY) {
-            let item_id = side.item.id.clone();
-            sheet.put(&sides!(ObjectItemSides, side, of_item, {
-                object_id: object.id.0, item_id: item_id
-            }))?;
+impl Sheet {
+    /// The derived tables of a world: ObjectItemSides, AreaItemSides, AreaObjectSides, MapItemSides.
+    ///
+    /// # Errors
+    /// [`StoreError::Duplicate`] when two parts of the world have one key.
+    pub fn derived(world: &World) -> Result<Self> {
+        let mut sheet = Self::default();
+        let of_item = |item: &Item| item.is_base;
+        for object in world.objects.values() {
+            for side in placed(world, &object.items, &Frame::IDENTITY) {
+                let item_id = side.item.id.clone();
+                sheet.put(&sides!(ObjectItemSides, side, of_item, {
+                    object_id: object.id.0, item_id: item_id
+                }))?;
+            }
         }
-    }
-    for area in world.areas.values() {
-        for side in placed(world, &area.items, &Frame::IDENTITY) {
-            let item_id = side.item.id.clone();
-            sheet.put(&sides!(AreaItemSides, side, of_item, {
-                area_id: area.id.0, item_id: item_id
-            }))?;
+        for area in world.areas.values() {
+            for side in placed(world, &area.items, &Frame::IDENTITY) {
+                let item_id = side.item.id.clone();
+                sheet.put(&sides!(AreaItemSides, side, of_item, {
+                    area_id: area.id.0, item_id: item_id
+                }))?;
+            }
         }
-    }
-    for replica in world.replicas.values() {
-        let Some(object) = world.objects.get(&replica.object) else { continue };
-        for side in placed(world, &object.items, &replica.frame) {
-            let item_id = side.item.id.clone();
-            sheet.put(&sides!(AreaObjectSides, side, of_item, {
-                area_id: replica.area.0,
-                object_id: object.id.0,
-                repl_id: replica.id.0,
-                item_id: item_id
-            }))?;
+        for replica in world.replicas.values() {
+            let Some(object) = world.objects.get(&replica.object) else { continue };
+            for side in placed(world, &object.items, &replica.frame) {
+                let item_id = side.item.id.clone();
+                sheet.put(&sides!(AreaObjectSides, side, of_item, {
+                    area_id: replica.area.0,
+                    object_id: object.id.0,
+                    repl_id: replica.id.0,
+                    item_id: item_id
+                }))?;
+            }
         }
+        map_sides(world, &mut sheet)?;
+        Ok(sheet)
     }
-    map_sides(world, &mut sheet)?;
-    Ok(sheet)
 }
 
 fn map_sides(world: &World, sheet: &mut Sheet) -> Result<()> {

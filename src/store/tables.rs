@@ -7,8 +7,30 @@
 //! **Invariant**: a table's code stands in the journal; codes and columns are only ever added, never changed.
 #![allow(missing_docs, reason = "the columns are described in paper 2, whose names they bear")]
 
-use super::cell::{Cell, Field, Row};
-use super::schema::{Column, Origin, Record, column, field, role, tables};
+use super::cell::{Cell, Field, Key, Row};
+use super::schema::{Column, Origin, column, field, key_of, role, tables};
+
+/// A record type: one struct a table.
+pub trait Record: Sized {
+    const TABLE: Table;
+
+    #[doc(hidden)]
+    fn to_row(&self) -> Row;
+
+    /// None when a cell does not fit its column.
+    #[doc(hidden)]
+    fn from_row(row: &[Cell]) -> Option<Self>;
+}
+
+/// The key of a record.
+pub(crate) fn key_of_record<T: Record>(record: &T) -> Key {
+    key_of_row::<T>(&record.to_row())
+}
+
+/// The key of a record by its row.
+pub(crate) fn key_of_row<T: Record>(row: &Row) -> Key {
+    key_of(T::TABLE.columns(), row).expect("a record's key fields are ids and texts")
+}
 
 tables! {
     /// Orthoframes (paper 2 §2).

@@ -4,34 +4,19 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::map::{
-    Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Extent, Face, Forms, Gender,
-    HingeSide, Item, ItemLink, Map, MapItem, MapLink, Object, OpensTo, Orthoframe, Place, Profile,
-    Properties, Replica, TypeList, World, Zone, ZoneKind,
+    Area, Door, DoorMount, DoorState, Extent, Forms, HingeSide, Item, ItemLink, Map, MapItem,
+    MapLink, Object, OpensTo, Orthoframe, Place, Profile, Properties, Replica, TypeList, World,
+    Zone, ZoneKind,
 };
 use crate::units::{AreaId, Frame, Gather as _, MapId, OrFrId, Timestamp, TypeId};
 
 use super::error::Result;
 use super::sheet::Sheet;
 use super::tables::{self as t, Table};
-
-pub(super) const SYNONYM: &str = "synonym";
-pub(super) const TRAIT: &str = "trait";
-
-/// The words under which states and cases stand in the tables.
-pub(super) const STATUSES: &[(DoorStatus, &str)] =
-    &[(DoorStatus::Open, "open"), (DoorStatus::Closed, "closed"), (DoorStatus::Locked, "locked")];
-pub(super) const DOOR_KINDS: &[(DoorKind, &str)] =
-    &[(DoorKind::Hinged, "hinged"), (DoorKind::Sliding, "sliding"), (DoorKind::Passage, "passage")];
-pub(super) const GENDERS: &[(Gender, &str)] =
-    &[(Gender::Masculine, "m"), (Gender::Feminine, "f"), (Gender::Neuter, "n")];
-pub(super) const CASES: &[(Case, &str)] = &[
-    (Case::Nominative, "nom"),
-    (Case::Genitive, "gen"),
-    (Case::Dative, "dat"),
-    (Case::Accusative, "acc"),
-    (Case::Instrumental, "ins"),
-    (Case::Prepositional, "loc"),
-];
+use super::words::{
+    CASES, CLOSED, DOOR_KINDS, GENDERS, KEEP_OUT, ONE_WAY, SLOW, STATUSES, SYNONYM, TRAIT,
+    face_text,
+};
 
 fn word<T: PartialEq + Copy>(words: &[(T, &'static str)], value: T) -> String {
     let found = words.iter().find(|(v, _)| *v == value);
@@ -92,112 +77,121 @@ macro_rules! put_items {
     }};
 }
 
-pub(super) fn records(world: &World) -> Result<Sheet> {
-    let mut sheet = Sheet::default();
-    type_lists(&mut sheet, world)?;
-    for orthoframe in world.orthoframes.values() {
-        put_orthoframe(&mut sheet, orthoframe)?;
+impl Sheet {
+    /// The records of a world.
+    ///
+    /// # Errors
+    /// [`StoreError::Duplicate`] when two parts of the world have one key.
+    pub fn of(world: &World) -> Result<Self> {
+        let mut sheet = Self::default();
+        type_lists(&mut sheet, world)?;
+        for orthoframe in world.orthoframes.values() {
+            put_orthoframe(&mut sheet, orthoframe)?;
+        }
+        for door in world.doors.values() {
+            put_door(&mut sheet, door)?;
+        }
+        for object in world.objects.values() {
+            put_object(&mut sheet, world, object)?;
+        }
+        for area in world.areas.values() {
+            put_area(&mut sheet, world, area)?;
+        }
+        for replica in world.replicas.values() {
+            put_replica(&mut sheet, replica)?;
+        }
+        for place in world.places.values() {
+            put_place(&mut sheet, place)?;
+        }
+        for zone in world.zones.values() {
+            put_zone(&mut sheet, zone)?;
+        }
+        for map in world.maps.values() {
+            put_map(&mut sheet, world, map, None)?;
+        }
+        put_domain(&mut sheet, world)?;
+        Ok(sheet)
     }
-    for door in world.doors.values() {
-        put_door(&mut sheet, door)?;
-    }
-    for object in world.objects.values() {
-        put_object(&mut sheet, world, object)?;
-    }
-    for area in world.areas.values() {
-        put_area(&mut sheet, world, area)?;
-    }
-    for replica in world.replicas.values() {
-        put_replica(&mut sheet, replica)?;
-    }
-    for place in world.places.values() {
-        put_place(&mut sheet, place)?;
-    }
-    for zone in world.zones.values() {
-        put_zone(&mut sheet, zone)?;
-    }
-    for map in world.maps.values() {
-        put_map(&mut sheet, world, map, None)?;
-    }
-    put_domain(&mut sheet, world)?;
-    Ok(sheet)
-}
 
-/// The records in which two worlds may differ, of the one and of the other: rows that are in neither are the same in both.
-/// Where most of a world is shared with the one that it was made from, few are.
-pub(super) fn records_of_change(before: &World, after: &World) -> Result<[Sheet; 2]> {
-    let mut sheets = [Sheet::default(), Sheet::default()];
-    let [old, new] = &mut sheets;
-    macro_rules! put {
-        ($things:ident, |$sheet:ident, $world:ident, $thing:ident| $put:expr) => {
-            for (_, was, is) in before.$things.changes(&after.$things) {
-                for ($sheet, $world, $thing) in [(&mut *old, before, was), (&mut *new, after, is)] {
-                    if let Some($thing) = $thing {
-                        let _ = $world;
-                        $put?;
+    /// The records in which two worlds may differ, of the one and of the other: rows that are in neither are the same in both.
+    /// Where most of a world is shared with the one that it was made from, few are.
+    pub(crate) fn of_change(before: &World, after: &World) -> Result<[Self; 2]> {
+        let mut sheets = [Self::default(), Self::default()];
+        let [old, new] = &mut sheets;
+        macro_rules! put {
+            ($things:ident, |$sheet:ident, $world:ident, $thing:ident| $put:expr) => {
+                for (_, was, is) in before.$things.changes(&after.$things) {
+                    for ($sheet, $world, $thing) in
+                        [(&mut *old, before, was), (&mut *new, after, is)]
+                    {
+                        if let Some($thing) = $thing {
+                            let _ = $world;
+                            $put?;
+                        }
                     }
                 }
-            }
-        };
-    }
-    put!(orthoframes, |sheet, world, orthoframe| put_orthoframe(sheet, orthoframe));
-    put!(doors, |sheet, world, door| put_door(sheet, door));
-    put!(objects, |sheet, world, object| put_object(sheet, world, object));
-    put!(areas, |sheet, world, area| put_area(sheet, world, area));
-    put!(replicas, |sheet, world, replica| put_replica(sheet, replica));
-    put!(places, |sheet, world, place| put_place(sheet, place));
-    put!(zones, |sheet, world, zone| put_zone(sheet, zone));
-    // Sizes of Objects, Areas and Maps are made of those of Orthoframes.
-    let parts = before.orthoframes.changes(&after.orthoframes).into_iter();
-    let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).gather();
-    let mut others = BTreeSet::new();
-    macro_rules! put_users {
-        ($groups:ident, $made_of:ident, $put:ident) => {{
-            let using = [before, after].into_iter().flat_map(|world| {
-                world.$made_of(|part| parts.contains(&part)).map(|group| group.id)
-            });
-            let all: BTreeSet<_> = using.gather();
-            for id in &all {
-                let [was, is] = [before.$groups.get(id), after.$groups.get(id)];
-                if let (Some(was), true) = (was, was == is) {
-                    $put(old, before, was)?;
-                    $put(new, after, was)?;
+            };
+        }
+        put!(orthoframes, |sheet, world, orthoframe| put_orthoframe(sheet, orthoframe));
+        put!(doors, |sheet, world, door| put_door(sheet, door));
+        put!(objects, |sheet, world, object| put_object(sheet, world, object));
+        put!(areas, |sheet, world, area| put_area(sheet, world, area));
+        put!(replicas, |sheet, world, replica| put_replica(sheet, replica));
+        put!(places, |sheet, world, place| put_place(sheet, place));
+        put!(zones, |sheet, world, zone| put_zone(sheet, zone));
+        // Sizes of Objects, Areas and Maps are made of those of Orthoframes.
+        let parts = before.orthoframes.changes(&after.orthoframes).into_iter();
+        let parts: BTreeSet<OrFrId> = parts.map(|(id, ..)| id).gather();
+        let mut others = BTreeSet::new();
+        macro_rules! put_users {
+            ($groups:ident, $made_of:ident, $put:ident) => {{
+                let using = [before, after].into_iter().flat_map(|world| {
+                    world.$made_of(|part| parts.contains(&part)).map(|group| group.id)
+                });
+                let all: BTreeSet<_> = using.gather();
+                for id in &all {
+                    let [was, is] = [before.$groups.get(id), after.$groups.get(id)];
+                    if let (Some(was), true) = (was, was == is) {
+                        $put(old, before, was)?;
+                        $put(new, after, was)?;
+                    }
+                }
+                all
+            }};
+        }
+        if !parts.is_empty() {
+            put_users!(objects, objects_made_of, put_object);
+            others.extend(put_users!(areas, areas_made_of, put_area));
+        }
+        // A Map tells of an Area's items alone.
+        let areas = before.areas.changes(&after.areas).into_iter();
+        let made = |was: &Area, is: &Area| was.items == is.items;
+        let areas =
+            areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(was, is)| made(was, is)));
+        others.extend(areas.map(|(id, ..)| id));
+        let mut ids: BTreeSet<MapId> =
+            before.maps.changes(&after.maps).into_iter().map(|(id, ..)| id).gather();
+        if !others.is_empty() {
+            ids.extend(before.maps.keys().chain(after.maps.keys()));
+        }
+        for id in ids {
+            let [was, is] = [before.maps.get(&id), after.maps.get(&id)];
+            for (sheet, world, own, other) in
+                [(&mut *old, before, was, is), (&mut *new, after, is, was)]
+            {
+                if let Some(map) = own {
+                    put_map(sheet, world, map, other.map(|other| (other, &others)))?;
                 }
             }
-            all
-        }};
-    }
-    if !parts.is_empty() {
-        put_users!(objects, objects_made_of, put_object);
-        others.extend(put_users!(areas, areas_made_of, put_area));
-    }
-    // A Map tells of an Area's items alone.
-    let areas = before.areas.changes(&after.areas).into_iter();
-    let made = |was: &Area, is: &Area| was.items == is.items;
-    let areas = areas.filter(|(_, was, is)| !was.zip(*is).is_some_and(|(was, is)| made(was, is)));
-    others.extend(areas.map(|(id, ..)| id));
-    let mut ids: BTreeSet<MapId> =
-        before.maps.changes(&after.maps).into_iter().map(|(id, ..)| id).gather();
-    if !others.is_empty() {
-        ids.extend(before.maps.keys().chain(after.maps.keys()));
-    }
-    for id in ids {
-        let [was, is] = [before.maps.get(&id), after.maps.get(&id)];
-        for (sheet, world, own, other) in
-            [(&mut *old, before, was, is), (&mut *new, after, is, was)]
-        {
-            if let Some(map) = own {
-                put_map(sheet, world, map, other.map(|other| (other, &others)))?;
+        }
+        for (sheet, world) in [(old, before), (new, after)] {
+            if before.types != after.types {
+                type_lists(sheet, world)?;
             }
+            put_domain(sheet, world)?;
         }
+        Ok(sheets)
     }
-    for (sheet, world) in [(old, before), (new, after)] {
-        if before.types != after.types {
-            type_lists(sheet, world)?;
-        }
-        put_domain(sheet, world)?;
-    }
-    Ok(sheets)
 }
 
 fn type_lists(sheet: &mut Sheet, world: &World) -> Result<()> {
@@ -440,28 +434,6 @@ fn put_area(sheet: &mut Sheet, world: &World, area: &Area) -> Result<()> {
     put_forms(sheet, Table::Area, area.id.0, &area.forms)
 }
 
-/// A face as `SideID` holds it; a side whose own name begins with `@` gets a second one.
-fn face_text(face: &Face) -> String {
-    match face {
-        Face::Base => "@base".into(),
-        Face::Roof => "@roof".into(),
-        Face::Side(id) if id.starts_with('@') => format!("@{id}"),
-        Face::Side(id) => id.clone(),
-    }
-}
-
-pub(super) fn face(text: &str) -> Option<Face> {
-    match text {
-        "@base" => Some(Face::Base),
-        "@roof" => Some(Face::Roof),
-        text => match text.strip_prefix('@') {
-            Some(id) if id.starts_with('@') => Some(Face::Side(id.to_owned())),
-            Some(_) => None,
-            None => Some(Face::Side(text.to_owned())),
-        },
-    }
-}
-
 fn put_replica(sheet: &mut Sheet, r: &Replica) -> Result<()> {
     sheet.put(&replica_record(r))?;
     properties(sheet, &r.properties, |prop, prop_val| t::ReplicaProperties {
@@ -508,12 +480,6 @@ fn put_place(sheet: &mut Sheet, place: &Place) -> Result<()> {
     })?;
     put_forms(sheet, Table::Places, place.id.0, &place.forms)
 }
-
-/// The words that stand for the kinds of zones.
-pub(super) const KEEP_OUT: &str = "keep-out";
-pub(super) const CLOSED: &str = "closed";
-pub(super) const SLOW: &str = "slow";
-pub(super) const ONE_WAY: &str = "one-way";
 
 fn moment(at: Option<Timestamp>) -> String {
     at.map_or_else(String::new, |at| at.to_string())

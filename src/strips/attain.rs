@@ -4,9 +4,9 @@
 use std::collections::{HashMap, HashSet};
 
 use super::domain::{Domain, SchemaAtom};
-use super::ground::Reachability;
-use super::lack::{Wanted, closed};
+use super::reachability::Reachability;
 use super::resolve::{GroundAtom, Resolved};
+use super::wanted::Wanted;
 
 pub(super) struct Attainable<'a> {
     pub(super) initial: HashSet<&'a GroundAtom>,
@@ -70,7 +70,7 @@ impl<'a> Attainable<'a> {
     pub(super) fn can_be(&self, wanted: &Wanted) -> bool {
         let can_be =
             |atom| if wanted.negated { self.may_be_absent(&atom) } else { self.holds(&atom) };
-        closed(wanted).is_some_and(can_be)
+        wanted.closed().is_some_and(can_be)
     }
 
     pub(super) fn may_be_absent(&self, atom: &GroundAtom) -> bool {

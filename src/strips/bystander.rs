@@ -15,7 +15,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
-use super::simplify::Draft;
+use super::draft::Draft;
 use super::task::Fact;
 
 /// One flag an operator: false for those that concern bystanders; none when it was stopped.
@@ -91,7 +91,7 @@ impl Index {
         let operators = |fact: u32| {
             self.touched_by[fact as usize].iter().map(|&number| &draft.operators[number as usize])
         };
-        let takes = |fact: u32, operator: &super::simplify::DraftOperator| {
+        let takes = |fact: u32, operator: &super::draft::DraftOperator| {
             operator.preconditions.contains(&fact) && operator.del_effects.contains(&fact)
         };
         if operators(fact)

@@ -13,9 +13,10 @@ use super::domain::{
 };
 use super::error::{Place, RuleError};
 use super::fault::RuleFault;
-use super::phrase::phrases;
+use super::hint::{hint, perhaps};
+use super::phrases::phrases;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Document, Name, Parameter, Term};
-use crate::units::{Bilingual, Language, name_key, nearest_name};
+use crate::units::{Bilingual, Language, name_key};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 ///
@@ -46,43 +47,6 @@ pub(super) fn domain(
     let mut domain = checker.domain;
     domain.phrases = Arc::new(phrases(document, &domain, faults));
     (domain, wanted)
-}
-
-pub(super) fn hint<'a>(
-    wanted: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Option<Bilingual> {
-    nearest_name(wanted, known).map(|near| {
-        if looks_the_same(near, wanted) {
-            Bilingual::new(
-                format!(
-                    "может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов"
-                ),
-                format!(
-                    "perhaps “{near}”? the letters look the same, but are of different alphabets"
-                ),
-            )
-        } else {
-            perhaps(near)
-        }
-    })
-}
-
-pub(super) fn perhaps(near: &str) -> Bilingual {
-    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
-}
-
-/// Whether two names differ only in the alphabet of letters that look alike, as В and B.
-pub(super) fn looks_the_same(a: &str, b: &str) -> bool {
-    fn latin(c: char) -> char {
-        const CYRILLIC: &str = "авекмнорстухіј";
-        const LATIN: &str = "abekmhopctyxij";
-        match CYRILLIC.chars().position(|letter| letter == c) {
-            Some(at) => LATIN.chars().nth(at).expect("both alphabets are of one length"),
-            None => c,
-        }
-    }
-    name_key(a).chars().map(latin).eq(name_key(b).chars().map(latin))
 }
 
 pub(super) struct Checker<'a> {

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::check::{Checker, hint, places};
+use super::check::{Checker, places};
 use super::domain::{ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId};
 use super::error::RuleError;
 use super::fault::RuleFault;
+use super::hint::hint;
 use super::syntax::{Atom, Declaration, Document, Name, Parameter};
 use crate::units::{Bilingual, Language, name_key};
 

@@ -5,27 +5,12 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
-use super::check::hint;
 use super::error::{Place, RuleError};
 use super::fault::{RuleFault, RuleFaults};
+use super::hint::hint;
+use super::indices::indices;
 use super::phrase::Phrases;
 use crate::units::{Bilingual, Language, name_key};
-
-macro_rules! indices {
-    ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(pub u32);
-
-        impl $name {
-            #[must_use]
-            pub fn index(self) -> usize {
-                self.0 as usize
-            }
-        }
-    )+};
-}
-pub(super) use indices;
 
 indices! {
     /// A type of objects: помещение, дверь.

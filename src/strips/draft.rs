@@ -8,10 +8,35 @@ use super::cases::{Body, Case, Cases, Known, MOST_CASES, TooMany, together};
 use super::domain::{ConditionalEffect, Domain, PredicateId, SchemaAtom};
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
-use super::ground::{Instance, Reachability, cost};
+use super::price::cost;
 use super::problem::Standing;
+use super::reachability::{Instance, Reachability};
 use super::resolve::{GroundAtom, Resolved, ThingId};
-use super::simplify::{Draft, DraftOperator};
+
+pub(super) struct DraftOperator {
+    pub(super) name: Arc<str>,
+    pub(super) args: Vec<Arc<str>>,
+    pub(super) preconditions: Vec<u32>,
+    pub(super) negative: Vec<u32>,
+    pub(super) add_effects: Vec<u32>,
+    pub(super) del_effects: Vec<u32>,
+    /// What is deleted and then added: among `add_effects`, and not among `del_effects` once complements are made.
+    pub(super) renewed: Vec<u32>,
+    pub(super) cost: u32,
+    /// No action: see [`Task::goal_steps`]. Such operators stand last.
+    pub(super) meets_goal: bool,
+}
+
+/// A task before simplification; facts are numbered by their place in `facts`.
+pub(super) struct Draft {
+    pub(super) facts: Vec<(Arc<str>, Vec<Arc<str>>)>,
+    pub(super) operators: Vec<DraftOperator>,
+    pub(super) init: Vec<u32>,
+    pub(super) assumptions: Vec<u32>,
+    pub(super) goal: Vec<(u32, bool)>,
+    /// The goal holds in no state at all.
+    pub(super) impossible: bool,
+}
 
 /// The reached atoms and actions, numbered, still with all that simplification will drop; none when it was stopped.
 pub(super) fn draft(

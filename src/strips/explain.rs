@@ -10,14 +10,15 @@ use super::attain::Attainable;
 use super::domain::{Domain, KindId};
 use super::draft::GOAL_STEP;
 use super::fault::RuleFaults;
-use super::ground::Reachability;
-use super::lack::{By, Lacks, Wanted, fits};
+use super::lack::{By, Lacks, fits};
 use super::phrase::{Phrases, Said, SaidArgument, Wording};
 use super::plain::plain;
 use super::problem::Problem;
+use super::reachability::Reachability;
 use super::resolve::ThingId;
 use super::simplify::NO_CASE;
 use super::task::Fact;
+use super::wanted::Wanted;
 use crate::units::{Gather as _, Language, name_key};
 
 /// Why one fact of the goal cannot be reached.

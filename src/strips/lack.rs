@@ -15,26 +15,10 @@ use std::collections::{BTreeSet, BinaryHeap, HashMap};
 use super::attain::Attainable;
 use super::domain::{Domain, KindId, KindSet, PredicateId, Schema, SchemaAtom, SchemaTerm};
 use super::exchange::{exchanged, moving, states};
-use super::ground::{Binding, Reachability};
+use super::reachability::{Binding, Reachability};
 use super::resolve::{GroundAtom, Resolved, ThingId};
+use super::wanted::Wanted;
 use crate::units::Gather as _;
-
-/// An atom, or its absence; open places are any object of the types that are asked for there.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(super) struct Wanted {
-    pub(super) predicate: PredicateId,
-    pub(super) args: Vec<Option<ThingId>>,
-    /// For each open place the types of which the object must be one: a parameter's may be narrower than the
-    /// predicate's. None where they are all that the predicate takes, or the place is not open.
-    pub(super) kinds: Vec<KindSet>,
-    pub(super) negated: bool,
-}
-
-impl Wanted {
-    pub(super) fn of(predicate: PredicateId, args: Vec<Option<ThingId>>) -> Self {
-        Self { predicate, kinds: vec![KindSet::new(); args.len()], args, negated: false }
-    }
-}
 
 /// An action, with the types that its parameters are to have.
 struct Rule<'a> {
@@ -315,7 +299,7 @@ impl<'a> Lacks<'a> {
         }
         for binding in self.otherwise(&wanted).filter_map(|atom| chosen(&atom.args)) {
             let now_wanted = self.wanted(of, atom, &binding);
-            if closed(&now_wanted).is_some_and(|atom| !self.attainable.holds(&atom)) {
+            if now_wanted.closed().is_some_and(|atom| !self.attainable.holds(&atom)) {
                 is_chosen = true;
                 let missing = with(missing.clone(), now_wanted);
                 self.complete(of, &binding, &rest, missing, found);
@@ -379,7 +363,7 @@ impl<'a> Lacks<'a> {
         }
         for atom in &rule.negative_preconditions {
             let wanted = Wanted { negated: true, ..self.wanted(of, atom, binding) };
-            if closed(&wanted).is_some_and(|atom| !self.attainable.may_be_absent(&atom)) {
+            if wanted.closed().is_some_and(|atom| !self.attainable.may_be_absent(&atom)) {
                 missing.push(wanted);
             }
         }
@@ -390,7 +374,7 @@ impl<'a> Lacks<'a> {
     /// first.
     fn comes_round(&self, wanted: &Wanted, fact: usize) -> bool {
         let needed = &self.facts[fact];
-        if closed(needed).is_none() || needed.negated || self.holding(wanted).next().is_some() {
+        if needed.closed().is_none() || needed.negated || self.holding(wanted).next().is_some() {
             return false;
         }
         let schemas = self.domain.schemas.iter().enumerate();
@@ -576,7 +560,8 @@ impl<'a> Lacks<'a> {
     fn price(&self, number: usize) -> Option<u32> {
         let wanted = &self.facts[number];
         // What was just withdrawn is the first thing to come to mind.
-        if number != 0 && closed(wanted).is_some_and(|atom| self.resolved.withdrawn.contains(&atom))
+        if number != 0
+            && wanted.closed().is_some_and(|atom| self.resolved.withdrawn.contains(&atom))
         {
             return Some(1);
         }
@@ -678,9 +663,4 @@ fn with(mut missing: Vec<Wanted>, wanted: Wanted) -> Vec<Wanted> {
 
 pub(super) fn fits(have: &[ThingId], wanted: &[Option<ThingId>]) -> bool {
     have.iter().zip(wanted).all(|(have, want)| want.is_none_or(|want| want == *have))
-}
-
-pub(super) fn closed(wanted: &Wanted) -> Option<GroundAtom> {
-    let args = wanted.args.iter().copied().collect::<Option<_>>()?;
-    Some(GroundAtom { predicate: wanted.predicate, args })
 }

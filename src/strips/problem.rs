@@ -5,10 +5,11 @@
 
 use std::collections::HashSet;
 
-use super::check::{hint, text_of};
+use super::check::text_of;
 use super::domain::{Domain, Formula, PredicateId};
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
+use super::hint::hint;
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Amount, Atom, Condition, Declaration, Document, Name};

@@ -7,12 +7,12 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, HashSet};
 
 use super::cases::Objects;
-use super::check::{hint, perhaps};
 use super::domain::{Domain, Formula, Schema, SchemaAtom, SchemaTerm};
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
-use super::ground::cost;
+use super::hint::{hint, perhaps};
 use super::plan_text::{Directive, PlanText};
+use super::price::cost;
 use super::problem::Problem;
 use super::resolve::{GroundAtom, Resolved, ThingId};
 use crate::units::{Bilingual, Source, name_key, nearest_name};

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::check::hint;
 use super::domain::{
     ANY_KIND, Domain, Formula, KindId, KindSet, PredicateId, SchemaAtom, SchemaTerm,
 };
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
+use super::hint::hint;
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
 use crate::units::{Bilingual, Gather as _, name_key};

@@ -5,36 +5,11 @@
 //! or it always holds: a plan's number of parallel steps must not depend on grounding.
 
 use std::collections::{BTreeSet, VecDeque};
-use std::sync::Arc;
 
 use super::bystander::bystanders;
+use super::draft::{Draft, DraftOperator};
 use super::task::{Fact, FactId, Operator, Task};
 use crate::units::Gather as _;
-
-pub(super) struct DraftOperator {
-    pub(super) name: Arc<str>,
-    pub(super) args: Vec<Arc<str>>,
-    pub(super) preconditions: Vec<u32>,
-    pub(super) negative: Vec<u32>,
-    pub(super) add_effects: Vec<u32>,
-    pub(super) del_effects: Vec<u32>,
-    /// What is deleted and then added: among `add_effects`, and not among `del_effects` once complements are made.
-    pub(super) renewed: Vec<u32>,
-    pub(super) cost: u32,
-    /// No action: see [`Task::goal_steps`]. Such operators stand last.
-    pub(super) meets_goal: bool,
-}
-
-/// A task before simplification; facts are numbered by their place in `facts`.
-pub(super) struct Draft {
-    pub(super) facts: Vec<(Arc<str>, Vec<Arc<str>>)>,
-    pub(super) operators: Vec<DraftOperator>,
-    pub(super) init: Vec<u32>,
-    pub(super) assumptions: Vec<u32>,
-    pub(super) goal: Vec<(u32, bool)>,
-    /// The goal holds in no state at all.
-    pub(super) impossible: bool,
-}
 
 /// The task without what cannot change the fewest number of steps; none when it was stopped.
 pub(super) fn simplify(mut draft: Draft, goes_on: &dyn Fn() -> bool) -> Option<Task> {

@@ -8,9 +8,9 @@
 
 use std::collections::BTreeMap;
 
-use super::check::{hint, looks_the_same, perhaps};
 use super::error::RuleError;
 use super::fault::RuleFault;
+use super::hint::{hint, looks_the_same, perhaps};
 use super::syntax::{ActionText, Atom, Condition, Document, Name, Use};
 use crate::units::{Bilingual, Gather as _, name_key};
 

@@ -7,7 +7,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::domain::indices;
+use super::indices::indices;
 
 indices! {
     /// A fact of a [`Task`].

@@ -18,8 +18,6 @@ use crate::geometry::convex_hull;
 use crate::outline;
 use crate::units::{Point, Vector};
 
-use super::curve::{Line, Rings};
-
 /// Outlines with more sides than this are not joined; their hull stands for them.
 const MOST_SIDES: usize = 3000;
 /// Crossings that all joinings of one file may have at most: sides times sides.
@@ -30,6 +28,11 @@ const LEVEL: f64 = 1.0;
 const LEAST_FLOOR: f64 = 0.3;
 /// A sheet without thickness gets this, in cm.
 const SHEET: f64 = 1.0;
+
+/// Points of a shape's space, in order along a line.
+pub(super) type Line = Vec<Point3<f64>>;
+/// A face or the outline of a profile: its outer ring, then its holes.
+pub(super) type Rings = Vec<Line>;
 
 /// A body of faces; each face its outer ring, then its holes.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::body::{Line, Rings};
 use super::place::{Place, coordinates, point};
 use super::shape::Shapes;
 use super::step::{Instance, Value};
@@ -12,11 +13,6 @@ pub(super) const DEEPEST: usize = 12;
 const CHORDS: f64 = 24.0;
 /// Splines of a higher degree are their control points.
 const STEEPEST: usize = 10;
-
-/// Points of a shape's space, in order along a line.
-pub(super) type Line = Vec<Point3<f64>>;
-/// A face or the outline of a profile: its outer ring, then its holes.
-pub(super) type Rings = Vec<Line>;
 
 impl Shapes<'_> {
     /// Corners of a curve, in its own space.

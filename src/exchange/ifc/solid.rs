@@ -6,8 +6,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::body::{Body, between};
-use super::curve::{DEEPEST, Line, Rings};
+use super::body::{Body, Line, Rings, between};
+use super::curve::DEEPEST;
 use super::place::{Place, coordinates, direction, point};
 use super::shape::Shapes;
 use super::step::{Instance, Value};

@@ -12,7 +12,8 @@ use crate::site::DoorStates;
 use crate::units::{AreaId, DoorId, Frame, Gather as _, ReplicaId};
 use crate::zone::{placed, shut_otherwise};
 
-use super::{FloorPlan, build_all};
+use super::FloorPlan;
+use super::built::build_all;
 
 impl FloorPlan {
     /// Takes over what the world now says of some replicas (moved, turned, put there or taken away), and builds

@@ -11,9 +11,11 @@ mod node;
 mod read;
 mod records;
 pub mod schema;
+mod table;
 mod text;
 mod truth;
 mod values;
+mod words;
 mod write;
 
 use std::collections::HashSet;

@@ -6,7 +6,6 @@ use serde::Deserialize;
 
 use super::decode::{LONGEST_WORD, decode, likely, shortened};
 use super::node::{Misprint, Node, Span, Value};
-use super::records::type_entry;
 use super::schema::{
     AreaFile, DoorFile, FORMAT, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile,
     TypeFile, ZoneFile,
@@ -16,7 +15,7 @@ use crate::units::{
     AreaId, Bilingual, DoorId, Gather as _, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
     ZoneId, name_key, nearest_name,
 };
-use crate::{TypeKind, TypeLists, World};
+use crate::{TypeEntry, TypeKind, TypeLists, World};
 
 const SECTIONS: [&str; 10] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map", "zone"];
@@ -549,6 +548,20 @@ impl<'n> Reader<'n> {
             }
         }
         (lines, index)
+    }
+}
+
+pub(super) fn type_entry(id: TypeId, file: TypeFile) -> TypeEntry {
+    TypeEntry {
+        id,
+        name: file.name,
+        name_en: file.name_en,
+        description: file.description,
+        gender: file.gender,
+        animate: file.animate,
+        synonyms: file.synonyms,
+        forms: file.forms,
+        traits: file.traits,
     }
 }
 

@@ -9,18 +9,17 @@ use super::read::{Origin, Raw, Reader};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, ItemFile, ItemLinkFile, MountFile, Number,
     ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile, SideTraitsFile,
-    TypeFile, ZoneFile, ZoneWord,
+    ZoneFile, ZoneWord,
 };
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    Timestamp, TypeId, ZoneId, nearest_name,
+    Timestamp, ZoneId, nearest_name,
 };
 use crate::{
     Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     DoorStatus, Extent, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
-    Permeability, Place, Records, Replica, RobotProfile, SideRef, TypeEntry, TypeKind, Zone,
-    ZoneKind,
+    Permeability, Place, Records, Replica, RobotProfile, SideRef, TypeKind, Zone, ZoneKind,
 };
 
 impl Reader<'_> {
@@ -657,20 +656,6 @@ impl Reader<'_> {
 
 fn or_key(name: String, key: &str) -> String {
     if name.is_empty() { key.to_owned() } else { name }
-}
-
-pub(super) fn type_entry(id: TypeId, file: TypeFile) -> TypeEntry {
-    TypeEntry {
-        id,
-        name: file.name,
-        name_en: file.name_en,
-        description: file.description,
-        gender: file.gender,
-        animate: file.animate,
-        synonyms: file.synonyms,
-        forms: file.forms,
-        traits: file.traits,
-    }
 }
 
 pub(super) fn door_state(status: DoorStatus, opening: Option<Number>) -> DoorState {

@@ -3,22 +3,19 @@
 //! The types are the one source of the format: reading refuses what they do not name, writing prints them in the
 //! order of their fields, and [`json_schema`] is made from them. What they mean is decided in `read` and `write`.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
-use std::marker::PhantomData;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::de::{MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use super::decode::word;
+pub use super::table::Table;
 use super::text::{Lines, Printed, line};
 pub use super::values::{At, Coordinates, Number, pair};
-use crate::fault::MapError;
+pub use super::words::{
+    DoorKindFile, HingeFile, OpensFile, PermeabilityFile, ProfileFile, StatusFile, ZoneWord,
+};
 use crate::units::InOrder as _;
-use crate::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
+use crate::{Case, Gender};
 
 /// The only format that this version reads and writes.
 pub(super) const FORMAT: u32 = 1;
@@ -30,64 +27,6 @@ pub(super) const FORMAT: u32 = 1;
 #[must_use]
 pub fn json_schema() -> String {
     format!("{:#}", schemars::schema_for!(MapFile).as_value())
-}
-
-/// Keyed tables in the order of the file, which is the order of their ids.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table<T>(pub Vec<(String, T)>);
-
-impl<T> Default for Table<T> {
-    fn default() -> Self {
-        Self(Vec::new())
-    }
-}
-
-impl<T> FromIterator<(String, T)> for Table<T> {
-    fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
-        Self(entries.into_iter().collect())
-    }
-}
-
-impl<T: Serialize> Serialize for Table<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (key, value) in &self.0 {
-            map.serialize_entry(key, value)?;
-        }
-        map.end()
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = Table<T>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a map")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Table<T>, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Table(entries))
-            }
-        }
-        deserializer.deserialize_map(Entries(PhantomData))
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for Table<T> {
-    fn schema_name() -> Cow<'static, str> {
-        format!("Table_of_{}", T::schema_name()).into()
-    }
-    fn inline_schema() -> bool {
-        true
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        BTreeMap::<String, T>::json_schema(generator)
-    }
 }
 
 pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -580,92 +519,3 @@ impl ZoneFile {
         }
     }
 }
-
-/// Words that stand for a value of the model, English first, Russian as well.
-macro_rules! words {
-    ($( $(#[$doc:meta])* $name:ident = $model:ident { $( $variant:ident: $word:literal | $russian:literal ),+ } )+) => {$(
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-        pub enum $name { $( #[serde(rename = $word, alias = $russian)] $variant ),+ }
-
-        impl From<$name> for $model {
-            fn from(word: $name) -> Self {
-                match word { $( $name::$variant => Self::$variant ),+ }
-            }
-        }
-
-        impl From<$model> for $name {
-            fn from(value: $model) -> Self {
-                match value { $( $model::$variant => Self::$variant ),+ }
-            }
-        }
-
-        impl std::str::FromStr for $name {
-            type Err = Box<MapError>;
-
-            fn from_str(text: &str) -> Result<Self, Box<MapError>> {
-                word(text)
-            }
-        }
-    )+};
-}
-
-/// What the robot is to do in a zone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum ZoneWord {
-    #[serde(rename = "keep-out", alias = "запретная")]
-    KeepOut,
-    #[serde(rename = "closed", alias = "закрыта")]
-    Closed,
-    #[serde(rename = "slow", alias = "медленная")]
-    Slow,
-    #[serde(rename = "one-way", alias = "односторонняя")]
-    OneWay,
-}
-
-impl std::str::FromStr for ZoneWord {
-    type Err = Box<MapError>;
-
-    fn from_str(text: &str) -> Result<Self, Box<MapError>> {
-        word(text)
-    }
-}
-
-words! {
-    /// Whether a face lets things through.
-    PermeabilityFile = Permeability {
-        Impermeable: "impermeable" | "непроницаемая",
-        Permeable: "permeable" | "проницаемая",
-        Conditional: "conditional" | "условная"
-    }
-    /// How the leaves of a door move.
-    DoorKindFile = DoorKind {
-        Hinged: "hinged" | "распашная",
-        Sliding: "sliding" | "раздвижная",
-        Passage: "passage" | "проход"
-    }
-    /// How a door stands.
-    StatusFile = DoorStatus {
-        Open: "open" | "открыта",
-        Closed: "closed" | "закрыта",
-        Locked: "locked" | "заперта"
-    }
-    /// Surveyed by people, or detected: boxes that are off by some centimetres.
-    ProfileFile = Profile { Surveyed: "surveyed" | "обмерено", Detected: "detected" | "увидено" }
-    /// Where the hinges are.
-    HingeFile = HingeSide { Right: "right" | "справа", Left: "left" | "слева" }
-    /// Whether leaves swing into the Area.
-    OpensFile = OpensTo { Inside: "inside" | "внутрь", Outside: "outside" | "наружу" }
-}
-
-macro_rules! defaults {
-    ($($name:ident::$variant:ident),+) => {$(
-        impl Default for $name { fn default() -> Self { Self::$variant } }
-    )+};
-}
-defaults!(
-    PermeabilityFile::Impermeable,
-    StatusFile::Open,
-    OpensFile::Inside,
-    ProfileFile::Surveyed
-);

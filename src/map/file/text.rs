@@ -7,9 +7,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use toml::ser::ValueSerializer;
 
-use super::schema::{
-    At, Coordinates, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile,
-    StatusFile, Table, ZoneWord,
+use super::table::Table;
+use super::values::{At, Coordinates, Number};
+use super::words::{
+    DoorKindFile, HingeFile, OpensFile, PermeabilityFile, ProfileFile, StatusFile, ZoneWord,
 };
 use crate::Gender;
 

@@ -4,28 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::geometry::Bounds;
 use crate::geometry::contact::{Footprint, length_within, stays_within};
-use crate::units::{AreaId, ReplicaId};
+use crate::units::ReplicaId;
 
 use super::super::body::{Block, Body};
-use super::pair::Pair;
+use super::pair::{Between, Pair};
 use super::{Key, Measurements, Near, per_mille};
-
-/// What stands between two things that are beside each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Between {
-    Replica(ReplicaId),
-    /// A wall of this Area.
-    Wall(AreaId),
-}
-
-/// Two things beside each other.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Beside {
-    /// Overlap of the sides that they turn to each other, share of the shorter.
-    pub facing: i64,
-    /// What stands between, and the share of the common height that it fills.
-    pub between: BTreeMap<Between, i64>,
-}
 
 impl Measurements {
     /// Everything that stands between a pair, from scratch.

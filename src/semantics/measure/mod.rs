@@ -14,9 +14,8 @@ mod update;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-pub use between::{Beside, Between};
 use borders::Borders;
-pub use pair::{Below, Directed, Into, Over, Pair, Within};
+pub use pair::{Below, Beside, Between, Directed, Into, Over, Pair, Within};
 pub(super) use pair::{level, surface_distance};
 pub(super) use rooms::Room;
 pub use single::{Located, Single};

@@ -6,9 +6,9 @@ use crate::geometry::Bounds;
 use crate::geometry::contact::{
     Footprint, Gap, bounds_distance, escape, facing_overlap, gap, overlap_area,
 };
+use crate::units::{AreaId, ReplicaId};
 
 use super::super::body::{Block, Body, Kind};
-use super::between::Beside;
 use super::{Measurements, cm, hundredths, per_mille, tenths};
 
 /// `a` stands or hangs over the roof of a block of `b`.
@@ -78,6 +78,23 @@ pub struct Directed {
     pub apart: Option<i64>,
     /// Of what is over the other: from that one's middle, in the plan.
     pub middle: Option<i64>,
+}
+
+/// What stands between two things that are beside each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Between {
+    Replica(ReplicaId),
+    /// A wall of this Area.
+    Wall(AreaId),
+}
+
+/// Two things beside each other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Beside {
+    /// Overlap of the sides that they turn to each other, share of the shorter.
+    pub facing: i64,
+    /// What stands between, and the share of the common height that it fills.
+    pub between: BTreeMap<Between, i64>,
 }
 
 /// All that is measured of a pair of things, the lower id first.

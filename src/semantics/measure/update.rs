@@ -9,8 +9,7 @@ use crate::map::World;
 use crate::units::ReplicaId;
 
 use super::super::body::Body;
-use super::between::Between;
-use super::pair::Pair;
+use super::pair::{Between, Pair};
 use super::single::Single;
 use super::{Measurements, cm};
 

@@ -4,9 +4,9 @@ use miette::SourceSpan;
 
 use super::heading::{HEADINGS, Heading};
 use super::{Parsed, Parser};
-use crate::check::perhaps;
 use crate::error::RuleError;
 use crate::fault::RuleFault;
+use crate::hint::perhaps;
 use crate::syntax::Name;
 use crate::token::TokenKind;
 use crate::units::{Bilingual, name_key, nearest_name};

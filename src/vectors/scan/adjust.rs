@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::extract::Hit;
+use super::run::Hit;
 use super::sensor::Sensor;
 use crate::line::ROUGHNESS;
 

@@ -9,7 +9,7 @@
 
 use nalgebra::Vector2;
 
-use super::extract::{Hit, Run};
+use super::run::{Hit, Run};
 use super::sensor::Sensor;
 use crate::line::{Line, ROUGHNESS};
 use crate::segment::{Cut, End, Segment, Truth};

@@ -11,6 +11,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::ends;
+use super::run::{Hit, Run};
 use super::sensor::Sensor;
 use crate::line::{Line, ROUGHNESS, Sums};
 use crate::segment::{Covariance, End, Segment, Truth};
@@ -31,22 +32,6 @@ pub(super) const FEW: usize = 3;
 const HALVED: usize = 8;
 /// Fewest points of a segment.
 const FEWEST: usize = 2;
-
-/// One return.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Hit {
-    pub(crate) p: Vector2<f64>,
-    pub(crate) r: f64,
-    pub(crate) beam: u32,
-}
-
-/// The points `from..to`, seen as one straight line.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Run {
-    pub(crate) from: usize,
-    pub(crate) to: usize,
-    pub(crate) line: Line,
-}
 
 /// A return far from both its neighbours.
 #[derive(Debug, Clone, Copy)]

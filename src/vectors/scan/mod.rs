@@ -6,6 +6,7 @@ mod ends;
 mod extract;
 mod optimal;
 mod refine;
+mod run;
 mod sensor;
 
 pub use cast::{Struck, cast};

@@ -11,7 +11,7 @@
 //!  vertex A(j)   = λ + min over i of min( B(i) + λ, A(i) ) + edge(i, j)         a polyline has come to hit j
 //! ```
 
-use super::extract::Hit;
+use super::run::Hit;
 use super::sensor::Sensor;
 
 /// How far a beam may be missed, in cm, before it is as good as unexplained: the published choice.

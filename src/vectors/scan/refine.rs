@@ -8,8 +8,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::adjust::{Adjusted, adjust};
 use super::ends::{bends, tip};
-use super::extract::{Extractor, FEW, Hit, Run, is_one};
+use super::extract::{Extractor, FEW, is_one};
 use super::optimal::{Hops, LOST, count};
+use super::run::{Hit, Run};
 use super::sensor::Sensor;
 use crate::line::ROUGHNESS;
 use crate::segment::{Covariance, Cut, End, Segment, Truth};

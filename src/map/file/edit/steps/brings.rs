@@ -6,7 +6,7 @@ use super::{Done, Draft, Kind, MapError, Record, Span, Steps, misprint};
 use crate::file::decode::shortened;
 use crate::file::node::Node;
 use crate::file::read::Raw;
-use crate::file::records::type_entry;
+use crate::file::read::type_entry;
 use crate::file::schema::{
     AreaFile, DoorFile, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, TypeFile,
 };

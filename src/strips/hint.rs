@@ -1,0 +1,40 @@
+//! The name that may have been meant where one is not known.
+
+use crate::units::{Bilingual, name_key, nearest_name};
+
+pub(super) fn hint<'a>(
+    wanted: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<Bilingual> {
+    nearest_name(wanted, known).map(|near| {
+        if looks_the_same(near, wanted) {
+            Bilingual::new(
+                format!(
+                    "может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов"
+                ),
+                format!(
+                    "perhaps “{near}”? the letters look the same, but are of different alphabets"
+                ),
+            )
+        } else {
+            perhaps(near)
+        }
+    })
+}
+
+pub(super) fn perhaps(near: &str) -> Bilingual {
+    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+}
+
+/// Whether two names differ only in the alphabet of letters that look alike, as В and B.
+pub(super) fn looks_the_same(a: &str, b: &str) -> bool {
+    fn latin(c: char) -> char {
+        const CYRILLIC: &str = "авекмнорстухіј";
+        const LATIN: &str = "abekmhopctyxij";
+        match CYRILLIC.chars().position(|letter| letter == c) {
+            Some(at) => LATIN.chars().nth(at).expect("both alphabets are of one length"),
+            None => c,
+        }
+    }
+    name_key(a).chars().map(latin).eq(name_key(b).chars().map(latin))
+}
