@@ -103,7 +103,7 @@ fn the_surface_is_the_one_that_was_agreed_on() {
 /// other crates tell each of their cases, and one that is told nowhere is not to compile.
 const REASONS: [(&str, &str); 3] = [
     ("src/units/file.rs", "FileFault"),
-    ("src/language/question/doubts.rs", "Doubt"),
+    ("src/language/question/doubt.rs", "Doubt"),
     ("src/meaning/answer.rs", "NoAnswer"),
 ];
 
