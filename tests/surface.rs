@@ -104,7 +104,7 @@ fn the_surface_is_the_one_that_was_agreed_on() {
 const REASONS: [(&str, &str); 3] = [
     ("src/units/file.rs", "FileFault"),
     ("src/language/question/doubt.rs", "Doubt"),
-    ("src/meaning/answer.rs", "NoAnswer"),
+    ("src/meaning/outcome.rs", "NoAnswer"),
 ];
 
 /// Errors grow: who matches on them has a last arm.
