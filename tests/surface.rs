@@ -103,8 +103,8 @@ fn the_surface_is_the_one_that_was_agreed_on() {
 /// other crates tell each of their cases, and one that is told nowhere is not to compile.
 const REASONS: [(&str, &str); 3] = [
     ("src/units/file.rs", "FileFault"),
-    ("src/language/question/doubts.rs", "Doubt"),
-    ("src/meaning/answer.rs", "NoAnswer"),
+    ("src/language/question/doubt.rs", "Doubt"),
+    ("src/meaning/outcome.rs", "NoAnswer"),
 ];
 
 /// Errors grow: who matches on them has a last arm.

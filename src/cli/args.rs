@@ -2,26 +2,32 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 
-use crate::engine::{ImportFormat, Sighted, When};
-use crate::graphplan::Limits;
+use crate::engine::ImportFormat;
 use crate::map::Profile;
-use crate::robot::Wanted;
-use crate::units::{Bilingual, Language, Timestamp};
 
+mod common;
+
+pub(super) use common::{
+    Color, Common, Detail, Lang, LogOnMap, RouteMethod, moment, parse_seconds, when,
+};
+
+use super::commands::DoArgs;
+use super::corridor::CorridorArgs;
 use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
-use super::lengths::Lengths;
 use super::locate::LocateArgs;
 use super::map_from::MapFromArgs;
 use super::observe::ObserveCommand;
+use super::plan::PlanArgs;
 use super::see::SeeArgs;
 use super::store::StoreCommand;
-use super::vehicle::{SimulateArgs, VehicleArgs};
+use super::teller::RecordArgs;
+use super::vehicle::SimulateArgs;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
@@ -34,120 +40,6 @@ pub(super) struct Arguments {
     pub common: Common,
     #[command(subcommand)]
     pub command: Command,
-}
-
-/// What every command takes.
-#[derive(Debug, Clone, Args)]
-pub(super) struct Common {
-    /// Store directory
-    #[arg(long, global = true, env = "ORTHO_STORE", value_name = "DIR")]
-    pub store: Option<PathBuf>,
-    /// Directory of rule files; `./rules` when there is one, else the rules built in
-    #[arg(long, global = true, env = "ORTHO_RULES", value_name = "DIR")]
-    pub rules: Option<PathBuf>,
-    /// Print the value behind the words as JSON (see docs/cli.md)
-    #[arg(long, global = true)]
-    pub json: bool,
-    /// Language of all that is told; that of the locale when left out, then that of the order or question, then Russian
-    #[arg(
-        long,
-        global = true,
-        value_enum,
-        env = "ORTHO_LANG",
-        default_value_t = Lang::of_locale().unwrap_or(Lang::Ru),
-        hide_default_value = true
-    )]
-    pub lang: Lang,
-    /// Open the store for reading only, without touching it; another program may be writing it
-    #[arg(long, global = true)]
-    pub read_only: bool,
-    /// Answer from the map as it stood then: a revision or a moment (3, 2026-11-21, 2026-11-21T09:30)
-    #[arg(long, global = true, value_name = "WHEN", value_parser = when)]
-    pub as_of: Option<When>,
-    /// Who makes the change, for the history
-    #[arg(
-        long,
-        global = true,
-        env = "ORTHO_USER",
-        default_value = "operator",
-        value_name = "NAME"
-    )]
-    pub user: String,
-    /// Settings; ./ortho.toml when there is one, else ortho/ortho.toml in the folder for settings ($XDG_CONFIG_HOME, ~/.config)
-    #[arg(long, global = true, env = "ORTHO_CONFIG", value_name = "FILE")]
-    pub config: Option<PathBuf>,
-    /// Colours of faults: on a terminal where NO_COLOR is not set, always, or never
-    #[arg(
-        long,
-        global = true,
-        value_enum,
-        default_value = "auto",
-        hide_default_value = true,
-        value_name = "WHEN"
-    )]
-    pub color: Color,
-    /// Of lengths in arguments and of points in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
-    #[arg(
-        long,
-        global = true,
-        value_enum,
-        default_value = "cm",
-        hide_default_value = true,
-        value_name = "UNIT"
-    )]
-    pub units: Lengths,
-    /// Tell on standard error what is done inside and how long it takes; -vv and -vvv tell more
-    #[arg(short, long, global = true, action = ArgAction::Count)]
-    pub verbose: u8,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Color {
-    Auto,
-    Always,
-    Never,
-}
-
-/// A laser's log, taken on a map.
-#[derive(Debug, Args)]
-pub(super) struct LogOnMap {
-    /// A log (CARMEN, rows of ranges, Breezy; also gzipped)
-    pub log: PathBuf,
-    /// The map; may be left out when the store has only one
-    #[arg(long, value_name = "NAME")]
-    pub map: Option<String>,
-    /// Of the laser above the map's zero
-    #[arg(long, value_name = "CM", default_value_t = Sighted::LASER_HEIGHT)]
-    pub height: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Lang {
-    Ru,
-    En,
-}
-
-impl Lang {
-    /// By the first of `LC_ALL`, `LC_MESSAGES` and `LANG` that is set, as POSIX has it; `C` names no language.
-    pub(super) fn of_locale() -> Option<Self> {
-        let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
-        let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set)?;
-        match locale.split(['_', '.', '@', '-']).next() {
-            Some("en") => Some(Self::En),
-            Some("ru") => Some(Self::Ru),
-            _ => None,
-        }
-    }
-}
-
-/// A moment.
-pub(super) fn moment(text: &str) -> Result<Timestamp, String> {
-    text.parse().map_err(|_no_time| "a time is written 2026-11-21T09:30:00.000Z".to_owned())
-}
-
-/// A point of the history.
-pub(super) fn when(text: &str) -> Result<When, String> {
-    text.parse().map_err(|why: Bilingual| why.say(Language::English).to_owned())
 }
 
 #[derive(Debug, Subcommand)]
@@ -347,70 +239,6 @@ impl Command {
     }
 }
 
-/// How much is said of a place or a way.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Detail {
-    Brief,
-    Normal,
-    Full,
-}
-
-impl Detail {
-    pub(super) fn level(self) -> crate::language::report::Detail {
-        use crate::language::report::Detail as Level;
-        match self {
-            Self::Brief => Level::Region,
-            Self::Normal => Level::Spot,
-            Self::Full => Level::Heading,
-        }
-    }
-}
-
-#[derive(Debug, Args)]
-pub(super) struct DoArgs {
-    #[arg(required_unless_present_any = ["scenario", "resume"])]
-    pub task: Option<String>,
-    /// Have the task wait, for "resume" or --resume, instead of beginning it
-    #[arg(long, requires = "task")]
-    pub later: bool,
-    /// Do what waits, in the order of the shortest way; what was under way when a process ended comes first
-    #[arg(long, conflicts_with_all = ["task", "scenario", "later"])]
-    pub resume: bool,
-    /// Drive a scenario of a rule file (.strips) instead of a task in words
-    #[arg(long, value_name = "FILE", conflicts_with = "task")]
-    pub scenario: Option<PathBuf>,
-    /// The world in which is driven, where it is not as the robot believes: a map file, or a file of edits
-    #[arg(long, value_name = "FILE")]
-    pub truth: Option<PathBuf>,
-    /// Write the plan drawing here, as SVG or PNG by the name's ending
-    #[arg(long, value_name = "FILE")]
-    pub draw: Option<PathBuf>,
-    /// Write the plan here as a behaviour tree, XML of BehaviorTree.CPP 4
-    #[arg(long, value_name = "FILE.xml")]
-    pub tree: Option<PathBuf>,
-    /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
-    #[arg(long)]
-    pub reset: bool,
-    /// The robot stands here: a name, or X,Y[,HEADING]; else where the last task left it, or at the map's start
-    #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
-    pub from: Option<String>,
-    /// Where something bars the only way, ask on standard input whether it is clear, instead of ending
-    #[arg(long)]
-    pub attended: bool,
-    #[command(flatten)]
-    pub vehicle: VehicleArgs,
-    #[command(flatten)]
-    pub record: RecordArgs,
-}
-
-/// Who else is told of a drive.
-#[derive(Debug, Clone, Args)]
-pub(super) struct RecordArgs {
-    /// Record all that happens in this MCAP file, in place of what is there: for Foxglove, Lichtblick and ortho replay
-    #[arg(long, value_name = "FILE.mcap")]
-    pub record: Option<PathBuf>,
-}
-
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// A recording of "do --record"
@@ -445,41 +273,6 @@ pub(super) struct QueryArgs {
     /// Give up when a relation has more rows than this; 134217728 when left out
     #[arg(long, value_name = "ROWS")]
     pub row_limit: Option<usize>,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct CorridorArgs {
-    /// Corridor file (TOML), e.g. maps/corridor-paper4.toml; the store's maps when it and --map are left out
-    pub file: Option<PathBuf>,
-    /// A map of the store, or a map file
-    #[arg(long, conflicts_with = "file", value_name = "MAP")]
-    pub map: Option<String>,
-    /// Room where the robot stands, or #N for a vertex
-    #[arg(long, value_name = "ROOM")]
-    pub from: String,
-    /// The arc driven last, by its vertices; without it the heading is unknown
-    #[arg(long, value_name = "N,N", value_parser = parse_arc)]
-    pub last: Option<(u32, u32)>,
-    /// Room to go to
-    #[arg(long, value_name = "ROOM")]
-    pub to: String,
-    /// The paper's first or second road graph
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
-    pub variant: u8,
-    /// Count metres instead of arcs, where the map knows them
-    #[arg(long)]
-    pub metres: bool,
-}
-
-fn parse_arc(text: &str) -> Result<(u32, u32), String> {
-    let numbers: Vec<u32> = text
-        .split(',')
-        .map(|n| n.trim().parse::<u32>().map_err(|e| format!("{n}: {e}")))
-        .collect::<Result<_, _>>()?;
-    match numbers[..] {
-        [from, to] => Ok((from, to)),
-        _ => Err("two vertex numbers are wanted, such as 1,0".to_owned()),
-    }
 }
 
 #[derive(Debug, Args)]
@@ -539,93 +332,6 @@ fn parse_height(text: &str) -> Result<f64, String> {
     }
 }
 
-#[derive(Debug, Args)]
-pub(super) struct PlanArgs {
-    /// Scenario file (.strips)
-    #[arg(required_unless_present_any = ["problem", "facts"])]
-    pub scenario: Option<PathBuf>,
-    /// Print the facts that the map gives to planning, in the language of rule files
-    #[arg(long, conflicts_with_all = ["scenario", "problem", "domain", "out", "check", "any", "without"])]
-    pub facts: bool,
-    /// Only facts of this predicate
-    #[arg(long, requires = "facts", value_name = "PREDICATE")]
-    pub name: Option<String>,
-    /// PDDL domain file
-    #[arg(long, requires = "problem", value_name = "FILE")]
-    pub domain: Option<PathBuf>,
-    /// PDDL problem file
-    #[arg(long, requires = "domain", conflicts_with = "scenario", value_name = "FILE")]
-    pub problem: Option<PathBuf>,
-    /// Write the plan here, in the format that plan validators read
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-    /// Check this plan step by step instead of making one
-    #[arg(long, value_name = "PLAN", conflicts_with_all = ["out", "any", "time_limit", "memory_limit"])]
-    pub check: Option<PathBuf>,
-    /// A plan soon, not proven to be the shortest
-    #[arg(long)]
-    pub any: bool,
-    /// A plan at once, better ones as they come, and what is proven of the fewest steps, until the two meet
-    #[arg(long, conflicts_with_all = ["any", "check", "facts"])]
-    pub anytime: bool,
-    /// The shortest plan by GraphPlan as published, and nothing else
-    #[arg(long, conflicts_with_all = ["any", "anytime", "check", "facts"])]
-    pub plain: bool,
-    /// Tell why no plan has fewer steps: what every plan goes through, and what each goal takes alone
-    #[arg(long, conflicts_with_all = ["check", "facts"])]
-    pub why: bool,
-    /// What the plan has least of: steps, or, on the map's floor, the time to drive it
-    #[arg(long, value_enum, value_name = "METRIC", conflicts_with_all = ["any", "anytime", "plain", "why", "check", "facts", "without", "domain"])]
-    pub metric: Option<Metric>,
-    /// With --anytime: end after so much effort, in millions of variables set by the solver and what takes as long
-    #[arg(long, value_name = "MILLIONS", requires = "anytime")]
-    pub effort: Option<u64>,
-    /// Withdraw an assumption and plan anew; ?x stands for any object; may be given several times
-    #[arg(long, value_name = "FACT")]
-    pub without: Vec<String>,
-    /// Give up after this many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
-    pub time_limit: Option<Duration>,
-    /// Give up when planning takes more memory than this, MiB; 1024 when left out
-    #[arg(long, value_name = "MIB")]
-    pub memory_limit: Option<usize>,
-}
-
-/// What a plan has least of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Metric {
-    /// Parallel steps
-    Steps,
-    /// Seconds, by the map's floor: ways and turns, doors, lifts and their waits, what the hand does
-    Time,
-}
-
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds: Result<f64, _> = text.trim().parse();
-    let duration = seconds.ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    duration.ok_or_else(|| "a number of seconds is wanted, such as 30 or 0.5".to_owned())
-}
-
-impl PlanArgs {
-    pub(super) fn wanted(&self) -> Wanted {
-        match self {
-            Self { any: true, .. } => Wanted::Any,
-            Self { anytime: true, .. } => Wanted::Anytime,
-            Self { plain: true, .. } => Wanted::Plain,
-            _ => Wanted::Shortest,
-        }
-    }
-
-    pub(super) fn limits(&self) -> Limits {
-        let deadline = self.time_limit.and_then(|limit| Instant::now().checked_add(limit));
-        let all = Limits::default();
-        let memory_bytes =
-            self.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20));
-        let effort = self.effort.map(|millions| millions.saturating_mul(1_000_000));
-        Limits { deadline, memory_bytes, effort, ..all }
-    }
-}
-
 #[derive(Debug, Clone, Args)]
 pub(super) struct ImportArgs {
     pub file: PathBuf,
@@ -665,12 +371,4 @@ fn pixel(text: &str) -> Result<f64, String> {
 
 fn import_format(key: &str) -> Result<ImportFormat, String> {
     ImportFormat::named(key).ok_or_else(|| format!("one of: {}", ImportFormat::keys().join(", ")))
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum RouteMethod {
-    /// The shortest way that keeps the robot's clearance
-    Shortest,
-    /// Depth-first over Passframes, midpoints of their borders (paper 1 §8)
-    Paper,
 }

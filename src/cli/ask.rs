@@ -3,8 +3,8 @@
 use crate::engine::{Dialogue, Event};
 
 use super::args::{AskArgs, Common};
-use super::commands::open;
 use super::fault::Failure;
+use super::opened::open;
 use super::teller::{Onlookers, Teller};
 use super::{Answer, heeded};
 

@@ -2,150 +2,62 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde_json::json;
 
 use crate::engine::{
-    Dialogue, Engine, Method, Outcome, Reply, Rules, Sighted, Truth, World, change_now,
-    check_map_closely, opens_in_words, parse_pose, uncertain_names,
+    Dialogue, Engine, Method, Outcome, Reply, Truth, World, change_now, check_map_closely,
+    opens_in_words, parse_pose, uncertain_names,
 };
 use crate::language::report::Detail as Level;
-use crate::language::{Case, Language, NounPhrase, english};
+use crate::language::{Case, Language, NounPhrase};
 use crate::map::{EnglishMapErrors, MapErrors};
-use crate::recording::Played;
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 
-use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
+use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
-use super::teller::Teller;
+use super::notes::{note, warn};
+use super::opened::{open, rules_dir};
+use super::teller::{RecordArgs, Teller};
+use super::vehicle::VehicleArgs;
 use super::{Answer, came_to, heeded, json, say, text};
 
-pub(super) const DEFAULT_STORE: &str = "ortho-store";
-
-/// The store in force: the one named, or `./ortho-store`.
-pub(super) fn store_dir(common: &Common) -> PathBuf {
-    common.store.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_STORE))
-}
-
-pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
-    common.rules.clone().or_else(Rules::default_dir)
-}
-
-/// Opens a store that is there already.
-pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
-    let (dir, rules) = (store_dir(common), rules_dir(common));
-    let engine = if common.read_only {
-        Engine::open_read_only(&dir, rules.as_deref())?
-    } else {
-        Engine::open_existing(&dir, rules.as_deref())?
-    };
-    note_repairs(&engine, common.lang);
-    Ok(match common.as_of {
-        Some(when) => engine.as_of(when)?,
-        None => engine,
-    })
-}
-
-/// Opens a store that is to be changed: as it is now.
-pub(super) fn open_to_write(common: &Common) -> Result<Engine, Failure> {
-    if common.as_of.is_some() {
-        return Err(crate::engine::RequestError::PastIsPast.into());
-    }
-    open(common)
-}
-
-#[expect(clippy::print_stderr, reason = "notes go to standard error")]
-pub(super) fn note(text: &str) {
-    super::waiting::over();
-    eprintln!("{text}");
-}
-
-/// Notes where a recording was cut off, if it was.
-pub(super) fn note_cut(common: &Common, played: &Played) {
-    let Some(cut) = &played.cut else { return };
-    let begun = played.told.first().map_or(0, |first| first.time);
-    let (lasted, cut) = (seconds(played.end(), begun), cut.say(common.lang.language()));
-    note(&match common.lang {
-        Lang::Ru => format!("Запись обрывается на {lasted} с: {cut}."),
-        Lang::En => format!("The recording breaks off after {lasted} s: {cut}."),
-    });
-}
-
-/// Of a recording, to the millisecond.
-pub(super) fn seconds(time: u64, begun: u64) -> f64 {
-    (time.saturating_sub(begun) / 1_000_000) as f64 / 1000.0
-}
-
-pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
-    let opened = &engine.opened;
-    let store = lang.pick("Хранилище", "The store");
-    if opened.torn_bytes > 0 {
-        let bytes = opened.torn_bytes;
-        note(&match lang {
-            Lang::Ru => format!(
-                "{store}: последняя запись была прервана и не подтверждена; отброшено {bytes} байт."
-            ),
-            Lang::En => format!(
-                "{store}: the last record was cut off and not confirmed; {bytes} bytes are dropped."
-            ),
-        });
-    }
-    let tables = lang
-        .pick("таблицы построены заново по журналу", "the tables are built anew from the journal");
-    let journal = lang
-        .pick("журнал записан заново по таблицам", "the journal is written anew from the tables");
-    let read = lang.pick(
-        "прочитано по таблицам, потому что журнал неполон (открытие для записи восстановит его)",
-        "read from the tables, since the journal is incomplete (opening to write mends it)",
-    );
-    let off = lang.pick(
-        "таблицы не ведутся, всё остаётся в журнале и снимках",
-        "the tables are not kept, everything stays in journal and snapshots",
-    );
-    let past = lang.pick(
-        "файл прошлого был утрачен или испорчен и записан заново по второму",
-        "a file of the past was lost or broken, and is written anew from its twin",
-    );
-    let shut = lang.pick("писать в него нельзя", "it cannot be written");
-    for (what, why) in [
-        (tables, &opened.tables_rebuilt),
-        (journal, &opened.journal_renewed),
-        (read, &opened.read_from_tables),
-        (off, &opened.tables_off),
-        (past, &opened.past_mended),
-        (shut, &opened.not_writable),
-    ] {
-        if let Some(why) = why {
-            note(&format!("{store}: {what}: {}.", why.say(lang.language())));
-        }
-    }
-    for name in &opened.marks_renewed {
-        let renewed = lang.pick("был утрачен или испорчен", "was lost or broken");
-        note(&format!("{store}: {name} {renewed}."));
-    }
-}
-
-pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
-    if warnings.faults.is_empty() {
-        return;
-    }
-    note(
-        match lang {
-            Lang::Ru => drawn(warnings, Lang::Ru),
-            Lang::En => drawn(&EnglishMapErrors::from(warnings), Lang::En),
-        }
-        .trim_end(),
-    );
-}
-
-/// What of a log could not be read, beside what could.
-pub(super) fn warn_of_lines(log: &Sighted, lang: Lang) {
-    let Some(faults) = log.faults() else { return };
-    let told = match lang {
-        Lang::Ru => drawn(faults, Lang::Ru),
-        Lang::En => drawn(&faults.in_english(), Lang::En),
-    };
-    note(told.trim_end());
+#[derive(Debug, Args)]
+pub(super) struct DoArgs {
+    #[arg(required_unless_present_any = ["scenario", "resume"])]
+    pub task: Option<String>,
+    /// Have the task wait, for "resume" or --resume, instead of beginning it
+    #[arg(long, requires = "task")]
+    pub later: bool,
+    /// Do what waits, in the order of the shortest way; what was under way when a process ended comes first
+    #[arg(long, conflicts_with_all = ["task", "scenario", "later"])]
+    pub resume: bool,
+    /// Drive a scenario of a rule file (.strips) instead of a task in words
+    #[arg(long, value_name = "FILE", conflicts_with = "task")]
+    pub scenario: Option<PathBuf>,
+    /// The world in which is driven, where it is not as the robot believes: a map file, or a file of edits
+    #[arg(long, value_name = "FILE")]
+    pub truth: Option<PathBuf>,
+    /// Write the plan drawing here, as SVG or PNG by the name's ending
+    #[arg(long, value_name = "FILE")]
+    pub draw: Option<PathBuf>,
+    /// Write the plan here as a behaviour tree, XML of BehaviorTree.CPP 4
+    #[arg(long, value_name = "FILE.xml")]
+    pub tree: Option<PathBuf>,
+    /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
+    #[arg(long)]
+    pub reset: bool,
+    /// The robot stands here: a name, or X,Y[,HEADING]; else where the last task left it, or at the map's start
+    #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
+    pub from: Option<String>,
+    /// Where something bars the only way, ask on standard input whether it is clear, instead of ending
+    #[arg(long)]
+    pub attended: bool,
+    #[command(flatten)]
+    pub vehicle: VehicleArgs,
+    #[command(flatten)]
+    pub record: RecordArgs,
 }
 
 /// Each warning with its place and remedy.
@@ -177,7 +89,7 @@ pub(super) fn check(common: &Common, file: &Path, strict: bool) -> Result<Answer
         .to_string());
     }
     let sound = common.lang.pick("Карта исправна.", "The map is sound.");
-    let mut lines = vec![format!("{sound} {}", described(&world, common.lang))];
+    let mut lines = vec![format!("{sound} {}", text::described(&world, common.lang))];
     if !uncertain.is_empty() {
         lines.push(guessed(&uncertain, common.lang));
     }
@@ -218,34 +130,6 @@ pub(super) fn size(world: &World) -> serde_json::Value {
         "replicas": world.replicas.len(),
         "places": world.places.len(),
     })
-}
-
-/// «Дом РБ-2»: карт 1, помещений 4 …
-pub(super) fn described(world: &World, lang: Lang) -> String {
-    let [maps, areas, doors] = [world.maps.len(), world.areas.len(), world.doors.len()];
-    let [replicas, objects] = [world.replicas.len(), world.objects.len()];
-    let [orthoframes, places] = [world.orthoframes.len(), world.places.len()];
-    let domain = &world.domain;
-    match lang {
-        Lang::Ru => format!(
-            "«{}»: карт {maps}, помещений {areas}, дверей и проходов {doors}, экземпляров {replicas} (объектов {objects}, ортофреймов {orthoframes}), точек {places}.",
-            domain.name
-        ),
-        Lang::En => {
-            let count = |number: usize, noun| english::count(number as u64, noun);
-            format!(
-                "“{}”: {}, {}, {} (passages among them), {} ({}, {}), {}.",
-                if domain.name_en.is_empty() { &domain.name } else { &domain.name_en },
-                count(maps, "map"),
-                count(areas, "room"),
-                count(doors, "door"),
-                count(replicas, "thing"),
-                count(objects, "object"),
-                count(orthoframes, "Orthoframe"),
-                count(places, "place"),
-            )
-        }
-    }
 }
 
 pub(super) fn relations(

@@ -1,7 +1,8 @@
 //! `ortho corridor` and `ortho draw corridor`: directions by counting entrances.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde_json::json;
 
 use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, figure};
@@ -11,9 +12,45 @@ use crate::draw::{
 use crate::engine::{Engine, Error, check_map};
 use crate::units::Source;
 
-use super::args::{Common, CorridorArgs, Lang};
+use super::args::{Common, Lang};
 use super::fault::Failure;
-use super::{Answer, commands, say};
+use super::opened::{open, rules_dir};
+use super::{Answer, say};
+
+#[derive(Debug, Args)]
+pub(super) struct CorridorArgs {
+    /// Corridor file (TOML), e.g. maps/corridor-paper4.toml; the store's maps when it and --map are left out
+    pub file: Option<PathBuf>,
+    /// A map of the store, or a map file
+    #[arg(long, conflicts_with = "file", value_name = "MAP")]
+    pub map: Option<String>,
+    /// Room where the robot stands, or #N for a vertex
+    #[arg(long, value_name = "ROOM")]
+    pub from: String,
+    /// The arc driven last, by its vertices; without it the heading is unknown
+    #[arg(long, value_name = "N,N", value_parser = parse_arc)]
+    pub last: Option<(u32, u32)>,
+    /// Room to go to
+    #[arg(long, value_name = "ROOM")]
+    pub to: String,
+    /// The paper's first or second road graph
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    pub variant: u8,
+    /// Count metres instead of arcs, where the map knows them
+    #[arg(long)]
+    pub metres: bool,
+}
+
+fn parse_arc(text: &str) -> Result<(u32, u32), String> {
+    let numbers: Vec<u32> = text
+        .split(',')
+        .map(|n| n.trim().parse::<u32>().map_err(|e| format!("{n}: {e}")))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [from, to] => Ok((from, to)),
+        _ => Err("two vertex numbers are wanted, such as 1,0".to_owned()),
+    }
+}
 
 pub(super) fn run(common: &Common, args: &CorridorArgs) -> Result<Answer, Failure> {
     let (_, way) = solve(common, args)?;
@@ -122,11 +159,11 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
         (Some(file), _) => read(file)?,
         (None, Some(map)) if Path::new(map).is_file() => {
             let (world, _) = check_map(Path::new(map))?;
-            let engine = Engine::in_memory(world, commands::rules_dir(common).as_deref())?;
+            let engine = Engine::in_memory(world, rules_dir(common).as_deref())?;
             engine.corridors(None)?
         }
         (None, map) => {
-            let engine = commands::open(common)?;
+            let engine = open(common)?;
             let map = map.as_ref().map(|map| engine.map_named(Some(map))).transpose()?;
             engine.corridors(map)?
         }

@@ -12,10 +12,11 @@ use crate::strips::Scenario;
 use crate::units::write_file;
 
 use super::args::{Common, Lang};
-use super::commands::{described, rules_dir};
 use super::fault::Failure;
+use super::opened::rules_dir;
 use super::signals::stopped_by_signals;
 use super::teller::{Onlookers, Teller};
+use super::text::described;
 use super::{Answer, came_to, say, text};
 
 /// The map of the papers, for a program that was installed without its files.

@@ -7,8 +7,9 @@ use clap::Args;
 use crate::engine::{Sighted, json};
 
 use super::args::{Common, LogOnMap};
-use super::commands::{open, warn_of_lines};
 use super::fault::Failure;
+use super::notes::warn_of_lines;
+use super::opened::open;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]

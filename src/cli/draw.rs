@@ -13,9 +13,11 @@ use crate::language::Language;
 use crate::robot::Directive;
 use crate::units::{MapId, Point, write_file};
 
-use super::args::{Common, CorridorArgs, Lang, LogOnMap};
-use super::commands::{note, open};
+use super::args::{Common, Lang, LogOnMap};
+use super::corridor::CorridorArgs;
 use super::fault::Failure;
+use super::notes::note;
+use super::opened::open;
 use super::{Answer, json, say};
 
 #[derive(Debug, Args)]

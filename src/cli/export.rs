@@ -9,8 +9,9 @@ use crate::map::Format;
 use crate::units::{MapId, write_file};
 
 use super::args::{Common, ExportArgs};
-use super::commands::{note, open};
 use super::fault::Failure;
+use super::notes::note;
+use super::opened::open;
 use super::{Answer, say};
 
 pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure> {

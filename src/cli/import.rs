@@ -5,8 +5,11 @@ use serde_json::json;
 use crate::engine::{Engine, ImportOptions, change_now, read_building};
 
 use super::args::{Common, ImportArgs, Lang};
-use super::commands::{described, note, note_repairs, rules_dir, size, store_dir, warn};
+use super::commands::size;
 use super::fault::Failure;
+use super::notes::{note, note_repairs, warn};
+use super::opened::{rules_dir, store_dir};
+use super::text::described;
 use super::{Answer, say};
 
 /// The user's own synonyms, in the rules directory.

@@ -6,8 +6,9 @@ use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
 
 use super::args::{Common, Lang, LogOnMap};
-use super::commands::{open, warn_of_lines};
 use super::fault::Failure;
+use super::notes::warn_of_lines;
+use super::opened::open;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]

@@ -10,8 +10,8 @@ use crate::map::Format;
 use crate::units::write_file;
 
 use super::args::{Common, Lang};
-use super::commands::warn_of_lines;
 use super::fault::Failure;
+use super::notes::warn_of_lines;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]

@@ -8,10 +8,10 @@ use crate::store::Seen;
 use crate::units::{Deg, Frame};
 
 use super::args::{Common, Lang, moment};
-use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
 use super::number::finite;
+use super::opened::{open, open_to_write};
 use super::{Answer, json as views, say};
 
 #[derive(Debug, Subcommand)]

@@ -1,7 +1,9 @@
 //! `ortho plan`: a plan for a scenario or a PDDL problem, or a given plan checked step by step.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
+use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use crate::engine::{
@@ -10,15 +12,98 @@ use crate::engine::{
 };
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
+use crate::robot::Wanted;
 use crate::semantics::planning::InitialFact;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario, Wording};
 use crate::units::{English, write_file};
 
-use super::args::{Common, Lang, Metric, PlanArgs};
-use super::commands::{DEFAULT_STORE, note, open, rules_dir};
+use super::args::{Common, Lang, parse_seconds};
 use super::fault::{Failure, drawn};
+use super::notes::note;
+use super::opened::{DEFAULT_STORE, open, rules_dir};
 use super::signals::stopped_by_signals;
 use super::{Answer, json as views, say, text};
+
+#[derive(Debug, Args)]
+pub(super) struct PlanArgs {
+    /// Scenario file (.strips)
+    #[arg(required_unless_present_any = ["problem", "facts"])]
+    pub scenario: Option<PathBuf>,
+    /// Print the facts that the map gives to planning, in the language of rule files
+    #[arg(long, conflicts_with_all = ["scenario", "problem", "domain", "out", "check", "any", "without"])]
+    pub facts: bool,
+    /// Only facts of this predicate
+    #[arg(long, requires = "facts", value_name = "PREDICATE")]
+    pub name: Option<String>,
+    /// PDDL domain file
+    #[arg(long, requires = "problem", value_name = "FILE")]
+    pub domain: Option<PathBuf>,
+    /// PDDL problem file
+    #[arg(long, requires = "domain", conflicts_with = "scenario", value_name = "FILE")]
+    pub problem: Option<PathBuf>,
+    /// Write the plan here, in the format that plan validators read
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Check this plan step by step instead of making one
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["out", "any", "time_limit", "memory_limit"])]
+    pub check: Option<PathBuf>,
+    /// A plan soon, not proven to be the shortest
+    #[arg(long)]
+    pub any: bool,
+    /// A plan at once, better ones as they come, and what is proven of the fewest steps, until the two meet
+    #[arg(long, conflicts_with_all = ["any", "check", "facts"])]
+    pub anytime: bool,
+    /// The shortest plan by GraphPlan as published, and nothing else
+    #[arg(long, conflicts_with_all = ["any", "anytime", "check", "facts"])]
+    pub plain: bool,
+    /// Tell why no plan has fewer steps: what every plan goes through, and what each goal takes alone
+    #[arg(long, conflicts_with_all = ["check", "facts"])]
+    pub why: bool,
+    /// What the plan has least of: steps, or, on the map's floor, the time to drive it
+    #[arg(long, value_enum, value_name = "METRIC", conflicts_with_all = ["any", "anytime", "plain", "why", "check", "facts", "without", "domain"])]
+    pub metric: Option<Metric>,
+    /// With --anytime: end after so much effort, in millions of variables set by the solver and what takes as long
+    #[arg(long, value_name = "MILLIONS", requires = "anytime")]
+    pub effort: Option<u64>,
+    /// Withdraw an assumption and plan anew; ?x stands for any object; may be given several times
+    #[arg(long, value_name = "FACT")]
+    pub without: Vec<String>,
+    /// Give up after this many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub time_limit: Option<Duration>,
+    /// Give up when planning takes more memory than this, MiB; 1024 when left out
+    #[arg(long, value_name = "MIB")]
+    pub memory_limit: Option<usize>,
+}
+
+/// What a plan has least of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Metric {
+    /// Parallel steps
+    Steps,
+    /// Seconds, by the map's floor: ways and turns, doors, lifts and their waits, what the hand does
+    Time,
+}
+
+impl PlanArgs {
+    pub(super) fn wanted(&self) -> Wanted {
+        match self {
+            Self { any: true, .. } => Wanted::Any,
+            Self { anytime: true, .. } => Wanted::Anytime,
+            Self { plain: true, .. } => Wanted::Plain,
+            _ => Wanted::Shortest,
+        }
+    }
+
+    pub(super) fn limits(&self) -> Limits {
+        let deadline = self.time_limit.and_then(|limit| Instant::now().checked_add(limit));
+        let all = Limits::default();
+        let memory_bytes =
+            self.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20));
+        let effort = self.effort.map(|millions| millions.saturating_mul(1_000_000));
+        Limits { deadline, memory_bytes, effort, ..all }
+    }
+}
 
 pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     if args.facts {

@@ -1,8 +1,8 @@
 //! `ortho query '?- ON_TOP_OF(X, "Стол-1"), way_length("Точка-А", X, D).order D.limit 3'`: a question in the rules' language.
 
 use super::args::{Common, QueryArgs};
-use super::commands::open;
 use super::fault::Failure;
+use super::opened::open;
 use super::why::Names;
 use super::{Answer, say};
 use crate::facts::Limits;
@@ -28,7 +28,7 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
     if !answer.unknown.is_empty() {
         let texts: Vec<String> = answer.unknown.iter().map(|text| format!("«{text}»")).collect();
         let text = common.lang.pick("в фактах такого нет", "no fact holds this");
-        super::commands::note(&format!("{}: {text}", texts.join(", ")));
+        super::notes::note(&format!("{}: {text}", texts.join(", ")));
     }
     let mut lines = Vec::new();
     match (answer.columns.is_empty(), answer.rows.is_empty()) {

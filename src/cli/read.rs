@@ -8,8 +8,8 @@ use crate::semantics::Claim;
 use crate::units::Point;
 
 use super::args::{Common, Lang};
-use super::commands::open;
 use super::fault::Failure;
+use super::opened::open;
 use super::{Answer, say};
 
 /// Step of the grid that measures a region, cm; wider where the box of the region has more than [`POINTS`].

@@ -9,8 +9,8 @@ use crate::recording::{Played, Told};
 use crate::units::Timestamp;
 
 use super::args::{Common, Lang, ReplayArgs};
-use super::commands::{note_cut, seconds};
 use super::fault::Failure;
+use super::notes::{note_cut, seconds};
 use super::{Answer, say};
 
 /// Tells a recording again, and where it was cut off.

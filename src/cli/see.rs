@@ -10,10 +10,10 @@ use crate::engine::{Changes, Sighted, Things, View, decimal, json};
 use crate::language::words::english;
 
 use super::args::{Common, Lang};
-use super::commands::warn_of_lines;
 use super::draw::put_drawing;
 use super::fault::Failure;
 use super::lengths::Lengths;
+use super::notes::warn_of_lines;
 use super::{Answer, say};
 
 #[derive(Debug, Args)]

@@ -11,9 +11,10 @@ use crate::robot::Address;
 use crate::serve::{Bounds, ServeError, Settings, beside, run as serve, run_for_assistant};
 
 use super::args::Common;
-use super::commands::{note_cut, note_repairs, rules_dir, store_dir};
 use super::demo::Scratch;
 use super::fault::Failure;
+use super::notes::{note_cut, note_repairs};
+use super::opened::{rules_dir, store_dir};
 use super::signals::stopped_by_signals;
 use super::{Answer, say};
 

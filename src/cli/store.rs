@@ -12,8 +12,9 @@ use crate::store::{Forgotten, ImportReport};
 use crate::units::write_file;
 
 use super::args::{Common, Lang, when};
-use super::commands::{note, open, open_to_write, store_dir};
 use super::fault::Failure;
+use super::notes::note;
+use super::opened::{open, open_to_write, store_dir};
 use super::{Answer, json as views, say};
 
 #[derive(Debug, Subcommand)]

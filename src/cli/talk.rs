@@ -15,10 +15,10 @@ use rustyline::history::MemHistory;
 use rustyline::validate::Validator;
 use rustyline::{Config, Context, Editor, Helper};
 
-use super::args::{Common, RecordArgs};
-use super::commands::open;
+use super::args::Common;
 use super::fault::Failure;
-use super::teller::Teller;
+use super::opened::open;
+use super::teller::{RecordArgs, Teller};
 use super::{Answer, say};
 
 pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failure> {

@@ -4,6 +4,7 @@
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use serde_json::json;
@@ -15,9 +16,17 @@ use crate::language::question::{Aside, aside};
 use crate::robot::Answer;
 use crate::units::write_file;
 
-use super::args::{Common, Lang, RecordArgs};
+use super::args::{Common, Lang};
 use super::fault::Failure;
 use super::{say, waiting};
+
+/// Who else is told of a drive.
+#[derive(Debug, Clone, Args)]
+pub(super) struct RecordArgs {
+    /// Record all that happens in this MCAP file, in place of what is there: for Foxglove, Lichtblick and ortho replay
+    #[arg(long, value_name = "FILE.mcap")]
+    pub record: Option<PathBuf>,
+}
 
 /// Tells a dialogue, or a task alone.
 pub(super) struct Teller {

@@ -9,8 +9,8 @@ use crate::engine::{Relations, Replanned, RouteAnswer, World, decimal, no_way_in
 use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
-use crate::language::Language;
 use crate::language::names::english_name;
+use crate::language::{Language, english};
 use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFault, RuleFaults, Wording};
 use crate::units::{English, capitalized};
@@ -216,4 +216,32 @@ pub(super) fn route(
         }
     }
     text
+}
+
+/// «Дом РБ-2»: карт 1, помещений 4 …
+pub(super) fn described(world: &World, lang: Lang) -> String {
+    let [maps, areas, doors] = [world.maps.len(), world.areas.len(), world.doors.len()];
+    let [replicas, objects] = [world.replicas.len(), world.objects.len()];
+    let [orthoframes, places] = [world.orthoframes.len(), world.places.len()];
+    let domain = &world.domain;
+    match lang {
+        Lang::Ru => format!(
+            "«{}»: карт {maps}, помещений {areas}, дверей и проходов {doors}, экземпляров {replicas} (объектов {objects}, ортофреймов {orthoframes}), точек {places}.",
+            domain.name
+        ),
+        Lang::En => {
+            let count = |number: usize, noun| english::count(number as u64, noun);
+            format!(
+                "“{}”: {}, {}, {} (passages among them), {} ({}, {}), {}.",
+                if domain.name_en.is_empty() { &domain.name } else { &domain.name_en },
+                count(maps, "map"),
+                count(areas, "room"),
+                count(doors, "door"),
+                count(replicas, "thing"),
+                count(objects, "object"),
+                count(orthoframes, "Orthoframe"),
+                count(places, "place"),
+            )
+        }
+    }
 }

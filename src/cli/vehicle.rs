@@ -7,15 +7,18 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{Rules, World, check_map_closely};
-use crate::robot::{Address, Moment, Patience, RemoteVehicle, Served, Simulator, serve};
-use crate::robot::{Senses, SensingRobot, Vehicle, starting_pose};
+use crate::engine::{World, check_map_closely};
+use crate::robot::{
+    Address, Moment, Patience, RemoteVehicle, Senses, SensingRobot, Served, Simulator, Vehicle,
+    serve, starting_pose,
+};
 use crate::units::Language;
 
 use super::Answer;
 use super::args::Common;
-use super::commands::{note, rules_dir, warn};
 use super::fault::Failure;
+use super::notes::{note, warn};
+use super::opened::rules_dir;
 
 /// What carries out a task.
 #[derive(Debug, Clone, Args)]

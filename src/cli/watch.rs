@@ -9,9 +9,11 @@ use crate::engine::{Drawing, Engine, check_map_closely};
 use crate::units::InOrder as _;
 
 use super::args::Common;
-use super::commands::{described, note, rules_dir, warn};
 use super::fault::Failure;
+use super::notes::{note, warn};
+use super::opened::rules_dir;
 use super::signals::stopped_by_signals;
+use super::text::described;
 use super::{Answer, say};
 
 /// Between two looks at the files.

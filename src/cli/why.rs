@@ -2,8 +2,8 @@
 //! why it does not hold.
 
 use super::args::{Common, Lang};
-use super::commands::open;
 use super::fault::Failure;
+use super::opened::open;
 use super::{Answer, say};
 use crate::engine::{Relations, RequestError};
 use crate::facts::WhyNot;

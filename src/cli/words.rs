@@ -8,8 +8,8 @@ use crate::language::russian::{self, Preposition};
 use crate::language::{Animacy, Case, Evidence, Gender, NounPhrase, Number, PlaceSense, english};
 
 use super::args::{Common, Lang};
-use super::commands::{open, store_dir};
 use super::fault::Failure;
+use super::opened::{open, store_dir};
 use super::{Answer, say};
 
 /// A store is not needed; where there is one with a map, its forms of the name come first.

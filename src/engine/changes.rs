@@ -6,11 +6,9 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::language::names::{english_name, hints};
-use crate::language::question::{Departed, Memory, Stamp, Thing};
+use crate::language::question::{Departed, Stamp, Thing};
 use crate::map::{Entity, Replica, World};
 use crate::units::ReplicaId;
-
-use super::{Error, State};
 
 /// The changes that a map has seen since it was opened.
 #[derive(Debug, Clone)]
@@ -87,7 +85,21 @@ impl Changes {
         stamp.map != self.map || self.vocabulary > stamp.change
     }
 
-    fn stamp(&self) -> Stamp {
+    /// What a thing was that left the map since then, as far as that is known; none where the map still has it.
+    pub(super) fn departed(&self, thing: Thing, since: Stamp, world: &World) -> Option<Departed> {
+        match thing {
+            Thing::Entity(entity) => match self.gone.get(&entity) {
+                Some((left, departed)) if *left > since.change => Some(departed.clone()),
+                _ => (!world.has(entity)).then(Departed::default),
+            },
+            Thing::Opening(_) | Thing::Window(_) => {
+                (self.building > since.change).then(Departed::default)
+            }
+            Thing::Robot => None,
+        }
+    }
+
+    pub(super) fn stamp(&self) -> Stamp {
         Stamp { map: self.map, change: self.count }
     }
 }
@@ -108,39 +120,4 @@ fn entities_gone(before: &World, after: &World) -> Vec<Entity> {
 fn departed(world: &World, entity: Entity) -> Departed {
     let (name, english) = (world.name(entity).to_owned(), english_name(world, entity).to_owned());
     Departed { name, english, hints: hints(world, entity) }
-}
-
-impl State {
-    /// Brings what a dialogue remembers to the map as it now is.
-    ///
-    /// # Errors
-    /// There is no map.
-    pub(super) fn catch_up(&self, memory: &mut Memory) -> Result<(), Error> {
-        let (now, world) = (self.changes.stamp(), self.world()?);
-        let since = match memory.stamp() {
-            Some(was) if was == now => return Ok(()),
-            // Another map, or an older state of this one, which may lack what is remembered.
-            Some(was) if was.map != now.map || was.change > now.change => {
-                memory.forget();
-                None
-            }
-            was => was,
-        };
-        if let Some(since) = since {
-            let changes = &self.changes;
-            let gone = |thing: Thing| match thing {
-                Thing::Entity(entity) => match changes.gone.get(&entity) {
-                    Some((left, departed)) if *left > since.change => Some(departed.clone()),
-                    _ => (!world.has(entity)).then(Departed::default),
-                },
-                Thing::Opening(_) | Thing::Window(_) => {
-                    (changes.building > since.change).then(Departed::default)
-                }
-                Thing::Robot => None,
-            };
-            memory.outlive(&gone, changes.vocabulary > since.change);
-        }
-        memory.belongs_to(now);
-        Ok(())
-    }
 }

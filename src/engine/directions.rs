@@ -21,7 +21,8 @@ use crate::semantics::{Relations, Thresholds};
 use crate::units::{AreaId, Deg, InOrder as _, Point, Vector};
 
 use super::known::Known;
-use super::route::{End, RouteAnswer};
+use super::located::End;
+use super::route::RouteAnswer;
 use super::{Error, State};
 
 /// So many landmarks a stretch.

@@ -13,8 +13,9 @@ use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId};
 use super::advice::Advice;
 use super::known::Known;
 use super::lexicon::named;
+use super::located::{End, Located};
 use super::opening::opens_in_words;
-use super::route::{End, Located, RouteAnswer};
+use super::route::RouteAnswer;
 use super::{Error, State};
 
 /// A way from one place to another, over as many maps as it takes.

@@ -9,19 +9,17 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use crate::geometry::{DoorStates, FloorPlan, Method, Openings, Target};
+use crate::geometry::{DoorStates, FloorPlan, Openings};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
 use crate::map::{Entity, NameIndex, Replica, World, Zone};
 use crate::meaning::MapWords;
 use crate::semantics::{Followed, Relations, Told, derive};
 use crate::store::Derived;
-use crate::units::{AreaId, Gather as _, MapId, Point, ReplicaId, Timestamp};
+use crate::units::{Gather as _, MapId, ReplicaId, Timestamp};
 
 use super::lexicon::form_index;
-use super::position::nowhere_on;
-use super::route::{End, Located};
-use super::{Error, RequestError, Rules};
+use super::{Error, Rules};
 
 /// The free floor of every Map.
 pub(super) type Floors = BTreeMap<MapId, FloorPlan>;
@@ -325,67 +323,5 @@ impl Known {
 
     pub(super) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {
         Ok(self.floors()?.get(&map).expect("every map of the world has a floor"))
-    }
-
-    /// A point of a Map, as an end of a way.
-    ///
-    /// # Errors
-    /// It lies in no Area.
-    pub(super) fn locate_point(&self, map: MapId, at: Point) -> Result<Located, Error> {
-        let floor = self.floor(map)?;
-        if floor.locate(at).is_none() {
-            return Err(nowhere_on(self.world(), floor, at).into());
-        }
-        Ok(Located { map, at, target: Target::Point(at), end: End::Point })
-    }
-
-    /// Where an entity is, as an end of a way.
-    ///
-    /// # Errors
-    /// It is something where one cannot stand.
-    pub(super) fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
-        let world = self.world();
-        let nowhere =
-            || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
-        let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
-        match entity {
-            Entity::Map(_) | Entity::Zone(_) => Err(nowhere()),
-            Entity::Place(id) => {
-                let place = &world.places[&id];
-                let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;
-                located(map, frame.apply(place.at), Target::Place(id))
-            }
-            Entity::Area(id) => {
-                let (map, at) = self.middle_of(world, id).ok_or_else(nowhere)?;
-                located(map, at, Target::Area(id))
-            }
-            Entity::Replica(id) => {
-                let (map, _) = world.placement(world.replicas[&id].area).ok_or_else(nowhere)?;
-                let floor = self.floor(map)?;
-                let bounds = floor.scene().replicas.get(&id).ok_or_else(nowhere)?.bounds;
-                let middle = nalgebra::center(&bounds.min, &bounds.max);
-                let target = Target::Replica(id);
-                // In front of the thing, where there is a way to that; else beside it.
-                let standing = floor.route(world, middle, target, Method::Shortest).ok();
-                let at = standing.and_then(|r| r.points.last().copied()).unwrap_or(middle);
-                located(map, at, target)
-            }
-            Entity::Door(door) => {
-                let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
-                let (map, _) = world.placement(area).ok_or_else(nowhere)?;
-                let floor = self.floor(map)?;
-                let stand = floor.stand_before(world, door, area).map(|stand| stand.at);
-                // Where there is no place before it, it is where its doorway is.
-                let middle = || floor.doorways_of(door).next().map(|way| way.middle());
-                let at = stand.or_else(middle).ok_or_else(nowhere)?;
-                located(map, at, Target::Door { door, area })
-            }
-        }
-    }
-
-    fn middle_of(&self, world: &World, area: AreaId) -> Option<(MapId, Point)> {
-        let (map, _) = world.placement(area)?;
-        let placed = self.floor(map).ok()?.scene().areas.get(&area)?;
-        Some((map, placed.prisms.first()?.polygon.centroid()))
     }
 }

@@ -26,6 +26,7 @@
 //! is an error, never a silent fallback.
 
 mod advice;
+mod after;
 mod apart;
 mod assumed;
 mod barriers;
@@ -43,6 +44,7 @@ mod english;
 mod error;
 mod events;
 mod export;
+mod facing;
 mod forms;
 mod furniture;
 mod given;
@@ -54,6 +56,7 @@ pub mod json;
 mod known;
 mod lexicon;
 mod localisation;
+mod located;
 mod logged;
 mod measured;
 mod memory;
@@ -98,6 +101,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 pub use advice::Advice;
+pub use after::After;
 pub use barriers::no_way_in_words;
 #[cfg(feature = "cli")]
 pub(crate) use dialogue::queue_in_words;
@@ -113,7 +117,8 @@ pub use given::{facts_in_rule_text, in_rule_text};
 pub use history::When;
 pub use journey::Journey;
 pub use localisation::{FoundPose, FoundScan};
-pub use memory::{After, ROBOT};
+pub use located::{End, Located};
+pub use memory::ROBOT;
 pub use narration::{
     counted_in_english, decimal, directive_told, plan_in_words, progress_in_words,
 };
@@ -125,7 +130,7 @@ pub use query::QueryAnswer;
 pub use reading::Region;
 #[cfg(feature = "recordings")]
 pub use recording::Recording;
-pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
+pub use route::{RouteAnswer, Stage, parse_pose};
 pub(crate) use rule_files::question_beginnings;
 pub use rule_files::{RULE_FILES, export_rules};
 pub use rules::Rules;

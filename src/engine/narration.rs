@@ -197,6 +197,15 @@ pub fn progress_in_words(
     }
 }
 
+/// What planning came to, by a stable word for programs.
+pub(super) fn outcome(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Plan(_) => "plan",
+        Outcome::NoPlan { .. } => "no_plan",
+        Outcome::LimitReached(_) => "limit",
+    }
+}
+
 impl TaskAnswer {
     /// How it ended, by a stable word for programs.
     #[must_use]
@@ -204,7 +213,7 @@ impl TaskAnswer {
         match &self.ending {
             TaskEnding::Done => "done",
             TaskEnding::AlreadyTrue => "already_true",
-            TaskEnding::NoPlan(planned) => super::json::outcome(&planned.solved.outcome),
+            TaskEnding::NoPlan(planned) => outcome(&planned.solved.outcome),
             TaskEnding::Stuck(_) => "stuck",
             TaskEnding::Stopped => "stopped",
             TaskEnding::Failed(_) => "vehicle_failed",

@@ -7,7 +7,7 @@ use crate::store::{
 use crate::units::{AreaId, Frame, InOrder as _, MapId, ReplicaId};
 
 use super::history::in_memory;
-use super::position::nowhere_on;
+use super::located::nowhere_on;
 use super::{Engine, Error, RequestError, State};
 
 /// Where a thing is believed to be, or was.

@@ -12,7 +12,7 @@ use crate::language::question::Memory;
 use crate::map::Entity;
 use crate::store::{Queue, QueuedTask, Reader};
 
-use super::route::Located;
+use super::located::Located;
 use super::task::thing_of;
 use super::{Engine, Error, RequestError, State};
 

@@ -13,8 +13,8 @@ use crate::map::{Entity, World};
 use crate::semantics::{Claim, Relations, Way, claim_bounds, claim_holds};
 use crate::units::{AreaId, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
 
+use super::facing::{Faced, faced};
 use super::lexicon::named;
-use super::position::{Faced, faced};
 use super::{Error, RequestError, State};
 
 /// Where a report says that the robot is: the poses of which it is true.

@@ -1,9 +1,10 @@
 //! Ways over the floor, and where things are to be stood at.
 
-use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route, Target};
+use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route};
 use crate::map::Entity;
 use crate::units::{AreaId, Bilingual, Deg, MapId, Point, Pose, bilingual};
 
+use super::located::{End, Located};
 use super::{Error, RequestError, State};
 
 /// A way from one place to another, or why there is none.
@@ -21,32 +22,12 @@ pub struct RouteAnswer {
     pub chain: Vec<(AreaId, PassframeId)>,
 }
 
-/// What a way leads to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
-    Entity(Entity),
-    /// Coordinates.
-    Point,
-    /// A lift or stairs, from where the way goes on elsewhere.
-    Lift,
-}
-
 /// A part of a way within one Area.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stage {
     pub area: AreaId,
     /// Index in [`crate::geometry::FloorPlan::doorways`] of the doorway by which the Area is left.
     pub leaves_by: Option<usize>,
-}
-
-/// What a name of a place comes to on a floor.
-#[derive(Debug, Clone, Copy)]
-pub struct Located {
-    pub map: MapId,
-    /// A point at it, where a way may begin.
-    pub at: Point,
-    pub target: Target,
-    pub end: End,
 }
 
 impl State {

@@ -19,8 +19,8 @@ use crate::units::{InOrder as _, MapId, Pose, ReplicaId};
 use super::barriers::no_way_in_words;
 use super::journey::Journey;
 use super::known::Known;
+use super::located::Located;
 use super::position::describe;
-use super::route::Located;
 use super::{Error, State};
 
 impl State {
@@ -55,6 +55,26 @@ impl State {
             other => other,
         };
         Ok(answered.map(|answer| answer.of(memory)))
+    }
+
+    /// Brings what a dialogue remembers to the map as it now is.
+    fn catch_up(&self, memory: &mut Memory) -> Result<(), Error> {
+        let (now, world) = (self.changes.stamp(), self.world()?);
+        let since = match memory.stamp() {
+            Some(was) if was == now => return Ok(()),
+            // Another map, or an older state of this one, which may lack what is remembered.
+            Some(was) if was.map != now.map || was.change > now.change => {
+                memory.forget();
+                None
+            }
+            was => was,
+        };
+        if let Some(since) = since {
+            let gone = |thing: Thing| self.changes.departed(thing, since, world);
+            memory.outlive(&gone, self.changes.has_renamed_since(since));
+        }
+        memory.belongs_to(now);
+        Ok(())
     }
 
     /// The answer by the grammar files, where these read a sentence in one way and whole: nothing in it was passed over

@@ -21,7 +21,7 @@ mod understanding;
 
 pub(super) use understanding::thing_of;
 
-use super::memory::After;
+use super::after::After;
 use super::position::describe;
 use super::{Error, RequestError, State};
 

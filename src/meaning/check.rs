@@ -1,21 +1,118 @@
 //! The statements of one language, checked: every category has a type, every variable a use, no frame swallows a word
 //! that carries a meaning.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
-use super::fault::{LangError, LangFault};
+use super::fault::{LangError, LangFault, LangFaults};
 use super::features::Features;
-use super::file::{Element, ElementKind, Expr, Left, Name, Repeat, Rule, Statement, Word};
-use super::grammar::{Category, Entry, Frame, OF_THE_MAP, Phrase, Role, Slot, Tongue, unknown};
-use super::say::SENTENCES;
+use super::file::{self, Element, ElementKind, Expr, Left, Name, Repeat, Rule, Statement, Word};
+use super::grammar::{
+    Category, Entry, Frame, Grammar, OF_THE_MAP, Overload, Phrase, Role, Slot, Tongue,
+};
 use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
 use crate::language::question::Property;
 use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
-use crate::units::Source;
+use crate::units::{Source, nearest_name};
+
+/// The sentences that a language must have, and the parts that they may name.
+const SENTENCES: [&str; 11] = [
+    "things",
+    "no_things",
+    "yes",
+    "no",
+    "number",
+    "length",
+    "area",
+    "place",
+    "values",
+    "unknown",
+    "and",
+];
+impl Grammar {
+    /// The grammar of files, each by its path within `rules/language`: a folder is a language, what stands in none is
+    /// for all. A statement with a fault is left out; all faults come with the grammar of the rest.
+    #[must_use]
+    pub fn of(files: &[(&str, Source)]) -> (Self, Option<LangFaults>) {
+        let mut faults = Vec::new();
+        let mut by_folder: BTreeMap<String, Vec<(Source, Vec<Statement>)>> = BTreeMap::new();
+        for (path, source) in files {
+            let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let statements = file::read(source, &mut faults);
+            by_folder.entry(folder.to_owned()).or_default().push((source.clone(), statements));
+        }
+        let mut grammar =
+            Self { roles: Vec::new(), signatures: Vec::new(), tongues: BTreeMap::new() };
+        let all = by_folder.values().flatten();
+        for (source, statement) in
+            all.flat_map(|(source, all)| all.iter().map(move |s| (source, s)))
+        {
+            if let Statement::Role { name, parameters, bodies, needs } = statement
+                && let Err(error) = grammar.add_role(name, parameters, bodies, needs.as_ref())
+            {
+                faults.push(LangFault { error, file: source.clone() });
+            }
+        }
+        for (folder, statements) in by_folder.into_iter().filter(|(folder, _)| !folder.is_empty()) {
+            let tongue = Building::of(&grammar.roles, &statements, &mut faults);
+            grammar.tongues.insert(folder, tongue);
+        }
+        let faults = (!faults.is_empty()).then_some(LangFaults { faults });
+        (grammar, faults)
+    }
+
+    fn add_role(
+        &mut self,
+        name: &Name,
+        parameters: &[(Name, Vec<Name>)],
+        bodies: &[String],
+        needs: Option<&String>,
+    ) -> Result<(), LangError> {
+        let mut sorts = Vec::new();
+        for (_, types) in parameters {
+            let mut of = Sorts::NONE;
+            for one in types {
+                let names = ["Thing", "Area", "Opening", "Point", "Storey", "Any"];
+                of = of
+                    | Sorts::named(&one.text)
+                        .ok_or_else(|| unknown(("тип", "type"), one, names))?;
+            }
+            sorts.push(of);
+        }
+        let variables = parameters.iter().map(|(name, _)| name.text.clone()).collect();
+        let (bodies, needs) = (bodies.to_vec(), needs.cloned());
+        let overload = Overload { variables, sorts: sorts.clone(), bodies, needs };
+        match self.roles.iter().position(|role| role.name == name.text) {
+            Some(at) => {
+                self.roles[at].overloads.push(overload);
+                self.signatures[at].push(sorts);
+            }
+            None => {
+                self.roles.push(Role { name: name.text.clone(), overloads: vec![overload] });
+                self.signatures.push(vec![sorts]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A name that nothing declares, with the nearest that something does.
+fn unknown<'n>(
+    what: (&'static str, &'static str),
+    name: &Name,
+    known: impl IntoIterator<Item = &'n str>,
+) -> LangError {
+    let nearest = nearest_name(&name.text, known).map(str::to_owned);
+    LangError::Unknown {
+        what: what.into(),
+        name: name.text.clone(),
+        nearest,
+        at: name.at.clone().into(),
+    }
+}
 
 /// A language while its statements are checked.
-pub(super) struct Building<'g> {
+struct Building<'g> {
     roles: &'g [Role],
     categories: Vec<(String, Option<Type>)>,
     reserved: HashMap<String, ()>,

@@ -2,22 +2,20 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::check::Building;
-use super::fault::{LangError, LangFault, LangFaults};
 use super::features::Features;
-use super::file::{self, Name, Repeat, Statement};
+use super::file::Repeat;
 use super::sense::{Meaning, Signatures, Type};
 use super::term::Sorts;
 use crate::language::Language;
 use crate::language::question::Part;
-use crate::units::{Source, nearest_name};
+use crate::units::Source;
 
 /// Every grammar that there is: what roles mean, and each language's words, phrases and frames.
 #[derive(Debug)]
 pub struct Grammar {
     pub(crate) roles: Vec<Role>,
     pub(crate) signatures: Signatures,
-    tongues: BTreeMap<String, Tongue>,
+    pub(super) tongues: BTreeMap<String, Tongue>,
 }
 
 /// A relation between things as a language names it, and the relations of the rules that it stands for.
@@ -155,37 +153,6 @@ impl Grammar {
         grammar
     }
 
-    /// The grammar of files, each by its path within `rules/language`: a folder is a language, what stands in none is
-    /// for all. A statement with a fault is left out; all faults come with the grammar of the rest.
-    #[must_use]
-    pub fn of(files: &[(&str, Source)]) -> (Self, Option<LangFaults>) {
-        let mut faults = Vec::new();
-        let mut by_folder: BTreeMap<String, Vec<(Source, Vec<Statement>)>> = BTreeMap::new();
-        for (path, source) in files {
-            let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
-            let statements = file::read(source, &mut faults);
-            by_folder.entry(folder.to_owned()).or_default().push((source.clone(), statements));
-        }
-        let mut grammar =
-            Self { roles: Vec::new(), signatures: Vec::new(), tongues: BTreeMap::new() };
-        let all = by_folder.values().flatten();
-        for (source, statement) in
-            all.flat_map(|(source, all)| all.iter().map(move |s| (source, s)))
-        {
-            if let Statement::Role { name, parameters, bodies, needs } = statement
-                && let Err(error) = grammar.add_role(name, parameters, bodies, needs.as_ref())
-            {
-                faults.push(LangFault { error, file: source.clone() });
-            }
-        }
-        for (folder, statements) in by_folder.into_iter().filter(|(folder, _)| !folder.is_empty()) {
-            let tongue = Building::of(&grammar.roles, &statements, &mut faults);
-            grammar.tongues.insert(folder, tongue);
-        }
-        let faults = (!faults.is_empty()).then_some(LangFaults { faults });
-        (grammar, faults)
-    }
-
     /// The language of a folder.
     pub(crate) fn tongue_of(&self, folder: &str) -> Option<&Tongue> {
         self.tongues.get(folder)
@@ -203,59 +170,10 @@ impl Grammar {
         let others = self.tongues.iter().filter(move |(name, _)| *name != own && *name != other);
         first.into_iter().chain(others).map(|(name, tongue)| (name.as_str(), tongue))
     }
-
-    fn add_role(
-        &mut self,
-        name: &Name,
-        parameters: &[(Name, Vec<Name>)],
-        bodies: &[String],
-        needs: Option<&String>,
-    ) -> Result<(), LangError> {
-        let mut sorts = Vec::new();
-        for (_, types) in parameters {
-            let mut of = Sorts::NONE;
-            for one in types {
-                let names = ["Thing", "Area", "Opening", "Point", "Storey", "Any"];
-                of = of
-                    | Sorts::named(&one.text)
-                        .ok_or_else(|| unknown(("тип", "type"), one, names))?;
-            }
-            sorts.push(of);
-        }
-        let variables = parameters.iter().map(|(name, _)| name.text.clone()).collect();
-        let (bodies, needs) = (bodies.to_vec(), needs.cloned());
-        let overload = Overload { variables, sorts: sorts.clone(), bodies, needs };
-        match self.roles.iter().position(|role| role.name == name.text) {
-            Some(at) => {
-                self.roles[at].overloads.push(overload);
-                self.signatures[at].push(sorts);
-            }
-            None => {
-                self.roles.push(Role { name: name.text.clone(), overloads: vec![overload] });
-                self.signatures.push(vec![sorts]);
-            }
-        }
-        Ok(())
-    }
 }
 
 fn folder(language: Language) -> &'static str {
     language.pick("ru", "en")
-}
-
-/// A name that nothing declares, with the nearest that something does.
-pub(super) fn unknown<'n>(
-    what: (&'static str, &'static str),
-    name: &Name,
-    known: impl IntoIterator<Item = &'n str>,
-) -> LangError {
-    let nearest = nearest_name(&name.text, known).map(str::to_owned);
-    LangError::Unknown {
-        what: what.into(),
-        name: name.text.clone(),
-        nearest,
-        at: name.at.clone().into(),
-    }
 }
 
 #[cfg(test)]

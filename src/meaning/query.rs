@@ -8,11 +8,11 @@ mod values;
 
 use std::fmt::Write as _;
 
-use super::answer::NoAnswer;
 use super::grammar::Grammar;
-use super::read::Map;
+use super::outcome::NoAnswer;
 use super::sense::{Signatures, taking};
 use super::term::{Desc, Dimension, Head, Measure, Mod, Quant, RoleId, Sorts};
+use super::words::Map;
 use crate::facts::{Value, quoted};
 use crate::language::question::{Extension, KindId, Lexicon, Property, ValueId};
 use crate::map::Entity;

@@ -1,16 +1,12 @@
 //! From a sentence to its readings, and from these to the one answer that they give, if they give one.
 
-use super::answer::{Answer, NoAnswer, Outcome};
 use super::chart::Chart;
 use super::cover::readings;
 use super::grammar::Grammar;
+use super::outcome::{Answer, NoAnswer, Outcome, Reading};
 use super::query::{Asking, Rows};
-use super::term::Form;
-use super::words::{MapWords, Sentence, tokens};
+use super::words::{Map, Sentence, tokens};
 use crate::language::Language;
-use crate::language::question::Lexicon;
-use crate::map::World;
-use crate::semantics::Relations;
 
 /// Readings that cost so much more than the cheapest are meant by nobody.
 pub const MARGIN: u32 = 1;
@@ -18,27 +14,6 @@ pub const MARGIN: u32 = 1;
 const LONGEST: usize = 200;
 /// Readings that are run at most.
 const MOST_RUN: usize = 8;
-
-/// A map as sentences speak of it.
-#[derive(Debug, Clone, Copy)]
-pub struct Map<'a> {
-    pub world: &'a World,
-    pub relations: &'a Relations,
-    pub lexicon: &'a Lexicon,
-    pub words: &'a MapWords,
-}
-
-/// What a sentence may mean.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Reading {
-    pub form: Form,
-    /// What was passed over, in an unusual order or said loosely; 0 where nothing was.
-    pub cost: u32,
-    /// File and line of the frame that read it.
-    pub frame: String,
-    /// The folder of the language in which it was read.
-    pub tongue: String,
-}
 
 impl Grammar {
     /// What a sentence may mean, the cheapest first; none where it is not understood.

@@ -1,27 +1,13 @@
 //! An answer in words, by the sentences of the grammar files: `say yes "Да."`
 
-use super::answer::{Answer, Found};
 use super::grammar::{Grammar, Tongue};
-use super::read::Map;
+use super::outcome::{Answer, Found};
 use super::term::Form;
+use super::words::Map;
 use crate::language::names::named;
 use crate::language::{Case, Language};
 use crate::semantics::Subject;
 
-/// The sentences that a language must have, and the parts that they may name.
-pub(crate) const SENTENCES: [&str; 11] = [
-    "things",
-    "no_things",
-    "yes",
-    "no",
-    "number",
-    "length",
-    "area",
-    "place",
-    "values",
-    "unknown",
-    "and",
-];
 /// Things that are named one by one.
 const MOST_NAMED: usize = 20;
 

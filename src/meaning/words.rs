@@ -11,6 +11,7 @@ use crate::language::names::hints;
 use crate::language::question::{Doing, Extension, KindId, Lexicon, Meaning, ValueId};
 use crate::language::{Gender, Language, NounPhrase, Spelling, word_ranges};
 use crate::map::{Entity, World};
+use crate::semantics::Relations;
 use crate::units::name_key;
 
 /// A word or a comma.
@@ -43,6 +44,15 @@ const LONGEST_NAME: usize = 7;
 const LONGEST_ACTIVITY: usize = 8;
 /// Of more names alike the gender of each does not matter.
 const FEW_NAMES: usize = 8;
+
+/// A map as sentences speak of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Map<'a> {
+    pub world: &'a World,
+    pub relations: &'a Relations,
+    pub lexicon: &'a Lexicon,
+    pub words: &'a MapWords,
+}
 
 /// Values of a map by their words, with what each form may be. Built once a map.
 #[derive(Debug, Clone, Default)]

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use crate::semantics::planning::InitialFact;
 use crate::semantics::predicate;
 
-use super::mission::GoalFact;
+use super::goal::GoalFact;
 
 /// So many such places cost little, and all of them stay.
 const FEW: usize = 100;

@@ -10,7 +10,7 @@
 //! something, or the mission ends. It ends at once when it is told to stop, and what is believed is so. A vehicle is
 //! believed to be only where it can be (`robot/reins`); one that fails ends the mission, and of the order under way
 //! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
-//! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
+//! belief itself (`robot/mission/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
 //! free floor that the route was made from. What is random is drawn from one seed, so a run repeats itself; behind its
 //! senses (`simulator/senses`) the simulated robot tells nothing else of its world, and a [`Pilot`] finds where it is.
@@ -27,7 +27,9 @@ use orthoframe_vectors as vectors;
 mod barred;
 mod belief;
 mod directive;
+mod event;
 mod eye;
+mod goal;
 mod grounding;
 mod helping;
 mod idle;
@@ -35,7 +37,6 @@ mod mission;
 mod obstacle;
 mod pilot;
 mod placing;
-mod rehearsal;
 mod reins;
 mod seek;
 mod shortness;
@@ -48,9 +49,9 @@ mod wishes;
 pub use barred::{Answer, Barred};
 pub use belief::{Belief, IN_MIDDLE, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Directive, Effect, Primitive};
-pub use mission::{
-    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
-};
+pub use event::{Ending, Event, Leg, Planned, Surprise};
+pub use goal::{GoalFact, state};
+pub use mission::{Mission, MissionError, starting_pose};
 pub use obstacle::{is_obstacle, outline_of, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};

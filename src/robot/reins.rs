@@ -9,7 +9,7 @@ use crate::geometry::{Polygon, nearest_on_segment};
 use crate::units::{Deg, MapId, Point, Pose, Stop};
 
 use super::belief::AT_PLACE;
-use super::mission::Event;
+use super::event::Event;
 use super::vehicle::{
     Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Sighting, Unfinished,
     Vehicle, Watch,

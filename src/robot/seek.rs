@@ -5,7 +5,8 @@ use crate::semantics::planning::{PlaceSource, PlanPlace};
 use crate::units::{AreaId, InOrder as _};
 
 use super::belief::Station;
-use super::mission::{Leg, Mission, Surprise, look_round};
+use super::event::{Leg, Surprise};
+use super::mission::{Mission, look_round};
 use super::reins::Reins;
 use super::vehicle::Unfinished;
 

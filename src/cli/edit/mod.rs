@@ -15,8 +15,9 @@ use crate::map::{Edits, MapErrors};
 use crate::units::Source;
 
 use super::args::{Common, Lang};
-use super::commands::{open_to_write, warn};
 use super::fault::Failure;
+use super::notes::warn;
+use super::opened::open_to_write;
 use super::{Answer, say};
 
 pub(super) use step::Numbers;

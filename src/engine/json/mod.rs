@@ -15,6 +15,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::differences::{Differing, ThingNews};
+use super::narration::outcome;
 use super::{
     Answer, Changes, Engine, Error, FoundScan, Heard, Journey, Outcome as Heeded, PlanStep, Queue,
     Relations, Replanned, Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Things,
@@ -183,14 +184,6 @@ pub fn replayed(replayed: &Replayed) -> Value {
         "steps": steps,
         "broken": broken,
     })
-}
-
-pub(super) fn outcome(outcome: &Outcome) -> &'static str {
-    match outcome {
-        Outcome::Plan(_) => "plan",
-        Outcome::NoPlan { .. } => "no_plan",
-        Outcome::LimitReached(_) => "limit",
-    }
 }
 
 pub fn counts(relations: &Relations) -> Value {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::engine::position::nowhere_on;
+use crate::engine::located::nowhere_on;
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{

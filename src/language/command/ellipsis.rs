@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::spoken::{Said, is_adjective};
+use super::said::{Said, is_adjective};
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::{Meaning, Role, Verb};
 use crate::command::Relation;

@@ -1,7 +1,7 @@
 //! What people say of going, looking and fetching, put into plain orders by words alone, as [`spoken`](super::spoken).
 
 use super::Relation;
-use super::spoken::Said;
+use super::said::Said;
 use super::verbs::Sort;
 use super::vocabulary::{Meaning, Verb};
 use crate::words::Language;

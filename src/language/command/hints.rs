@@ -1,18 +1,11 @@
 //! What the words of a text tell of it before it is heard as a command: whether it is one, and when it is to be done.
 
+use super::gathered::gathered;
+use super::said::Said;
 use super::vocabulary::{Meaning, Verb, longest};
-use super::{Listener, Misheard, spoken, time, verbs};
+use super::{Misheard, is_too_long, spoken, time, verbs};
 use crate::units::{OwnText, Source};
-use crate::words::{phrase_at, word_keys, word_ranges};
-
-/// Whether a text is longer than anything that is said to a robot in one breath. The readers look at each word beside
-/// the others, so that what is longer is refused before it is read.
-#[must_use]
-pub fn is_too_long(text: &str) -> bool {
-    /// Words of the longest command or question that is read.
-    const WORDS: usize = 150;
-    text.chars().nth(Listener::<()>::LONGEST).is_some() || word_ranges(text).len() > WORDS
-}
+use crate::words::{phrase_at, word_keys};
 
 /// A text that tells by a conjunction in which order it is to be done, in that order.
 #[must_use]
@@ -49,7 +42,7 @@ pub fn without_clock(text: &str) -> Result<(), Misheard> {
     if is_too_long(text) {
         return Ok(());
     }
-    let said = spoken::Said::new(text.to_owned());
+    let said = Said::new(text.to_owned());
     let Some(words) = time::of_the_clock(&said) else { return Ok(()) };
     let bytes = said.bytes(&words);
     Err(Misheard::Timed {
@@ -62,7 +55,7 @@ pub fn without_clock(text: &str) -> Result<(), Misheard> {
 /// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.
 pub(crate) fn says_whither(word: &str) -> bool {
     let found = longest(&std::iter::once(word));
-    found.is_some_and(|(_, meaning)| spoken::says_whither(meaning))
+    found.is_some_and(|(_, meaning)| meaning.says_whither())
 }
 
 /// Whether a text names a place of the robot's own: «на базу».
@@ -77,7 +70,7 @@ pub(crate) fn has_haunt(text: &str) -> bool {
 /// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
 #[must_use]
 pub fn is_command(text: &str) -> bool {
-    let text = verbs::gathered(text);
+    let text = gathered(text);
     verbs::first(&text).is_some() || verbs::forbids(&text)
 }
 
@@ -85,7 +78,7 @@ pub fn is_command(text: &str) -> bool {
 /// "Hang the umbrella on the rack". What ends in a question mark asks.
 #[must_use]
 pub fn is_order(text: &str) -> bool {
-    let gathered = verbs::gathered(text);
+    let gathered = gathered(text);
     let verb = verbs::first(&gathered).map(|(_, verb)| verb);
     match verb {
         None | Some(Verb::Need | Verb::Report | Verb::Unable) => false,

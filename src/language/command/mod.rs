@@ -20,34 +20,35 @@
 mod assemble;
 mod blame;
 mod ellipsis;
+mod gathered;
 mod going;
 mod grammar;
 mod hints;
 mod misheard;
 mod quantity;
 mod roles;
+mod said;
 mod spoken;
 mod spot;
+mod states;
 mod time;
 mod verbs;
 mod vocabulary;
 mod waiting;
 
+pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
-pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
+pub use hints::{in_time, is_command, is_order, preamble, without_clock};
 pub use misheard::Misheard;
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
-pub(crate) use verbs::{
-    Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words,
-    without_verbs,
-};
+pub(crate) use verbs::{Sort, clauses, is_known, link_at, link_before, small_words, without_verbs};
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};
 
 use std::hash::Hash;
 
-use super::words::FormIndex;
+use super::words::{FormIndex, word_ranges};
 
 /// How one thing is to lie to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -211,6 +212,15 @@ impl<T> Command<T> {
             _ => None,
         }
     }
+}
+
+/// Whether a text is longer than anything that is said to a robot in one breath. The readers look at each word beside
+/// the others, so that what is longer is refused before it is read.
+#[must_use]
+pub fn is_too_long(text: &str) -> bool {
+    /// Words of the longest command or question that is read.
+    const WORDS: usize = 150;
+    text.chars().nth(Listener::<()>::LONGEST).is_some() || word_ranges(text).len() > WORDS
 }
 
 /// Understands commands about the things of one index.

@@ -2,7 +2,8 @@
 //! [`spoken`](super::spoken).
 
 use super::ellipsis::object;
-use super::spoken::{Said, state_at};
+use super::said::Said;
+use super::states::state_at;
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::Meaning;
 use crate::words::Language;

@@ -4,92 +4,14 @@
 //! Invariant: a rewriting drops only words that say what is not to be done, or that say how it is said; a text that has
 //! none of these constructions stays as it is, and what was rewritten once is not rewritten again.
 
-use std::ops::Range;
-
 use super::ellipsis;
 use super::going;
 use super::quantity;
+use super::said::{Said, is_adjective};
+use super::states::STATES;
 use super::time;
-use super::vocabulary::{Meaning, Role, Verb, longest};
-use crate::words::{Language, phrase_at, word_keys, word_ranges};
-
-/// A text, the places of its words and their keys.
-pub(super) struct Said {
-    pub(super) text: String,
-    pub(super) words: Vec<Range<usize>>,
-    pub(super) keys: Vec<String>,
-}
-
-impl Said {
-    pub(super) fn new(text: String) -> Self {
-        let (words, keys) = (word_ranges(&text), word_keys(&text));
-        Self { text, words, keys }
-    }
-
-    pub(super) fn meaning(&self, at: usize) -> Option<(usize, Meaning)> {
-        (at < self.keys.len())
-            .then(|| longest(&self.keys[at..].iter().map(String::as_str)))
-            .flatten()
-    }
-
-    pub(super) fn is(&self, at: usize, any: &[&str]) -> bool {
-        self.keys.get(at).is_some_and(|key| any.contains(&key.as_str()))
-    }
-
-    /// How many words of one of these phrases, the longest, stand here.
-    pub(super) fn phrase(&self, at: usize, phrases: &[&str]) -> Option<usize> {
-        phrases.iter().filter_map(|phrase| phrase_at(&self.keys, at, phrase)).max()
-    }
-
-    /// Whether a mark stands before a word.
-    pub(super) fn parted(&self, at: usize) -> bool {
-        match at.checked_sub(1).map(|before| self.words[before].end) {
-            Some(end) if at < self.words.len() => {
-                self.text[end..self.words[at].start].contains([',', ';', '.', '!', ':', '–', '—'])
-            }
-            _ => true,
-        }
-    }
-
-    /// Where the clause of a word ends: at the next mark, or the end.
-    pub(super) fn clause_end(&self, at: usize) -> usize {
-        (at + 1..self.words.len()).find(|&n| self.parted(n)).unwrap_or(self.words.len())
-    }
-
-    pub(super) fn bytes(&self, words: &Range<usize>) -> Range<usize> {
-        self.words[words.start].start..self.words[words.end - 1].end
-    }
-
-    pub(super) fn of(&self, words: &Range<usize>) -> &str {
-        &self.text[self.bytes(words)]
-    }
-
-    /// The first verb from a word on, and how many words it takes.
-    pub(super) fn verb_from(&self, mut at: usize) -> Option<(usize, usize, Verb)> {
-        while at < self.keys.len() {
-            match self.meaning(at) {
-                Some((taken, Meaning::Verb(verb))) => return Some((at, taken, verb)),
-                Some((taken, _)) => at += taken,
-                None => at += 1,
-            }
-        }
-        None
-    }
-
-    /// The text without some words and the mark before them.
-    pub(super) fn without(&self, words: &Range<usize>) -> String {
-        let mut text = self.text.clone();
-        text.replace_range(self.words[words.start - 1].end..self.words[words.end - 1].end, "");
-        text
-    }
-
-    /// The text with some words replaced by others.
-    pub(super) fn with(&self, words: &Range<usize>, said: &str) -> String {
-        let mut text = self.text.clone();
-        text.replace_range(self.bytes(words), said);
-        text
-    }
-}
+use super::vocabulary::{Meaning, Verb};
+use crate::words::Language;
 
 /// What a rewriting may leave out.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -298,50 +220,6 @@ fn is_gerund(key: &str) -> bool {
     }
 }
 
-/// What a state is called, and the orders that bring it about.
-const STATES: [(&[&str], &str, &str); 6] = [
-    (&["closed", "shut", "закрыт", "закрыта", "закрыто", "закрыты"], "закрой", "close"),
-    (&["open", "opened", "открыт", "открыта", "открыто", "открыты"], "открой", "open"),
-    (&["locked", "заперт", "заперта", "заперты", "заперто"], "запри", "lock"),
-    (&["unlocked", "отперт", "отперта", "отперты"], "отопри", "unlock"),
-    (
-        &[
-            "on",
-            "switched on",
-            "turned on",
-            "включен",
-            "включена",
-            "включено",
-            "включены",
-            "горит",
-            "горел",
-            "горела",
-            "горели",
-            "работал",
-        ],
-        "включи",
-        "switch on",
-    ),
-    (
-        &[
-            "off",
-            "switched off",
-            "turned off",
-            "выключен",
-            "выключена",
-            "выключено",
-            "выключены",
-            "погашен",
-            "погашена",
-            "не горит",
-            "не горел",
-            "не горела",
-        ],
-        "выключи",
-        "switch off",
-    ),
-];
-
 /// "Make sure that the door is closed", «проследи, чтобы свет был выключен»: what makes it so.
 fn ensured(said: &Said) -> Option<String> {
     const SURE: [&str; 22] = [
@@ -422,11 +300,6 @@ fn ensured(said: &Said) -> Option<String> {
         Language::English => english,
     };
     Some(said.with(&(at..end), &format!("{verb} {}", what.join(" "))))
-}
-
-/// How many words at one are a state: "switched on".
-pub(super) fn state_at(said: &Said, at: usize) -> Option<usize> {
-    STATES.iter().filter_map(|(called, ..)| said.phrase(at, called)).max()
 }
 
 /// "Lights on in the bedroom, please": without a verb.
@@ -524,7 +397,7 @@ fn dashed(said: &Said) -> Option<String> {
     }
     let gap = |n: usize| &said.text[said.words[n - 1].end..said.words[n].start];
     let dash = |n: usize| gap(n).contains(['–', '—']) || gap(n) == " - ";
-    let whither = |n: usize| matches!(said.meaning(n), Some((_, m)) if says_whither(m));
+    let whither = |n: usize| matches!(said.meaning(n), Some((_, m)) if m.says_whither());
     let at: Vec<usize> = (1..said.keys.len()).filter(|&n| dash(n) && whither(n)).collect();
     let first = *at.first()?;
     let put = Language::of(&said.keys[first]).pick("положи ", "put ");
@@ -535,22 +408,6 @@ fn dashed(said: &Said) -> Option<String> {
         text.insert_str(said.words[begin].start, put);
     }
     Some(text)
-}
-
-/// Whether a word without its noun is an adjective, by its ending.
-pub(super) fn is_adjective(key: &str) -> bool {
-    const ENDINGS: [&str; 13] =
-        ["ую", "юю", "ый", "ий", "ой", "ое", "ее", "ые", "ие", "ого", "его", "ом", "ую"];
-    key.chars().count() > 4 && ENDINGS.iter().any(|ending| key.ends_with(ending))
-}
-
-/// Whether a word says whither, or may: a preposition, «домой».
-pub(super) fn says_whither(meaning: Meaning) -> bool {
-    match meaning {
-        Meaning::Link(link) => matches!(link.role, Role::Whither | Role::WhereOrWhither),
-        Meaning::Haunt(_) => true,
-        _ => false,
-    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use super::ellipsis::first_word;
-use super::spoken::Said;
+use super::said::Said;
 use super::vocabulary::{Meaning, Verb, longest};
 use crate::words::Language;
 

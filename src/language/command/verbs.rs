@@ -1,10 +1,7 @@
 //! The verbs of a text: where its clauses begin, and what each asks to do with what it names.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use super::is_too_long;
-use super::spoken;
 use super::vocabulary::{Meaning, Verb, longest, verbs};
 use crate::units::name_key;
 use crate::words::word_ranges;
@@ -50,79 +47,17 @@ impl Sort {
     }
 }
 
-/// Verbs whose second half may stand behind what they are done to: "turn the lamp on".
-const SPLIT: &[(&str, &[&str])] = &[
-    ("turn", &["on", "off", "out"]),
-    ("switch", &["on", "off"]),
-    ("power", &["on", "off", "up", "down"]),
-    ("pick", &["up"]),
-    ("lift", &["up"]),
-    ("put", &["down", "back", "away"]),
-    ("place", &["back"]),
-    ("take", &["back", "out"]),
-    ("bring", &["back"]),
-    ("set", &["down"]),
-    ("lay", &["down"]),
-    ("throw", &["away", "out"]),
-    ("toss", &["away", "out"]),
-    ("clear", &["up", "away"]),
-    ("clean", &["up"]),
-    ("tidy", &["up"]),
-    ("lock", &["up"]),
-    ("shut", &["off", "down"]),
-    ("положи", &["обратно", "назад", "на место"]),
-    ("положите", &["обратно", "назад", "на место"]),
-    ("поставь", &["обратно", "назад", "на место"]),
-    ("поставьте", &["обратно", "назад", "на место"]),
-    ("верни", &["обратно", "назад", "на место"]),
-    ("верните", &["обратно", "назад", "на место"]),
-    ("отнеси", &["обратно", "назад", "на место"]),
-    ("отвези", &["обратно", "назад", "на место"]),
-    ("отвезите", &["обратно", "назад", "на место"]),
-    ("отнесите", &["обратно", "назад", "на место"]),
-    ("убери", &["обратно", "назад", "на место"]),
-    ("уберите", &["обратно", "назад", "на место"]),
-    ("повесь", &["обратно", "назад", "на место"]),
-    ("повесьте", &["обратно", "назад", "на место"]),
-];
-
-fn keys_of(text: &str, words: &[Range<usize>]) -> Vec<String> {
+pub(super) fn keys_of(text: &str, words: &[Range<usize>]) -> Vec<String> {
     words.iter().map(|range| name_key(&text[range.clone()])).collect()
 }
 
 /// The meaning of the longest phrase at a word.
-fn meaning_at(keys: &[String], at: usize) -> Option<(usize, Meaning)> {
+pub(super) fn meaning_at(keys: &[String], at: usize) -> Option<(usize, Meaning)> {
     longest(&keys[at..].iter().map(String::as_str))
 }
 
-fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -> bool {
-    let Some(word) = words.get(at) else { return true };
-    let gap = &text[words[at - 1].end..word.start];
-    gap.contains([',', ';', '.', '!', '?'])
-        || meaning_at(keys, at).is_some_and(|m| m.1 == Meaning::And)
-}
-
-/// The text as the grammars read it: relative clauses as mere places («книгу, которая лежит на столе» is «книгу на
-/// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
-#[must_use]
-pub(crate) fn gathered(text: &str) -> Cow<'_, str> {
-    gathered_of(text).0
-}
-
-/// The text as [`gathered`] has it, and the words that it left out because they are not meant: «не красную».
-#[must_use]
-pub(crate) fn gathered_of(text: &str) -> (Cow<'_, str>, Vec<String>) {
-    if is_too_long(text) {
-        return (Cow::Borrowed(text), Vec::new());
-    }
-    let (text, not_meant) = spoken::plain(&joined(text));
-    let text = without_relatives(&text).into_owned();
-    let text = repeated(&text).into_owned();
-    (Cow::Owned(joined(&text).into_owned()), not_meant)
-}
-
 /// Words of a relative clause that say no more than the preposition after them.
-const RELATIVE: [&str; 73] = [
+pub(super) const RELATIVE: [&str; 73] = [
     "та что",
     "что ведет",
     "что ведут",
@@ -206,134 +141,6 @@ pub(super) fn is_relative(keys: &[String], at: usize) -> bool {
     keys.get(at).is_some_and(|key| {
         POINTING.contains(&key.as_str()) || NEAREST.iter().any(|stem| key.starts_with(stem))
     }) || (1..=3).filter_map(said).any(|words| RELATIVE.contains(&words.as_str()))
-}
-
-fn without_relatives(text: &str) -> Cow<'_, str> {
-    let words = word_ranges(text);
-    let keys = keys_of(text, &words);
-    let mut gone: Vec<Range<usize>> = Vec::new();
-    let mut at = 1;
-    while at < keys.len() {
-        let relative = (1..=3).rev().find(|&length| {
-            let said = keys.get(at..at + length);
-            let before_place = matches!(
-                keys.get(at + length).and_then(|_| meaning_at(&keys, at + length)),
-                Some((_, Meaning::Link(_)))
-            );
-            let pointing = keys.get(at..at + length).is_some_and(|said| said == ["the", "one"]);
-            let nearest = keys.get(at + length).is_some_and(|key| {
-                matches!(key.as_str(), "nearest" | "closest" | "farthest" | "furthest")
-            });
-            // "Bring the one from the dresser" has no other object.
-            let parted = text[words[at - 1].end..words[at].start].contains(',');
-            let before_place = before_place && (!pointing || parted) || pointing && nearest;
-            before_place && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
-        });
-        if let Some(length) = relative {
-            gone.push(words[at - 1].end..words[at + length - 1].end);
-        }
-        at += relative.unwrap_or(1);
-    }
-    if gone.is_empty() {
-        return Cow::Borrowed(text);
-    }
-    let mut left = text.to_owned();
-    for range in gone.into_iter().rev() {
-        left.replace_range(range, "");
-    }
-    Cow::Owned(left)
-}
-
-/// «Подъедь к столу, потом к окну»: the verb once more before each place that only follows, in time or in a list.
-fn repeated(text: &str) -> Cow<'_, str> {
-    let words = word_ranges(text);
-    let keys = keys_of(text, &words);
-    let mut put: Vec<(usize, String)> = Vec::new();
-    let mut verb: Option<Range<usize>> = None;
-    let mut at = 0;
-    while at < keys.len() {
-        let (taken, meaning) = match meaning_at(&keys, at) {
-            Some((taken, meaning)) => (taken, Some(meaning)),
-            None => (1, None),
-        };
-        match meaning {
-            Some(Meaning::Verb(found)) if Sort::of(found) == Sort::Go => {
-                verb = Some(words[at].start..words[at + taken - 1].end);
-            }
-            Some(Meaning::Verb(_)) => verb = None,
-            Some(Meaning::And) => {
-                let mut next = at + taken;
-                let next_meaning = loop {
-                    match (next < keys.len()).then(|| meaning_at(&keys, next)).flatten() {
-                        Some((small, Meaning::Filler | Meaning::And)) => next += small,
-                        found => break found,
-                    }
-                };
-                if let (Some(verb), Some((_, link))) = (&verb, next_meaning)
-                    && spoken::says_whither(link)
-                {
-                    put.push((words[next].start, format!("{} ", &text[verb.clone()])));
-                }
-                at = next;
-                continue;
-            }
-            _ => {}
-        }
-        at += taken;
-    }
-    if put.is_empty() {
-        return Cow::Borrowed(text);
-    }
-    let mut repeated = text.to_owned();
-    for (at, verb) in put.into_iter().rev() {
-        repeated.insert_str(at, &verb);
-    }
-    Cow::Owned(repeated)
-}
-
-/// The halves of verbs together: "turn the lamp on" is "turn on the lamp".
-fn joined(text: &str) -> Cow<'_, str> {
-    let words = word_ranges(text);
-    let keys = keys_of(text, &words);
-    let mut moved: Vec<(usize, Range<usize>)> = Vec::new();
-    for (at, key) in keys.iter().enumerate() {
-        let Some((_, halves)) = SPLIT.iter().find(|(verb, _)| verb == key) else { continue };
-        // "Turn off every lamp that is on"
-        if keys.get(at + 1).is_some_and(|next| halves.contains(&next.as_str())) {
-            continue;
-        }
-        let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
-        let mut last = end.unwrap_or(words.len());
-        // "… on, please", "… off now"
-        while last > at + 2 && matches!(keys[last - 1].as_str(), "please" | "now" | "again") {
-            last -= 1;
-        }
-        let half_before = |end: usize| {
-            let half = halves.iter().map(|half| end - half.split(' ').count().min(end));
-            half.filter(|&from| from > at + 1)
-                .find(|&from| halves.contains(&keys[from..end].join(" ").as_str()))
-                .map(|from| (at, from..end))
-        };
-        // "Turn the lamp on in the kitchen": a place may follow.
-        let before_place =
-            |end: &usize| matches!(meaning_at(&keys, *end), Some((_, Meaning::Link(_))));
-        // … but "put it back on the shelf" says whither.
-        let stays = |(_, half): &(usize, Range<usize>)| {
-            !matches!(keys[half.start].as_str(), "back" | "away" | "обратно" | "назад" | "на")
-        };
-        let inside = || (at + 3..last).filter(before_place).filter_map(half_before).find(stays);
-        moved.extend(half_before(last).or_else(inside));
-    }
-    if moved.is_empty() {
-        return Cow::Borrowed(text);
-    }
-    let mut gathered = text.to_owned();
-    for (verb, half) in moved.into_iter().rev() {
-        let said = text[words[half.start].start..words[half.end - 1].end].to_owned();
-        gathered.replace_range(words[half.start - 1].end..words[half.end - 1].end, "");
-        gathered.insert_str(words[verb].end, &format!(" {said}"));
-    }
-    Cow::Owned(gathered)
 }
 
 /// A verb of a text.
@@ -502,26 +309,6 @@ pub fn likely_verb(text: &str) -> Option<(Range<usize>, &'static str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn halves_of_a_verb_come_together() {
-        for (text, joined) in [
-            ("Turn the TV on", "Turn on the TV"),
-            ("turn the lamp on the desk off, please", "turn off the lamp on the desk, please"),
-            ("Switch all lights off and come back", "Switch off all lights and come back"),
-            ("put the book on the shelf", "put the book on the shelf"),
-            ("Turn off every lamp that's on", "Turn off every switched on lamp"),
-            ("Put it down.", "Put down it."),
-            ("Switch everything off in the hall", "Switch off all the things in the hall"),
-            ("Верни её на место", "Верни на место её"),
-            ("turn on the lamp", "turn on the lamp"),
-            ("Принеси книгу, которая лежит на столе", "Принеси книгу на столе"),
-            ("Подъедь к столу, потом к окну", "Подъедь к столу, потом Подъедь к окну"),
-            ("the door that leads to the hall", "the door to the hall"),
-        ] {
-            assert_eq!(gathered(text), joined);
-        }
-    }
 
     #[test]
     fn a_mistyped_verb_is_guessed_where_it_is_plain() {

@@ -34,6 +34,17 @@ pub(super) enum Meaning {
     Them,
 }
 
+impl Meaning {
+    /// Whether a word says whither, or may: a preposition, «домой».
+    pub(super) fn says_whither(self) -> bool {
+        match self {
+            Self::Link(link) => matches!(link.role, Role::Whither | Role::WhereOrWhither),
+            Self::Haunt(_) => true,
+            _ => false,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Verb {
     GoTo,

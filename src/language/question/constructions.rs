@@ -1,7 +1,7 @@
 //! More constructions put plainly, by their words in order: what a room contains, doors to the outside, what shares a
 //! place with a thing, made beds. The first rules of [`super::rephrase`].
 
-use super::rephrase::{Rule, Words};
+use super::rule::{Rule, Words};
 use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
 pub(super) const RULES: [Rule; 15] = [

@@ -2,19 +2,8 @@
 //!
 //! Invariant: only a sentence of nothing else is one.
 
-use super::Query;
+use super::query::{Courtesy, Query};
 use crate::words::word_keys;
-
-/// What politeness answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Courtesy {
-    Greeting,
-    Thanks,
-    Farewell,
-    HowAreYou,
-    /// «хорошо», "okay"
-    Assent,
-}
 
 const PHRASES: &[(Courtesy, &str)] = &[
     (

@@ -2,9 +2,9 @@
 //!
 //! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
 
-use super::Unanswered;
+use super::doubt::{Doubt, Unanswered};
 use super::knowledge::Knowledge;
-use super::outlive::{self, Departed};
+use super::outlive;
 use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
@@ -13,88 +13,7 @@ use crate::units::AreaId;
 use crate::words::russian::{self, Preposition};
 use crate::words::{Case, Language, alternatives, enumerate, everyday};
 
-/// Why a question has no answer.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Doubt {
-    /// Nothing but blanks, marks or pictures.
-    Empty,
-    TooLong {
-        length: usize,
-    },
-    /// Words that no question has.
-    NotUnderstood {
-        words: String,
-    },
-    /// Understood what about, but not what is asked.
-    Incomplete {
-        about: String,
-    },
-    /// A description that several things fit where one is meant.
-    Ambiguous {
-        reference: String,
-        candidates: Vec<Thing>,
-    },
-    /// Nothing on the map is called so.
-    Unknown {
-        reference: String,
-        near: Vec<String>,
-    },
-    /// Nothing on the map fits the description, though the map has its words.
-    NoneSuch {
-        noun: Box<Noun>,
-    },
-    /// Fewer things fit than are wanted.
-    TooFew {
-        found: Vec<Thing>,
-    },
-    /// More things than are looked at one by one.
-    TooMany {
-        many: usize,
-        most: usize,
-    },
-    /// A pronoun that means nothing yet.
-    NoReferent {
-        word: String,
-    },
-    /// What a pronoun would mean left the map since it was spoken of.
-    Departed {
-        things: Vec<Departed>,
-    },
-    /// «наверху», "downstairs", where there is no such storey.
-    NoStorey {
-        above: bool,
-    },
-    /// Windows are neither opened nor shut.
-    Windows,
-}
-
-impl Doubt {
-    pub(super) fn not_understood(words: &str) -> Self {
-        let words: String = words.chars().take(80).collect();
-        Self::NotUnderstood { words }
-    }
-
-    /// A stable word for the outcome: the three of SPEC T2, and what was not said.
-    #[must_use]
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
-                "not_understood"
-            }
-            Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
-            Self::Ambiguous { .. } => "ambiguous",
-            Self::Unknown { .. }
-            | Self::NoneSuch { .. }
-            | Self::TooFew { .. }
-            | Self::TooMany { .. }
-            | Self::Departed { .. }
-            | Self::NoStorey { .. } => "unknown",
-        }
-    }
-}
-
-impl super::Unanswered {
+impl Unanswered {
     /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
     /// word that `known` does not say to be one, that is told as well.
     pub(super) fn not_denied(self, known: impl Fn(&str) -> bool) -> Self {

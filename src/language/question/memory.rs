@@ -3,10 +3,12 @@
 //! Invariant: it belongs to one state of the map (`outlive`).
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
-use super::outlive::{Departed, Stamp};
+use super::departed::{Departed, Stamp};
+use super::doubt::Doubt;
 use super::query::{Noun, Query, Thing};
-use super::{Answer, Doubt, Fact, resolution};
+use super::{Answer, Fact};
 use crate::map::Entity;
 use crate::units::Bilingual;
 use crate::words::Language;
@@ -42,9 +44,9 @@ pub struct Memory {
     /// A question that waits for the person to say which thing was meant.
     pub(super) pending: Option<Pending>,
     /// A command that waits for the same.
-    pub(super) waiting: Option<resolution::Waiting>,
+    pub(super) waiting: Option<Waiting>,
     /// The command that was understood last, for «А теперь другую».
-    pub(super) ordered: Option<resolution::Ordered>,
+    pub(super) ordered: Option<Ordered>,
     /// Where the person has said to be.
     pub(super) person: Option<Entity>,
     /// Where the robot was before it was last sent away.
@@ -69,11 +71,57 @@ pub(super) struct Pending {
     pub(super) candidates: Vec<Thing>,
 }
 
+/// A command that waits for the person to say which thing was meant.
+#[derive(Debug, Clone)]
+pub(super) struct Waiting {
+    pub(super) text: String,
+    /// Bytes of the description.
+    pub(super) at: Range<usize>,
+    pub(super) candidates: Vec<Thing>,
+    pub(super) language: Language,
+}
+
+/// A command that was understood, for what amends it.
+#[derive(Debug, Clone)]
+pub(super) struct Ordered {
+    pub(super) text: String,
+    /// Bytes of what it was done to, and the things.
+    pub(super) object: Option<(Range<usize>, Vec<Thing>)>,
+    /// Bytes of what told where things were.
+    pub(super) told: Vec<Range<usize>>,
+    /// Bytes of whither, with the preposition.
+    pub(super) goal: Option<Range<usize>>,
+    pub(super) language: Language,
+}
+
 impl Memory {
     /// Nothing was said yet, and who has no words is answered in this language.
     #[must_use]
     pub fn speaking(language: Language) -> Self {
         Self { language, ..Self::default() }
+    }
+
+    /// Notes a command that can go on once a name in it is known to mean one of some things.
+    pub fn wait(
+        &mut self,
+        text: &str,
+        at: Range<usize>,
+        candidates: Vec<Thing>,
+        language: Language,
+    ) {
+        self.waiting = Some(Waiting { text: text.to_owned(), at, candidates, language });
+    }
+
+    /// Whether a command or a question waits for the person to say which thing was meant.
+    #[must_use]
+    pub fn awaits_reply(&self) -> bool {
+        self.waiting.is_some() || self.pending.is_some()
+    }
+
+    /// Drops what waits for a reply.
+    pub fn forget_reply(&mut self) {
+        self.waiting = None;
+        self.pending = None;
     }
 
     /// The single thing spoken of last, for «её» in a command.

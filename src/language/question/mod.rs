@@ -20,8 +20,10 @@ mod compared;
 mod constructions;
 mod courtesy;
 mod datalog;
+mod departed;
 mod discourse;
 mod done;
+mod doubt;
 mod doubts;
 mod everyday;
 mod focus;
@@ -49,6 +51,7 @@ mod rephrase;
 mod resolution;
 mod respelt;
 mod rest;
+mod rule;
 mod salvage;
 mod senses;
 mod sentences;
@@ -69,15 +72,14 @@ mod why;
 pub use address::unaddressed;
 pub use asides::{Aside, aside, asks_whether, begs};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
-pub use courtesy::Courtesy;
-pub use doubts::Doubt;
+pub use departed::{Departed, Stamp};
+pub use doubt::{Doubt, Unanswered};
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, conditional};
-pub use outlive::{Departed, Stamp};
 pub use query::{
-    Best, Claim, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
+    Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };
 pub use resolution::{Resolved, Strict};
 pub use senses::{Crossing, News, Past, RoomPath, Senses, Sighting, Way};
@@ -233,16 +235,6 @@ type Outcome = Result<Answer, Box<(Doubt, Option<Query>)>>;
 /// Why the things of a command are not known.
 #[derive(Debug, Clone)]
 pub struct Misread(pub Box<Unanswered>);
-
-/// A doubt with its words.
-#[derive(Debug, Clone)]
-pub struct Unanswered {
-    pub doubt: Doubt,
-    pub language: Language,
-    pub text: String,
-    /// Names of the candidates, or of what is like the name that is not on the map.
-    pub names: Vec<String>,
-}
 
 /// Whether a line goes on from the question before and names one thing that the map lacks: «А полотенце?»
 fn is_only_named(text: &str, doubt: &Doubt) -> bool {

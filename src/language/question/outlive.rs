@@ -3,25 +3,11 @@
 //! Invariant: nothing that left the map is spoken of again but to say that it left, and what is counted by its place in
 //! a list of the map (kinds, values) outlives no change of that list.
 
+use super::departed::{Departed, Stamp};
 use super::speech;
 use super::{Answer, Doubt, Memory, Thing, Unanswered};
 use crate::report::Named;
-use crate::words::{Case, Language, WordHints, english, enumerate};
-
-/// To which state of which map something belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stamp {
-    pub map: u64,
-    pub change: u64,
-}
-
-/// What left the map, as it was called; without a name where it had none.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Departed {
-    pub name: String,
-    pub english: String,
-    pub hints: WordHints,
-}
+use crate::words::{Case, Language, english, enumerate};
 
 impl Memory {
     /// The state of the map to which it belongs; none where nothing was said yet.

@@ -3,7 +3,6 @@
 use crate::report::Detail;
 
 pub(super) use super::compared::{Closeness, Dimension, Extreme, Quantity, Sized};
-use super::courtesy::Courtesy;
 pub(super) use super::noun::Side;
 pub use super::noun::{Best, Filter, Head, Noun, Reach, Rel, Restriction, Thing};
 use super::values::Property;
@@ -16,6 +15,17 @@ pub enum Claim {
     Value(Filter),
     Size(Sized),
     Kind(Noun),
+}
+
+/// What politeness answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Courtesy {
+    Greeting,
+    Thanks,
+    Farewell,
+    HowAreYou,
+    /// «хорошо», "okay"
+    Assent,
 }
 
 /// What a question asks.

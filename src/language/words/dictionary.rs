@@ -9,7 +9,7 @@ use super::noun::{Known, Noun};
 
 /// What part of speech a nominative may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Readings {
+pub(crate) struct PartsOfSpeech {
     /// The dictionary has the word in some form.
     pub(crate) known: bool,
     /// It is the nominative of a noun, singular or plural.
@@ -32,7 +32,7 @@ pub(crate) fn counted(word: &str, number: Number) -> Option<Noun> {
     source::counted(word, number)
 }
 
-pub(crate) fn readings(word: &str) -> Readings {
+pub(crate) fn readings(word: &str) -> PartsOfSpeech {
     source::readings(word)
 }
 
@@ -64,14 +64,14 @@ pub(crate) fn says_nothing(word: &str) -> bool {
 
 #[cfg(not(feature = "rumorph"))]
 mod source {
-    use super::{Known, Noun, Number, Readings};
+    use super::{Known, Noun, Number, PartsOfSpeech};
 
     pub(super) fn noun(_word: &str, _known: Known) -> Option<Noun> {
         None
     }
 
-    pub(super) fn readings(_word: &str) -> Readings {
-        Readings::default()
+    pub(super) fn readings(_word: &str) -> PartsOfSpeech {
+        PartsOfSpeech::default()
     }
 
     pub(super) fn ordering_verb(_word: &str) -> Option<String> {
@@ -100,7 +100,7 @@ mod source {
     use super::super::grammar::{Animacy, Case, Evidence, Gender, Number};
     use super::super::lexicon;
     use super::super::noun::Paradigm;
-    use super::{Known, Noun, Readings};
+    use super::{Known, Noun, PartsOfSpeech};
 
     fn dictionary() -> Option<&'static Dictionary> {
         static OPEN: OnceLock<Option<Dictionary>> = OnceLock::new();
@@ -117,8 +117,8 @@ mod source {
         Dictionary::from_bytes(&orthoframe_language_dictionary::unpacked()?)
     }
 
-    pub(super) fn readings(word: &str) -> Readings {
-        let mut readings = Readings::default();
+    pub(super) fn readings(word: &str) -> PartsOfSpeech {
+        let mut readings = PartsOfSpeech::default();
         let Some(dictionary) = dictionary() else { return readings };
         for (_, tag) in known_analyses(dictionary, word) {
             readings.known = true;

@@ -11,6 +11,7 @@
 use super::adjective::Adjective;
 use super::letters::{Run, cyrillic_twin, runs};
 use super::lexicon;
+use super::noun;
 use crate::units::capitalized;
 
 /// The name inside a sentence, with "the" where English wants it: "the kitchen" for Kitchen, but "Room-B", "Office 12",
@@ -264,7 +265,7 @@ fn word_of(word: &str) -> Option<String> {
 
 /// «стулья» is "chairs"; after a noun the same letters may be its genitive («кабинет директора»).
 fn plural_of(word: &str) -> Option<String> {
-    let singular = lexicon::singular_of(&word.to_lowercase())?;
+    let singular = noun::singular_of(&word.to_lowercase())?;
     words_of(singular).first().map(|english| cased_like(word, &plural(english)))
 }
 

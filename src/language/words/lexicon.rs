@@ -5,8 +5,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use super::grammar::{Case, Gender, Number, PlaceSense};
-use super::noun::{Known, Noun};
+use super::grammar::{Gender, PlaceSense};
 
 /// One line of the list. What it leaves open follows from the ending.
 #[derive(Debug, Clone, Default)]
@@ -44,22 +43,7 @@ pub(crate) fn find(word: &str) -> Option<&'static Entry> {
     if word.contains('ё') { words.get(&without_yo(word)) } else { words.get(word) }
 }
 
-/// The word of the list whose nominative plural this is: «стул» for «стулья».
-pub(crate) fn singular_of(plural: &str) -> Option<&'static str> {
-    static PLURALS: OnceLock<HashMap<String, &'static str>> = OnceLock::new();
-    let plural_of = |word| {
-        let noun = Noun::by_rules(word, Known::default());
-        without_yo(noun.paradigm.form(Number::Plural, Case::Nominative))
-    };
-    let declines = |(_, entry): &(&str, Entry)| !entry.plural_only && !entry.indeclinable;
-    let plurals = PLURALS.get_or_init(|| {
-        let words = TEXT.lines().filter_map(read_line).filter(declines);
-        words.map(|(word, _)| (plural_of(word), word)).collect()
-    });
-    plurals.get(&without_yo(plural)).copied()
-}
-
-fn without_yo(word: &str) -> String {
+pub(super) fn without_yo(word: &str) -> String {
     word.replace('ё', "е")
 }
 

@@ -1,4 +1,4 @@
-//! Cardinal numbers before a noun: «Два стула», «Пять полок».
+//! Cardinal numbers before a noun: «Два стула», «Пять полок», «21 дверь».
 
 use super::grammar::{Case, Number};
 
@@ -9,6 +9,28 @@ pub(crate) struct Cardinal {
     forms: [&'static str; 5],
     /// The number in which the noun stands in the genitive after it: «два стула», «пять стульев».
     pub(crate) governs: Number,
+}
+
+/// What a numeral asks of the noun after it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Counted {
+    /// 1, 21, 101
+    One,
+    /// 2-4, 22-24
+    Few,
+    /// 0, 5-20, 25-30
+    Many,
+}
+
+impl Counted {
+    pub(crate) fn of(number: u64) -> Self {
+        match (number % 10, number % 100) {
+            (_, 11..=14) => Self::Many,
+            (1, _) => Self::One,
+            (2..=4, _) => Self::Few,
+            _ => Self::Many,
+        }
+    }
 }
 
 const FEW: Number = Number::Singular;

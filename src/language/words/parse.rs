@@ -5,12 +5,14 @@
 //!
 //! Invariant: the pieces in the nominative, put together, are the name.
 
+use unicode_normalization::UnicodeNormalization;
+
 use super::adjective::Adjective;
 use super::dictionary;
 use super::grammar::{Animacy, Evidence, Gender, Number, WordHints};
 use super::letters::{Run, is_acronym, runs, to_cyrillic};
 use super::lexicon;
-use super::noun::{Known, Noun};
+use super::noun::{self, Known, Noun};
 use super::number::Cardinal;
 use super::phrase::{NounPhrase, Piece};
 
@@ -80,7 +82,7 @@ const FIXED_FIRST: [&str; 34] = [
     "кофе",
 ];
 
-pub(super) struct Parser<'a> {
+struct Parser<'a> {
     name: &'a str,
     hints: &'a WordHints,
     runs: Vec<Run<'a>>,
@@ -110,8 +112,17 @@ struct Group {
     to: usize,
 }
 
+impl NounPhrase {
+    /// Reads a name. Never fails: what cannot be declined stays as it is, and [`Self::is_certain`] tells.
+    #[must_use]
+    pub fn parse(name: &str, hints: &WordHints) -> Self {
+        let name: String = name.nfc().collect();
+        Parser::new(&name, hints).parse()
+    }
+}
+
 impl<'a> Parser<'a> {
-    pub(super) fn new(name: &'a str, hints: &'a WordHints) -> Self {
+    fn new(name: &'a str, hints: &'a WordHints) -> Self {
         let (runs, pieces) = (runs(name), Vec::new());
         Self {
             name,
@@ -529,7 +540,7 @@ fn resolve(word: &str, known: Known) -> Noun {
         return Noun::by_rules(word, known);
     }
     let listed = || {
-        lexicon::singular_of(word)
+        noun::singular_of(word)
             .map(|lemma| Noun { number: Number::Plural, ..Noun::by_rules(lemma, known) })
     };
     dictionary::noun(word, known).or_else(listed).unwrap_or_else(|| Noun::by_rules(word, known))

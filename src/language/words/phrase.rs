@@ -16,15 +16,11 @@
 
 use std::collections::BTreeMap;
 
-use unicode_normalization::UnicodeNormalization;
-
 use super::adjective::Adjective;
-use super::grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
+use super::grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense};
 use super::letters::recase;
 use super::noun::Noun;
-use super::number::Cardinal;
-use super::parse::Parser;
-use super::russian::Counted;
+use super::number::{Cardinal, Counted};
 
 /// A name with all its forms.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -70,13 +66,6 @@ pub(super) enum Piece {
 }
 
 impl NounPhrase {
-    /// Reads a name. Never fails: what cannot be declined stays as it is, and [`Self::is_certain`] tells.
-    #[must_use]
-    pub fn parse(name: &str, hints: &WordHints) -> Self {
-        let name: String = name.nfc().collect();
-        Parser::new(&name, hints).parse()
-    }
-
     /// The name as it was given, in NFC.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -175,29 +175,6 @@ pub fn count(number: u64, phrase: &NounPhrase) -> String {
     format!("{number} {}", phrase.counted(number))
 }
 
-/// What a numeral asks of the noun after it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Counted {
-    /// 1, 21, 101
-    One,
-    /// 2-4, 22-24
-    Few,
-    /// 0, 5-20, 25-30
-    Many,
-}
-
-impl Counted {
-    #[must_use]
-    pub fn of(number: u64) -> Self {
-        match (number % 10, number % 100) {
-            (_, 11..=14) => Self::Many,
-            (1, _) => Self::One,
-            (2..=4, _) => Self::Few,
-            _ => Self::Many,
-        }
-    }
-}
-
 /// The first word after a preposition, as the ear meets it.
 struct Word {
     /// In lower case; for an abbreviation that is spelled out, the name of its first letter.

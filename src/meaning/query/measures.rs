@@ -1,6 +1,6 @@
 //! Measures as premises: superlatives, and which of two has more.
 
-use crate::answer::NoAnswer;
+use crate::outcome::NoAnswer;
 use crate::term::{Desc, Dimension, Measure, Mod, Quant, Sorts};
 
 use super::{Asking, Body, amount, number};

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::answer::NoAnswer;
 use crate::language::question::{Property, ValueId};
 use crate::map::DoorStatus;
+use crate::outcome::NoAnswer;
 use crate::term::Sorts;
 
 use super::{Asking, FALSE, either};

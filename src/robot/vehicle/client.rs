@@ -4,7 +4,10 @@
 //! holds up the mission longer than the caller's [`Patience`]. Nothing that the vehicle says is taken over before it was
 //! checked; once it has failed, it is asked nothing more.
 
+use std::fmt;
 use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -13,6 +16,7 @@ use crate::geometry::Ride;
 use crate::map::{DoorState, World};
 use crate::units::{AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
+use super::link::{Address, Link};
 use super::names::{Names, Wrong};
 use super::protocol::{LONGEST_LINE, Message, Order, Place, Saying, VERSION, Wish};
 use super::{
@@ -66,7 +70,7 @@ pub struct RemoteVehicle {
     /// The speed that it is to keep to on the next ways, cm/s.
     pace: Option<f64>,
     /// The process or the connection, which ends with it.
-    _link: Option<super::link::Link>,
+    _link: Option<Link>,
 }
 
 impl RemoteVehicle {
@@ -83,10 +87,10 @@ impl RemoteVehicle {
         Self::linked(reader, writer, None, world, patience)
     }
 
-    pub(super) fn linked(
+    fn linked(
         reader: impl Read + Send + 'static,
         mut writer: impl Write + Send + 'static,
-        link: Option<super::link::Link>,
+        link: Option<Link>,
         world: &World,
         patience: Patience,
     ) -> Result<Self, Failure> {
@@ -293,6 +297,55 @@ impl RemoteVehicle {
                 Err(_unknown) => Err(self.unfit(asked, &Saying::Seen { sighting: Some(sight) })),
             },
             other => Err(self.unfit(asked, &other)),
+        }
+    }
+}
+
+impl Address {
+    /// Speaks with the vehicle that is there, about the things of this world.
+    ///
+    /// # Errors
+    /// Nobody is there, or it does not greet back as it should.
+    pub fn connect(&self, world: &World, patience: Patience) -> Result<RemoteVehicle, Failure> {
+        let none = |why: &dyn fmt::Display| Failure::NoConnection {
+            address: self.to_string(),
+            why: why.to_string(),
+        };
+        match self {
+            Self::Program(words) => {
+                let mut command = Command::new(&words[0]);
+                command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
+                // Ctrl-C is for the mission, which then tells the vehicle to stop.
+                #[cfg(unix)]
+                std::os::unix::process::CommandExt::process_group(&mut command, 0);
+                let mut child = command.spawn().map_err(|error| none(&error))?;
+                let reader = child.stdout.take().expect("asked for above");
+                let writer: Box<dyn Write + Send> =
+                    Box::new(child.stdin.take().expect("asked for above"));
+                let link = Some(Link::Program(child));
+                RemoteVehicle::linked(reader, writer, link, world, patience)
+            }
+            Self::Tcp(address) => {
+                let mut reason = None;
+                for at in address.to_socket_addrs().map_err(|error| none(&error))? {
+                    match TcpStream::connect_timeout(&at, patience.silence) {
+                        Ok(stream) => {
+                            let parts = || Ok((stream.try_clone()?, stream.try_clone()?));
+                            let (reader, writer) =
+                                parts().map_err(|error: std::io::Error| none(&error))?;
+                            // Lines are short, and each is waited for.
+                            let _slower = stream.set_nodelay(true);
+                            let link = Some(Link::Tcp(stream));
+                            return RemoteVehicle::linked(reader, writer, link, world, patience);
+                        }
+                        Err(error) => reason = Some(error),
+                    }
+                }
+                Err(match reason {
+                    Some(error) => none(&error),
+                    None => none(&"no address"),
+                })
+            }
         }
     }
 }

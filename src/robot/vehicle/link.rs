@@ -1,16 +1,12 @@
-//! How one comes to speak with a vehicle: a program that is started, or an address that is called.
+//! Where a vehicle is to be had: from a program that is started, or at an address that is called.
 
 use std::fmt;
-use std::io::Write;
-use std::net::{Shutdown, TcpStream, ToSocketAddrs};
-use std::process::{Child, Command, Stdio};
+use std::net::{Shutdown, TcpStream};
+use std::process::Child;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-use crate::map::World;
 use crate::units::Bilingual;
-
-use super::{Failure, Patience, RemoteVehicle};
 
 /// Where a vehicle is to be had: `cmd:PROGRAM ARGUMENT …` or `tcp:HOST:PORT`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -98,55 +94,6 @@ impl Drop for Link {
             }
             Self::Tcp(stream) => {
                 let _already_gone = stream.shutdown(Shutdown::Both);
-            }
-        }
-    }
-}
-
-impl Address {
-    /// Speaks with the vehicle that is there, about the things of this world.
-    ///
-    /// # Errors
-    /// Nobody is there, or it does not greet back as it should.
-    pub fn connect(&self, world: &World, patience: Patience) -> Result<RemoteVehicle, Failure> {
-        let none = |why: &dyn fmt::Display| Failure::NoConnection {
-            address: self.to_string(),
-            why: why.to_string(),
-        };
-        match self {
-            Self::Program(words) => {
-                let mut command = Command::new(&words[0]);
-                command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
-                // Ctrl-C is for the mission, which then tells the vehicle to stop.
-                #[cfg(unix)]
-                std::os::unix::process::CommandExt::process_group(&mut command, 0);
-                let mut child = command.spawn().map_err(|error| none(&error))?;
-                let reader = child.stdout.take().expect("asked for above");
-                let writer: Box<dyn Write + Send> =
-                    Box::new(child.stdin.take().expect("asked for above"));
-                let link = Some(Link::Program(child));
-                RemoteVehicle::linked(reader, writer, link, world, patience)
-            }
-            Self::Tcp(address) => {
-                let mut reason = None;
-                for at in address.to_socket_addrs().map_err(|error| none(&error))? {
-                    match TcpStream::connect_timeout(&at, patience.silence) {
-                        Ok(stream) => {
-                            let parts = || Ok((stream.try_clone()?, stream.try_clone()?));
-                            let (reader, writer) =
-                                parts().map_err(|error: std::io::Error| none(&error))?;
-                            // Lines are short, and each is waited for.
-                            let _slower = stream.set_nodelay(true);
-                            let link = Some(Link::Tcp(stream));
-                            return RemoteVehicle::linked(reader, writer, link, world, patience);
-                        }
-                        Err(error) => reason = Some(error),
-                    }
-                }
-                Err(match reason {
-                    Some(error) => none(&error),
-                    None => none(&"no address"),
-                })
             }
         }
     }

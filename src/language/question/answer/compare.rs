@@ -9,8 +9,8 @@ use crate::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
 use crate::question::values::Property;
 use crate::question::{Doubt, Said};
 use crate::units::InOrder as _;
-use crate::words::russian::{self, Counted};
-use crate::words::{Case, area, length};
+use crate::words::russian;
+use crate::words::{Case, Counted, area, length};
 
 /// What is compared of several things, one measure each.
 struct Compared {

@@ -18,11 +18,11 @@ use std::ops::Range;
 
 use object::More;
 use place::{Spot, case_of};
-pub(super) use reply::{Ordered, Waiting};
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
+use super::memory::{Ordered, Waiting};
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};

@@ -8,33 +8,11 @@ use crate::map::Entity;
 use crate::question::assemble;
 use crate::question::grammar::{Item, Sentence};
 use crate::question::knowledge::Knowledge;
+use crate::question::memory::{Ordered, Waiting};
 use crate::question::query::{Best, Extreme, Head, Noun, Thing};
 use crate::question::{Aside, Asker, Memory, aside};
 use crate::units::name_key;
-use crate::words::{Case, Language, word_keys, word_ranges};
-
-/// A command that waits for the person to say which thing was meant.
-#[derive(Debug, Clone)]
-pub(in crate::question) struct Waiting {
-    pub(super) text: String,
-    /// Bytes of the description.
-    pub(super) at: Range<usize>,
-    pub(super) candidates: Vec<Thing>,
-    pub(super) language: Language,
-}
-
-/// A command that was understood, for what amends it.
-#[derive(Debug, Clone)]
-pub(in crate::question) struct Ordered {
-    pub(super) text: String,
-    /// Bytes of what it was done to, and the things.
-    pub(super) object: Option<(Range<usize>, Vec<Thing>)>,
-    /// Bytes of what told where things were.
-    pub(super) told: Vec<Range<usize>>,
-    /// Bytes of whither, with the preposition.
-    pub(super) goal: Option<Range<usize>>,
-    pub(super) language: Language,
-}
+use crate::words::{Case, word_keys, word_ranges};
 
 impl Ordered {
     /// The command without what told, behind a byte, where its things were; what is before stays where it is.
@@ -44,31 +22,6 @@ impl Ordered {
             text.replace_range(told.clone(), "");
         }
         text
-    }
-}
-
-impl Memory {
-    /// Notes a command that can go on once a name in it is known to mean one of some things.
-    pub fn wait(
-        &mut self,
-        text: &str,
-        at: Range<usize>,
-        candidates: Vec<Thing>,
-        language: Language,
-    ) {
-        self.waiting = Some(Waiting { text: text.to_owned(), at, candidates, language });
-    }
-
-    /// Whether a command or a question waits for the person to say which thing was meant.
-    #[must_use]
-    pub fn awaits_reply(&self) -> bool {
-        self.waiting.is_some() || self.pending.is_some()
-    }
-
-    /// Drops what waits for a reply.
-    pub fn forget_reply(&mut self) {
-        self.waiting = None;
-        self.pending = None;
     }
 }
 

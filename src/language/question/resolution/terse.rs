@@ -1,10 +1,11 @@
 //! Orders without a verb, «К холодильнику!», "The medicine, please", and orders that only amend the one before:
 //! «Нет, в спальню», "not that one, the red one", «а теперь на кухню».
 
-use super::{Ordered, Resolver};
+use super::Resolver;
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
+use crate::question::memory::Ordered;
 use crate::question::vocabulary;
 use crate::question::{Asker, Memory, Thing};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};

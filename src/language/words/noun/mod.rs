@@ -8,6 +8,9 @@
 mod endings;
 mod parts;
 
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
 use super::grammar::{Animacy, Case, Evidence, Gender, Number};
 use super::lexicon;
 use parts::Parts;
@@ -73,6 +76,21 @@ impl Noun {
         }
         parts.into_noun()
     }
+}
+
+/// The word of the list whose nominative plural this is: «стул» for «стулья».
+pub(crate) fn singular_of(plural: &str) -> Option<&'static str> {
+    static PLURALS: OnceLock<HashMap<String, &'static str>> = OnceLock::new();
+    let plural_of = |word| {
+        let noun = Noun::by_rules(word, Known::default());
+        lexicon::without_yo(noun.paradigm.form(Number::Plural, Case::Nominative))
+    };
+    let declines = |(_, entry): &(&str, lexicon::Entry)| !entry.plural_only && !entry.indeclinable;
+    let plurals = PLURALS.get_or_init(|| {
+        let words = lexicon::all().filter(declines);
+        words.map(|(word, _)| (plural_of(word), word)).collect()
+    });
+    plurals.get(&lexicon::without_yo(plural)).copied()
 }
 
 #[cfg(test)]

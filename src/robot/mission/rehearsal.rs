@@ -9,11 +9,12 @@
 use crate::map::{DoorStatus, Entity};
 use crate::units::{AreaId, ReplicaId, Stop};
 
-use super::directive::{Directive, Primitive};
-use super::mission::{Event, Mission, Surprise};
-use super::reins::Reins;
-use super::simulator::Simulator;
-use super::vehicle::{Refusal, Unfinished};
+use super::Mission;
+use crate::directive::{Directive, Primitive};
+use crate::event::{Event, Surprise};
+use crate::reins::Reins;
+use crate::simulator::Simulator;
+use crate::vehicle::{Refusal, Unfinished};
 
 /// What is to be held against a plan that the rules allow.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,0 +1,43 @@
+//! The store and the rules that a command works on.
+
+use std::path::PathBuf;
+
+use crate::engine::{Engine, Rules};
+
+use super::args::Common;
+use super::fault::Failure;
+use super::notes::note_repairs;
+
+pub(super) const DEFAULT_STORE: &str = "ortho-store";
+
+/// The store in force: the one named, or `./ortho-store`.
+pub(super) fn store_dir(common: &Common) -> PathBuf {
+    common.store.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_STORE))
+}
+
+pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
+    common.rules.clone().or_else(Rules::default_dir)
+}
+
+/// Opens a store that is there already.
+pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
+    let (dir, rules) = (store_dir(common), rules_dir(common));
+    let engine = if common.read_only {
+        Engine::open_read_only(&dir, rules.as_deref())?
+    } else {
+        Engine::open_existing(&dir, rules.as_deref())?
+    };
+    note_repairs(&engine, common.lang);
+    Ok(match common.as_of {
+        Some(when) => engine.as_of(when)?,
+        None => engine,
+    })
+}
+
+/// Opens a store that is to be changed: as it is now.
+pub(super) fn open_to_write(common: &Common) -> Result<Engine, Failure> {
+    if common.as_of.is_some() {
+        return Err(crate::engine::RequestError::PastIsPast.into());
+    }
+    open(common)
+}

@@ -1,0 +1,96 @@
+//! Why a question has no answer.
+
+use super::departed::Departed;
+use super::query::{Noun, Thing};
+use crate::words::Language;
+
+/// Why a question has no answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Nothing but blanks, marks or pictures.
+    Empty,
+    TooLong {
+        length: usize,
+    },
+    /// Words that no question has.
+    NotUnderstood {
+        words: String,
+    },
+    /// Understood what about, but not what is asked.
+    Incomplete {
+        about: String,
+    },
+    /// A description that several things fit where one is meant.
+    Ambiguous {
+        reference: String,
+        candidates: Vec<Thing>,
+    },
+    /// Nothing on the map is called so.
+    Unknown {
+        reference: String,
+        near: Vec<String>,
+    },
+    /// Nothing on the map fits the description, though the map has its words.
+    NoneSuch {
+        noun: Box<Noun>,
+    },
+    /// Fewer things fit than are wanted.
+    TooFew {
+        found: Vec<Thing>,
+    },
+    /// More things than are looked at one by one.
+    TooMany {
+        many: usize,
+        most: usize,
+    },
+    /// A pronoun that means nothing yet.
+    NoReferent {
+        word: String,
+    },
+    /// What a pronoun would mean left the map since it was spoken of.
+    Departed {
+        things: Vec<Departed>,
+    },
+    /// «наверху», "downstairs", where there is no such storey.
+    NoStorey {
+        above: bool,
+    },
+    /// Windows are neither opened nor shut.
+    Windows,
+}
+
+impl Doubt {
+    pub(super) fn not_understood(words: &str) -> Self {
+        let words: String = words.chars().take(80).collect();
+        Self::NotUnderstood { words }
+    }
+
+    /// A stable word for the outcome: the three of SPEC T2, and what was not said.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
+                "not_understood"
+            }
+            Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
+            Self::Ambiguous { .. } => "ambiguous",
+            Self::Unknown { .. }
+            | Self::NoneSuch { .. }
+            | Self::TooFew { .. }
+            | Self::TooMany { .. }
+            | Self::Departed { .. }
+            | Self::NoStorey { .. } => "unknown",
+        }
+    }
+}
+
+/// A doubt with its words.
+#[derive(Debug, Clone)]
+pub struct Unanswered {
+    pub doubt: Doubt,
+    pub language: Language,
+    pub text: String,
+    /// Names of the candidates, or of what is like the name that is not on the map.
+    pub names: Vec<String>,
+}
