@@ -17,6 +17,7 @@
 //! count characters.
 
 mod bilingual;
+mod carried;
 mod english;
 mod file;
 mod frame;
@@ -30,6 +31,9 @@ mod stop;
 mod time;
 
 pub use bilingual::Bilingual;
+#[cfg(feature = "packed")]
+pub use carried::unpacked;
+pub use carried::{Carried, carried};
 pub use english::{English, EnglishGroup, InEnglish};
 pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file_with};
 pub use frame::{Frame, Point, Pose, Vector};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::engine::RULE_FILES;
+use orthoframe::engine::rule_files;
 use orthoframe_strips::Scenario;
 use orthoframe_units::Source;
 use serde_json::Value;
@@ -139,10 +139,10 @@ fn rule_files_are_written_out_and_read_back() {
     }
     // Held against the truth of a foreign data set, and no rules of a robot.
     files.retain(|file| !file.starts_with("truth"));
-    assert_eq!(files, RULE_FILES.iter().map(|(name, _)| name.into()).collect());
+    assert_eq!(files, rule_files().map(|(name, _)| name.into()).collect());
     place.run(&["rules", "--export", "own"]).is(0);
-    for (name, text) in RULE_FILES {
-        assert_eq!(std::fs::read_to_string(place.path("own").join(name)).unwrap(), *text);
+    for (name, text) in rule_files() {
+        assert_eq!(std::fs::read_to_string(place.path("own").join(name)).unwrap(), text);
     }
     place.write("own/relations.dl", "mine");
     let told = place.run(&["rules", "--export", "own"]).is(2).err;

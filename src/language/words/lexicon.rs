@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use super::grammar::{Case, Gender, Number, PlaceSense};
 use super::noun::{Known, Noun};
+use crate::units::{Carried, carried};
 
 /// One line of the list. What it leaves open follows from the ending.
 #[derive(Debug, Clone, Default)]
@@ -33,7 +34,7 @@ impl Entry {
     }
 }
 
-static TEXT: &str = include_str!("lexicon.txt");
+static TEXT: Carried = carried!("lexicon.txt");
 
 /// The entry of a word in lower case; ё may be written е.
 pub(crate) fn find(word: &str) -> Option<&'static Entry> {
