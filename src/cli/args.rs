@@ -4,18 +4,18 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 
 use crate::engine::{ImportFormat, Sighted, When};
 use crate::graphplan::Limits;
 use crate::map::Profile;
 use crate::robot::Wanted;
-use crate::units::{Bilingual, Language, Timestamp};
+use crate::units::{Bilingual, Language, Lengths, Timestamp};
 
 use super::differences::DifferencesArgs;
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
-use super::lengths::Lengths;
 use super::locate::LocateArgs;
 use super::map_from::MapFromArgs;
 use super::observe::ObserveCommand;
@@ -86,14 +86,14 @@ pub(super) struct Common {
         value_name = "WHEN"
     )]
     pub color: Color,
-    /// Of lengths in arguments and of points in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
+    /// Of lengths in arguments and in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
     #[arg(
         long,
         global = true,
-        value_enum,
         default_value = "cm",
         hide_default_value = true,
-        value_name = "UNIT"
+        value_name = "UNIT",
+        value_parser = PossibleValuesParser::new(["cm", "m"]).map(|unit| if unit == "m" { Lengths::M } else { Lengths::Cm })
     )]
     pub units: Lengths,
     /// Tell on standard error what is done inside and how long it takes; -vv and -vvv tell more
@@ -329,13 +329,18 @@ impl Command {
         }
     }
 
-    /// It speaks only when it is done, which may take a while.
-    pub(super) fn may_be_silent(&self) -> bool {
+    /// Who asks may be a program or sit elsewhere, and is told lengths in cm, as the page and the tools say.
+    pub(super) fn serves(&self) -> bool {
         #[cfg(feature = "serve")]
         let serves = matches!(self, Self::Serve(_) | Self::Mcp(_));
         #[cfg(not(feature = "serve"))]
         let serves = false;
-        !serves
+        serves
+    }
+
+    /// It speaks only when it is done, which may take a while.
+    pub(super) fn may_be_silent(&self) -> bool {
+        !self.serves()
             && !matches!(
                 self,
                 Self::Simulate(_)

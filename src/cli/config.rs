@@ -8,11 +8,11 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use serde::Deserialize;
 
-use crate::units::{Language, Source};
+use crate::units::{Language, Lengths, Source};
 
 use super::args::{Arguments, Lang};
 use super::config_error::ConfigError;
-use super::lengths::{Lengths, in_centimetres};
+use super::lengths::in_centimetres;
 
 /// What the file says.
 #[derive(Debug, Default, Deserialize)]

@@ -73,6 +73,9 @@ pub fn run() -> ExitCode {
     }
     fault::colour(common.color);
     inside::tell(common.verbose);
+    if !arguments.command.serves() {
+        common.units.say();
+    }
     if !common.json && arguments.command.may_be_silent() {
         waiting::begin(common.lang.language());
     }

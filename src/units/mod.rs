@@ -23,6 +23,7 @@ mod file;
 mod frame;
 mod id;
 mod language;
+mod lengths;
 mod name;
 mod order;
 mod quantity;
@@ -42,6 +43,7 @@ pub use id::{
     ZoneId,
 };
 pub use language::Language;
+pub use lengths::Lengths;
 pub use name::{capitalized, name_key, nearest_name};
 pub use order::{Gather, InOrder};
 pub use quantity::{Cm, Deg, QuantityError};
