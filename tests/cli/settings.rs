@@ -267,6 +267,68 @@ fn colours_are_as_they_are_wanted() {
     assert!(is_coloured(ortho(folder.path()).args(faulty)));
 }
 
+/// Help, faults of arguments, of settings and of what is done, and what is done inside.
+#[test]
+fn whatever_is_told_is_coloured_as_it_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("faulty.toml"), "colour = 1\n").unwrap();
+    let (_, err, code) = run(here, &["import", &project("maps/rb2.toml").display().to_string()]);
+    assert_eq!(code, Some(0), "{err}");
+    for told in [
+        &["--help"][..],
+        &["edit", "place", "--help"],
+        &["help", "route"],
+        &["route", "--form", "x"],
+        &["where", "--detail", "all"],
+        &[],
+        &["find", "nothing"],
+        &["where", "-v"],
+        &["where", "--config", "faulty.toml"],
+    ] {
+        let is_coloured = |more: &[&str], no_color: &str| {
+            let mut command = ortho(here);
+            let output = command.args(more).args(told).env("NO_COLOR", no_color).output().unwrap();
+            [output.stdout, output.stderr].concat().contains(&0x1b)
+        };
+        std::fs::write(here.join("ortho.toml"), "").unwrap();
+        assert!(!is_coloured(&[], ""), "{told:?}: it is no terminal");
+        assert!(!is_coloured(&["--color", "auto"], "1"), "{told:?}");
+        assert!(is_coloured(&["--color", "always"], "1"), "{told:?}");
+        assert!(is_coloured(&["--color=always"], ""), "{told:?}");
+        std::fs::write(here.join("ortho.toml"), "color = \"always\"\n").unwrap();
+        let is_of_these_settings = !told.contains(&"--config");
+        assert_eq!(is_coloured(&[], ""), is_of_these_settings, "{told:?}: settings");
+        assert!(!is_coloured(&["--color", "never"], ""), "{told:?}: an argument goes before");
+    }
+}
+
+/// On a terminal (util-linux's script) there are colours, unless NO_COLOR is set.
+#[test]
+fn a_terminal_is_coloured_unless_no_color_is_set() {
+    let folder = tempfile::tempdir().unwrap();
+    for told in ["--help", "route --form x", "check none.toml"] {
+        let is_coloured = |no_color: &str| {
+            let ortho = ortho(folder.path());
+            let line = format!("'{}' {told}", ortho.get_program().display());
+            let mut terminal = Command::new("script");
+            terminal.args(["-qec", &line, "/dev/null"]).current_dir(folder.path());
+            terminal.env("TERM", "xterm").env("NO_COLOR", no_color).env("HOME", folder.path());
+            let output = terminal.stdin(Stdio::null()).output().ok()?;
+            // What takes the sign of waiting away is no colour.
+            Some(
+                String::from_utf8_lossy(&output.stdout).replace("\u{1b}[2K", "").contains('\u{1b}'),
+            )
+        };
+        let Some(usually) = is_coloured("") else {
+            assert!(std::env::var_os("CI").is_none(), "script is missing");
+            return;
+        };
+        assert!(usually, "{told}");
+        assert_eq!(is_coloured("1"), Some(false), "{told}");
+    }
+}
+
 #[test]
 fn what_is_done_inside_is_told_when_it_is_wanted() {
     let folder = tempfile::tempdir().unwrap();
