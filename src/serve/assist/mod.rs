@@ -89,7 +89,15 @@ impl ServerHandler for Assistant {
                 request: &request,
                 context: &context,
             };
-            call.run(row.name, arguments.clone()).await
+            tokio::select! {
+                told = call.run(row.name, arguments.clone()) => told,
+                // What acts ends by itself, when the robot stands.
+                () = context.ct.cancelled(), if row.reads() => Err(call::refuse(
+                    "assist::cancelled",
+                    "Вызов отозван.",
+                    "The call was cancelled.",
+                )),
+            }
         };
         let outcome = match &told {
             Ok(call::Told::Waits(_)) => "asked",

@@ -17,6 +17,12 @@ pub(super) struct Row {
     takes: fn() -> Value,
 }
 
+impl Row {
+    pub(super) fn reads(&self) -> bool {
+        self.deed == Deed::Reads
+    }
+}
+
 /// What a tool does to the world.
 #[derive(Clone, Copy, PartialEq)]
 enum Deed {
@@ -264,7 +270,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 pub(super) fn all() -> Vec<Tool> {
     let one = |row: &Row| {
         let Value::Object(schema) = (row.takes)() else { unreachable!("a schema is an object") };
-        let reads = row.deed == Deed::Reads;
+        let reads = row.reads();
         let hints = ToolAnnotations::with_title(row.title)
             .read_only(reads)
             .destructive(row.deed == Deed::Acts)
