@@ -29,6 +29,8 @@ mod advice;
 mod apart;
 mod assumed;
 mod barriers;
+#[cfg(feature = "cli")]
+pub(crate) mod calls;
 mod changes;
 mod delivery;
 mod dialogue;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::engine::calls;
 use crate::engine::{Drawing, Method, RequestError, json as views, rehearsal};
 use crate::robot::Moment;
 use crate::units::Language;
@@ -63,6 +64,8 @@ pub(super) struct Way {
 pub(super) struct Between {
     from: Option<u64>,
     to: Option<u64>,
+    #[serde(default)]
+    calls: bool,
 }
 
 #[derive(Deserialize)]
@@ -185,10 +188,14 @@ impl Call<'_> {
 
     pub(super) async fn history(&self, between: Between) -> Answer {
         let house = self.house();
-        let view = match between.from {
+        let mut view = match between.from {
             None => read::revisions(&house).await?,
             Some(from) => read::changed(&house, from, between.to).await?,
         };
+        if let Some(file) = self.assistant.calls.file.clone().filter(|_| between.calls) {
+            let (calls, _) = apart(move || Ok(calls::noted(&file)?)).await?;
+            view["calls"] = json!(calls);
+        }
         Ok(Told::Value(view))
     }
 

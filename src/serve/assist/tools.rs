@@ -143,12 +143,12 @@ const ROWS: &[Row] = &[
     Row {
         name: "history",
         title: "History of the map",
-        about: "Revisions of the map with author, time and reason, the newest last; with `from`, what changed since that revision.",
+        about: "Revisions of the map with author, time and reason, the newest last; with `from`, what changed since that revision; with `calls`, the calls of assistants as well, with the client's name.",
         needs: Role::Look,
         deed: Deed::Reads,
         takes: || {
             of(
-                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 } }),
+                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 }, "calls": { "type": "boolean" } }),
                 &[],
             )
         },
