@@ -159,3 +159,27 @@ fn rule_files_are_written_out_and_read_back() {
         assert_eq!(own, place.run(args).is(0).out, "{args:?}");
     }
 }
+
+/// Doors of a model are hung as it says and stand open: their leaves must leave a way, and the floor runs on within the walls.
+#[test]
+fn every_room_of_a_model_is_driven_to() {
+    for (file, rooms) in [
+        (
+            "docs/start/flat.ifc",
+            &["the living room", "the kitchen", "the bedroom", "the office", "the corridor"][..],
+        ),
+        ("tests/golden/formats/ifc2x3_flat/input.ifc", &["Kitchen 101", "Entrance hall 102"]),
+        ("tests/golden/formats/ifc4_two_storeys/input.ifc", &["Office 1", "Stair hall 002"]),
+        ("tests/golden/formats/ifc4_two_storeys/input.ifc", &["Office 101", "Stair hall 102"]),
+    ] {
+        let place = Place::empty();
+        place.run(&["import", &project(file).display().to_string()]).is(0);
+        for from in rooms {
+            for to in rooms.iter().filter(|to| *to != from) {
+                let from = from.trim_start_matches("the ");
+                let order = format!("Go to {to}");
+                place.run(&["--lang", "en", "do", &order, "--from", from]).is(0);
+            }
+        }
+    }
+}
