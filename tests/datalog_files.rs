@@ -74,7 +74,11 @@ fn a_program_without_end_is_stopped_by_time_or_memory() {
         let all = Limits::default();
         for (limits, code) in [
             (
-                Limits { time: Duration::from_millis(300), memory_bytes: usize::MAX, ..all },
+                Limits {
+                    time: Duration::from_millis(300),
+                    memory_bytes: usize::MAX,
+                    ..all.clone()
+                },
                 "за 0.3 с",
             ),
             (Limits { time: Duration::from_secs(2), memory_bytes: 1 << 22, ..all }, "4 МиБ памяти"),

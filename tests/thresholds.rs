@@ -184,7 +184,7 @@ const CASES: [(&str, &str, &str, &str, &[&str]); 9] = [
 
 #[test]
 fn a_changed_threshold_changes_the_relation_and_the_answer() {
-    let standard = engine(STANDARD, "");
+    let standard = engine(&STANDARD, "");
     for (from, to, relation, question, tuple) in CASES {
         let other = engine(&changed(from, to), "");
         let (before, after) = (standard.relations().unwrap(), other.relations().unwrap());
@@ -239,7 +239,7 @@ fn at(engine: &Engine, x: f64, y: f64) -> Spot {
 
 #[test]
 fn a_report_takes_its_thresholds_from_the_rules() {
-    let standard = engine(STANDARD, "");
+    let standard = engine(&STANDARD, "");
     type Is = fn(&Spot) -> bool;
     let cases: [(&str, &str, (f64, f64), Is); 5] = [
         ("robot door\",       13000", "robot door\",       3000", (550.0, 120.0), |spot| {
@@ -283,7 +283,7 @@ fn a_text_that_lacks_thresholds_and_sections_gets_those_of_the_program() {
     .map(|line| format!("{line}\n"))
     .collect();
     assert!(!older.contains("= AT_WALL") && !older.contains("limit(\"common\",   \"wall gap\""));
-    let (older, standard) = (engine(&older, ""), engine(STANDARD, ""));
+    let (older, standard) = (engine(&older, ""), engine(&STANDARD, ""));
     let names = standard.relations().unwrap().counts();
     for name in names {
         let [one, other] = [&older, &standard].map(|e| told(e.relations().unwrap(), &name.name_en));
@@ -297,7 +297,7 @@ fn a_text_that_lacks_thresholds_and_sections_gets_those_of_the_program() {
 #[test]
 fn a_threshold_that_cannot_be_is_refused_with_its_place() {
     let dir = rules_dir(
-        STANDARD,
+        &STANDARD,
         "limit(\"detected\", \"wall gap\", 900).\nlimit(\"surveyed\", \"close distance\", -100).\n  limit(\"common\", \"wall gap\", 2000).\n",
     );
     let Err(orthoframe::engine::Error::Relations(RelationError::Thresholds { faults })) =
@@ -326,7 +326,7 @@ fn a_rule_of_the_users_own_gets_pairs_in_both_orders() {
     let own = |body: &str| {
         format!(".decl МОЁ(x: Thing) = MINE\n.output МОЁ\nМОЁ(X) :- {body}, D < 12000.\n")
     };
-    let standard = engine(STANDARD, "");
+    let standard = engine(&STANDARD, "");
     for (one, other) in [
         ("distance(X, \"Стол-1\", D)", "distance(\"Стол-1\", X, D)"),
         ("beside(X, \"Стол-1\", D, _, _)", "beside(\"Стол-1\", X, D, _, _)"),
@@ -533,7 +533,7 @@ fn the_robot_stands_before_a_thing_as_the_rules_say() {
         (answer.end.at - nearest).norm()
     };
     let other = changed("\"robot aside\",       3000", "\"robot aside\", 9000");
-    let (near, far) = (away(STANDARD), away(&other));
+    let (near, far) = (away(&STANDARD), away(&other));
     assert!(far > near + 30.0, "{near} {far}");
 }
 
@@ -545,7 +545,7 @@ fn a_text_from_before_what_is_asked_answers_it() {
     let older = format!("{before}// ═══ Часть{after}");
     assert!(!older.contains("BETWEEN"));
     let narrow = older.replace("\"robot door\",       13000", "\"robot door\",        3000");
-    let (older, narrow, standard) = (engine(&older, ""), engine(&narrow, ""), engine(STANDARD, ""));
+    let (older, narrow, standard) = (engine(&older, ""), engine(&narrow, ""), engine(&STANDARD, ""));
     for (x, y) in [(550.0, 120.0), (590.0, 200.0), (300.0, 200.0), (20.0, 20.0)] {
         assert_eq!(at(&older, x, y), at(&standard, x, y));
     }

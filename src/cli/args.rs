@@ -221,13 +221,18 @@ impl Command {
         }
     }
 
-    /// It speaks only when it is done, which may take a while.
-    pub(super) fn may_be_silent(&self) -> bool {
+    /// Who asks may be a program or sit elsewhere, and is told lengths in cm, as the page and the tools say.
+    pub(super) fn serves(&self) -> bool {
         #[cfg(feature = "serve")]
         let serves = matches!(self, Self::Serve(_) | Self::Mcp(_));
         #[cfg(not(feature = "serve"))]
         let serves = false;
-        !serves
+        serves
+    }
+
+    /// It speaks only when it is done, which may take a while.
+    pub(super) fn may_be_silent(&self) -> bool {
+        !self.serves()
             && !matches!(
                 self,
                 Self::Simulate(_)

@@ -2,17 +2,18 @@
 //!
 //! An argument counts before a variable of the environment, that before the file, and the file before what is usual.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, CommandFactory, FromArgMatches};
+use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches};
 use serde::Deserialize;
 
-use crate::units::{Language, Source};
+use crate::units::{Language, Lengths, Source};
 
 use super::args::{Arguments, Lang};
 use super::config_error::ConfigError;
-use super::lengths::{Lengths, in_centimetres};
+use super::lengths::in_centimetres;
 
 /// What the file says.
 #[derive(Debug, Default, Deserialize)]
@@ -80,23 +81,44 @@ const NAME: &str = "ortho.toml";
 /// named, or found, cannot be used.
 pub(super) fn arguments() -> (Arguments, Option<Box<ConfigError>>) {
     let usual = Lang::of_locale();
-    let given = Arguments::parse_whole(&Arguments::command(), usual);
-    let found = given.common.config.clone().map_or_else(found, Some);
-    let Some(path) = found else { return (given, None) };
+    // Help, and faults of arguments, are told before the arguments are read, in the colours that the settings want.
+    let named = said("config").map(PathBuf::from).or_else(|| set("ORTHO_CONFIG"));
+    let Some(path) = named.or_else(found) else {
+        return (Arguments::parse_whole(Arguments::command(), usual), None);
+    };
     match Config::read(&path) {
         Ok(config) => {
             let usual = config.language.map(Lang::from).or(usual);
-            let command = config.laid_under(Arguments::command(), &path);
-            (Arguments::parse_whole(&command, usual), None)
+            (Arguments::parse_whole(config.laid_under(Arguments::command(), &path), usual), None)
         }
-        Err(error) => (given, Some(Box::new(error))),
+        Err(error) => (Arguments::parse_whole(Arguments::command(), usual), Some(Box::new(error))),
     }
+}
+
+/// What an option is given among the arguments, before these are read.
+fn said(option: &str) -> Option<OsString> {
+    let option = format!("--{option}");
+    let mut words = std::env::args_os().skip(1).take_while(|word| word != "--");
+    while let Some(word) = words.next() {
+        if word == *option {
+            return words.next();
+        }
+        let text = word.to_str().and_then(|word| word.strip_prefix(&option)?.strip_prefix('='));
+        if let Some(value) = text {
+            return Some(value.into());
+        }
+    }
+    None
+}
+
+/// A path of the environment.
+fn set(name: &str) -> Option<PathBuf> {
+    std::env::var_os(name).filter(|path| !path.is_empty()).map(PathBuf::from)
 }
 
 /// The file of this folder, else the user's own.
 fn found() -> Option<PathBuf> {
     let own = || {
-        let set = |name| std::env::var_os(name).filter(|dir| !dir.is_empty()).map(PathBuf::from);
         let home = || set("HOME").map(|home| home.join(".config"));
         Some(set("XDG_CONFIG_HOME").or_else(home)?.join("ortho").join(NAME))
     };
@@ -105,9 +127,17 @@ fn found() -> Option<PathBuf> {
 
 impl Arguments {
     /// Where neither they nor what is usual tell the language, it is that of what was said with the command.
-    fn parse_whole(command: &clap::Command, usual: Option<Lang>) -> Self {
+    fn parse_whole(command: clap::Command, usual: Option<Lang>) -> Self {
+        let usually = command.get_arguments().find(|arg| arg.get_id() == "color");
+        let usually = usually.and_then(|arg| arg.get_default_values().first());
+        let colour = said("color").or_else(|| usually.map(OsString::from));
+        let command = command.color(match colour.as_ref().and_then(|word| word.to_str()) {
+            Some("always") => ColorChoice::Always,
+            Some("never") => ColorChoice::Never,
+            _ => ColorChoice::Auto,
+        });
         let read = |unit| {
-            let words = in_centimetres(command, std::env::args_os(), unit);
+            let words = in_centimetres(&command, std::env::args_os(), unit);
             let matches: ArgMatches = command.clone().get_matches_from(words);
             let mut read = Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
             let is_told = matches.value_source("lang") != Some(ValueSource::DefaultValue);

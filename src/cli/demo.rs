@@ -9,7 +9,7 @@ use crate::engine::{
 use crate::recording::{Played, RecordingError};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
-use crate::units::write_file;
+use crate::units::{Carried, carried, write_file};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -20,7 +20,7 @@ use super::text::described;
 use super::{Answer, came_to, say, text};
 
 /// The map of the papers, for a program that was installed without its files.
-const RB2: (&str, &str) = ("maps/rb2.toml", include_str!("../../maps/rb2.toml"));
+static RB2: (&str, Carried) = ("maps/rb2.toml", carried!("../../maps/rb2.toml"));
 
 pub(super) fn run(
     common: &Common,

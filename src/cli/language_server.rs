@@ -219,7 +219,7 @@ impl Server {
             take(beside.into(), 2, &mut found);
         }
         if !is_robot_rules(uri) {
-            found.push(Text { place: String::new(), text: STANDARD.to_owned(), rank: 2 });
+            found.push(Text { place: String::new(), text: STANDARD.to_string(), rank: 2 });
         }
         found
     }
@@ -338,7 +338,7 @@ fn relation_faults(source: &Source, path: &Path) -> Vec<Value> {
     let mut files = found;
     // What the program declares need not be declared again; a text that declares it itself stands alone.
     if files.iter().flat_map(|file| &file.faults).any(names_unknown) {
-        let both = [Source::new("rules/relations.dl", STANDARD), source.clone()];
+        let both = [Source::new("rules/relations.dl", *STANDARD), source.clone()];
         files = match Program::parse_all(&both) {
             Ok(program) => program.warnings().to_vec(),
             Err(faults) => faults.files,

@@ -1,4 +1,4 @@
-//! The unit of lengths in arguments and in what is told: centimetres unless `--units` or `ortho.toml` says otherwise.
+//! The unit of lengths in arguments: centimetres unless `--units` or `ortho.toml` says otherwise.
 //!
 //! Which arguments are lengths, and which numbers within them, tells the name of their value: `CM`, `X,Y[,Z]`,
 //! `AREA@X,Y[,Z[,DEG]]`, `X,Y,HEADING`; a place may be a name or `X,Y`. They are brought to centimetres before they are
@@ -6,52 +6,9 @@
 
 use std::ffi::OsString;
 
-use clap::{Arg, Command, ValueEnum};
+use clap::{Arg, Command};
 
-use crate::units::Language;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Lengths {
-    #[default]
-    Cm,
-    M,
-}
-
-impl Lengths {
-    /// A length in cm, as it is told.
-    pub(super) fn of(self, cm: f64) -> f64 {
-        match self {
-            Self::Cm => cm,
-            Self::M => cm / 100.0,
-        }
-    }
-
-    /// How many more places it has than one in centimetres.
-    fn finer(self) -> usize {
-        match self {
-            Self::Cm => 0,
-            Self::M => 2,
-        }
-    }
-
-    /// A point in cm, to so many places of a centimetre.
-    pub(super) fn point(self, x: f64, y: f64, places: usize) -> String {
-        let places = places + self.finer();
-        format!("({:.places$}, {:.places$})", self.of(x), self.of(y))
-    }
-
-    /// A length in cm, to so many places of a centimetre, without its unit.
-    pub(super) fn number(self, cm: f64, places: usize) -> String {
-        format!("{:.1$}", self.of(cm), places + self.finer())
-    }
-
-    pub(super) fn word(self, language: Language) -> &'static str {
-        match self {
-            Self::Cm => language.pick("см", "cm"),
-            Self::M => language.pick("м", "m"),
-        }
-    }
-}
+use crate::units::Lengths;
 
 /// Which numbers of a value are lengths, by the name under which it is shown.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -70,11 +70,14 @@ enum Answer {
 pub fn run() -> ExitCode {
     let (arguments, fault) = config::arguments();
     let common = &arguments.common;
+    fault::colour(common.color);
     if let Some(fault) = fault {
         return Failure::Config(fault).show(common.json, common.lang);
     }
-    fault::colour(common.color);
     inside::tell(common.verbose);
+    if !arguments.command.serves() {
+        common.units.say();
+    }
     if !common.json && arguments.command.may_be_silent() {
         waiting::begin(common.lang.language());
     }

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
-use crate::units::{Deg, Frame};
+use crate::units::{Deg, Frame, Lengths};
 
 use super::args::{Common, Lang, moment};
 use super::edit::Numbers;
@@ -191,8 +191,8 @@ fn spoken<'n>(name: &'n str, name_en: &'n str, lang: Lang) -> &'n str {
 fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
     let area = engine.world()?.areas.get(&seen.area);
     let area = area.map_or("?", |a| spoken(&a.name, &a.name_en, lang));
-    let (x, y) = (seen.frame.x.get(), seen.frame.y.get());
-    Ok(format!("{area} ({x:.0}; {y:.0})"))
+    let [x, y] = [seen.frame.x, seen.frame.y].map(|at| Lengths::said().number(at.get(), 0));
+    Ok(format!("{area} ({x}; {y})"))
 }
 
 fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure> {

@@ -8,11 +8,11 @@ use serde_json::Value;
 use crate::Segment;
 use crate::engine::{Changes, Sighted, Things, View, decimal, json};
 use crate::language::words::english;
+use crate::units::Lengths;
 
 use super::args::{Common, Lang};
 use super::draw::put_drawing;
 use super::fault::Failure;
-use super::lengths::Lengths;
 use super::notes::warn_of_lines;
 use super::{Answer, say};
 

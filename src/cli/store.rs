@@ -5,10 +5,11 @@ use std::path::Path;
 use clap::Subcommand;
 use serde_json::{Value, json};
 
+use crate::engine::calls::{self, Call};
 use crate::engine::{
     Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
 };
-use crate::store::{Forgotten, ImportReport};
+use crate::store::{Forgotten, ImportReport, Timestamp};
 use crate::units::write_file;
 
 use super::args::{Common, Lang, when};
@@ -24,6 +25,9 @@ pub(super) enum StoreCommand {
         /// Only the last so many
         #[arg(long, value_name = "N")]
         last: Option<usize>,
+        /// Among them the calls of assistants: which client, what for, what it came to
+        #[arg(long)]
+        calls: bool,
     },
     /// What changed between two revisions, in words
     Diff {
@@ -74,7 +78,7 @@ pub(super) enum StoreCommand {
 
 pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Failure> {
     match command {
-        StoreCommand::History { last } => history(common, *last),
+        StoreCommand::History { last, calls } => history(common, *last, *calls),
         StoreCommand::Diff { from, to } => diff(common, *from, *to),
         StoreCommand::Undo { revision, reason } => {
             let change = change_now(&common.user, reason.as_deref().unwrap_or_default());
@@ -130,33 +134,75 @@ fn kind(kind: RevisionKind, lang: Lang) -> &'static str {
     }
 }
 
-fn history(common: &Common, last: Option<usize>) -> Result<Answer, Failure> {
-    let mut revisions = open(common)?.revisions()?;
-    if revisions.is_empty() && !common.json {
-        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
+/// What the history tells of, in the order of time.
+enum Entry {
+    Revision(Revision),
+    Call(Call),
+}
+
+impl Entry {
+    fn at(&self) -> Timestamp {
+        match self {
+            Self::Revision(revision) => revision.at,
+            Self::Call(call) => call.at,
+        }
+    }
+
+    fn in_words(&self, lang: Lang) -> String {
+        let (number, user, what) = match self {
+            Self::Revision(r) => (r.number.to_string(), &r.user, revised(r, lang)),
+            Self::Call(call) => (String::new(), &call.client, call.say(lang.language())),
+        };
+        format!("{number:>4}  {}  {user:<12} {what}", self.at().in_words())
+    }
+}
+
+fn revised(r: &Revision, lang: Lang) -> String {
+    let of = r.undoes.map_or_else(String::new, |n| format!(" {n}"));
+    let reason = if r.reason.is_empty() { String::new() } else { format!(" – {}", r.reason) };
+    let counts = r.counts;
+    let (created, changed, deleted) = (counts.created, counts.changed, counts.deleted);
+    format!("{}{of}{reason}  (+{created} ~{changed} -{deleted})", kind(r.kind, lang))
+}
+
+fn history(common: &Common, last: Option<usize>, with_calls: bool) -> Result<Answer, Failure> {
+    let mut entries: Vec<Entry> =
+        open(common)?.revisions()?.into_iter().map(Entry::Revision).collect();
+    if with_calls {
+        let (calls, unread) = calls::noted(&calls::file(&store_dir(common)))?;
+        if unread > 0 {
+            let text =
+                common.lang.pick("строк с вызовами не читается", "lines of calls do not read");
+            note(&format!("{text}: {unread}."));
+        }
+        entries.extend(calls.into_iter().map(Entry::Call));
+        // Of one moment a change follows the call that made it.
+        entries.sort_by_key(|entry| (entry.at(), matches!(entry, Entry::Revision(_))));
     }
     if let Some(last) = last {
-        revisions.drain(..revisions.len().saturating_sub(last));
+        entries.drain(..entries.len().saturating_sub(last));
     }
     if common.json {
-        let all: Vec<Value> = revisions.iter().map(views::revision).collect();
-        return say(&json!({ "revisions": all }).to_string());
+        let revision = |entry: &Entry| match entry {
+            Entry::Revision(revision) => Some(views::revision(revision)),
+            Entry::Call(_) => None,
+        };
+        let call = |entry: &Entry| match entry {
+            Entry::Call(call) => Some(json!(call)),
+            Entry::Revision(_) => None,
+        };
+        let all =
+            |one: fn(&Entry) -> Option<Value>| entries.iter().filter_map(one).collect::<Value>();
+        let mut view = json!({ "revisions": all(revision) });
+        if with_calls {
+            view["calls"] = all(call);
+        }
+        return say(&view.to_string());
     }
-    let line = |r: &Revision| {
-        let of = r.undoes.map_or_else(String::new, |n| format!(" {n}"));
-        let reason = if r.reason.is_empty() { String::new() } else { format!(" – {}", r.reason) };
-        format!(
-            "{:>4}  {}  {:<12} {}{of}{reason}  (+{} ~{} -{})",
-            r.number,
-            r.at.in_words(),
-            r.user,
-            kind(r.kind, common.lang),
-            r.counts.created,
-            r.counts.changed,
-            r.counts.deleted,
-        )
-    };
-    say(&revisions.iter().map(line).collect::<Vec<_>>().join("\n"))
+    if entries.is_empty() {
+        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
+    }
+    say(&entries.iter().map(|entry| entry.in_words(common.lang)).collect::<Vec<_>>().join("\n"))
 }
 
 fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure> {

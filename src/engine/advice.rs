@@ -7,7 +7,7 @@ use crate::geometry::{FloorPlan, Remedy};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity, World};
 use crate::semantics::{Relations, Thresholds};
-use crate::units::{DoorId, Point, ReplicaId, Vector};
+use crate::units::{DoorId, Lengths, Point, ReplicaId, Vector};
 
 use super::barriers::thing_in_words;
 use super::lexicon::named;
@@ -85,11 +85,11 @@ impl Advice {
             Remedy::Open(doors) => return opening(doors),
             Remedy::Move { replica, by, open } => {
                 let thing = thing_in_words(world, *replica, Case::Accusative, language);
-                let distance = by.norm();
+                let distance = Lengths::said().told(by.norm(), 0, language);
                 let push = if russian {
-                    format!("подвиньте {thing} на {distance:.0} см")
+                    format!("подвиньте {thing} на {distance}")
                 } else {
-                    format!("move {thing} by {distance:.0} cm")
+                    format!("move {thing} by {distance}")
                 };
                 let way = self.whither.map(|w| self.way(world, w, language));
                 (open, way.map_or(push.clone(), |way| format!("{push} {way}")))

@@ -6,7 +6,7 @@ use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
 use crate::map::{DoorStatus, Entity, LiftStop, World};
-use crate::units::{AreaId, DoorId, ReplicaId};
+use crate::units::{AreaId, DoorId, Lengths, ReplicaId};
 
 use super::lexicon::named;
 
@@ -100,9 +100,7 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
     };
     let cm = |length: f64| {
         // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
-        let tenth = (length * 10.0 + 1e-6).floor() / 10.0;
-        let text = format!("{tenth:.1}").trim_end_matches('0').trim_end_matches('.').to_owned();
-        if russian { text.replace('.', ",") + " см" } else { text + " cm" }
+        Lengths::said().told((length * 10.0 + 1e-6).floor() / 10.0, 1, language)
     };
     let list = |blockers: &[Blocker]| {
         let leaf = |entity: Entity| match russian {

@@ -10,7 +10,7 @@ use crate::sensing::{
     Belief, Chart, DoorSeen, Fit, Inspector, Localiser, Options, ThingSeen, Tracker,
 };
 use crate::store::{FoundAt, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{AreaId, DoorId, Frame, MapId, Point, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, Lengths, MapId, Point, ReplicaId};
 use crate::vectors::read::Scan;
 
 use super::memory::ROBOT;
@@ -285,6 +285,7 @@ impl Differing {
     /// What differs, a line for each.
     #[must_use]
     pub fn in_words(&self, world: &World, language: Language) -> Vec<String> {
+        let lengths = Lengths::said();
         let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
         let mut lines = vec![match language {
             Language::Russian => {
@@ -310,9 +311,9 @@ impl Differing {
                 }
                 (ThingNews::Moved(to), _) => {
                     let (at, turn) = (to.frame.origin(), to.frame.angle.get());
-                    let (x, y, room) = (at.x.round(), at.y.round(), area(to.area));
+                    let (at, room) = (lengths.point(at.x, at.y, 0), area(to.area));
                     let now = pick("теперь", "now at");
-                    lines.push(format!("{thing}: {now} ({x}, {y}), {turn:.0}°, {room} ({sure} %)"));
+                    lines.push(format!("{thing}: {now} {at}, {turn:.0}°, {room} ({sure} %)"));
                 }
             }
         }
@@ -337,14 +338,12 @@ impl Differing {
             let bounds = Bounds::of(corners);
             let (size, at) = (bounds.max - bounds.min, nalgebra::center(&bounds.min, &bounds.max));
             let sure = (obstacle.sure * 100.0).round();
-            let unit = pick("см", "cm");
+            let unit = lengths.word(language);
+            let [long, wide] = [size.x, size.y].map(|length| lengths.number(length, 0));
             lines.push(format!(
-                "{}: {:.0} × {:.0} {unit}, ({:.0}, {:.0}), {} ({sure} %)",
+                "{}: {long} × {wide} {unit}, {}, {} ({sure} %)",
                 pick("на карте этого нет", "not on the map"),
-                size.x,
-                size.y,
-                at.x,
-                at.y,
+                lengths.point(at.x, at.y, 0),
                 area(obstacle.area)
             ));
         }

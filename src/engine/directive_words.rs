@@ -10,6 +10,8 @@ use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
 use crate::units::Bilingual;
 
+use super::position::spot_in_words;
+
 use super::OPERATOR;
 use super::lexicon::named;
 use super::task::{OPERATOR_PLACE, TaskAnswer, TaskEnding};
@@ -296,7 +298,7 @@ pub(super) fn middle_place(room: &str) -> String {
 
 /// The name of a point of the floor that was told by its coordinates, for the time of a task.
 pub(super) fn spot_place(x: i32, y: i32) -> String {
-    format!("{AT_SPOT}({x}; {y})")
+    format!("{AT_SPOT}{}", spot_in_words(f64::from(x), f64::from(y), "; "))
 }
 
 /// The name of a point from which the robot is to look at something, for the time of a task.

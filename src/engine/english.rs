@@ -1,7 +1,7 @@
 //! What a person asked that has no answer, in English.
 
 use super::error::RequestError;
-use crate::units::{Bilingual, InEnglish, Language};
+use crate::units::{Bilingual, InEnglish, Language, Lengths};
 
 fn en(words: &Bilingual) -> &str {
     words.say(Language::English)
@@ -44,8 +44,8 @@ impl RequestError {
             }
             Self::NotAPlace { name } => format!("the robot cannot stand at {}", called(name)),
             Self::OtherMap { from, to } => format!("“{from}” and “{to}” are on different maps"),
-            Self::Nowhere { x, y, map, .. } => {
-                format!("the point ({x}, {y}) lies in no room of the map “{map}”")
+            Self::Nowhere { at, map, .. } => {
+                format!("the point {at} lies in no room of the map “{map}”")
             }
             Self::BadPose { text, reason } => format!("“{text}” is no pose: {}", en(reason)),
             Self::NoReport { text, word } => {
@@ -56,10 +56,10 @@ impl RequestError {
             Self::NoFloorThere { name } => {
                 format!("there is no floor for the robot on that side of {}", called(name))
             }
-            Self::NoFloorAt { x, y } => {
-                format!("the robot does not fit at the point ({x}, {y}), nor close by")
+            Self::NoFloorAt { at } => {
+                format!("the robot does not fit at the point {at}, nor close by")
             }
-            Self::OnlyGoneTo { x, y } => format!("to the point ({x}, {y}) I can only go"),
+            Self::OnlyGoneTo { at } => format!("to the point {at} I can only go"),
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}",
                 called(name)
@@ -184,7 +184,8 @@ impl InEnglish for RequestError {
             Self::OtherMap { .. } => "name places on one storey",
             Self::Nowhere { extent, .. } => {
                 return Some(format!(
-                    "coordinates are centimetres in the map’s frame: the map takes up {extent}"
+                    "coordinates are in the map’s frame, {}: the map takes up {extent}",
+                    Lengths::said().word(Language::English)
                 ));
             }
             Self::BadPose { .. } => "write X,Y or X,Y,HEADING, such as 250,380,90",

@@ -15,7 +15,7 @@ use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::{EnglishFaults, RuleFaults};
-use crate::units::{Bilingual, English, capitalized, is_input};
+use crate::units::{Bilingual, English, Lengths, capitalized, is_input};
 use crate::vectors::picture::PictureError;
 use crate::vectors::read::LogError;
 
@@ -224,12 +224,12 @@ pub enum RequestError {
     OtherMap { from: String, to: String },
 
     /// A pose outside of every Area.
-    #[error("точка ({x}, {y}) не лежит ни в одном помещении карты «{map}»")]
+    #[error("точка {at} не лежит ни в одном помещении карты «{map}»")]
     #[diagnostic(
         code(engine::nowhere),
-        help("координаты – в сантиметрах, в системе карты: карта занимает {extent}")
+        help("координаты – в системе карты, {}: карта занимает {extent}", Lengths::said().word(Language::Russian))
     )]
-    Nowhere { x: f64, y: f64, map: String, extent: String },
+    Nowhere { at: String, map: String, extent: String },
 
     /// Coordinates that are none.
     #[error("«{text}» – не поза: {reason}")]
@@ -263,17 +263,17 @@ pub enum RequestError {
     NoFloorThere { name: String },
 
     /// A point that was told by its coordinates, where the robot does not fit.
-    #[error("в точке ({x}; {y}) и возле неё робот не встанет")]
+    #[error("в точке {at} и возле неё робот не встанет")]
     #[diagnostic(code(engine::no_floor_at), help("выберите точку на свободном полу"))]
-    NoFloorAt { x: i32, y: i32 },
+    NoFloorAt { at: String },
 
     /// A point that was told by its coordinates, where more than to go there was ordered.
-    #[error("в точку ({x}; {y}) я могу только приехать")]
+    #[error("в точку {at} я могу только приехать")]
     #[diagnostic(
         code(engine::only_gone_to),
         help("чтобы что-то там положить, назовите вещь, помещение или место карты")
     )]
-    OnlyGoneTo { x: i32, y: i32 },
+    OnlyGoneTo { at: String },
 
     /// Something that is to be put where nothing is put: under a bed.
     #[error(

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Bounds, FloorPlan, Method, Scene, Target};
 use crate::map::{Entity, World};
-use crate::units::{AreaId, MapId, Point};
+use crate::units::{AreaId, Lengths, MapId, Point};
 
 use super::known::Known;
 use super::{Error, RequestError};
@@ -91,14 +91,23 @@ impl Known {
     }
 }
 
+/// A point as it is told: (225, 380).
+pub(super) fn spot_in_words(x: f64, y: f64, between: &str) -> String {
+    let [x, y] = [x, y].map(|at| Lengths::said().short(at, 2));
+    format!("({x}{between}{y})")
+}
+
 /// A point that no Area of a map holds.
 pub(super) fn nowhere_on(world: &World, floor: &FloorPlan, at: Point) -> RequestError {
     let map = world.maps[&floor.map()].name.clone();
-    RequestError::Nowhere { x: at.x, y: at.y, map, extent: extent(floor.scene()) }
+    let at = spot_in_words(at.x, at.y, ", ");
+    RequestError::Nowhere { at, map, extent: extent(floor.scene()) }
 }
 
 fn extent(scene: &Scene) -> String {
     let rooms = scene.areas.values().flat_map(|a| &a.prisms);
     let b = rooms.fold(Bounds::EMPTY, |b, p| b.union(&p.bounds));
-    format!("x {:.0}…{:.0}, y {:.0}…{:.0}", b.min.x, b.max.x, b.min.y, b.max.y)
+    let [left, right, near, far] =
+        [b.min.x, b.max.x, b.min.y, b.max.y].map(|at| Lengths::said().number(at, 0));
+    format!("x {left}…{right}, y {near}…{far}")
 }

@@ -30,6 +30,8 @@ mod after;
 mod apart;
 mod assumed;
 mod barriers;
+#[cfg(feature = "cli")]
+pub(crate) mod calls;
 mod changes;
 mod delivery;
 mod dialogue;
@@ -132,7 +134,7 @@ pub use reading::Region;
 pub use recording::Recording;
 pub use route::{RouteAnswer, Stage, parse_pose};
 pub(crate) use rule_files::question_beginnings;
-pub use rule_files::{RULE_FILES, export_rules};
+pub use rule_files::{export_rules, rule_files};
 pub use rules::Rules;
 pub use seeing::{Changes, Sighted, Things, View};
 pub use sight::face_in_words;

@@ -11,7 +11,7 @@ use crate::map::is_on;
 use crate::robot::starting_pose;
 use crate::sensing::{Chart, Fit, Move, telling_move};
 use crate::store::{FoundAt, Observation, Timestamp};
-use crate::units::{MapId, ReplicaId};
+use crate::units::{Lengths, MapId, ReplicaId};
 
 use super::memory::ROBOT;
 use super::obstacles::is_obstacle;
@@ -125,15 +125,16 @@ impl State {
             return Ok(None);
         };
         let (off, turn) = found.deviation;
-        let (off, share) = (off.max(1.0).round(), (found.explained * 100.0).round());
+        let off = Lengths::said().told(off.max(1.0), 0, language);
+        let share = (found.explained * 100.0).round();
         let turn = decimal(turn.max(0.1), "°", language);
         let place = with_stop(&place);
         Ok(Some(match language {
             Language::Russian => format!(
-                "{place} я знаю это с точностью до {off} см и {turn}: с картой сходится {share} % того, что видит лазер, и больше нигде это не подходит"
+                "{place} я знаю это с точностью до {off} и {turn}: с картой сходится {share} % того, что видит лазер, и больше нигде это не подходит"
             ),
             Language::English => format!(
-                "{place} I know it to within {off} cm and {turn}: {share} % of what the laser sees agrees with the map, and it fits nowhere else"
+                "{place} I know it to within {off} and {turn}: {share} % of what the laser sees agrees with the map, and it fits nowhere else"
             ),
         }))
     }

@@ -37,7 +37,8 @@ impl State {
     /// # Errors
     /// There is no map, the question has faults, or a limit was reached.
     pub fn query(&self, question: &str, with_proofs: bool) -> Result<QueryAnswer, Error> {
-        self.query_within(question, with_proofs, Limits::default())
+        let stop = Some(self.stop.clone());
+        self.query_within(question, with_proofs, Limits { stop, ..Limits::default() })
     }
 
     /// As [`State::query`], within limits.

@@ -4,31 +4,22 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::units::{Gather as _, is_input, write_file};
+use crate::exchange::SYNONYMS;
+use crate::meaning::FILES;
+use crate::semantics::STANDARD;
+use crate::units::{Carried, Gather as _, carried, is_input, write_file};
 
 use super::{Error, RequestError};
 
 macro_rules! files {
     ($($name:literal),+ $(,)?) => {
-        &[$(($name, include_str!(concat!("../../rules/", $name)))),+]
+        [$(($name, carried!("../../rules/" $name))),+]
     };
 }
 
-/// Every rule file by its path within a directory of rules, and its text.
-pub const RULE_FILES: &[(&str, &str)] = files![
-    "relations.dl",
+/// Those for planning, which no folder below reads by itself.
+static OF_PLANNING: [(&str, Carried); 14] = files![
     "service-robot.strips",
-    "import-synonyms.toml",
-    "language/forms.lang",
-    "language/ru/words.lang",
-    "language/ru/phrases.lang",
-    "language/ru/frames.lang",
-    "language/en/words.lang",
-    "language/en/phrases.lang",
-    "language/en/frames.lang",
-    "language/de/words.lang",
-    "language/de/phrases.lang",
-    "language/de/frames.lang",
     "scenarios/another-floor.strips",
     "scenarios/chair-in-the-way.strips",
     "scenarios/dark-room.strips",
@@ -44,13 +35,21 @@ pub const RULE_FILES: &[(&str, &str)] = files![
     "scenarios/two-goals-exclude.strips",
 ];
 
+/// Every rule file by its path within a directory of rules, and its text.
+pub fn rule_files() -> impl Iterator<Item = (String, &'static str)> {
+    let of_maps = [("relations.dl", &STANDARD), ("import-synonyms.toml", &SYNONYMS)];
+    let of_planning = OF_PLANNING.iter().map(|(name, text)| (*name, text));
+    let all = of_maps.into_iter().chain(of_planning).map(|(name, text)| (name.to_owned(), text));
+    let of_language = FILES.iter().map(|(name, text)| (format!("language/{name}"), text));
+    all.chain(of_language).map(|(name, text)| (name, **text))
+}
+
 /// Writes the built-in rule files into a directory, which is made where there is none; the paths written.
 ///
 /// # Errors
 /// A file is there already and `overwrite` is not set: nothing is written then. The disk refused.
 pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> {
-    let there: Vec<String> = RULE_FILES
-        .iter()
+    let there: Vec<String> = rule_files()
         .map(|(name, _)| dir.join(name))
         .filter(|path| path.symlink_metadata().is_ok())
         .map(|path| path.display().to_string())
@@ -64,7 +63,7 @@ pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> 
         is_input: is_input(error.kind()),
     };
     let mut written = Vec::new();
-    for (name, text) in RULE_FILES {
+    for (name, text) in rule_files() {
         let path = dir.join(name);
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|e| refused(folder, &e))?;
@@ -79,11 +78,10 @@ pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> 
 pub(crate) fn question_beginnings() -> &'static [String] {
     static FOUND: OnceLock<Vec<String>> = OnceLock::new();
     FOUND.get_or_init(|| {
-        let frames = |name: &&(&str, &str)| {
-            ["language/ru/frames.lang", "language/en/frames.lang"].contains(&name.0)
-        };
-        let texts = RULE_FILES.iter().filter(frames).map(|(_, text)| *text);
-        let bodies = texts.flat_map(str::lines).filter_map(|line| line.split_once("<-"));
+        let frames =
+            FILES.iter().filter(|file| ["ru/frames.lang", "en/frames.lang"].contains(&file.0));
+        let bodies =
+            frames.flat_map(|(_, text)| text.lines()).filter_map(|line| line.split_once("<-"));
         // What stands in brackets has several beginnings, and is left out.
         let plain =
             bodies.flat_map(|(_, body)| body.split('|')).filter(|b| !b.contains(['(', ')']));

@@ -80,8 +80,8 @@ fn read_source(path: &Path) -> Result<Source, RequestError> {
 /// stands beside the declarations of rule files.
 fn read_grammar(base: Option<PathBuf>, beside: Vec<(String, Source)>) -> Result<Grammar, Error> {
     let mut files: BTreeMap<String, Source> = BTreeMap::new();
-    for (name, text) in FILES {
-        files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), text));
+    for (name, text) in &FILES {
+        files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), **text));
     }
     files.extend(beside);
     let mut folders: Vec<(String, PathBuf)> =

@@ -1,6 +1,7 @@
 //! Where the robot is to stand: at what is named, at a window, in the middle of a room, between two things, and what it
 //! is to look at there.
 
+use super::position::spot_in_words;
 use crate::geometry::nearest_on_segment;
 use crate::language::command::{Facing, Placement, Relation};
 use crate::map::{Entity, Permeability};
@@ -142,7 +143,8 @@ impl State {
         relations: &Relations,
     ) -> Result<Stance, Error> {
         let name = spot_place(x, y);
-        let none_there = || Error::from(RequestError::NoFloorAt { x, y });
+        let told = || spot_in_words(f64::from(x), f64::from(y), "; ");
+        let none_there = || Error::from(RequestError::NoFloorAt { at: told() });
         let Entity::Area(area) = room else { return Err(self.not_a_place(room)) };
         let (map, _) = self.world()?.placement(area).ok_or_else(none_there)?;
         let wanted = Point::new(f64::from(x), f64::from(y));

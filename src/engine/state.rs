@@ -14,7 +14,7 @@ use crate::map::{Entity, World, Zone};
 use crate::semantics::{Around, Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{
-    AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Timestamp, bilingual,
+    AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Stop, Timestamp, bilingual,
     nearest_name,
 };
 
@@ -45,6 +45,8 @@ pub struct State {
     stands_until: OnceLock<Option<Timestamp>>,
     /// What the map and the robot's knowledge went through, for dialogues that began before.
     pub(super) changes: Arc<Changes>,
+    /// Raised when nobody waits any more for what is asked.
+    pub(super) stop: Stop,
 }
 
 impl State {
@@ -66,7 +68,16 @@ impl State {
             person: None,
             stands_until: OnceLock::new(),
             changes: Arc::default(),
+            stop: Stop::new(),
         }
+    }
+
+    /// The same, to be asked by whoever may raise a flag when the answer is not waited for any more.
+    #[cfg(feature = "serve")]
+    pub(crate) fn heeding(&self, stop: &Stop) -> Self {
+        // What it finds of the present serves those who ask after it, too.
+        let _ = self.around();
+        Self { stop: stop.clone(), ..self.clone() }
     }
 
     /// The same map and what follows from it, to be changed: what the robot knows besides is asked for anew.
@@ -83,6 +94,7 @@ impl State {
             person: None,
             stands_until: OnceLock::new(),
             changes: Arc::clone(&self.changes),
+            stop: Stop::new(),
         }
     }
 

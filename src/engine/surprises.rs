@@ -1,5 +1,6 @@
 //! What went otherwise than believed, in words.
 
+use super::position::spot_in_words;
 use crate::geometry::Remedy;
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, World};
@@ -182,7 +183,8 @@ pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language
         (Some(entity), Language::Russian) => named(world, *entity).form(Case::Dative, language),
         _ => place_in_words(world, to, language),
     });
-    let at = format!("({:.0}; {:.0})", barred.at.x, barred.at.y);
+    let at = barred.at.map(f64::round);
+    let at = spot_in_words(at.x, at.y, "; ");
     match language {
         Language::Russian => {
             let room = crate::language::russian::where_at(room.phrase());

@@ -58,4 +58,4 @@ pub use survey::{
     Feet, Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
     Told,
 };
-pub use synonyms::{Found, Meaning, Synonyms, Vocabulary};
+pub use synonyms::{Found, Meaning, SYNONYMS, Synonyms, Vocabulary};

@@ -16,11 +16,12 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::map::Gender;
-use crate::units::{Bilingual, Cm, Source, bilingual, name_key};
+use crate::units::{Bilingual, Carried, Cm, Source, bilingual, carried, name_key};
 
 use super::ImportError;
 
-const BUILT_IN: &str = include_str!("../../rules/import-synonyms.toml");
+/// The table that the crate brings along.
+pub static SYNONYMS: Carried = carried!("../../rules/import-synonyms.toml");
 
 /// What a foreign word means.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -154,7 +155,7 @@ impl Synonyms {
     pub fn built_in() -> Self {
         let mut table = Self { lists: BTreeMap::new(), codes: Vec::new(), plain: HashSet::new() };
         table
-            .lay_over(&Source::new("rules/import-synonyms.toml", BUILT_IN))
+            .lay_over(&Source::new("rules/import-synonyms.toml", *SYNONYMS))
             .expect("the built-in table is sound");
         table
     }

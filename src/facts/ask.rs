@@ -136,7 +136,7 @@ impl Program {
         limits: Limits,
     ) -> Result<Answers<'a>, AskError> {
         if self.depends_on_order() {
-            let derived = self.evaluate_within(database, limits).map_err(AskError::from)?;
+            let derived = self.evaluate_within(database, limits.clone()).map_err(AskError::from)?;
             let is_stored = vec![true; self.relations.len()];
             let kept = Held::Shared(Arc::new(derived.kept));
             let told = (kept, derived.given, is_stored);
@@ -280,7 +280,7 @@ impl<'a> Answers<'a> {
 
     fn demand(&self) -> Demand<'_> {
         let is_stored = |relation: RelationId| self.is_stored[relation.index()];
-        let watch = Rc::new(Watch::new(self.limits));
+        let watch = Rc::new(Watch::new(self.limits.clone()));
         let (program, known) = (&self.question.program, self.question.known);
         Demand::new(program, &self.kept, known, &is_stored, &self.computed, watch)
     }

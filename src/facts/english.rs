@@ -275,6 +275,9 @@ impl InEnglish for EvaluateError {
             Self::Memory { relation, rule, megabytes, rows } => format!(
                 "{rule}: the relation “{relation}” does not fit into {megabytes} MiB of memory, with {rows} rows so far"
             ),
+            Self::Stopped { relation, rule } => {
+                format!("{rule}: the relation “{relation}” is not derived: stopped")
+            }
         }
     }
 
@@ -289,6 +292,7 @@ impl InEnglish for EvaluateError {
             Self::Memory { .. } => {
                 "bind the rule’s premises by common variables, or bound it by a comparison; or give more memory (--memory-limit)"
             }
+            Self::Stopped { .. } => return None,
         };
         Some(help.to_owned())
     }

@@ -60,6 +60,10 @@ pub enum EvaluateError {
         )
     )]
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
+    /// Whoever asked waits no more.
+    #[error("{rule}: отношение «{relation}» не выведено: остановлено")]
+    #[diagnostic(code(facts::stopped))]
+    Stopped { relation: String, rule: String },
 }
 
 impl EvaluateError {
@@ -67,7 +71,8 @@ impl EvaluateError {
     pub(super) fn is_of(&self, name: &str) -> bool {
         let (Self::TooMany { relation, .. }
         | Self::Time { relation, .. }
-        | Self::Memory { relation, .. }) = self;
+        | Self::Memory { relation, .. }
+        | Self::Stopped { relation, .. }) = self;
         relation == name
     }
 
@@ -137,6 +142,7 @@ impl Program {
                 let megabytes = limits.memory_bytes >> 20;
                 EvaluateError::Memory { relation, rule, megabytes, rows }
             }
+            Reached::Stop => EvaluateError::Stopped { relation, rule },
         })
     }
 

@@ -103,7 +103,7 @@ impl Evaluation<'_> {
         };
         let (pruning_orders, orders_of) = (orders_of(&pruning), orders_of(&rounds));
         let finished = self.finished.bytes();
-        let limits = self.finished.watch.limits();
+        let spread_from = self.finished.watch.limits().spread_from;
         let alone = match stratum.relations.as_slice() {
             [one]
                 if is_any_order
@@ -137,9 +137,9 @@ impl Evaluation<'_> {
             let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
             self.finished.watch.hold(held);
             if let Some((relation, column)) = alone
-                && (growing[&relation].len() >= FEWEST_ALONE || limits.spread_from.is_zero())
+                && (growing[&relation].len() >= FEWEST_ALONE || spread_from.is_zero())
                 && self.finished.watch.threads() > 1
-                && since.elapsed() >= ROUNDS_ALONE * limits.spread_from
+                && since.elapsed() >= ROUNDS_ALONE * spread_from
                 && let Some(rows) = growing.remove(&relation)
             {
                 return self.apart(relation, column, &rounds, rows);

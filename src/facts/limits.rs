@@ -6,6 +6,8 @@ use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::units::Stop;
+
 /// A relation's rows at most, unless `.limitsize` says less.
 pub(super) const MAX_ROWS: usize = 1 << 27;
 
@@ -13,9 +15,11 @@ pub(super) const MAX_ROWS: usize = 1 << 27;
 pub(super) const MAX_TEXT: usize = 1 << 16;
 
 /// How long an evaluation may go on, how much memory it may hold, and over how many threads it may spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Limits {
     pub time: Duration,
+    /// Raised from outside when nobody waits for the result any more.
+    pub stop: Option<Stop>,
     pub memory_bytes: usize,
     /// Of one relation.
     pub rows: usize,
@@ -75,6 +79,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             time: Duration::from_secs(600),
+            stop: None,
             memory_bytes: 1 << 31,
             rows: MAX_ROWS,
             threads: *CORES,
@@ -88,10 +93,12 @@ impl Default for Limits {
 pub(super) enum Reached {
     Time,
     Memory,
+    /// Nobody waits any more.
+    Stop,
 }
 
 impl Reached {
-    const ALL: [Self; 2] = [Self::Time, Self::Memory];
+    const ALL: [Self; 3] = [Self::Time, Self::Memory, Self::Stop];
 }
 
 /// What the watches of one evaluation's threads have in common.
@@ -147,11 +154,16 @@ impl Watch {
 
     /// The same evaluation's watch for another thread.
     pub(super) fn branch(&self) -> Branch {
-        Branch { limits: self.limits, held: self.held.get(), common: Arc::clone(&self.common) }
+        Branch {
+            limits: self.limits.clone(),
+            held: self.held.get(),
+            common: Arc::clone(&self.common),
+        }
     }
 
-    pub(super) fn limits(&self) -> Limits {
-        self.limits.map_or_else(Limits::default, |(limits, _)| limits)
+    pub(super) fn limits(&self) -> &Limits {
+        static USUAL: LazyLock<Limits> = LazyLock::new(Limits::default);
+        self.limits.as_ref().map_or_else(|| &*USUAL, |(limits, _)| limits)
     }
 
     /// Ends all loops for a reason of the caller's own.
@@ -222,8 +234,10 @@ impl Watch {
     }
 
     fn look(&self) {
-        let Some((limits, since)) = self.limits else { return };
-        if since.elapsed() >= limits.time {
+        let Some((limits, since)) = &self.limits else { return };
+        if limits.stop.as_ref().is_some_and(Stop::is_raised) {
+            self.reach(Reached::Stop);
+        } else if since.elapsed() >= limits.time {
             self.reach(Reached::Time);
         }
     }
@@ -243,7 +257,7 @@ impl Watch {
 
     /// Looks whether so much more than what is held fits; true when it is time to end.
     pub(super) fn weigh(&self, bytes: usize) -> bool {
-        let Some((limits, _)) = self.limits else { return false };
+        let Some((limits, _)) = &self.limits else { return false };
         self.make(bytes);
         let made = self.common.made.load(Ordering::Relaxed);
         let made = made.saturating_add(self.common.kept.load(Ordering::Relaxed));

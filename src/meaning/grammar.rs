@@ -8,7 +8,7 @@ use super::sense::{Meaning, Signatures, Type};
 use super::term::Sorts;
 use crate::language::Language;
 use crate::language::question::Part;
-use crate::units::Source;
+use crate::units::{Carried, Source, carried};
 
 /// Every grammar that there is: what roles mean, and each language's words, phrases and frames.
 #[derive(Debug)]
@@ -122,12 +122,12 @@ pub(crate) enum Slot {
 
 macro_rules! files {
     ($($name:literal),+ $(,)?) => {
-        &[$(($name, include_str!(concat!("../../rules/language/", $name)))),+]
+        [$(($name, carried!("../../rules/language/" $name))),+]
     };
 }
 
 /// Grammar files that are built in, by their paths within `rules/language`.
-pub const FILES: &[(&str, &str)] = files![
+pub static FILES: [(&str, Carried); 10] = files![
     "forms.lang",
     "ru/words.lang",
     "ru/phrases.lang",
@@ -147,7 +147,7 @@ impl Grammar {
     /// When these have a fault, which a test rules out.
     #[must_use]
     pub fn built_in() -> Self {
-        let files = FILES.iter().map(|(name, text)| (*name, Source::new(name, text)));
+        let files = FILES.iter().map(|(name, text)| (*name, Source::new(name, **text)));
         let (grammar, faults) = Self::of(&files.collect::<Vec<_>>());
         assert!(faults.is_none(), "the built-in grammar is sound: {faults:?}");
         grammar
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn the_order_of_the_files_does_not_matter() {
         let mut files: Vec<(&str, Source)> =
-            FILES.iter().map(|(name, text)| (*name, Source::new(name, text))).collect();
+            FILES.iter().map(|(name, text)| (*name, Source::new(name, **text))).collect();
         files.reverse();
         let (grammar, faults) = Grammar::of(&files);
         assert!(faults.is_none(), "{faults:?}");

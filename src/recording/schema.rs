@@ -1,5 +1,7 @@
 //! The schemas of messages: Foxglove's as they are published (`schemas/`, MIT), and one of this program's own.
 
+use crate::units::{Carried, carried};
+
 /// What a message says, and how.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Schema {
@@ -33,15 +35,21 @@ impl Schema {
     /// JSON Schema.
     #[must_use]
     pub fn text(self) -> &'static str {
+        macro_rules! text {
+            ($path:literal) => {{
+                static TEXT: Carried = carried!($path);
+                *TEXT
+            }};
+        }
         match self {
-            Self::FrameTransforms => include_str!("schemas/FrameTransforms.json"),
-            Self::Grid => include_str!("schemas/Grid.json"),
-            Self::LaserScan => include_str!("schemas/LaserScan.json"),
-            Self::Log => include_str!("schemas/Log.json"),
-            Self::PoseInFrame => include_str!("schemas/PoseInFrame.json"),
-            Self::PosesInFrame => include_str!("schemas/PosesInFrame.json"),
-            Self::SceneUpdate => include_str!("schemas/SceneUpdate.json"),
-            Self::Event => include_str!("schemas/Event.json"),
+            Self::FrameTransforms => text!("schemas/FrameTransforms.json"),
+            Self::Grid => text!("schemas/Grid.json"),
+            Self::LaserScan => text!("schemas/LaserScan.json"),
+            Self::Log => text!("schemas/Log.json"),
+            Self::PoseInFrame => text!("schemas/PoseInFrame.json"),
+            Self::PosesInFrame => text!("schemas/PosesInFrame.json"),
+            Self::SceneUpdate => text!("schemas/SceneUpdate.json"),
+            Self::Event => text!("schemas/Event.json"),
         }
     }
 }

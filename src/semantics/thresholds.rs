@@ -447,7 +447,7 @@ mod tests {
 
     #[test]
     fn the_standard_text_names_every_threshold_as_the_table_does() {
-        let program = program(STANDARD);
+        let program = program(&STANDARD);
         assert_eq!(lacking(&program), "");
         assert!(faults(&program).is_empty());
         let limits = limits(&program);

@@ -16,7 +16,7 @@ use super::drive::Declined;
 use super::fault::Fault;
 use super::gate::{Role, Session};
 use super::read::language;
-use super::{House, apart};
+use super::{House, apart, asked};
 
 pub(super) type Answer = Result<Json<Value>, Fault>;
 
@@ -93,11 +93,11 @@ pub(super) async fn say(
     Json(said): Json<Said>,
 ) -> Answer {
     let language = language(said.lang.as_deref());
-    apart(move || {
+    asked(move |stop| {
         let text = said.text.trim();
         match house.tasks.of_queue(&session, text, language)? {
             Some(done) => Ok(done),
-            None => house.tasks.say(&session, text, language),
+            None => house.tasks.say(&session, text, language, stop),
         }
     })
     .await

@@ -144,8 +144,9 @@ impl Tasks {
         session: &Session,
         text: &str,
         language: Language,
+        stop: &Stop,
     ) -> Result<Value, Error> {
-        let (state, before) = (self.desk.state(), self.talk_of(session, language));
+        let (state, before) = (self.heeding(stop), self.talk_of(session, language));
         let mut heard = rehearsal::rehearse(&state, &before, &rehearsal::Line::Said(text))?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
@@ -154,10 +155,17 @@ impl Tasks {
         }
         let mut view = self.told(&heard.replies, &state, language);
         match heard.plan {
+            // What nobody has heard was not said.
+            _ if stop.is_raised() => {}
             Some(plan) => view["task"] = self.propose(session, text, before, plan, &state),
             None => self.keep(session, heard.dialogue),
         }
         Ok(view)
+    }
+
+    /// What is known now, to be asked while somebody waits for the answer.
+    fn heeding(&self, stop: &Stop) -> Arc<State> {
+        Arc::new(self.desk.state().heeding(stop))
     }
 
     /// What was said with somebody so far, as it may be gone on with apart.
@@ -200,14 +208,17 @@ impl Tasks {
         session: &Session,
         text: &str,
         language: Language,
+        stop: &Stop,
     ) -> Result<Answered, Error> {
-        let (state, before) = (self.desk.state(), self.talk_of(session, language));
+        let (state, before) = (self.heeding(stop), self.talk_of(session, language));
         let heard = rehearsal::rehearse(&state, &before, &rehearsal::Line::Said(text))?;
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
         let view = self.told(&heard.replies, &state, language);
-        self.keep(session, heard.dialogue);
+        if !stop.is_raised() {
+            self.keep(session, heard.dialogue);
+        }
         Ok(Answered::Told(view))
     }
 

@@ -202,3 +202,49 @@ async fn apart<T: Send + 'static>(
         Err(_) => Err(desk::Gone.into()),
     }
 }
+
+/// The same for what is only asked: it ends when nobody waits for the answer any more, since the client has left or taken
+/// the call back.
+async fn asked<T: Send + 'static>(
+    work: impl FnOnce(&Stop) -> Result<T, Error> + Send + 'static,
+) -> Result<T, Fault> {
+    struct Awaited(Stop);
+    impl Drop for Awaited {
+        fn drop(&mut self) {
+            self.0.raise();
+        }
+    }
+    let stop = Stop::new();
+    let _awaited = Awaited(stop.clone());
+    apart(move || work(&stop)).await
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+
+    use super::*;
+
+    #[test]
+    fn what_nobody_waits_for_any_more_ends() {
+        let (began, has_begun) = tokio::sync::oneshot::channel();
+        let (ended, has_ended) = mpsc::channel();
+        let asked = asked(move |stop| {
+            let _ = began.send(());
+            while !stop.is_raised() {
+                std::thread::yield_now();
+            }
+            let _ = ended.send(());
+            Ok(())
+        });
+        let runtime = tokio::runtime::Builder::new_current_thread().build().expect("a runtime");
+        runtime.block_on(async {
+            tokio::select! {
+                _ = asked => unreachable!("it goes on until it is left"),
+                begun = has_begun => begun.expect("it begins"),
+            }
+        });
+        // Without an end this would wait for ever.
+        has_ended.recv().expect("it ends");
+    }
+}

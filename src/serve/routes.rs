@@ -22,6 +22,7 @@ use super::assist::Assistant;
 use super::fault::Fault;
 use super::gate::{Refused, Role, Session};
 use super::{House, act, centre, events, read};
+use crate::units::{Carried, carried};
 
 /// Bytes of a request's body.
 const BODY: usize = 1 << 20;
@@ -84,38 +85,33 @@ routes![
 ];
 
 /// The description of [`ROUTES`].
-pub(super) const OPENAPI: &str = include_str!("openapi.json");
+static OPENAPI: Carried = carried!("openapi.json");
 
 const JS: &str = "text/javascript; charset=utf-8";
-const FONT: &str = "font/woff2";
 
-/// The page: path, kind, bytes.
-const PAGE: &[(&str, &str, &[u8])] = &[
-    ("/", "text/html; charset=utf-8", include_bytes!("page/index.html")),
-    ("/style.css", "text/css; charset=utf-8", include_bytes!("page/style.css")),
-    ("/icon.svg", "image/svg+xml", include_bytes!("page/icon.svg")),
-    ("/app.js", JS, include_bytes!("page/app.js")),
-    ("/base.js", JS, include_bytes!("page/base.js")),
-    ("/changes.js", JS, include_bytes!("page/changes.js")),
-    ("/edit.js", JS, include_bytes!("page/edit.js")),
-    ("/link.js", JS, include_bytes!("page/link.js")),
-    ("/map.js", JS, include_bytes!("page/map.js")),
-    ("/panels.js", JS, include_bytes!("page/panels.js")),
-    ("/picture.js", JS, include_bytes!("page/picture.js")),
-    ("/talk.js", JS, include_bytes!("page/talk.js")),
-    ("/tools.js", JS, include_bytes!("page/tools.js")),
-    (
-        "/fonts/plex-sans-cyrillic.woff2",
-        FONT,
-        include_bytes!("page/fonts/plex-sans-cyrillic.woff2"),
-    ),
-    ("/fonts/plex-sans-latin.woff2", FONT, include_bytes!("page/fonts/plex-sans-latin.woff2")),
-    (
-        "/fonts/plex-mono-cyrillic.woff2",
-        FONT,
-        include_bytes!("page/fonts/plex-mono-cyrillic.woff2"),
-    ),
-    ("/fonts/plex-mono-latin.woff2", FONT, include_bytes!("page/fonts/plex-mono-latin.woff2")),
+/// The page: path, kind, text.
+static PAGE: [(&str, &str, Carried); 13] = [
+    ("/", "text/html; charset=utf-8", carried!("page/index.html")),
+    ("/style.css", "text/css; charset=utf-8", carried!("page/style.css")),
+    ("/icon.svg", "image/svg+xml", carried!("page/icon.svg")),
+    ("/app.js", JS, carried!("page/app.js")),
+    ("/base.js", JS, carried!("page/base.js")),
+    ("/changes.js", JS, carried!("page/changes.js")),
+    ("/edit.js", JS, carried!("page/edit.js")),
+    ("/link.js", JS, carried!("page/link.js")),
+    ("/map.js", JS, carried!("page/map.js")),
+    ("/panels.js", JS, carried!("page/panels.js")),
+    ("/picture.js", JS, carried!("page/picture.js")),
+    ("/talk.js", JS, carried!("page/talk.js")),
+    ("/tools.js", JS, carried!("page/tools.js")),
+];
+
+/// Its letters, which their own format has compressed.
+const FONTS: [(&str, &[u8]); 4] = [
+    ("/fonts/plex-sans-cyrillic.woff2", include_bytes!("page/fonts/plex-sans-cyrillic.woff2")),
+    ("/fonts/plex-sans-latin.woff2", include_bytes!("page/fonts/plex-sans-latin.woff2")),
+    ("/fonts/plex-mono-cyrillic.woff2", include_bytes!("page/fonts/plex-mono-cyrillic.woff2")),
+    ("/fonts/plex-mono-latin.woff2", include_bytes!("page/fonts/plex-mono-latin.woff2")),
 ];
 
 /// The server's answers, behind its gate.
@@ -130,8 +126,11 @@ pub(super) fn router(house: &Arc<House>, assistant: &Assistant) -> Router {
     }
     let api = api.route_layer(from_fn_with_state(Arc::clone(house), known));
     let mut all = api.merge(assistants(house, assistant)).merge(of_centre(house));
-    for (path, kind, bytes) in PAGE {
-        all = all.route(path, get(move || async move { ([(CONTENT_TYPE, *kind)], *bytes) }));
+    for (path, kind, text) in &PAGE {
+        all = all.route(path, get(move || async move { ([(CONTENT_TYPE, *kind)], **text) }));
+    }
+    for (path, font) in FONTS {
+        all = all.route(path, get(move || async move { ([(CONTENT_TYPE, "font/woff2")], font) }));
     }
     all.layer(DefaultBodyLimit::max(BODY))
         .layer(from_fn_with_state(Arc::clone(house), guard))
@@ -300,7 +299,7 @@ async fn may(
 }
 
 async fn described() -> impl IntoResponse {
-    ([(CONTENT_TYPE, "application/json")], OPENAPI)
+    ([(CONTENT_TYPE, "application/json")], *OPENAPI)
 }
 
 /// After which event: a browser that resumes says it in a header, a page that begins anew in its address.
@@ -330,7 +329,7 @@ mod tests {
 
     #[test]
     fn the_description_names_what_is_answered_and_no_more() {
-        let described: Value = serde_json::from_str(OPENAPI).expect("it is JSON");
+        let described: Value = serde_json::from_str(&OPENAPI).expect("it is JSON");
         let paths = described["paths"].as_object().expect("it has paths");
         let mut told = BTreeSet::new();
         for (path, methods) in paths {

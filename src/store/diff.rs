@@ -5,8 +5,8 @@ use std::fmt;
 
 use crate::map::World;
 use crate::units::{
-    AreaId, Bilingual, DoorId, Language, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
-    ZoneId,
+    AreaId, Bilingual, DoorId, Language, Lengths, MapId, ObjectId, OrFrId, PlaceId, ReplicaId,
+    TypeId, ZoneId,
 };
 
 use super::cell::{Cell, Key, Row};
@@ -57,7 +57,8 @@ impl Difference {
             (None, Fate::Changed) => {
                 let change = |field: &FieldChange| {
                     let (russian, english) = word(field.column);
-                    let (old, new) = (field.old.say(language), field.new.say(language));
+                    let [old, new] =
+                        [&field.old, &field.new].map(|cell| told(field.column, cell, language));
                     format!("{} {old} → {new}", language.pick(russian, english))
                 };
                 self.fields.iter().map(change).collect::<Vec<_>>().join(", ")
@@ -70,6 +71,39 @@ impl Difference {
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.say(Language::Russian))
+    }
+}
+
+/// Columns of numbers that are no lengths: angles, shares, speeds, what a zone asks.
+const NO_LENGTHS: [&str; 14] = [
+    "Ang",
+    "PosA",
+    "RelA",
+    "OffAng",
+    "TurnRate",
+    "MaxOpen",
+    "RoofScale",
+    "SidePart",
+    "Opening",
+    "Sure",
+    "Confidence",
+    "Explained",
+    "Speed",
+    "Measure",
+];
+
+/// What stands in a column, its lengths as they are told.
+fn told(column: &str, cell: &Cell, language: Language) -> String {
+    let length = |cm: f64| Lengths::said().short(cm, 2);
+    match cell {
+        Cell::Real(cm) if !NO_LENGTHS.contains(&column) => length(*cm),
+        Cell::Text(corners) if column == "Points" => {
+            let number = |text: &str| text.parse().map_or_else(|_| text.to_owned(), length);
+            let corner = |text: &str| text.split(',').map(number).collect::<Vec<_>>().join(",");
+            let corners: Vec<String> = corners.split_whitespace().map(corner).collect();
+            Cell::Text(corners.join(" ")).say(language)
+        }
+        other => other.say(language),
     }
 }
 
@@ -454,11 +488,10 @@ fn replica_words(
     } else {
         let moved = (new.x - old.x).hypot(new.y - old.y).hypot(new.z - old.z);
         if moved > 0.0 {
-            let moved = hundredths(moved);
-            said.push(Bilingual::new(
-                format!("передвинут на {moved} см"),
-                format!("moved by {moved} cm"),
-            ));
+            said.push(Bilingual::both(|language| {
+                let moved = Lengths::said().told(moved, 2, language);
+                format!("{} {moved}", language.pick("передвинут на", "moved by"))
+            }));
         }
     }
     let turn = (new.ang - old.ang).rem_euclid(360.0);

@@ -17,11 +17,13 @@
 //! count characters.
 
 mod bilingual;
+mod carried;
 mod english;
 mod file;
 mod frame;
 mod id;
 mod language;
+mod lengths;
 mod name;
 mod order;
 mod quantity;
@@ -30,6 +32,9 @@ mod stop;
 mod time;
 
 pub use bilingual::Bilingual;
+#[cfg(feature = "packed")]
+pub use carried::unpacked;
+pub use carried::{Carried, carried};
 pub use english::{English, EnglishGroup, InEnglish};
 pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file_with};
 pub use frame::{Frame, Point, Pose, Vector};
@@ -38,6 +43,7 @@ pub use id::{
     ZoneId,
 };
 pub use language::Language;
+pub use lengths::Lengths;
 pub use name::{capitalized, name_key, nearest_name};
 pub use order::{Gather, InOrder};
 pub use quantity::{Cm, Deg, QuantityError};

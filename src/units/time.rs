@@ -4,7 +4,20 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Milliseconds since 1970-01-01T00:00:00 UTC. Printed and read as `2026-11-21T09:30:00.000Z`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Default,
+    serde::Serialize,
+    serde::Deserialize,
+)]
+#[serde(try_from = "String", into = "String")]
 pub struct Timestamp(pub i64);
 
 const DAY_MS: i64 = 86_400_000;
@@ -51,6 +64,20 @@ impl fmt::Display for Timestamp {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("время пишется так: 2026-11-21T09:30:00.000Z")]
 pub struct TimestampError;
+
+impl TryFrom<String> for Timestamp {
+    type Error = TimestampError;
+
+    fn try_from(text: String) -> Result<Self, TimestampError> {
+        text.parse()
+    }
+}
+
+impl From<Timestamp> for String {
+    fn from(time: Timestamp) -> Self {
+        time.to_string()
+    }
+}
 
 impl FromStr for Timestamp {
     type Err = TimestampError;

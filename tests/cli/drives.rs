@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::engine::RULE_FILES;
+use orthoframe::engine::rule_files;
 use orthoframe_strips::Scenario;
 use orthoframe_units::Source;
 use serde_json::Value;
@@ -139,10 +139,10 @@ fn rule_files_are_written_out_and_read_back() {
     }
     // Held against the truth of a foreign data set, and no rules of a robot.
     files.retain(|file| !file.starts_with("truth"));
-    assert_eq!(files, RULE_FILES.iter().map(|(name, _)| name.into()).collect());
+    assert_eq!(files, rule_files().map(|(name, _)| name.into()).collect());
     place.run(&["rules", "--export", "own"]).is(0);
-    for (name, text) in RULE_FILES {
-        assert_eq!(std::fs::read_to_string(place.path("own").join(name)).unwrap(), *text);
+    for (name, text) in rule_files() {
+        assert_eq!(std::fs::read_to_string(place.path("own").join(name)).unwrap(), text);
     }
     place.write("own/relations.dl", "mine");
     let told = place.run(&["rules", "--export", "own"]).is(2).err;
@@ -157,5 +157,29 @@ fn rule_files_are_written_out_and_read_back() {
     ] {
         let own = place.run(&[args, &["--rules", "own"][..]].concat()).is(0).out;
         assert_eq!(own, place.run(args).is(0).out, "{args:?}");
+    }
+}
+
+/// Doors of a model are hung as it says and stand open: their leaves must leave a way, and the floor runs on within the walls.
+#[test]
+fn every_room_of_a_model_is_driven_to() {
+    for (file, rooms) in [
+        (
+            "docs/start/flat.ifc",
+            &["the living room", "the kitchen", "the bedroom", "the office", "the corridor"][..],
+        ),
+        ("tests/golden/formats/ifc2x3_flat/input.ifc", &["Kitchen 101", "Entrance hall 102"]),
+        ("tests/golden/formats/ifc4_two_storeys/input.ifc", &["Office 1", "Stair hall 002"]),
+        ("tests/golden/formats/ifc4_two_storeys/input.ifc", &["Office 101", "Stair hall 102"]),
+    ] {
+        let place = Place::empty();
+        place.run(&["import", &project(file).display().to_string()]).is(0);
+        for from in rooms {
+            for to in rooms.iter().filter(|to| *to != from) {
+                let from = from.trim_start_matches("the ");
+                let order = format!("Go to {to}");
+                place.run(&["--lang", "en", "do", &order, "--from", from]).is(0);
+            }
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The program as it is run: answers, exit codes, and what wrong input comes to.
 
+mod assistants;
 mod barred;
 mod differences;
 mod drives;

@@ -87,6 +87,129 @@ fn lengths_are_in_the_unit_of_the_settings_and_in_centimetres_for_programs() {
     assert_eq!(run(here, &centimetres).0, usual);
 }
 
+/// The numbers of a text, and what stands between them.
+fn numbers(text: &str) -> (Vec<f64>, Vec<&str>) {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.' || c == ',';
+    let between = text.split(|c: char| c.is_ascii_digit()).map(|b| b.trim_matches([',', '.']));
+    let digits = text.split(|c: char| !is_of_number(c)).map(|n| n.trim_matches([',', '.']));
+    let numbers = digits.filter_map(|n| n.replace(',', ".").parse().ok());
+    (numbers.collect(), between.filter(|b| !b.is_empty()).collect())
+}
+
+/// A text whose moments are taken out: two runs are not at the same time.
+fn without_moments(text: &str) -> String {
+    const MOMENT: usize = "2026-11-21 09:30:00".len();
+    let mut parts: Vec<&str> = text.split(" UTC").collect();
+    let last = parts.pop().unwrap_or_default();
+    parts.iter().map(|part| &part[..part.len() - MOMENT]).chain([last]).collect()
+}
+
+/// Every command that tells lengths or is given them, with these in brackets, in cm: told in metres it says the same of the
+/// same, and leaves the same behind.
+#[test]
+fn metres_are_understood_and_told_by_every_command() {
+    let commands = [
+        "find|Чашка-1",
+        "observe|Чашка-1|--at|[40,50]|--when|2040-11-28T09:00Z",
+        "observe|Чашка-2|--pose|[120,60]|--when|2040-11-28T09:00Z",
+        "find|Чашка-1|--at|2040-11-28T09:01Z",
+        "proposals",
+        "find|Чашка-2|--story",
+        "edit|move|Стул-1|--by|[15,0]",
+        "edit|move|Кресло-1|--to|[100,100]|--dry-run",
+        "edit|place|Стул-9|--object|chair|--area|Комната-В|--at|[100,100]|--dry-run",
+        "edit|point|Точка-Ж|--area|Комната-В|--at|[100,120]",
+        "edit|move|Точка-Ж|--to|[110,120]",
+        "edit|zone|Зона-Ж|--kind|slow|--map|Квартира РБ-2|--points|[0,0] [100,0] [100,100]|--speed|30",
+        "edit|orthoframe|k|--rect|[40,30]|--height|[70]",
+        "edit|item|lid|--of|chair|--orthoframe|k|--at|[0,0,50]|--dry-run",
+        "diff|1|2",
+        "diff|2|6",
+        "where|--at|[225,380,]90",
+        "where|--at|[9900,9900]",
+        "route|--from|[225,380]|--to|[70,60]",
+        "route|--from|[225,380]|--to|[9900,60]",
+        "relations|--of|Чашка-1",
+        "ask|Как далеко Чашка-1 от Стола-1?",
+        "ask|Какого размера Стол-1?",
+        "ask|How big is the Table 1?",
+        "ask|Почему Чашка-1 рядом с Чашкой-2?",
+        "do|Поезжай в точку ([100; 120])",
+        "do|Поезжай в точку ([9900; 120])",
+        "do|Drive to the point ([100, 120])",
+        "do|Положи чашку-1 в точку ([100; 120])",
+    ];
+    let stores = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let [cm, m] = [stores[0].path(), stores[1].path()];
+    std::fs::write(m.join("ortho.toml"), "units = \"m\"\n").unwrap();
+    for here in [cm, m] {
+        let (_, err, code) =
+            run(here, &["import", &project("maps/rb2.toml").display().to_string()]);
+        assert_eq!(code, Some(0), "{err}");
+    }
+    let mut converted = 0;
+    for command in commands {
+        let said = |in_metres: bool| -> Vec<String> {
+            let mut words = String::new();
+            for (n, part) in command.split(['[', ']']).enumerate() {
+                let number = |text: &str| match text.trim().parse::<f64>() {
+                    Ok(length) if in_metres => {
+                        text.replace(text.trim(), &(length / 100.0).to_string())
+                    }
+                    _ => text.to_owned(),
+                };
+                let lengths =
+                    |by: char| part.split(by).map(number).collect::<Vec<_>>().join(&by.to_string());
+                words.push_str(&match n % 2 {
+                    0 => part.to_owned(),
+                    _ => lengths(if part.contains(';') { ';' } else { ',' }),
+                });
+            }
+            words.split('|').map(str::to_owned).collect()
+        };
+        let told = [(cm, false), (m, true)].map(|(here, in_metres)| {
+            let words = said(in_metres);
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            let (out, err, code) = run(here, &words);
+            (without_moments(&(out + &err)), code)
+        });
+        let [(in_cm, code), (in_m, same_code)] = &told;
+        assert_eq!(code, same_code, "{command}: {in_cm}\n{in_m}");
+        assert!(!in_m.contains(" см") && !in_m.contains(" cm"), "{command}: {in_m}");
+        let as_metres = in_cm.replace(" см", " м").replace(" cm", " m");
+        // What was said is told again.
+        let ((lengths, between), (metres, same)) = (numbers(&as_metres), numbers(in_m));
+        assert_eq!(between, same, "{command}: {in_cm}\n{in_m}");
+        assert_eq!(lengths.len(), metres.len(), "{command}: {in_cm}\n{in_m}");
+        for (length, metre) in lengths.iter().zip(&metres) {
+            let is_same = (length - metre).abs() < 1e-9;
+            assert!(
+                is_same || (length / 100.0 - metre).abs() < 0.0051,
+                "{command}: {in_cm}\n{in_m}"
+            );
+            converted += usize::from(!is_same);
+        }
+    }
+    assert!(converted > 40, "{converted}");
+    // Corners are told as they are given, with commas between.
+    let moved = ["edit", "zone", "Зона-Ж", "--dry-run", "--points", "0,0 1.5,0 1.5,1"];
+    let (told, ..) = run(m, &moved);
+    assert!(told.contains("«0,0 1,0 1,1» → «0,0 1.5,0 1.5,1»"), "{told}");
+    let [left, same] = [cm, m].map(|here| {
+        [
+            "find|Чашка-1|--at|2040-11-28T09:01Z",
+            "find|Чашка-2|--at|2040-11-28T09:01Z",
+            "relations|--of|Стул-1",
+            "diff|2|6",
+            "where",
+        ]
+        .map(|command| {
+            run(here, &[&command.split('|').collect::<Vec<_>>()[..], &["--json"]].concat()).0
+        })
+    });
+    assert_eq!(left, same);
+}
+
 #[test]
 fn faulty_settings_are_refused_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
@@ -142,6 +265,68 @@ fn colours_are_as_they_are_wanted() {
     assert!(!is_coloured(ortho(folder.path()).args(faulty).args(["--color", "never"])));
     std::fs::write(folder.path().join("ortho.toml"), "color = \"always\"\n").unwrap();
     assert!(is_coloured(ortho(folder.path()).args(faulty)));
+}
+
+/// Help, faults of arguments, of settings and of what is done, and what is done inside.
+#[test]
+fn whatever_is_told_is_coloured_as_it_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("faulty.toml"), "colour = 1\n").unwrap();
+    let (_, err, code) = run(here, &["import", &project("maps/rb2.toml").display().to_string()]);
+    assert_eq!(code, Some(0), "{err}");
+    for told in [
+        &["--help"][..],
+        &["edit", "place", "--help"],
+        &["help", "route"],
+        &["route", "--form", "x"],
+        &["where", "--detail", "all"],
+        &[],
+        &["find", "nothing"],
+        &["where", "-v"],
+        &["where", "--config", "faulty.toml"],
+    ] {
+        let is_coloured = |more: &[&str], no_color: &str| {
+            let mut command = ortho(here);
+            let output = command.args(more).args(told).env("NO_COLOR", no_color).output().unwrap();
+            [output.stdout, output.stderr].concat().contains(&0x1b)
+        };
+        std::fs::write(here.join("ortho.toml"), "").unwrap();
+        assert!(!is_coloured(&[], ""), "{told:?}: it is no terminal");
+        assert!(!is_coloured(&["--color", "auto"], "1"), "{told:?}");
+        assert!(is_coloured(&["--color", "always"], "1"), "{told:?}");
+        assert!(is_coloured(&["--color=always"], ""), "{told:?}");
+        std::fs::write(here.join("ortho.toml"), "color = \"always\"\n").unwrap();
+        let is_of_these_settings = !told.contains(&"--config");
+        assert_eq!(is_coloured(&[], ""), is_of_these_settings, "{told:?}: settings");
+        assert!(!is_coloured(&["--color", "never"], ""), "{told:?}: an argument goes before");
+    }
+}
+
+/// On a terminal (util-linux's script) there are colours, unless NO_COLOR is set.
+#[test]
+fn a_terminal_is_coloured_unless_no_color_is_set() {
+    let folder = tempfile::tempdir().unwrap();
+    for told in ["--help", "route --form x", "check none.toml"] {
+        let is_coloured = |no_color: &str| {
+            let ortho = ortho(folder.path());
+            let line = format!("'{}' {told}", ortho.get_program().display());
+            let mut terminal = Command::new("script");
+            terminal.args(["-qec", &line, "/dev/null"]).current_dir(folder.path());
+            terminal.env("TERM", "xterm").env("NO_COLOR", no_color).env("HOME", folder.path());
+            let output = terminal.stdin(Stdio::null()).output().ok()?;
+            // What takes the sign of waiting away is no colour.
+            Some(
+                String::from_utf8_lossy(&output.stdout).replace("\u{1b}[2K", "").contains('\u{1b}'),
+            )
+        };
+        let Some(usually) = is_coloured("") else {
+            assert!(std::env::var_os("CI").is_none(), "script is missing");
+            return;
+        };
+        assert!(usually, "{told}");
+        assert_eq!(is_coloured("1"), Some(false), "{told}");
+    }
 }
 
 #[test]

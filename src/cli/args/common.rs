@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{ArgAction, Args, ValueEnum};
 
-use crate::cli::lengths::Lengths;
 use crate::engine::{Sighted, When};
-use crate::units::{Bilingual, Language, Timestamp};
+use crate::units::{Bilingual, Language, Lengths, Timestamp};
 
 /// What every command takes.
 #[derive(Debug, Clone, Args)]
@@ -59,14 +59,14 @@ pub(in crate::cli) struct Common {
         value_name = "WHEN"
     )]
     pub color: Color,
-    /// Of lengths in arguments and of points in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
+    /// Of lengths in arguments and in what is told; in JSON and in files they are cm. A number may bear its own: 2.5m
     #[arg(
         long,
         global = true,
-        value_enum,
         default_value = "cm",
         hide_default_value = true,
-        value_name = "UNIT"
+        value_name = "UNIT",
+        value_parser = PossibleValuesParser::new(["cm", "m"]).map(|unit| if unit == "m" { Lengths::M } else { Lengths::Cm })
     )]
     pub units: Lengths,
     /// Tell on standard error what is done inside and how long it takes; -vv and -vvv tell more

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::engine::located::nowhere_on;
+use crate::engine::located::{nowhere_on, spot_in_words};
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{
@@ -159,7 +159,8 @@ impl State {
         self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
         if let Some((_, x, y)) = place_spots(&mut commands, spots) {
-            return Err(RequestError::OnlyGoneTo { x, y }.into());
+            let at = spot_in_words(f64::from(x), f64::from(y), "; ");
+            return Err(RequestError::OnlyGoneTo { at }.into());
         }
         if let [Command::ComeBack] = commands[..] {
             if let Some(gone) = memory.lost_place(Language::of(&resolved)) {

@@ -1,5 +1,6 @@
 //! Questions on demand against full evaluation and against trying everything, on random programs.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
@@ -8,7 +9,7 @@ use miette::Diagnostic as _;
 use orthoframe_facts::{
     Answers, AskError, Because, Computed, Database, EvaluateError, Limits, Live, Program, Value,
 };
-use orthoframe_units::Source;
+use orthoframe_units::{Source, Stop};
 
 /// The seeds of a test: `count` of them with `ORTHOFRAME_LONG`, else a quarter; from 0, or `ORTHO_SEEDS` of them from
 /// `ORTHO_SEED`, for a longer search.
@@ -314,7 +315,7 @@ fn computed_relations_stand_in_every_kind_of_premise() {
         let by = sum();
         let computed: [&dyn Computed; 1] = [&by];
         let limits = Limits::default();
-        let answers = program.ask_with(&facts, &source, &computed, limits);
+        let answers = program.ask_with(&facts, &source, &computed, limits.clone());
         let answers = answers.unwrap_or_else(|error| panic!("{question}: {error}"));
         assert_eq!(numbers(&answers), expected, "{question}");
         let answers = derived.ask_with(&source, &computed, limits).unwrap();
@@ -422,18 +423,25 @@ fn limits_of_a_program_and_of_a_question_hold_for_its_answers() {
     let declared = ".decl n(x: number) .decl a(x: number)";
     let long = Limits::default();
     for (rules, pragma, limits, code, reached) in [
-        (endless, ".pragma \"time-limit\" \"1\"", long, "facts::time", 1),
-        (endless, "", Limits { time: Duration::from_millis(200), ..long }, "facts::time", 1),
-        (endless, ".pragma \"row-limit\" \"3000\"", long, "facts::too_many", 0),
-        (endless, "", Limits { rows: 3000, ..long }, "facts::too_many", 0),
-        (endless, ".pragma \"memory-limit\" \"1\"", long, "facts::memory", 1),
-        (pairs, ".pragma \"row-limit\" \"2000\"", long, "facts::too_many", 0),
+        (endless, ".pragma \"time-limit\" \"1\"", long.clone(), "facts::time", 1),
+        (
+            endless,
+            "",
+            Limits { time: Duration::from_millis(200), ..long.clone() },
+            "facts::time",
+            1,
+        ),
+        (endless, ".pragma \"row-limit\" \"3000\"", long.clone(), "facts::too_many", 0),
+        (endless, "", Limits { rows: 3000, ..long.clone() }, "facts::too_many", 0),
+        (endless, ".pragma \"memory-limit\" \"1\"", long.clone(), "facts::memory", 1),
+        (pairs, ".pragma \"row-limit\" \"2000\"", long.clone(), "facts::too_many", 0),
         (pairs, "", Limits { rows: 2000, ..long }, "facts::too_many", 0),
     ] {
         let failed = |program: &str, question: &str, reached: usize| {
             let program = Program::parse(&Source::new("p.dl", program)).unwrap();
             let question = Source::new("?", question);
-            let error = program.ask_with(&program.database(), &question, &[], limits).unwrap_err();
+            let error =
+                program.ask_with(&program.database(), &question, &[], limits.clone()).unwrap_err();
             let told = error.code().map(|code| code.to_string());
             assert_eq!(told.as_deref(), Some(code), "{pragma} {rules}: {error}");
             match error {
@@ -456,6 +464,61 @@ fn limits_of_a_program_and_of_a_question_hold_for_its_answers() {
         let asked = if rules == pairs { "?- a(X), X < 0" } else { "?- a(-5)" };
         failed(&format!("{declared} {rules} {pragma}"), asked, reached);
         failed("", &format!("{pragma} {declared} {rules} {asked}"), reached);
+    }
+}
+
+/// A relation that raises a flag when it has been asked so often, and counts on.
+struct Counted {
+    declaration: Source,
+    asked: Cell<usize>,
+    stop: Stop,
+}
+
+const RAISED_AT: usize = 5000;
+
+impl Computed for Counted {
+    fn declaration(&self) -> &Source {
+        &self.declaration
+    }
+
+    fn ways(&self) -> &[(u32, f64)] {
+        &[(0b01, 1.0)]
+    }
+
+    fn rows(&self, known: &[Option<Value>], tell: &mut dyn FnMut(&[Value])) {
+        self.asked.set(self.asked.get() + 1);
+        if self.asked.get() == RAISED_AT {
+            self.stop.raise();
+        }
+        if let Some(Some(Value::Number(number))) = known.first() {
+            tell(&[Value::Number(*number), Value::Number(number + 1)]);
+        }
+    }
+}
+
+/// Of a million steps, or of endless ones, few are taken when nobody waits any more: counted, for a clock tells nothing on
+/// a busy machine.
+#[test]
+fn a_question_ends_soon_after_nobody_waits_for_it() {
+    const MORE: usize = 5000;
+    let declared = ".decl n(x: number) n(X) :- X = range(0, 1000).";
+    for question in [
+        "?- n(X), n(Y), next(X * 1000 + Y, Z), Z < 0",
+        ".decl a(x: number) a(0). a(Y) :- a(X), next(X, Y). ?- a(-5)",
+        ".decl a(x: number) a(Z) :- n(X), n(Y), next(X * 1000 + Y, Z). ?- M = max X : { a(X) }",
+        ".decl a(x: number) a(Z) :- n(X), n(Y), next(X * 1000 + Y, Z). ?- n(X), !a(X)",
+    ] {
+        let program = Program::parse(&Source::new("p.dl", declared)).unwrap();
+        let declaration = Source::new("next", ".decl next(x: number, y: number)");
+        let counted = Counted { declaration, asked: Cell::new(0), stop: Stop::new() };
+        let limits = Limits { stop: Some(counted.stop.clone()), ..Limits::default() };
+        let asked = Source::new("?", question);
+        let error = program.ask_with(&program.database(), &asked, &[&counted], limits);
+        let error = error.map(|answers| answers.rows().len()).unwrap_err();
+        let told = matches!(&error, AskError::Evaluate(EvaluateError::Stopped { .. }));
+        assert!(told, "{question}: {error}");
+        let asked = counted.asked.get();
+        assert!((RAISED_AT..RAISED_AT + MORE).contains(&asked), "{question}: {asked}");
     }
 }
 

@@ -1,8 +1,10 @@
 //! A point of the floor told by its coordinates: «в точку (330; 265)», "to the point (330, 265)".
 //!
-//! The pair is told in brackets, in cm of the Map, as positions are; a storey may be named behind it: «(330; 265; Этаж 2)».
+//! The pair is told in brackets, of the Map, in the unit in which positions are told; a storey may be named behind it: «(330; 265; Этаж 2)».
 
 use std::ops::Range;
+
+use crate::units::Lengths;
 
 /// A point that a sentence names, and where it does so: with the words that lead to it.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,9 +49,9 @@ pub fn pointed(sentence: &str) -> Option<Pointed> {
     })
 }
 
-/// A number of cm, with a decimal point or comma.
+/// A length in whole cm, told with a decimal point or comma.
 fn whole(text: &str) -> Option<i32> {
-    let number: f64 = text.replace(',', ".").parse().ok()?;
+    let number = Lengths::said().meant(text.replace(',', ".").parse().ok()?);
     (number.abs() <= FARTHEST).then_some(number.round() as i32)
 }
 

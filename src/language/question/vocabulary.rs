@@ -7,10 +7,10 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Closeness, Dimension, Extreme, Rel};
 use super::uses;
 use crate::report::Detail;
-use crate::units::{InOrder as _, name_key};
+use crate::units::{Carried, InOrder as _, carried, name_key};
 use crate::words::things;
 
-static TEXT: &str = include_str!("marks.txt");
+static TEXT: Carried = carried!("marks.txt");
 
 /// Every mark that words may have; in the file they go by their names here.
 const MARKS: &[Mark] = &[
@@ -209,7 +209,7 @@ fn table() -> &'static HashMap<String, Phrases> {
 fn phrases() -> Vec<(Mark, String)> {
     let names: HashMap<String, Mark> = MARKS.iter().map(|m| (format!("{m:?}"), *m)).collect();
     let mut found = Vec::new();
-    for entry in things::entries(TEXT) {
+    for entry in things::entries(&TEXT) {
         // A test reads every line.
         let Some((name, words)) = entry.split_once(" : ") else { continue };
         let Some(mark) = names.get(name) else { continue };
@@ -289,7 +289,7 @@ mod tests {
         for mark in MARKS {
             assert!(phrases.iter().any(|(own, _)| own == mark), "{mark:?}");
         }
-        for entry in things::entries(TEXT) {
+        for entry in things::entries(&TEXT) {
             let name = entry.split(" : ").next().unwrap_or_default();
             assert!(MARKS.iter().any(|mark| format!("{mark:?}") == name), "{entry}");
         }

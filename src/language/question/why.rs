@@ -10,6 +10,7 @@ use super::lexicon::lower_first;
 use super::query::{Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::map::Entity;
+use crate::units::Lengths;
 use crate::words::length;
 
 /// Measurements said in one sentence, at most.
@@ -267,14 +268,7 @@ impl Knowledge<'_> {
             _ => 0.0,
         };
         let cm = |n: usize| match number(n).abs() < 100.0 {
-            true => {
-                let text = format!("{:.1}", number(n));
-                let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
-                match self.is_russian() {
-                    true => format!("{} см", text.replace('.', ",")),
-                    false => format!("{text} cm"),
-                }
-            }
+            true => Lengths::said().told(number(n), 1, self.language),
             false => length(number(n), self.language),
         };
         let percent = |n: usize| number(n) * 10.0;

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::grammar::{Gender, PlaceSense};
+use crate::units::{Carried, carried};
 
 /// One line of the list. What it leaves open follows from the ending.
 #[derive(Debug, Clone, Default)]
@@ -32,7 +33,7 @@ impl Entry {
     }
 }
 
-static TEXT: &str = include_str!("lexicon.txt");
+static TEXT: Carried = carried!("lexicon.txt");
 
 /// The entry of a word in lower case; ё may be written е.
 pub(crate) fn find(word: &str) -> Option<&'static Entry> {

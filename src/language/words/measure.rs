@@ -3,10 +3,11 @@
 //! Invariant: what is said is the value rounded, in the decimal mark of the language.
 
 use super::list::Language;
+use crate::units::Lengths;
 
 /// «40 см», «1,5 м», "1.5 m"
 pub(crate) fn length(cm: f64, language: Language) -> String {
-    let metres = cm >= 100.0;
+    let metres = cm >= 100.0 || Lengths::said() == Lengths::M;
     let (value, unit) = match (metres, language) {
         (true, Language::Russian) => (cm / 100.0, "м"),
         (true, Language::English) => (cm / 100.0, "m"),

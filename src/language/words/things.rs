@@ -6,8 +6,9 @@
 use std::sync::OnceLock;
 
 use super::list::Language;
+use crate::units::{Carried, carried};
 
-static TEXT: &str = include_str!("things.txt");
+static TEXT: Carried = carried!("things.txt");
 
 /// What part things of a sort have in what is done, after the thematic roles of verbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,7 +85,7 @@ pub(crate) fn things() -> &'static Things {
     static THINGS: OnceLock<Things> = OnceLock::new();
     THINGS.get_or_init(|| {
         let mut things = Things::default();
-        for entry in entries(TEXT) {
+        for entry in entries(&TEXT) {
             // A test reads every one.
             let _ = things.add(&entry);
         }
@@ -166,7 +167,7 @@ mod tests {
 
     #[test]
     fn every_line_reads_and_every_sort_has_words_in_both_languages() {
-        for entry in entries(TEXT) {
+        for entry in entries(&TEXT) {
             assert!(Things::default().add(&entry).is_some(), "{entry}");
         }
         for sort in &things().sorts {

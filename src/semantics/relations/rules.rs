@@ -10,10 +10,10 @@ use crate::map::{Profile, Tolerances};
 use crate::measure::Reach;
 use crate::measured::{MEASURED, Measured, Order};
 use crate::thresholds::{self, ThresholdFault, Thresholds};
-use crate::units::{Bilingual, FileFault, OwnText, Source};
+use crate::units::{Bilingual, Carried, FileFault, OwnText, Source, carried};
 
 /// The rule text that the crate brings along.
-pub const STANDARD: &str = include_str!("../../../rules/relations.dl");
+pub static STANDARD: Carried = carried!("../../../rules/relations.dl");
 /// No rule file that a person wrote is longer.
 pub(crate) const MAX_FILE_BYTES: u64 = 16 << 20;
 
@@ -89,7 +89,7 @@ impl RelationRules {
     /// Never: a test reads them.
     #[must_use]
     pub fn standard() -> Self {
-        Self::parse(&[Source::new("rules/relations.dl", STANDARD)])
+        Self::parse(&[Source::new("rules/relations.dl", *STANDARD)])
             .expect("the standard rules are sound")
     }
 
@@ -101,7 +101,7 @@ impl RelationRules {
     pub fn load(base: Option<&Path>, more: &[PathBuf]) -> Result<Self, RelationError> {
         let mut texts = vec![match base {
             Some(path) => text_of(path)?,
-            None => Source::new("rules/relations.dl", STANDARD),
+            None => Source::new("rules/relations.dl", *STANDARD),
         }];
         for path in more {
             texts.push(text_of(path)?);
@@ -114,7 +114,7 @@ impl RelationRules {
     /// # Errors
     /// [`RelationError::Rules`] with all faults of the text, [`RelationError::Schema`].
     pub fn with(text: &Source) -> Result<Self, RelationError> {
-        Self::parse(&[Source::new("rules/relations.dl", STANDARD), text.clone()])
+        Self::parse(&[Source::new("rules/relations.dl", *STANDARD), text.clone()])
     }
 
     /// Several texts as one.
@@ -144,7 +144,7 @@ impl RelationRules {
             rules.reach_of(name).into_iter().for_each(|reach| *reach = farthest.max(*reach));
         }
         let own = |source: &Source| {
-            source.text() != STANDARD && texts.iter().any(|text| text.text() == source.text())
+            source.text() != *STANDARD && texts.iter().any(|text| text.text() == source.text())
         };
         let either = MEASURED.iter().filter(|measured| measured.order == Order::Either);
         let mut either = either.filter_map(|measured| rules.program.relation(measured.name));

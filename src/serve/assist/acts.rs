@@ -11,7 +11,7 @@ use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
 use super::super::proposed::Waits;
-use super::super::{act, apart, desk};
+use super::super::{act, asked, desk};
 use super::approval::{Word, ask};
 use super::call::{Answer, Call, Said, Told, refuse, said};
 use super::driven::Driven;
@@ -61,7 +61,7 @@ impl Call<'_> {
             ));
         }
         let text = text.to_owned();
-        let heard = apart(move || house.tasks.say(&session, &text, language));
+        let heard = asked(move |stop| house.tasks.say(&session, &text, language, stop));
         let mut view = heard.await?;
         view["text"] = match view.get("task") {
             Some(task) => json!(plan_in_words(task, language)),

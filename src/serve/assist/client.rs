@@ -7,10 +7,11 @@ use std::sync::Arc;
 use rmcp::service::{RequestContext, RoleServer};
 use rmcp::task_manager::TaskManager;
 
+use super::super::House;
 use super::super::gate::{Role, Session};
-use super::super::{House, beside};
 use super::approval::Asked;
 use super::calls::Calls;
+use crate::engine::calls;
 
 /// Sessions of assistants are told from those of browsers, which count from 1.
 const FIRST_SESSION: u64 = 1 << 40;
@@ -33,10 +34,9 @@ impl Assistant {
         store: Option<&Path>,
         trusts_host: bool,
     ) -> Self {
-        let beside = |ending| store.map(|store| beside(store, ending));
         Self {
             house,
-            calls: Arc::new(Calls::new(beside(".calls.jsonl"))),
+            calls: Arc::new(Calls::new(store.map(calls::file))),
             asked: Arc::default(),
             tasks: TaskManager::new(),
             trusts_host,

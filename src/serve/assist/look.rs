@@ -1,14 +1,17 @@
 //! What only reads: questions, relations and reasons, ways, the map, the past.
 
+use std::sync::Arc;
+
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::engine::calls;
 use crate::engine::{Drawing, Method, RequestError, json as views, rehearsal};
 use crate::robot::Moment;
 use crate::units::Language;
 
 use super::super::drive::{Answered, pose_view};
-use super::super::{apart, drawing, read};
+use super::super::{apart, asked, drawing, read};
 use super::call::{Answer, Call, Said, Told, refuse, said};
 
 #[derive(Deserialize)]
@@ -61,6 +64,8 @@ pub(super) struct Way {
 pub(super) struct Between {
     from: Option<u64>,
     to: Option<u64>,
+    #[serde(default)]
+    calls: bool,
 }
 
 #[derive(Deserialize)]
@@ -75,7 +80,8 @@ impl Call<'_> {
         let (house, session) = (self.house(), self.session.clone());
         let language = question.language();
         let heard =
-            apart(move || house.tasks.answer(&session, question.text.trim(), language)).await?;
+            asked(move |stop| house.tasks.answer(&session, question.text.trim(), language, stop))
+                .await?;
         match heard {
             Answered::Told(mut view) => {
                 view["text"] = json!(said(&view["replies"]));
@@ -89,9 +95,9 @@ impl Call<'_> {
         }
     }
 
-    pub(super) async fn query(&self, asked: Query) -> Answer {
+    pub(super) async fn query(&self, given: Query) -> Answer {
         let state = self.house().desk.state();
-        let found = apart(move || state.query(&asked.query, false)).await?;
+        let found = asked(move |stop| state.heeding(stop).query(&given.query, false)).await?;
         let rows: Vec<Value> = found.rows.iter().map(|row| json!(views::tuple(row))).collect();
         Ok(Told::Value(json!({
             "columns": found.columns, "rows": rows, "unknown": found.unknown,
@@ -118,10 +124,10 @@ impl Call<'_> {
         view.await.map(Told::Value)
     }
 
-    pub(super) async fn relations(&self, asked: About) -> Answer {
+    pub(super) async fn relations(&self, about: About) -> Answer {
         let state = self.house().desk.state();
         let found = apart(move || {
-            let facts = state.facts(asked.name.as_deref(), asked.of.as_deref())?;
+            let facts = state.facts(about.name.as_deref(), about.of.as_deref())?;
             let relations = state.relations()?;
             let one = |(name, values): &(String, Vec<crate::facts::Value>)| {
                 json!({
@@ -182,10 +188,14 @@ impl Call<'_> {
 
     pub(super) async fn history(&self, between: Between) -> Answer {
         let house = self.house();
-        let view = match between.from {
+        let mut view = match between.from {
             None => read::revisions(&house).await?,
             Some(from) => read::changed(&house, from, between.to).await?,
         };
+        if let Some(file) = self.assistant.calls.file.clone().filter(|_| between.calls) {
+            let (calls, _) = apart(move || Ok(calls::noted(&file)?)).await?;
+            view["calls"] = json!(calls);
+        }
         Ok(Told::Value(view))
     }
 
@@ -193,7 +203,9 @@ impl Call<'_> {
         let house = self.house();
         let state = read::then(&house, then.revision).await?;
         let language = Language::of(&then.text);
-        let replies = apart(move || rehearsal::replied(&state, then.text.trim(), language));
+        let replies = asked(move |stop| {
+            rehearsal::replied(&Arc::new(state.heeding(stop)), then.text.trim(), language)
+        });
         let replies = replies.await?;
         Ok(Told::Value(json!({
             "revision": then.revision, "text": said(&replies), "replies": replies,

@@ -23,6 +23,7 @@ mod stream;
 mod tools;
 
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use rmcp::handler::server::ServerHandler;
 use rmcp::model::{
@@ -34,6 +35,7 @@ use rmcp::service::{RequestContext, RoleServer, ServiceExt as _};
 use serde_json::Value;
 
 use crate::engine::Engine;
+use crate::engine::calls::Ending;
 use crate::units::Stop;
 
 use super::fault::Fault;
@@ -72,7 +74,7 @@ impl ServerHandler for Assistant {
         request: CallToolRequestParams,
         context: RequestContext<RoleServer>,
     ) -> Result<CallToolResponse, McpError> {
-        let session = self.session(&context);
+        let (session, at) = (self.session(&context), SystemTime::now().into());
         let Some(row) = tools::named(&request.name) else {
             let known: Vec<&str> = tools::names().collect();
             let text =
@@ -89,15 +91,24 @@ impl ServerHandler for Assistant {
                 request: &request,
                 context: &context,
             };
-            call.run(row.name, arguments.clone()).await
+            tokio::select! {
+                told = call.run(row.name, arguments.clone()) => told,
+                // What acts ends by itself, when the robot stands.
+                () = context.ct.cancelled(), if row.reads() => Err(call::refuse(
+                    "assist::cancelled",
+                    "Вызов отозван.",
+                    "The call was cancelled.",
+                )),
+            }
         };
         let outcome = match &told {
-            Ok(call::Told::Waits(_)) => "asked",
-            Ok(call::Told::Begun(_)) => "begun",
-            Ok(_) => "answered",
-            Err(_) => "refused",
+            _ if context.ct.is_cancelled() => Ending::Cancelled,
+            Ok(call::Told::Waits(_)) => Ending::Asked,
+            Ok(call::Told::Begun(_)) => Ending::Begun,
+            Ok(_) => Ending::Answered,
+            Err(_) => Ending::Refused,
         };
-        self.calls.note(&session.name, row.name, &arguments, outcome);
+        self.calls.note(at, &session.name, row.name, &arguments, outcome);
         Ok(match told {
             Ok(call::Told::Waits(question)) => (*question).into(),
             Ok(call::Told::Begun(task)) => CreateTaskResult::new(*task).into(),
@@ -135,7 +146,8 @@ impl ServerHandler for Assistant {
         context: RequestContext<RoleServer>,
     ) -> Result<(), McpError> {
         let by = self.session(&context).name;
-        self.calls.note(&by, "tasks/cancel", &Value::from(said.task_id.clone()), "answered");
+        let (at, task) = (SystemTime::now().into(), Value::from(said.task_id.clone()));
+        self.calls.note(at, &by, "tasks/cancel", &task, Ending::Answered);
         self.tasks.cancel_task(&said.task_id)
     }
 }

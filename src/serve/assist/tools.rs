@@ -17,6 +17,12 @@ pub(super) struct Row {
     takes: fn() -> Value,
 }
 
+impl Row {
+    pub(super) fn reads(&self) -> bool {
+        self.effect == Effect::Reads
+    }
+}
+
 /// What a tool does to the world.
 #[derive(Clone, Copy, PartialEq)]
 enum Effect {
@@ -137,12 +143,12 @@ const ROWS: &[Row] = &[
     Row {
         name: "history",
         title: "History of the map",
-        about: "Revisions of the map with author, time and reason, the newest last; with `from`, what changed since that revision.",
+        about: "Revisions of the map with author, time and reason, the newest last; with `from`, what changed since that revision; with `calls`, the calls of assistants as well, with the client's name.",
         needs: Role::Look,
         effect: Effect::Reads,
         takes: || {
             of(
-                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 } }),
+                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 }, "calls": { "type": "boolean" } }),
                 &[],
             )
         },
@@ -264,7 +270,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 pub(super) fn all() -> Vec<Tool> {
     let one = |row: &Row| {
         let Value::Object(schema) = (row.takes)() else { unreachable!("a schema is an object") };
-        let reads = row.effect == Effect::Reads;
+        let reads = row.reads();
         let hints = ToolAnnotations::with_title(row.title)
             .read_only(reads)
             .destructive(row.effect == Effect::Acts)

@@ -8,6 +8,7 @@ use crate::map::Entity;
 use crate::question::knowledge::Knowledge;
 use crate::question::query::{Dimension, Noun, Thing};
 use crate::question::{Doubt, Fact, Said};
+use crate::units::Lengths;
 use crate::words::{Case, Number, enumerate};
 use crate::words::{area, length};
 
@@ -19,8 +20,10 @@ impl Knowledge<'_> {
             Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
             _ => return None,
         };
-        let unit = self.pick("см", "cm");
-        Some(format!("{:.0}×{:.0}×{:.0} {unit}", extent.width, extent.depth, extent.height))
+        let (lengths, language) = (Lengths::said(), self.language);
+        let sizes = [extent.width, extent.depth, extent.height];
+        let sizes = sizes.map(|cm| lengths.in_language(cm, 0, language)).join("×");
+        Some(format!("{sizes} {}", lengths.word(language)))
     }
 
     pub(super) fn size(&self, dimension: Dimension, of: &Noun) -> Result<Draft, Doubt> {

@@ -1,0 +1,133 @@
+//! `ortho mcp` by its own lines, and what `ortho history --calls` tells of them afterwards.
+
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::process::{Child, ChildStdout, Stdio};
+
+use serde_json::{Value, json};
+
+use super::Place;
+
+/// A client that speaks the protocol line by line.
+struct Client {
+    server: Child,
+    told: BufReader<ChildStdout>,
+    id: u64,
+}
+
+impl Client {
+    fn of(place: &Place, name: &str) -> Self {
+        let mut command = place.command(&["mcp", "--trust-client"]);
+        let mut server =
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it starts");
+        let told = BufReader::new(server.stdout.take().expect("it is piped"));
+        let mut client = Self { server, told, id: 0 };
+        let id = client.ask(
+            "initialize",
+            &json!({
+                "protocolVersion": "2025-06-18", "capabilities": {},
+                "clientInfo": { "name": name, "version": "1" },
+            }),
+        );
+        client.answer(id);
+        client.tell("notifications/initialized", &json!({}));
+        client
+    }
+
+    fn send(&mut self, line: &Value) {
+        writeln!(self.server.stdin.as_mut().expect("it is piped"), "{line}").expect("it listens");
+    }
+
+    fn tell(&mut self, method: &str, params: &Value) {
+        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
+    }
+
+    fn ask(&mut self, method: &str, params: &Value) -> u64 {
+        self.id += 1;
+        self.send(&json!({ "jsonrpc": "2.0", "id": self.id, "method": method, "params": params }));
+        self.id
+    }
+
+    fn answer(&mut self, id: u64) -> Value {
+        loop {
+            let mut line = String::new();
+            assert!(self.told.read_line(&mut line).expect("it speaks") > 0, "it left");
+            let told: Value = serde_json::from_str(&line).expect("one JSON value a line");
+            if told["id"] == id {
+                return told["result"].clone();
+            }
+        }
+    }
+
+    fn call(&mut self, tool: &str, arguments: &Value) -> Value {
+        let id = self.ask("tools/call", &json!({ "name": tool, "arguments": arguments }));
+        self.answer(id)["structuredContent"].clone()
+    }
+
+    fn leave(mut self) {
+        drop(self.server.stdin.take());
+        self.server.wait().expect("it ends");
+    }
+}
+
+/// Pairs of numbers without end, of which none is asked for.
+const ENDLESS: &str = ".decl a(x: number, y: number) a(0, 0). a(X + 1, Y) :- a(X, Y). a(X, Y + 1) :- a(X, Y). ?- a(-5, _)";
+
+#[test]
+fn every_call_of_an_assistant_is_in_the_history_at_its_time() {
+    let place = Place::with_rb2();
+    let mut client = Client::of(&place, "Маша");
+    assert!(client.call("ask", &json!({ "text": "Где Чашка-1?" }))["text"].is_string());
+    assert!(client.call("query", &json!({ "query": "?- nothing(" }))["code"].is_string());
+    // Taken back, it ends; whoever asks next is answered.
+    let endless = json!({ "name": "query", "arguments": { "query": ENDLESS } });
+    let id = client.ask("tools/call", &endless);
+    client.tell("notifications/cancelled", &json!({ "requestId": id, "reason": "enough" }));
+    let edit = json!({ "edit": [{ "move": "Стул-1", "by": [10, 0] }] });
+    assert_eq!(client.call("propose_edit", &json!({ "edit": edit }))["outcome"], "edited");
+    let history = client.call("history", &json!({ "calls": true }));
+    let outcomes = |calls: &Value| -> Vec<(String, String)> {
+        let word = |call: &Value, key: &str| call[key].as_str().expect("a text").to_owned();
+        let calls = calls.as_array().expect("a list").iter();
+        calls.map(|call| (word(call, "tool"), word(call, "outcome"))).collect()
+    };
+    let expected = [
+        ("ask", "answered"),
+        ("query", "refused"),
+        ("query", "cancelled"),
+        ("propose_edit", "answered"),
+    ]
+    .map(|(tool, outcome)| (tool.to_owned(), outcome.to_owned()));
+    assert_eq!(outcomes(&history["calls"]), expected);
+    assert!(client.call("history", &json!({}))["calls"].is_null());
+    client.leave();
+
+    // A machine that stopped leaves half a line.
+    let noted = place.path("ortho-store.calls.jsonl");
+    let whole = std::fs::read_to_string(&noted).unwrap();
+    std::fs::write(&noted, format!("{whole}{{\"at\": \"20")).unwrap();
+    let told = place.json(&["history", "--calls"], 0);
+    assert_eq!(outcomes(&told["calls"])[..4], expected);
+    assert!(told["calls"].as_array().unwrap().iter().all(|call| call["client"] == "Маша"));
+    assert_eq!(told["revisions"].as_array().unwrap().len(), 2);
+    assert!(place.json(&["history"], 0)["calls"].is_null());
+
+    let run = place.run(&["history", "--calls", "--lang", "en"]).is(0);
+    assert!(run.err.contains("lines of calls do not read: 1"), "{}", run.err);
+    let lines: Vec<&str> = run.out.lines().collect();
+    for (line, parts) in lines.iter().zip([
+        &["   1 ", "import"][..],
+        &["Маша", "ask {", "– answered"],
+        &["Маша", "query {", "– refused"],
+        &["Маша", "query {", "– cancelled"],
+        &["Маша", "propose_edit {", "– answered"],
+        &["   2 ", "Маша", "edit"],
+        &["Маша", "history {", "– answered"],
+        &["Маша", "history", "– answered"],
+    ]) {
+        assert!(parts.iter().all(|part| line.contains(part)), "{parts:?}: {line}");
+    }
+    assert_eq!(lines.len(), 8, "{lines:#?}");
+    let last = place.run(&["history", "--calls", "--last", "3", "--lang", "ru"]).is(0).out;
+    assert!(last.lines().count() == 3 && last.contains("– дан ответ"), "{last}");
+    assert!(!place.run(&["history"]).is(0).out.contains("ask"));
+}
