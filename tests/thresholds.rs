@@ -545,7 +545,8 @@ fn a_text_from_before_what_is_asked_answers_it() {
     let older = format!("{before}// ═══ Часть{after}");
     assert!(!older.contains("BETWEEN"));
     let narrow = older.replace("\"robot door\",       13000", "\"robot door\",        3000");
-    let (older, narrow, standard) = (engine(&older, ""), engine(&narrow, ""), engine(&STANDARD, ""));
+    let (older, narrow, standard) =
+        (engine(&older, ""), engine(&narrow, ""), engine(&STANDARD, ""));
     for (x, y) in [(550.0, 120.0), (590.0, 200.0), (300.0, 200.0), (20.0, 20.0)] {
         assert_eq!(at(&older, x, y), at(&standard, x, y));
     }

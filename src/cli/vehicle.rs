@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{World, check_map_closely};
+use crate::engine::{Rules, World, check_map_closely};
 use crate::robot::{
     Address, Moment, Patience, RemoteVehicle, Senses, SensingRobot, Served, Simulator, Vehicle,
     serve, starting_pose,

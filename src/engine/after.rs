@@ -9,7 +9,6 @@ use crate::units::{Gather as _, ReplicaId};
 
 use super::obstacles::is_obstacle;
 
-
 /// How a task left the robot and its world.
 #[derive(Debug, Clone, Default)]
 pub struct After {

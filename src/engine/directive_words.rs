@@ -10,7 +10,7 @@ use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
 use crate::units::Bilingual;
 
-use super::position::spot_in_words;
+use super::located::spot_in_words;
 
 use super::OPERATOR;
 use super::lexicon::named;

@@ -20,7 +20,6 @@ pub(super) enum Faced {
     Inward,
 }
 
-
 /// The first thing that a ray along the heading meets.
 pub(super) fn faced(
     world: &World,

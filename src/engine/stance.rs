@@ -1,7 +1,7 @@
 //! Where the robot is to stand: at what is named, at a window, in the middle of a room, between two things, and what it
 //! is to look at there.
 
-use super::position::spot_in_words;
+use super::located::spot_in_words;
 use crate::geometry::nearest_on_segment;
 use crate::language::command::{Facing, Placement, Relation};
 use crate::map::{Entity, Permeability};

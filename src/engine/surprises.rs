@@ -1,6 +1,6 @@
 //! What went otherwise than believed, in words.
 
-use super::position::spot_in_words;
+use super::located::spot_in_words;
 use crate::geometry::Remedy;
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, World};
