@@ -148,6 +148,14 @@ fn manifests_name_what_is_drawn_and_no_more() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// What is made for other languages stands on the facade, as any program does: it names no folder.
+#[test]
+fn bindings_use_the_facade_alone() {
+    let text = fs::read_to_string(project("bindings/python/Cargo.toml")).expect("it has one");
+    let named: Vec<&str> = text.lines().filter(|line| line.starts_with("orthoframe")).collect();
+    assert_eq!(named, ["orthoframe = { path = \"../..\" }"]);
+}
+
 #[test]
 fn the_drawing_has_no_cycle_and_no_ghost() {
     let allowed = allowed_arrows();
