@@ -6,8 +6,6 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use serde_json::json;
-
 use crate::engine::{
     Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_told, json,
 };
@@ -120,7 +118,7 @@ impl Teller {
             {
                 if let Some(event) = self.events.of(world, progress) {
                     // A closed pipe is noticed by the command's last words.
-                    drop(say(&json!(event).to_string()));
+                    drop(say(&json::event(&event).to_string()));
                 }
                 Ok(())
             }

@@ -43,7 +43,7 @@ mod english;
 mod error;
 mod events;
 mod export;
-mod forms;
+pub(crate) mod forms;
 mod furniture;
 mod given;
 mod goals;

@@ -48,8 +48,8 @@ impl Fault {
 
     /// With what else is to be known.
     #[must_use]
-    pub(super) fn with(mut self, field: &str, value: Value) -> Self {
-        self.body[field] = value;
+    pub(super) fn with(mut self, field: &str, value: impl Into<Value>) -> Self {
+        self.body[field] = value.into();
         self
     }
 

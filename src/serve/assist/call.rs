@@ -7,8 +7,9 @@ use rmcp::model::{CallToolRequestParams, InputRequiredResult, Task};
 use rmcp::service::{RequestContext, RoleServer};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::Value;
 
+use crate::engine::json as views;
 use crate::units::Language;
 
 use super::super::fault::Fault;
@@ -107,7 +108,7 @@ impl Call<'_> {
                 let Nothing {} = arguments(given)?;
                 let (house, by) = (self.house(), self.session.name.clone());
                 let is_running = apart(move || Ok(house.tasks.stop(&by))).await?;
-                Ok(Told::Value(json!({ "stopped": is_running })))
+                Ok(Told::Value(views::stop(is_running)))
             }
             "observe" => self.observe(arguments(given)?).await,
             "propose_edit" => self.propose_edit(arguments(given)?).await,

@@ -169,7 +169,7 @@ async def work(connect, mode, log=None):
         _, value = await call("route", **{"from": "Точка-А", "to": "Точка-К"})
         check(value["length_cm"] > 100 if "length_cm" in value else True, value)
         _, value = await call("relations", of="Стол-1")
-        check(any(r["relation"] == "ON_TOP_OF" for r in value["relations"]), value)
+        check(any(r["relation"] == "ON_TOP_OF" for r in value["facts"]), value)
         picture, value = await call("map")
         image = next(block for block in picture.content if block.type == "image")
         check(base64.b64decode(image.data)[:4] == b"\x89PNG" and value["rooms"], "a picture of the map")
