@@ -125,14 +125,6 @@ impl Call<'_> {
             }
         };
         let sure = seen.sure.unwrap_or(0.9);
-        let numbers = [seen.x.unwrap_or(0.0), seen.y.unwrap_or(0.0), seen.z, seen.angle];
-        if !(0.0..=1.0).contains(&sure) || numbers.iter().any(|n| !n.is_finite() || n.abs() > 1e7) {
-            return Err(refuse(
-                "assist::number",
-                "sure – от 0 до 1, а место – в пределах здания",
-                "sure is from 0 to 1, and the place within the building",
-            ));
-        }
         let observer = self.session.name.clone();
         let house = self.house();
         let noted = house.desk.ask(move |engine| {
