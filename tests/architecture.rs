@@ -148,6 +148,14 @@ fn manifests_name_what_is_drawn_and_no_more() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// What is made for other languages stands on the facade, as any program does: it names no folder.
+#[test]
+fn bindings_use_the_facade_alone() {
+    let text = fs::read_to_string(project("bindings/python/Cargo.toml")).expect("it has one");
+    let named: Vec<&str> = text.lines().filter(|line| line.starts_with("orthoframe")).collect();
+    assert_eq!(named, ["orthoframe = { path = \"../..\" }"]);
+}
+
 #[test]
 fn the_drawing_has_no_cycle_and_no_ghost() {
     let allowed = allowed_arrows();
@@ -210,6 +218,43 @@ fn each_package_has_its_own_folder() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Files of the faces that make JSON which is no result of the engine: what a protocol, or the server's own keeping, has
+/// of its own.
+const OWN_JSON: [(&str, &str); 8] = [
+    ("cli/language_server.rs", "the language server's protocol"),
+    ("serve/assist/approval.rs", "the form in which an assistant's user is asked"),
+    ("serve/assist/calls.rs", "the log of the assistants' calls"),
+    ("serve/assist/tools.rs", "the schemas of the tools"),
+    ("serve/centre.rs", "who holds a store, told to what carries a map to it"),
+    ("serve/events.rs", "the frame of an event"),
+    ("serve/fault.rs", "the body of a refusal"),
+    ("serve/gate.rs", "sessions, kept over a restart"),
+];
+
+/// What makes JSON: the macro, a type's own shape, a field put into a value. What is built of a `serde_json::Map` by hand
+/// goes unseen here.
+fn makes_json(code: &str) -> bool {
+    code.contains("json!") || code.contains("Serialize") || code.contains("\"] = ")
+}
+
+/// The shape of a result stands in `engine/json` alone: whatever a program reads is the same by every face.
+#[test]
+fn the_shape_of_a_result_stands_in_one_place() {
+    let makers: BTreeSet<String> = sources()
+        .into_iter()
+        .filter(|(folder, _, text)| {
+            ["cli", "serve"].contains(&folder.as_str()) && makes_json(&code(text))
+        })
+        .map(|(_, path, _)| path.to_string_lossy().replace('\\', "/"))
+        .collect();
+    let known = OWN_JSON.iter().map(|(path, _)| (*path).to_owned()).collect();
+    assert_eq!(makers, known, "left: files of the faces that make JSON");
+    for shape in ["json!({ \"a\": 1 })", "#[derive(Serialize)]", "view[\"a\"] = one.into();"] {
+        assert!(makes_json(shape), "{shape}");
+    }
+    assert!(!makes_json("#[derive(Deserialize)]\nlet is = view[\"a\"] == 1;"));
 }
 
 #[test]

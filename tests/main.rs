@@ -81,6 +81,7 @@ mod told_truly;
 mod truth;
 mod ugly_floors;
 mod vehicle;
+mod vehicle_schema;
 mod views;
 mod ways;
 mod words;

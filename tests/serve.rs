@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+#[path = "serve/arguments.rs"]
+mod arguments;
 #[path = "serve/barred.rs"]
 mod barred;
 #[path = "serve/described.rs"]

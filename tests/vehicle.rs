@@ -18,19 +18,19 @@ use tempfile::TempDir;
 
 use crate::files::project;
 
-const TASK: &str = "Принеси лекарство";
-const RB2: &str = "maps/rb2.toml";
-const HOUSE: &str = "maps/two-storeys.toml";
+pub(crate) const TASK: &str = "Принеси лекарство";
+pub(crate) const RB2: &str = "maps/rb2.toml";
+pub(crate) const HOUSE: &str = "maps/two-storeys.toml";
 
 /// An engine with a store, whose map is this file.
-fn engine(map: &str) -> (TempDir, Engine) {
+pub(crate) fn engine(map: &str) -> (TempDir, Engine) {
     let dir = tempfile::tempdir().unwrap();
     let mut engine = Engine::open(&dir.path().join("store"), None).unwrap();
     engine.import(&project(map), &change_now("test", "survey")).unwrap();
     (dir, engine)
 }
 
-fn world(map: &str) -> World {
+pub(crate) fn world(map: &str) -> World {
     World::load(project(map)).unwrap()
 }
 
@@ -39,7 +39,7 @@ fn robot(world: &World) -> Simulator {
     Simulator::new(world.clone(), map, pose)
 }
 
-fn drive(
+pub(crate) fn drive(
     engine: &Engine,
     task: &str,
     vehicle: &mut dyn Vehicle,
@@ -82,7 +82,7 @@ fn told(answer: &TaskAnswer) -> String {
 }
 
 /// How a proxy treats a line from the vehicle to the mission.
-enum Treat {
+pub(crate) enum Treat {
     Pass,
     Say(String),
     Hang,
@@ -90,7 +90,7 @@ enum Treat {
 }
 
 /// Offers our simulator through pipes; each line that it says, counted from 1, is treated first.
-fn peer(
+pub(crate) fn peer(
     truth: World,
     pace: Option<f64>,
     mut treat: impl FnMut(usize, &str) -> Treat + Send + 'static,

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::json;
 
 use crate::engine::{
     Dialogue, Engine, Method, Outcome, Reply, Truth, World, change_now, check_map_closely,
@@ -60,34 +59,16 @@ pub(super) struct DoArgs {
     pub record: RecordArgs,
 }
 
-/// Each warning with its place and remedy.
-fn faults_view(warnings: &MapErrors, lang: Lang) -> serde_json::Value {
-    match lang {
-        _ if warnings.faults.is_empty() => json!([]),
-        Lang::Ru => json!(json::faults(warnings)),
-        Lang::En => json!(json::faults(&EnglishMapErrors::from(warnings))),
-    }
-}
-
 pub(super) fn check(common: &Common, file: &Path, strict: bool) -> Result<Answer, Failure> {
     let (world, warnings) = check_map_closely(file, rules_dir(common).as_deref())?;
     if strict && !warnings.faults.is_empty() {
         return Err(warnings.into());
     }
     warn(&warnings, common.lang);
-    let uncertain = uncertain_names(&world);
     if common.json {
-        let names: Vec<_> = uncertain
-            .iter()
-            .map(|phrase| json!({"name": phrase.name(), "genitive": phrase.case(Case::Genitive)}))
-            .collect();
-        return say(&json!({
-            "outcome": "sound", "warnings": warnings.faults.len(),
-            "told": faults_view(&warnings, common.lang), "world": size(&world),
-            "uncertain_names": names,
-        })
-        .to_string());
+        return say(&json::sound_map(&world, &warnings, common.lang.language()).to_string());
     }
+    let uncertain = uncertain_names(&world);
     let sound = common.lang.pick("Карта исправна.", "The map is sound.");
     let mut lines = vec![format!("{sound} {}", text::described(&world, common.lang))];
     if !uncertain.is_empty() {
@@ -118,18 +99,6 @@ fn guessed(uncertain: &[NounPhrase], lang: Lang) -> String {
         "Russian forms of names guessed by their endings (the map may give them in the field forms; all forms: ortho words NAME)",
     );
     format!("{head}: {}{more}.", shown.join(", "))
-}
-
-pub(super) fn size(world: &World) -> serde_json::Value {
-    json!({
-        "maps": world.maps.len(),
-        "areas": world.areas.len(),
-        "doors": world.doors.len(),
-        "objects": world.objects.len(),
-        "orthoframes": world.orthoframes.len(),
-        "replicas": world.replicas.len(),
-        "places": world.places.len(),
-    })
 }
 
 pub(super) fn relations(
@@ -249,7 +218,7 @@ pub(super) fn export_rules(common: &Common, dir: &Path, force: bool) -> Result<A
         .map(|path| path.display().to_string())
         .collect();
     if common.json {
-        return say(&json!({"outcome": "done", "written": written}).to_string());
+        return say(&json::written(&written).to_string());
     }
     say(&written.join("\n"))
 }
@@ -273,7 +242,7 @@ pub(super) fn format_rules(common: &Common, files: &[PathBuf]) -> Result<Answer,
         }
     }
     if common.json {
-        return say(&json!({"outcome": "done", "changed": changed}).to_string());
+        return say(&json::formatted(&changed).to_string());
     }
     say(&changed.join("\n"))
 }
@@ -297,8 +266,8 @@ pub(super) fn route(
     if common.json {
         let mut view = json::journey(world, &journey, language);
         if let Some(detail) = words.filter(|_| found) {
-            view["words"] =
-                json!(engine.journey_in_words(&journey, None, language, detail.level())?);
+            let words = engine.journey_in_words(&journey, None, language, detail.level())?;
+            view = json::with_words(view, &words);
         }
         say(&view.to_string())?;
     } else if let Some(detail) = words.filter(|_| found) {
@@ -372,22 +341,7 @@ pub(super) fn datalog(
         note(&line.say(common.lang.language()));
     }
     if common.json {
-        let sizes: Vec<_> =
-            report.sizes.iter().map(|(name, n)| json!({"relation": name, "tuples": n})).collect();
-        let mut view = json!({
-            "outcome": "done", "sizes": sizes, "written": report.written, "printed": report.printed,
-        });
-        if explain {
-            let language = common.lang.language();
-            let rule = |line: &crate::facts::RuleTrace| {
-                let joins: Vec<_> = line.joins.iter().map(|join| join.say(language)).collect();
-                json!({
-                    "place": line.place, "relation": line.relation, "joins": joins,
-                    "runs": line.runs, "found": line.found, "ms": line.time.as_secs_f64() * 1000.0,
-                })
-            };
-            view["rules"] = report.traced.iter().map(rule).collect();
-        }
+        let view = json::program_run(&report, explain, common.lang.language());
         return say(&view.to_string());
     }
     let printed = report.printed.trim_end();

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::json;
 
 use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, figure};
 use crate::draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
 };
-use crate::engine::{Engine, Error, check_map};
+use crate::engine::{Engine, Error, check_map, json};
 use crate::units::Source;
 
 use super::args::{Common, Lang};
@@ -55,7 +54,7 @@ fn parse_arc(text: &str) -> Result<(u32, u32), String> {
 pub(super) fn run(common: &Common, args: &CorridorArgs) -> Result<Answer, Failure> {
     let (_, way) = solve(common, args)?;
     if common.json {
-        return say(&view(&way).to_string());
+        return say(&json::directions(&way).to_string());
     }
     if way.steps.is_empty() {
         return say(common.lang.pick("Вы уже у цели.", "You are there already."));
@@ -179,24 +178,4 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
 fn read(file: &Path) -> Result<CorridorSystem, Failure> {
     let source = Source::read(file).map_err(|fault| Failure::file(file, &fault.into_io()))?;
     Ok(CorridorSystem::from_toml(&source).map_err(Error::from)?)
-}
-
-fn view(way: &Directions) -> serde_json::Value {
-    let steps: Vec<_> = way
-        .steps
-        .iter()
-        .map(|s| json!({"command": s.command.key(), "ru": s.ru, "en": s.en}))
-        .collect();
-    json!({
-        "outcome": "directions",
-        "variant": way.variant.number(),
-        "from": {"room": way.from_room, "vertex": way.from_vertex, "last": way.last.map(|(a, b)| [a, b])},
-        "to": {"room": way.to_room, "vertex": way.to_vertex},
-        "path": way.path,
-        "cost": way.cost,
-        "steps": steps,
-        "ru": way.ru,
-        "en": way.en,
-        "arrived_by": way.arrived_by.map(|(a, b)| [a, b]),
-    })
 }

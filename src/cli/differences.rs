@@ -37,9 +37,8 @@ pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Fai
         engine.keep_differences(&seen, now)?;
     }
     if common.json {
-        let mut value = json::differing(engine.world()?, &seen);
-        value["faults"] = json::log_faults(log.faults()).into();
-        say(&value.to_string())?;
+        let value = json::differing(engine.world()?, &seen);
+        say(&json::of_log(value, None, log.faults()).to_string())?;
     } else {
         say(&seen.in_words(engine.world()?, common.lang.language()).join("\n"))?;
         warn_of_lines(&log, common.lang);

@@ -303,8 +303,7 @@ fn tell_faces(common: &Common, args: &ViewArgs) -> Result<Answer, Failure> {
     let world = engine.world()?;
     let faces = engine.faces_in_view(map, lens)?;
     if common.json {
-        let faces: Vec<_> = faces.iter().map(|face| json::face(world, face, language)).collect();
-        return say(&serde_json::Value::from(faces).to_string());
+        return say(&json::faces(world, &faces, language).to_string());
     }
     let line = |face: &crate::geometry::FaceInView| {
         let name = face_in_words(world, &face.face, language);

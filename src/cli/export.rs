@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
-
 use crate::engine::Engine;
 use crate::map::Format;
 use crate::units::{MapId, write_file};
@@ -12,7 +10,7 @@ use super::args::{Common, ExportArgs};
 use super::fault::Failure;
 use super::notes::note;
 use super::opened::open;
-use super::{Answer, say};
+use super::{Answer, json, say};
 
 pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure> {
     let engine = open(common)?;
@@ -52,7 +50,7 @@ pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure>
     }
     let names: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
     if common.json {
-        return say(&json!({ "outcome": "exported", "files": names }).to_string());
+        return say(&json::exported(&names).to_string());
     }
     say(&format!("{}: {}.", common.lang.pick("Записано", "Written"), names.join(", ")))
 }

@@ -93,7 +93,7 @@ impl Failure {
 #[expect(clippy::print_stderr, reason = "this is where faults are printed")]
 fn told(shown: &dyn Diagnostic, as_json: bool, code: u8, lang: Lang) -> ExitCode {
     if as_json {
-        let view = serde_json::json!({ "outcome": "error", "errors": json::faults(shown) });
+        let view = json::failed(shown);
         // Who reads no further has read enough.
         let _ = writeln!(std::io::stdout(), "{view}");
     } else {

@@ -1,11 +1,8 @@
 //! `ortho import`: a building of any known format into the store, with the report of what became of it.
 
-use serde_json::json;
-
-use crate::engine::{Engine, ImportOptions, change_now, read_building};
+use crate::engine::{Engine, ImportOptions, change_now, json, read_building};
 
 use super::args::{Common, ImportArgs, Lang};
-use super::commands::size;
 use super::fault::Failure;
 use super::notes::{note, note_repairs, warn};
 use super::opened::{rules_dir, store_dir};
@@ -40,18 +37,8 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     let world = engine.world()?;
     let counts = imported.report.counts;
     if common.json {
-        return say(&json!({
-            "outcome": "imported",
-            "revision": imported.report.revision,
-            "created": counts.created,
-            "changed": counts.changed,
-            "deleted": counts.deleted,
-            "warnings": imported.warnings.faults.len(),
-            "profile": world.domain.profile.name(),
-            "world": size(world),
-            "report": imported.reading.to_json(common.lang.language()),
-        })
-        .to_string());
+        let view = json::imported(world, &imported, common.lang.language());
+        return say(&view.to_string());
     }
     if !imported.reading.notes.is_empty() {
         note(&imported.reading.say(common.lang.language()));
@@ -91,18 +78,9 @@ fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
     note_repairs(&engine, common.lang);
     let reason = file.display().to_string();
     let report = engine.import_sqlite(file, &change_now(&common.user, &reason))?;
-    let (world, counts) = (engine.world()?, report.counts);
+    let world = engine.world()?;
     if common.json {
-        return say(&json!({
-            "outcome": "imported",
-            "revision": report.revision,
-            "created": counts.created,
-            "changed": counts.changed,
-            "deleted": counts.deleted,
-            "warnings": 0,
-            "world": size(world),
-        })
-        .to_string());
+        return say(&json::imported_tables(world, &report).to_string());
     }
     let head = common.lang.pick("Ревизия", "Revision");
     say(&format!("{}\n{head} {}.", described(world, common.lang), report.revision))

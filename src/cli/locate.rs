@@ -29,9 +29,8 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
     let map = engine.map_named(args.of.map.as_deref())?;
     let found = engine.find_scans(map, &log, args.scan, args.of.height, args.follow)?;
     if common.json {
-        let mut value = json::found_scans(engine.world()?, &found);
-        value["faults"] = json::log_faults(log.faults()).into();
-        say(&value.to_string())?;
+        let value = json::found_scans(engine.world()?, &found);
+        say(&json::of_log(value, None, log.faults()).to_string())?;
     } else {
         let lines: Vec<String> = found.iter().map(|scan| tell(common, scan)).collect();
         say(&lines.join("\n"))?;

@@ -4,11 +4,10 @@ use std::path::Path;
 
 use clap::CommandFactory;
 use clap_complete::Shell;
-use serde_json::json;
 
 use super::args::{Arguments, Common};
 use super::fault::Failure;
-use super::{Answer, say};
+use super::{Answer, json, say};
 use crate::units::InOrder as _;
 
 /// The completion of a shell, on standard output.
@@ -32,7 +31,7 @@ pub(super) fn man(common: &Common, dir: &Path) -> Result<Answer, Failure> {
     }
     written.order();
     if common.json {
-        return say(&json!({"outcome": "done", "written": written}).to_string());
+        return say(&json::written(&written).to_string());
     }
     say(&written.join("\n"))
 }

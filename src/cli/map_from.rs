@@ -2,12 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use serde_json::json;
-
-use crate::engine::{Engine, Sighted, json as views};
+use crate::engine::{Engine, Sighted, json};
 use crate::map::Format;
 use crate::units::write_file;
+use clap::Args;
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -45,11 +43,7 @@ pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure
     };
     write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
     if common.json {
-        let value = json!({
-            "outcome": "map", "file": path.display().to_string(),
-            "rooms": rooms, "doors": doors, "things": things,
-            "faults": views::log_faults(log.faults()),
-        });
+        let value = json::map_of_log(path, [rooms, doors, things], log.faults());
         say(&value.to_string())?;
     } else {
         let told = if common.lang == Lang::En {

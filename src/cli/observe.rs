@@ -1,18 +1,16 @@
 //! What was seen, what is believed, and corrections of the map (D5, M8).
 
-use clap::{Args, Subcommand};
-use serde_json::json;
-
 use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
 use crate::units::{Deg, Frame, Lengths};
+use clap::{Args, Subcommand};
 
 use super::args::{Common, Lang, moment};
 use super::edit::Numbers;
 use super::fault::Failure;
 use super::number::finite;
 use super::opened::{open, open_to_write};
-use super::{Answer, json as views, say};
+use super::{Answer, json, say};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum ObserveCommand {
@@ -102,7 +100,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             let engine = open(common)?;
             let found = engine.where_is(name, at.unwrap_or_else(now))?;
             if common.json {
-                say(&views::believed(&engine, &found)?.to_string())
+                say(&json::believed(&engine, &found)?.to_string())
             } else {
                 say(&told(&engine, &found, common.lang)?)
             }
@@ -114,8 +112,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             let mut engine = open_to_write(common)?;
             let report = engine.confirm(name, &change)?;
             if common.json {
-                let view = json!({"outcome": "confirmed", "revision": report.revision});
-                return say(&view.to_string());
+                return say(&json::changed("confirmed", &report).to_string());
             }
             let written =
                 common.lang.pick("Карта исправлена, правка", "The map is corrected, revision");
@@ -126,7 +123,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             let mut engine = open_to_write(common)?;
             engine.reject(name, &change)?;
             if common.json {
-                return say(&json!({"outcome": "rejected"}).to_string());
+                return say(&json::rejected(engine.revision()).to_string());
             }
             say(common.lang.pick(
                 "Отклонено: считается, что вещь стоит там, где на карте.",
@@ -162,7 +159,7 @@ fn observe(common: &Common, args: &ObserveArgs) -> Result<Answer, Failure> {
     }
     let found = engine.where_is(&args.name, at)?;
     if common.json {
-        say(&views::believed(&engine, &found)?.to_string())
+        say(&json::believed(&engine, &found)?.to_string())
     } else {
         say(&told(&engine, &found, common.lang)?)
     }
@@ -172,9 +169,7 @@ fn proposals(common: &Common) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let all = engine.proposals(now())?;
     if common.json {
-        let told =
-            all.iter().map(|p| views::believed(&engine, p)).collect::<Result<Vec<_>, _>>()?;
-        return say(&json!({ "proposals": told }).to_string());
+        return say(&json::proposals(&engine, &all)?.to_string());
     }
     if all.is_empty() {
         return say(common.lang.pick("Поправок нет.", "There are no proposals."));
@@ -231,7 +226,7 @@ fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure
 fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
     let engine = open(common)?;
     if common.json {
-        return say(&views::story(&engine, name)?.to_string());
+        return say(&json::story(&engine, name)?.to_string());
     }
     let stations = engine.story_of(name)?;
     let mut lines = Vec::new();

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::engine::{
     Engine, PlanAnswer, RequestError, Solved, check_map, check_plan_alone, facts_in_rule_text,
-    in_rule_text, name_in, plan_alone, plan_alone_without,
+    name_in, plan_alone, plan_alone_without,
 };
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
@@ -22,7 +22,7 @@ use super::fault::{Failure, drawn};
 use super::notes::note;
 use super::opened::{DEFAULT_STORE, open, rules_dir};
 use super::signals::stopped_by_signals;
-use super::{Answer, json as views, say, text};
+use super::{Answer, json, say, text};
 
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
@@ -140,7 +140,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         };
         let told = match common.json {
             true => {
-                let view = views::plan(&solved, &english);
+                let view = json::plan(&solved, &english);
                 let view = with_reasons(view, &solved, &limits, args, &english);
                 with_help(view, &solved, args).to_string()
             }
@@ -157,7 +157,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         let after = &replanned.after;
         let told = match common.json {
             true => {
-                let view = views::replanned(&replanned, &english);
+                let view = json::replanned(&replanned, &english);
                 let view = with_reasons(view, after, &limits, args, &english);
                 with_help(view, after, args).to_string()
             }
@@ -202,11 +202,11 @@ fn remedies(solved: &Solved, args: &PlanArgs) -> Vec<&'static str> {
     is_proof.then_some("--any").into_iter().chain(more).collect()
 }
 
-fn with_help(mut view: Value, solved: &Solved, args: &PlanArgs) -> Value {
-    if matches!(solved.outcome, Outcome::LimitReached(_)) {
-        view["help"] = json!(remedies(solved, args));
+fn with_help(view: Value, solved: &Solved, args: &PlanArgs) -> Value {
+    match solved.outcome {
+        Outcome::LimitReached(_) => json::with_remedies(view, &remedies(solved, args)),
+        _ => view,
     }
-    view
 }
 
 /// With `--why`, why no plan has fewer steps.
@@ -216,17 +216,17 @@ fn reasons(solved: &Solved, limits: &Limits, args: &PlanArgs, wording: &Wording<
 }
 
 fn with_reasons(
-    mut view: Value,
+    view: Value,
     solved: &Solved,
     limits: &Limits,
     args: &PlanArgs,
     english: &dyn Fn(&str) -> String,
 ) -> Value {
-    if let Some(why) = args.why.then(|| solved.why_not_shorter(limits)).flatten() {
-        view["why_not_shorter"] =
-            views::shortness(&why, &solved.wording(Language::English, english));
+    let why = args.why.then(|| solved.why_not_shorter(limits)).flatten();
+    match why {
+        Some(why) => json::with_shortness(view, &why, &solved.wording(Language::English, english)),
+        None => view,
     }
-    view
 }
 
 fn help(solved: &Solved, args: &PlanArgs, language: Language) -> String {
@@ -277,12 +277,11 @@ fn bound(lang: Lang) -> fn(usize) {
 /// With `--anytime --json`, a line for every plan with fewer steps and every higher bound; the answer is the last line.
 /// Who no longer listens is told nothing; that is found when the answer is to be told.
 fn stream_plan(plan: &Plan) {
-    let (steps, actions) = (plan.steps.len(), plan.action_count());
-    let _ = say(&json!({"event": "plan", "parallel_steps": steps, "actions": actions}).to_string());
+    let _ = say(&json::better_plan(plan).to_string());
 }
 
 fn stream_bound(at_least: usize) {
-    let _ = say(&json!({"event": "bound", "at_least_steps": at_least}).to_string());
+    let _ = say(&json::higher_bound(at_least).to_string());
 }
 
 /// Who knows the map of a scenario: the store that was named; else the map that the scenario names; else the default
@@ -302,13 +301,7 @@ fn facts(common: &Common, predicate: Option<&str>) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let facts = engine.facts_given(predicate)?;
     if common.json {
-        let fact = |fact: &InitialFact| {
-            let args: Vec<&str> = fact.arguments.iter().map(|a| a.name.as_str()).collect();
-            let kinds: Vec<&str> = fact.arguments.iter().map(|a| a.kind).collect();
-            let text = in_rule_text(fact);
-            json!({"predicate": fact.predicate, "args": args, "types": kinds, "assumed": fact.assumed, "text": text})
-        };
-        return say(&json!({"facts": facts.iter().map(fact).collect::<Vec<_>>()}).to_string());
+        return say(&json::given_facts(&facts).to_string());
     }
     if facts.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
@@ -354,7 +347,7 @@ fn check(common: &Common, scenario: &Scenario, plan: &Path) -> Result<Answer, Fa
     warn(&scenario.warnings, common.lang);
     let replayed = check_plan_alone(scenario, &plan)?;
     if common.json {
-        say(&views::replayed(&replayed).to_string())?;
+        say(&json::replayed(&replayed).to_string())?;
     } else {
         say(&text::replayed(&replayed, common.lang))?;
     }

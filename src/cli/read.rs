@@ -1,8 +1,6 @@
 //! `ortho where --read`: a position report read back, as the region of which it is true.
 
-use serde_json::json;
-
-use crate::engine::{Engine, Region, parse_pose};
+use crate::engine::{Engine, Region, json, parse_pose};
 use crate::map::Entity;
 use crate::semantics::Claim;
 use crate::units::Point;
@@ -28,16 +26,8 @@ pub(super) fn run(common: &Common, text: &str, at: Option<&str>) -> Result<Answe
     let square = points.len() as f64 * step * step / 1e4;
     let middle = middle_of(&points);
     let world = engine.world()?;
-    let area = world.name(Entity::Area(region.area));
     if common.json {
-        let view = json!({
-            "map": world.maps[&region.map].name,
-            "area": area,
-            "claim": kind(&region.claim),
-            "square_m2": square,
-            "point": middle.map(|p| [p.x, p.y]),
-            "contains": holds,
-        });
+        let view = json::region(world, &region, square, middle, holds);
         say(&view.to_string())?;
     } else {
         say(&in_words(&engine, &region, square, middle, common.lang)?)?;
@@ -75,19 +65,6 @@ fn in_words(
         Claim::InMiddle => lang.pick("в середине", "in the middle"),
     };
     Ok(format!("{head}: {name}, {kind}, {square:.2} {unit}{}.", point.unwrap_or_default()))
-}
-
-fn kind(claim: &Claim) -> &'static str {
-    match claim {
-        Claim::InArea => "in_area",
-        Claim::InDoorway(_) => "in_doorway",
-        Claim::AtDoor(_) => "at_door",
-        Claim::On(_) => "on",
-        Claim::NextTo(_) => "next_to",
-        Claim::InCorner => "in_corner",
-        Claim::AlongWall => "along_wall",
-        Claim::InMiddle => "in_middle",
-    }
 }
 
 /// The point of the region that lies nearest to the middle of them all.

@@ -2,9 +2,7 @@
 
 use std::time::Duration;
 
-use serde_json::{Value, json};
-
-use crate::engine::Recording;
+use crate::engine::{Recording, json};
 use crate::recording::{Played, Told};
 use crate::units::Timestamp;
 
@@ -38,8 +36,7 @@ pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure>
     }
     if common.json {
         let cut = cut.as_ref().map(|cut| cut.say(common.lang.language()));
-        let whole =
-            json!({ "outcome": "replayed", "seconds": seconds(played.end(), begun), "cut": cut });
+        let whole = json::told_to_its_end(seconds(played.end(), begun), cut);
         return say(&whole.to_string());
     }
     note_cut(common, &played);
@@ -50,11 +47,10 @@ pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure>
 fn line(common: &Common, told: &Told, begun: u64) -> Option<String> {
     let is_event = ["/directives", "/surprises", "/tasks"].contains(&told.topic.as_str());
     match common.json {
-        true if is_event => {
-            let Value::Object(mut event) = told.value.clone() else { return None };
-            event.insert("at_seconds".to_owned(), json!(seconds(told.time, begun)));
-            Some(Value::Object(event).to_string())
-        }
+        true if is_event => told
+            .value
+            .is_object()
+            .then(|| json::told_again(&told.value, seconds(told.time, begun)).to_string()),
         false if told.topic == "/words" => {
             let text = told.value["message"].as_str()?;
             let mark = if told.value["name"] == "operator" { "> " } else { "" };

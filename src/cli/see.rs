@@ -55,10 +55,7 @@ pub(super) fn run(common: &Common, args: &SeeArgs) -> Result<Answer, Failure> {
     }
     let faults = sighted.faults();
     if common.json {
-        let mut value = shown.value;
-        value["scans"] = sighted.scans().into();
-        value["faults"] = json::log_faults(faults).into();
-        say(&value.to_string())?;
+        say(&json::of_log(shown.value, Some(sighted.scans()), faults).to_string())?;
     } else {
         say(&shown.words)?;
         warn_of_lines(&sighted, common.lang);

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use clap::Subcommand;
-use serde_json::{Value, json};
 
 use crate::engine::calls::{self, Call};
 use crate::engine::{
@@ -11,12 +10,13 @@ use crate::engine::{
 };
 use crate::store::{Forgotten, ImportReport, Timestamp};
 use crate::units::write_file;
+use clap::Subcommand;
 
 use super::args::{Common, Lang, when};
 use super::fault::Failure;
 use super::notes::note;
 use super::opened::{open, open_to_write, store_dir};
-use super::{Answer, json as views, say};
+use super::{Answer, json, say};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum StoreCommand {
@@ -97,7 +97,7 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
         StoreCommand::Backup { file } => {
             open(common)?.backup(file)?;
             if common.json {
-                return say(&json!({"outcome": "written", "file": file}).to_string());
+                return say(&json::backup(file).to_string());
             }
             let written = common.lang.pick("Копия записана и прочитана:", "Written and read back:");
             say(&format!("{written} {}", file.display()))
@@ -105,12 +105,11 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
         StoreCommand::Restore { file } => restore(common, file),
         StoreCommand::Gc { before } => {
             let change = change_now(&common.user, "gc");
-            let Forgotten { versions, not_freed } =
-                open_to_write(common)?.forget_before(*before, &change)?;
+            let forgotten = open_to_write(common)?.forget_before(*before, &change)?;
             if common.json {
-                let view = json!({"outcome": "done", "versions": versions, "not_freed": not_freed});
-                return say(&view.to_string());
+                return say(&json::forgotten(&forgotten).to_string());
             }
+            let Forgotten { versions, not_freed } = forgotten;
             if let Some(why) = not_freed {
                 let text = common.lang.pick(
                     "Место на диске освободится со следующим снимком, этот не записан",
@@ -183,20 +182,18 @@ fn history(common: &Common, last: Option<usize>, with_calls: bool) -> Result<Ans
         entries.drain(..entries.len().saturating_sub(last));
     }
     if common.json {
-        let revision = |entry: &Entry| match entry {
-            Entry::Revision(revision) => Some(views::revision(revision)),
+        let revisions = entries.iter().filter_map(|entry| match entry {
+            Entry::Revision(revision) => Some(revision),
             Entry::Call(_) => None,
-        };
-        let call = |entry: &Entry| match entry {
-            Entry::Call(call) => Some(json!(call)),
+        });
+        let calls = entries.iter().filter_map(|entry| match entry {
+            Entry::Call(call) => Some(call),
             Entry::Revision(_) => None,
+        });
+        let view = match with_calls {
+            true => json::with_calls(json::revisions(revisions), calls),
+            false => json::revisions(revisions),
         };
-        let all =
-            |one: fn(&Entry) -> Option<Value>| entries.iter().filter_map(one).collect::<Value>();
-        let mut view = json!({ "revisions": all(revision) });
-        if with_calls {
-            view["calls"] = all(call);
-        }
         return say(&view.to_string());
     }
     if entries.is_empty() {
@@ -211,8 +208,7 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
     let (first, last) = (engine.revision_of(from)?, engine.revision_of(to)?);
     let all = engine.diff(from, to)?;
     if common.json {
-        let view = json!({"from": first, "to": last, "differences": views::differences(&all, common.lang.language())});
-        return say(&view.to_string());
+        return say(&json::diff(first, last, &all, common.lang.language()).to_string());
     }
     if all.is_empty() {
         return say(common.lang.pick("Различий нет.", "There are no differences."));
@@ -223,7 +219,7 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
 fn done(common: &Common, outcome: &str, report: &ImportReport) -> Result<Answer, Failure> {
     let counts = report.counts;
     if common.json {
-        return say(&views::changed(outcome, report).to_string());
+        return say(&json::changed(outcome, report).to_string());
     }
     if counts.total() == 0 {
         return say(common.lang.pick("Ничего не изменилось.", "Nothing changed."));
@@ -260,7 +256,7 @@ fn as_of(
             write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
             Ok(Answer::Yes)
         }
-        None if common.json => say(&json!({ "map": text }).to_string()),
+        None if common.json => say(&json::map_text(&text).to_string()),
         None => say(text.trim_end()),
     }
 }
@@ -268,29 +264,18 @@ fn as_of(
 fn fsck(common: &Common) -> Result<Answer, Failure> {
     let report = check_store(&store_dir(common))?;
     let word = |severity| match severity {
-        Severity::Note => ("note", common.lang.pick("заметка", "note")),
-        Severity::Mendable => ("mendable", common.lang.pick("исправимо", "mendable")),
-        Severity::Broken => ("broken", common.lang.pick("ПОВРЕЖДЕНО", "BROKEN")),
+        Severity::Note => common.lang.pick("заметка", "note"),
+        Severity::Mendable => common.lang.pick("исправимо", "mendable"),
+        Severity::Broken => common.lang.pick("ПОВРЕЖДЕНО", "BROKEN"),
     };
     let told = |f: &crate::store::Finding| f.text.say(common.lang.language()).to_owned();
     let answer = if report.is_sound() { Answer::Yes } else { Answer::No };
     if common.json {
-        let one =
-            |f: &crate::store::Finding| json!({"severity": word(f.severity).0, "text": told(f)});
-        let findings: Vec<Value> = report.findings.iter().map(one).collect();
-        say(&json!({
-            "outcome": if report.is_sound() { "sound" } else { "faulty" },
-            "transactions": report.lsn,
-            "revision": report.revision,
-            "records": report.records,
-            "snapshots": report.snapshots,
-            "findings": findings,
-        })
-        .to_string())?;
+        say(&json::store_check(&report, common.lang.language()).to_string())?;
         return Ok(answer);
     }
     for finding in &report.findings {
-        note(&format!("{}: {}", word(finding.severity).1, told(finding)));
+        note(&format!("{}: {}", word(finding.severity), told(finding)));
     }
     let verdict = if report.is_sound() {
         common.lang.pick("Хранилище исправно", "The store is sound")
@@ -318,8 +303,7 @@ fn restore(common: &Common, file: &Path) -> Result<Answer, Failure> {
     let dir = store_dir(common);
     let revision = restore_store(file, &dir)?;
     if common.json {
-        let view = json!({"outcome": "restored", "store": dir, "revision": revision});
-        return say(&view.to_string());
+        return say(&json::restored(&dir, revision).to_string());
     }
     say(&match common.lang {
         Lang::Ru => format!("Хранилище «{}» восстановлено, правка {revision}.", dir.display()),

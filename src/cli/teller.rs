@@ -7,8 +7,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use serde_json::json;
-
 use crate::engine::{
     Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_told, json,
 };
@@ -129,7 +127,7 @@ impl Teller {
             {
                 if let Some(event) = self.events.of(world, progress) {
                     // A closed pipe is noticed by the command's last words.
-                    drop(say(&json!(event).to_string()));
+                    drop(say(&json::event(&event).to_string()));
                 }
                 Ok(())
             }

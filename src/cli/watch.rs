@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use serde_json::json;
-
 use crate::engine::{Drawing, Engine, check_map_closely};
 use crate::units::InOrder as _;
 
@@ -14,7 +12,7 @@ use super::notes::{note, warn};
 use super::opened::rules_dir;
 use super::signals::stopped_by_signals;
 use super::text::described;
-use super::{Answer, say};
+use super::{Answer, json, say};
 
 /// Between two looks at the files.
 const GLANCE: Duration = Duration::from_millis(200);
@@ -92,8 +90,7 @@ fn look(
     super::draw::put_drawing(engine.draw(sheet, &wanted)?, drawing)?;
     let path = drawing.display();
     if common.json {
-        let count = warnings.faults.len();
-        return Ok(json!({"outcome": "sound", "warnings": count, "file": drawing}).to_string());
+        return Ok(json::drawn_map(&warnings, drawing).to_string());
     }
     if first.len() > 1 {
         note(common.lang.pick("Нарисован первый этаж.", "The first storey is drawn."));

@@ -1,11 +1,9 @@
 //! `ortho words`: all forms of a name, Russian and English, and where they come from.
 
-use serde_json::{Value, json};
-
-use crate::engine::{Engine, RequestError};
+use crate::engine::forms::{english_forms, numbers, prepositions};
+use crate::engine::{Engine, RequestError, json};
 use crate::language::report::Named;
-use crate::language::russian::{self, Preposition};
-use crate::language::{Animacy, Case, Evidence, Gender, NounPhrase, Number, PlaceSense, english};
+use crate::language::{Animacy, Case, Evidence, NounPhrase, Number, russian};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -34,7 +32,7 @@ pub(super) fn run(common: &Common, name: &str) -> Result<Answer, Failure> {
         _ => Named::plain(name),
     };
     if common.json {
-        return say(&view(&named).to_string());
+        return say(&json::declined(&named).to_string());
     }
     say(&table(&named, common.lang))
 }
@@ -65,7 +63,7 @@ fn table(named: &Named, lang: Lang) -> String {
     let (one, many) = english_forms(named);
     lines.push(format!("  English: {one}, {many}"));
     for (word, evidence) in phrase.sources() {
-        let from = source(evidence).1;
+        let from = source(evidence);
         lines.push(format!("  {word}: {}", lang.pick(from.0, from.1)));
     }
     if !phrase.is_certain() {
@@ -77,67 +75,13 @@ fn table(named: &Named, lang: Lang) -> String {
     lines.join("\n")
 }
 
-fn view(named: &Named) -> Value {
-    let phrase = named.phrase();
-    let forms: Vec<Value> = numbers(phrase)
-        .iter()
-        .flat_map(|&number| Case::SIX.map(|case| (number, case)))
-        .map(|(number, case)| {
-            json!({
-                "case": case.names().1,
-                "number": number_name(number).1,
-                "form": phrase.form(case, number),
-                "source": source(phrase.evidence_of(case, number)).0,
-            })
-        })
-        .collect();
-    let said: serde_json::Map<String, Value> =
-        prepositions(phrase).into_iter().map(|(key, said)| (key.to_owned(), said.into())).collect();
-    let sources: Vec<Value> = phrase
-        .sources()
-        .into_iter()
-        .map(|(word, evidence)| json!({ "word": word, "source": source(evidence).0 }))
-        .collect();
-    let (one, many) = english_forms(named);
-    json!({
-        "name": phrase.name(),
-        "gender": gender_name(phrase.gender()).1,
-        "animate": phrase.animacy() == Animacy::Animate,
-        "number": number_name(phrase.number()).1,
-        "place": if phrase.place() == PlaceSense::Upon { "на" } else { "в" },
-        "forms": forms,
-        "prepositions": said,
-        "english": { "name": named.english_name(), "in_sentence": one, "plural": many },
-        "sources": sources,
-        "certain": phrase.is_certain(),
-    })
-}
-
-/// A name that stands in the plural has no other number.
-fn numbers(phrase: &NounPhrase) -> &'static [Number] {
-    if phrase.number() == Number::Plural { &[Number::Plural] } else { &Number::BOTH }
-}
-
-/// Where, where to, where from, towards and about.
-fn prepositions(phrase: &NounPhrase) -> [(&'static str, String); 5] {
-    [
-        ("where", russian::where_at(phrase)),
-        ("whither", russian::whither(phrase)),
-        ("whence", russian::whence(phrase)),
-        ("towards", russian::with(Preposition::K, Case::Dative, phrase)),
-        ("about", russian::with(Preposition::O, Case::Prepositional, phrase)),
-    ]
-}
-
-fn english_forms(named: &Named) -> (String, String) {
-    (named.english(), english::plural(named.english_name()))
-}
-
 fn nature(phrase: &NounPhrase, lang: Lang) -> String {
-    let (gender, number) = (gender_name(phrase.gender()), number_name(phrase.number()));
-    let mut nature = match phrase.number() {
-        Number::Plural => lang.pick(number.0, number.1).to_owned(),
-        Number::Singular => lang.pick(gender.0, gender.1).to_owned(),
+    let (gender, number) = (phrase.gender().names(), phrase.number().names());
+    let mut nature = match (phrase.number(), lang) {
+        (Number::Plural, Lang::Ru) => format!("{} число", number.0),
+        (Number::Plural, Lang::En) => number.1.to_owned(),
+        (Number::Singular, Lang::Ru) => format!("{} род", gender.0),
+        (Number::Singular, Lang::En) => gender.1.to_owned(),
     };
     if phrase.animacy() == Animacy::Animate {
         nature.push_str(lang.pick(", одушевлённое", ", animate"));
@@ -145,28 +89,13 @@ fn nature(phrase: &NounPhrase, lang: Lang) -> String {
     nature
 }
 
-fn gender_name(gender: Gender) -> (&'static str, &'static str) {
-    match gender {
-        Gender::Masculine => ("мужской род", "masculine"),
-        Gender::Feminine => ("женский род", "feminine"),
-        Gender::Neuter => ("средний род", "neuter"),
-    }
-}
-
-fn number_name(number: Number) -> (&'static str, &'static str) {
-    match number {
-        Number::Singular => ("единственное число", "singular"),
-        Number::Plural => ("множественное число", "plural"),
-    }
-}
-
-/// Its word for programs, and in Russian and English.
-fn source(evidence: Evidence) -> (&'static str, (&'static str, &'static str)) {
+/// Its word in Russian and English.
+fn source(evidence: Evidence) -> (&'static str, &'static str) {
     match evidence {
-        Evidence::Given => ("map", ("по карте", "from the map")),
-        Evidence::Lexicon => ("list", ("по списку слов", "from the word list")),
-        Evidence::Dictionary => ("dictionary", ("по словарю", "from the dictionary")),
-        Evidence::Rule => ("rule", ("по окончанию, наверное", "by its ending, surely")),
-        Evidence::Guess => ("guess", ("по окончанию, догадка", "by its ending, a guess")),
+        Evidence::Given => ("по карте", "from the map"),
+        Evidence::Lexicon => ("по списку слов", "from the word list"),
+        Evidence::Dictionary => ("по словарю", "from the dictionary"),
+        Evidence::Rule => ("по окончанию, наверное", "by its ending, surely"),
+        Evidence::Guess => ("по окончанию, догадка", "by its ending, a guess"),
     }
 }

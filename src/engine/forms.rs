@@ -2,7 +2,8 @@
 
 use crate::language::names::{hints, hints_of_type};
 use crate::language::report::Named;
-use crate::language::{NounPhrase, WordHints};
+use crate::language::russian::{self, Preposition};
+use crate::language::{Case, NounPhrase, Number, WordHints, english};
 use crate::map::{Entity, World};
 
 use super::lexicon::named;
@@ -54,4 +55,25 @@ pub fn uncertain_names(world: &World) -> Vec<NounPhrase> {
         }
     }
     found
+}
+
+/// A name that stands in the plural has no other number.
+pub(crate) fn numbers(phrase: &NounPhrase) -> &'static [Number] {
+    if phrase.number() == Number::Plural { &[Number::Plural] } else { &Number::BOTH }
+}
+
+/// Where, where to, where from, towards and about.
+pub(crate) fn prepositions(phrase: &NounPhrase) -> [(&'static str, String); 5] {
+    [
+        ("where", russian::where_at(phrase)),
+        ("whither", russian::whither(phrase)),
+        ("whence", russian::whence(phrase)),
+        ("towards", russian::with(Preposition::K, Case::Dative, phrase)),
+        ("about", russian::with(Preposition::O, Case::Prepositional, phrase)),
+    ]
+}
+
+/// In a sentence, and of several.
+pub(crate) fn english_forms(named: &Named) -> (String, String) {
+    (named.english(), english::plural(named.english_name()))
 }

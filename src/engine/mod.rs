@@ -47,7 +47,7 @@ mod error;
 mod events;
 mod export;
 mod facing;
-mod forms;
+pub(crate) mod forms;
 mod furniture;
 mod given;
 mod goals;
@@ -150,15 +150,17 @@ pub use crate::exchange::{
 };
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
+pub use crate::graphplan::Limits;
 pub(crate) use crate::language::command::{Waiting, waiting};
 pub use crate::language::question::{Answer, Memory, Unanswered};
 pub use crate::map::{Format, World};
-pub use crate::robot::{Replanned, Solved};
+pub use crate::robot::{Replanned, Solved, Wanted};
 pub use crate::semantics::Relations;
 pub use crate::store::{
-    Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
+    Change, Difference, FsckReport, Revision, RevisionKind, Seen, Severity, Timestamp,
 };
 pub(crate) use crate::store::{Queue, QueuedTask};
+pub use crate::strips::Scenario;
 
 use crate::map::{MapErrors, read_file};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};

@@ -6,7 +6,7 @@ use axum::extract::{Path, State as Of};
 use axum::http::StatusCode;
 use axum::{Extension, Json};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now, json as views};
 use crate::map::Edits;
@@ -123,16 +123,16 @@ impl From<Declined> for Fault {
                 "Карта или то, на чём держался план, с тех пор изменились; вот план, каков он теперь.",
                 "The map, or what the plan rested on, has changed since; this is the plan as it is now.",
             )
-            .with("task", json!(task))
-            .with("replies", json!(replies)),
+            .with("task", task)
+            .with("replies", replies),
             Declined::Leased { holder, seconds } => Self::new(
                 StatusCode::CONFLICT,
                 "serve::leased",
                 &format!("Роботом управляет {holder}; ещё {seconds} с."),
                 &format!("{holder} drives the robot; {seconds} s more."),
             )
-            .with("holder", json!(holder))
-            .with("seconds", json!(seconds)),
+            .with("holder", holder)
+            .with("seconds", seconds),
             Declined::Busy => Self::new(
                 StatusCode::CONFLICT,
                 "serve::busy",
@@ -239,7 +239,7 @@ pub(super) async fn stop(
 ) -> Json<Value> {
     // The stop is raised before anything is written.
     let stopped = tokio::task::spawn_blocking(move || house.tasks.stop(&session.name)).await;
-    Json(json!({ "is_running": stopped.unwrap_or_default() }))
+    Json(views::stop(stopped.unwrap_or_default()))
 }
 
 /// What is driven, what waits, what ended.
@@ -297,8 +297,8 @@ pub(super) async fn write(
             "Пока вы правили, карту изменили другие; ваша правка не записана и не потеряна.",
             "While you edited, others changed the map; your edit is neither written nor lost.",
         )
-        .with("on", json!(on))
-        .with("revision", json!(revision))
+        .with("on", on)
+        .with("revision", revision)
         .with("theirs", theirs)),
     }
 }
@@ -310,12 +310,9 @@ fn theirs(engine: &Engine, on: u64) -> Result<Value, Error> {
         let number = revision.number;
         let before = When::Revision(number - 1);
         let changed = engine.diff(before, When::Revision(number))?;
-        all.push(json!({
-            "revision": number, "user": revision.user, "at": revision.at.to_string(),
-            "reason": revision.reason, "differences": views::differences(&changed, Language::Russian),
-        }));
+        all.push((revision, changed));
     }
-    Ok(json!(all))
+    Ok(views::others(&all, Language::Russian))
 }
 
 /// A fault with the names of the map as it is.
@@ -351,19 +348,7 @@ pub(super) async fn edited(
     let written = write(house, on, move |engine| {
         let edits = Edits::read(&Source::own(OwnText::Edit, text), Format::Json);
         let edited = engine.edit(&edits, &change, mode)?;
-        let warnings: Vec<Value> = edited
-            .warnings
-            .faults
-            .iter()
-            .map(|fault| json!({ "message": fault.error.to_string() }))
-            .collect();
-        Ok(json!({
-            "outcome": if edited.report.is_some() { "edited" } else { "tried" },
-            "revision": edited.report.as_ref().map(|report| report.revision),
-            "differences": views::differences(&edited.differences, Language::Russian),
-            "left_behind": edited.left_behind,
-            "warnings": warnings,
-        }))
+        Ok(views::edited(&edited, Language::Russian))
     });
     written.await.map(|Json(view)| view)
 }
@@ -432,10 +417,10 @@ pub(super) async fn decide(
             return Ok(views::changed("confirmed", &engine.confirm(&name, &change)?));
         }
         engine.reject(&name, &change)?;
-        Ok(json!({ "outcome": "rejected", "revision": engine.revision() }))
+        Ok(views::rejected(engine.revision()))
     });
     let done = done.await?;
-    house.events.tell("known", &json!({}));
+    house.events.tell("known", &views::known_changed(None));
     Ok(done)
 }
 
@@ -460,11 +445,11 @@ pub(super) async fn judge(
             let text = Value::Object(waits.edit).to_string();
             edited(&house, said.on, text, by(&session, ""), Mode::Commit).await?
         }
-        "reject" => json!({ "outcome": "rejected", "revision": house.desk.state().revision() }),
+        "reject" => views::rejected(house.desk.state().revision()),
         _ => return Err(no_verdict()),
     };
     house.proposed.drop(&id);
-    house.events.tell("proposed", &json!({ "id": id }));
+    house.events.tell("proposed", &views::edit_named(&id));
     Ok(Json(done))
 }
 
@@ -477,14 +462,12 @@ pub(super) async fn proposed(Of(house): Of<Arc<House>>) -> Answer {
         let tried = edited(&house, now, text, change_now("", ""), Mode::DryRun).await;
         let (differences, fault) = match tried {
             Ok(tried) => (tried["differences"].clone(), Value::Null),
-            Err(fault) => (json!([]), fault.body().clone()),
+            Err(fault) => (Value::Array(Vec::new()), fault.body().clone()),
         };
-        all.push(json!({
-            "id": id, "on": waits.on, "reason": waits.edit.get("reason"), "edit": waits.edit,
-            "differences": differences, "fault": fault,
-        }));
+        let (on, edit) = (waits.on, waits.edit);
+        all.push(views::ProposedEdit { id, on, edit, differences, fault });
     }
-    Ok(Json(json!({ "edits": all })))
+    Ok(Json(views::proposed_edits(&all)))
 }
 
 /// Puts the robot back to the map's start, in a map as surveyed.
@@ -494,8 +477,8 @@ pub(super) async fn reset(
 ) -> Answer {
     let change = by(&session, "reset");
     house.desk.ask(move |engine| engine.reset_robot(&change)).await??;
-    house.events.tell("known", &json!({}));
-    Ok(Json(json!({ "outcome": "reset" })))
+    house.events.tell("known", &views::known_changed(None));
+    Ok(Json(views::done("reset")))
 }
 
 /// A one-time token for somebody else, of at most one's own role.
@@ -511,7 +494,7 @@ pub(super) async fn invite(
         let text = error.to_string();
         Fault::new(StatusCode::INTERNAL_SERVER_ERROR, "serve::random", &text, &text)
     })?;
-    Ok(Json(json!({ "token": token, "role": role })))
+    Ok(Json(views::invitation(&token, role.word())))
 }
 
 /// Ends the session.
@@ -521,5 +504,5 @@ pub(super) async fn leave(
 ) -> Json<Value> {
     house.tasks.give_back(&session);
     house.gate.leave(&session);
-    Json(json!({ "outcome": "left" }))
+    Json(views::done("left"))
 }

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Weak;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::engine::{Dialogue, Queue, QueuedTask, State};
+use crate::engine::{Dialogue, Queue, QueuedTask, State, json as views};
 use crate::robot::Answer;
 use crate::store::Timestamp;
 use crate::units::{InOrder as _, Stop};
@@ -67,12 +67,19 @@ impl Task {
     }
 
     pub(super) fn view(&self, state: &str) -> Value {
-        json!({
-            "task": self.id, "text": self.text, "by": self.by.name, "state": state,
-            "revision": self.revision, "plan": self.plan, "is_begun": self.is_begun(),
-            "is_released": self.is_released, "is_kept": self.noted.is_some(),
-            "at": self.noted.as_ref().map(|noted| noted.at.to_string()),
-        })
+        let view = views::TaskView {
+            task: self.id,
+            text: &self.text,
+            by: &self.by.name,
+            state,
+            revision: self.revision,
+            plan: &self.plan,
+            is_begun: self.is_begun(),
+            is_released: self.is_released,
+            is_kept: self.noted.is_some(),
+            at: self.noted.as_ref().map(|noted| noted.at.to_string()),
+        };
+        view.to_json()
     }
 }
 
@@ -217,18 +224,14 @@ impl Book {
         }
     }
 
-    pub(super) fn waiting(&self) -> Vec<Value> {
-        self.queue.iter().map(|task| task.view("queued")).collect()
+    pub(super) fn waiting(&self) -> views::Waiting {
+        let tasks = self.queue.iter().map(|task| task.view("queued")).collect();
+        views::Waiting { tasks, paused: self.paused }
     }
 
     pub(super) fn view(&self) -> Value {
-        json!({
-            "task": self.running.as_ref().map(|running| &running.view),
-            "queue": self.waiting(),
-            "paused": self.paused.map(|at| at.to_string()),
-            "ended": self.ended,
-            "lease": self.lease_view(),
-        })
+        let running = self.running.as_ref().map(|running| &running.view);
+        views::tasks(running, &self.waiting(), self.ended.iter().cloned(), &self.lease_view())
     }
 }
 
@@ -267,11 +270,8 @@ impl Book {
         let now = Instant::now();
         let lease = self.lease.as_ref().filter(|lease| lease.until > now);
         lease.map_or(Value::Null, |lease| {
-            json!({
-                "holder": lease.holder.name,
-                "session": lease.holder.number,
-                "seconds": (lease.until - now).as_secs(),
-            })
+            let seconds = (lease.until - now).as_secs();
+            views::lease(&lease.holder.name, lease.holder.number, seconds)
         })
     }
 }

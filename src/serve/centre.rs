@@ -16,7 +16,6 @@ use axum::body::Bytes;
 use axum::extract::State as Of;
 use axum::http::StatusCode;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
 use crate::engine::{change_now, json as views};
 use crate::store::Sheet;
@@ -140,6 +139,6 @@ pub(super) async fn take(
         Ok(views::changed("taken", &report))
     });
     let taken = taken.await?;
-    house.events.tell("known", &json!({}));
+    house.events.tell("known", &views::known_changed(None));
     Ok(taken)
 }

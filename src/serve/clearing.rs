@@ -4,8 +4,9 @@
 
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
+use crate::engine::json as views;
 use crate::robot::Answer;
 use crate::units::Stop;
 
@@ -18,7 +19,7 @@ impl Tasks {
     /// Waits for what somebody says of what bars the way of the task that is driven.
     pub(super) fn ask_to_clear(&self, id: u64, stop: &Stop, barred: &Value) -> Answer {
         if let Some(running) = self.book().running.as_mut().filter(|running| running.id == id) {
-            running.view["barred"] = barred.clone();
+            views::barred(&mut running.view, barred.clone());
             running.answer = None;
         }
         let until = Instant::now() + PATIENCE;
@@ -35,14 +36,14 @@ impl Tasks {
             }
         };
         if let Some(running) = self.book().running.as_mut() {
-            running.view["barred"] = Value::Null;
+            views::barred(&mut running.view, Value::Null);
         }
         let told = match answer {
             Answer::Clear => "clear",
             Answer::GiveUp => "give_up",
             Answer::Silence => "silence",
         };
-        self.events.tell("directive", &json!({ "event": "answered", "answer": told, "task": id }));
+        self.events.tell("directive", &views::cleared(told, id));
         answer
     }
 
@@ -58,7 +59,7 @@ impl Tasks {
         let running = waits.ok_or(Declined::Unknown)?;
         running.answer = Some(if is_clear { Answer::Clear } else { Answer::GiveUp });
         // A question is answered once; the next one is told anew.
-        running.view["barred"] = Value::Null;
+        views::barred(&mut running.view, Value::Null);
         Ok(())
     }
 }

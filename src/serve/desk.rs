@@ -5,10 +5,10 @@
 use std::sync::{Arc, PoisonError, RwLock, mpsc};
 use std::thread;
 
-use serde_json::json;
+use serde_json::Value;
 use tokio::sync::oneshot;
 
-use crate::engine::{Engine, Error, State};
+use crate::engine::{Engine, Error, State, json as views};
 
 use super::events::Events;
 
@@ -124,13 +124,7 @@ impl Desk {
     }
 }
 
-fn revision(engine: &Engine) -> serde_json::Value {
+fn revision(engine: &Engine) -> Value {
     let last = engine.revisions().ok().and_then(|all| all.into_iter().last());
-    let last = last.map(|r| (r.number, r.user, r.reason));
-    match last {
-        Some((number, user, reason)) => {
-            json!({ "revision": number, "user": user, "reason": reason })
-        }
-        None => json!({ "revision": engine.revision() }),
-    }
+    views::revised(engine.revision(), last.as_ref())
 }

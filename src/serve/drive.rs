@@ -12,11 +12,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
+use crate::engine::json::{self as views, TaskEnd};
 use crate::engine::{
     After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvent,
-    TaskEvents, json, rehearsal,
+    TaskEvents, rehearsal,
 };
 use crate::recording::Played;
 use crate::robot::{Address, Moment, Patience, Vehicle};
@@ -130,9 +131,7 @@ impl Tasks {
             tracing::error!(failure, "the queue is not kept");
         }
         let book = self.book();
-        let view =
-            json!({ "tasks": book.waiting(), "paused": book.paused.map(|at| at.to_string()) });
-        self.events.tell("queue", &view);
+        self.events.tell("queue", &views::waiting(&book.waiting()));
     }
 
     /// Hears a line of whoever speaks: a question is answered; an order waits to be confirmed.
@@ -151,16 +150,19 @@ impl Tasks {
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
             let standing = language.pick("Останавливаюсь.", "I am stopping.");
-            heard.replies = vec![json!({ "outcome": "stopped", "text": standing })];
+            heard.replies = vec![views::said("stopped", standing, None)];
         }
-        let mut view = self.told(&heard.replies, &state, language);
-        match heard.plan {
+        let task = match heard.plan {
             // What nobody has heard was not said.
-            _ if stop.is_raised() => {}
-            Some(plan) => view["task"] = self.propose(session, text, before, plan, &state),
-            None => self.keep(session, heard.dialogue),
-        }
-        Ok(view)
+            _ if stop.is_raised() => None,
+            Some(plan) => Some(self.propose(session, text, before, plan, &state)),
+            None => {
+                self.keep(session, heard.dialogue);
+                None
+            }
+        };
+        let caution = self.under_way(language);
+        Ok(views::line(&heard.replies, state.revision(), caution.as_deref(), task))
     }
 
     /// What is known now, to be asked while somebody waits for the answer.
@@ -179,16 +181,8 @@ impl Tasks {
         self.book().talks.insert(session.number, dialogue);
     }
 
-    fn told(&self, replies: &[Value], state: &State, language: Language) -> Value {
-        let mut view = json!({ "replies": replies, "revision": state.revision() });
-        if let Some(robot) = self.under_way(language) {
-            view["caution"] = robot;
-        }
-        view
-    }
-
     /// What an answer lacks while the robot is under way: what it has done since it set out is noted when it is done.
-    fn under_way(&self, language: Language) -> Option<Value> {
+    fn under_way(&self, language: Language) -> Option<String> {
         self.book().running.as_ref()?;
         let robot = self.events.robot();
         let place = robot[language.pick("ru", "en")].as_str().map(str::to_owned);
@@ -196,7 +190,7 @@ impl Tasks {
             "Робот едет; что он сделал с начала задания, в ответе ещё не учтено.",
             "The robot is under way; what it did since it set out is not in this answer yet.",
         );
-        Some(json!([known, place.as_deref().unwrap_or_default()].join(" ").trim()))
+        Some([known, place.as_deref().unwrap_or_default()].join(" ").trim().to_owned())
     }
 
     /// Answers a question of whoever speaks. An order is not followed, and not planned.
@@ -215,11 +209,11 @@ impl Tasks {
         if heard.plan.is_some() || heard.stops {
             return Ok(Answered::IsOrder);
         }
-        let view = self.told(&heard.replies, &state, language);
+        let caution = self.under_way(language);
         if !stop.is_raised() {
             self.keep(session, heard.dialogue);
         }
-        Ok(Answered::Told(view))
+        Ok(Answered::Told(views::line(&heard.replies, state.revision(), caution.as_deref(), None)))
     }
 
     /// A plan that waits for a word.
@@ -342,7 +336,7 @@ impl Tasks {
         self.note(&task.by.name);
         let state = self.desk.state();
         self.plan_now(&mut task, &state);
-        let (mut view, stop) = {
+        let (view, stop) = {
             let book = self.book();
             let running = book.running.as_ref().expect("it was just taken up");
             (running.view.clone(), running.stop.clone())
@@ -372,50 +366,48 @@ impl Tasks {
             Ok((heard, dialogue))
         });
         let failed_to_note = drive.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let mut end = TaskEnd { not_noted: failed_to_note, ..TaskEnd::default() };
         let dialogue = match heard {
             Ok((heard, dialogue)) => {
                 let tasks = heard.replies.iter().rev();
                 let last = tasks.clone().find(|reply| matches!(reply.outcome, Outcome::Task(_)));
                 let worst = heard.replies.iter().find(|reply| reply.outcome.has_failed());
                 let outcome = worst.or(last).map_or("done", |reply| reply.outcome.word());
-                view["state"] = json!(outcome);
+                outcome.clone_into(&mut end.state);
                 let told = heard.replies.iter();
                 let told = told.filter(|reply| !matches!(reply.outcome, Outcome::Begun { .. }));
                 let told: Vec<&str> = told.map(|reply| reply.text.as_str()).collect();
-                view["text_end"] = json!(told.join("\n").trim());
-                let replies = heard.replies.iter().filter_map(|r| json::reply(&engine, r).ok());
-                view["replies"] = json!(replies.collect::<Vec<_>>());
+                told.join("\n").trim().clone_into(&mut end.text_end);
+                let replies = heard.replies.iter().filter_map(|r| views::reply(&engine, r).ok());
+                end.replies = Some(replies.collect());
                 Some(dialogue)
             }
             Err(error) => {
-                view["state"] = json!("failed");
-                view["text_end"] = json!(match state.world() {
+                end.state = "failed".to_owned();
+                end.text_end = match state.world() {
                     Ok(world) => error.say(world, Language::of(&task.text)),
                     Err(_) => error.to_string(),
-                });
+                };
                 None
             }
         };
-        if let Some(failure) = failed_to_note {
-            view["not_noted"] = json!(failure);
-        }
         if let Some(recorded) = recorded {
             let kept = recorded.and_then(|recorded| {
-                view["recorded"] = json!(recorded.file.display().to_string());
+                end.recorded = Some(recorded.file.display().to_string());
                 recorded.end()
             });
             if let Err(error) = kept {
                 tracing::error!(%error, "a task is not recorded");
-                view["not_recorded"] = json!(error.to_string());
+                end.not_recorded = Some(error.to_string());
             }
         }
-        self.ended(task, view, dialogue);
+        self.ended(task, view, end, dialogue);
     }
 
     /// Notes how a task ended. One that was broken off waits on, and begins when somebody says so.
-    fn ended(&self, mut task: Task, mut view: Value, dialogue: Option<Dialogue>) {
+    fn ended(&self, mut task: Task, view: Value, mut end: TaskEnd, dialogue: Option<Dialogue>) {
         let (id, by) = (task.id, task.by.name.clone());
-        let why = {
+        end.stopped_by = {
             let mut book = self.book();
             // Who spoke since has said something newer.
             if let Some(dialogue) = dialogue
@@ -426,13 +418,13 @@ impl Tasks {
             }
             let running = book.running.take();
             let is_dropped = running.as_ref().is_some_and(|running| running.is_dropped);
-            let was_broken_off = ["stopped", "vehicle_failed", "failed"]
-                .contains(&view["state"].as_str().unwrap_or_default());
-            if is_dropped && view["state"] == "stopped" {
-                view["state"] = json!("cancelled");
+            let was_broken_off =
+                ["stopped", "vehicle_failed", "failed"].contains(&end.state.as_str());
+            if is_dropped && end.state == "stopped" {
+                end.state = "cancelled".to_owned();
             }
             if was_broken_off && !is_dropped && !task.is_strict && task.noted.is_some() {
-                view["waits"] = json!(true);
+                end.waits = true;
                 (task.is_released, task.has_waited) = (false, true);
                 if let Some(noted) = &mut task.noted {
                     noted.is_begun = true;
@@ -441,12 +433,11 @@ impl Tasks {
             }
             running.and_then(|running| running.why)
         };
-        view["stopped_by"] = json!(why);
         self.events.robot_is(Value::Null);
-        if why.is_some() {
-            self.events.tell("stopped", &json!({ "by": why, "task": id }));
+        if let Some(why) = &end.stopped_by {
+            self.events.tell("stopped", &views::stopped(why, id));
         }
-        self.end(&view);
+        self.end(&views::ended(view, &end));
         self.note(&by);
     }
 
@@ -529,7 +520,7 @@ impl<'t> Drive<'t> {
                     _ => {}
                 }
                 if let Some(event) = self.events.of(world, progress) {
-                    let mut view = json!(event);
+                    let view = views::event(&event);
                     let is_plan = matches!(event, TaskEvent::Planned(_) | TaskEvent::Replanned(_));
                     if is_plan
                         && let Some(agreed) = &mut self.agreed
@@ -537,7 +528,7 @@ impl<'t> Drive<'t> {
                     {
                         self.tasks.stop_for(self.id, "another plan");
                     }
-                    view["task"] = json!(self.id);
+                    let view = views::of_task(view, Some(self.id));
                     self.tasks.events.tell("directive", &view);
                     if let Progress::Barred { answer, .. } = progress {
                         answer.set(self.tasks.ask_to_clear(self.id, &self.stop, &view));
@@ -556,7 +547,7 @@ impl<'t> Drive<'t> {
                 });
                 let failure = match noted {
                     Ok(Ok(())) => {
-                        self.tasks.events.tell("known", &json!({ "task": self.id }));
+                        self.tasks.events.tell("known", &views::known_changed(Some(self.id)));
                         return;
                     }
                     Ok(Err(error)) => error.to_string(),
@@ -576,7 +567,9 @@ impl<'t> Drive<'t> {
         self.tasks.desk.send(move |engine| {
             let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
             match engine.remember_so_far(&after, &mut kept) {
-                Ok(true) => Some(Box::new(move || events.tell("known", &json!({ "task": id })))),
+                Ok(true) => {
+                    Some(Box::new(move || events.tell("known", &views::known_changed(Some(id)))))
+                }
                 Ok(false) => None,
                 Err(error) => {
                     *failure.lock().unwrap_or_else(PoisonError::into_inner) =
@@ -599,7 +592,7 @@ impl<'t> Drive<'t> {
 
     fn tell_pose(&mut self, engine: &Engine, moment: &Moment) {
         self.told = Instant::now();
-        self.tasks.events.robot_is(pose_view(engine, moment));
+        self.tasks.events.robot_is(views::robot(engine, moment));
     }
 
     /// Lets the vehicle's time pass by the clock; told to stop, it waits no more.
@@ -622,24 +615,4 @@ impl<'t> Drive<'t> {
             std::thread::sleep(left.min(GLANCE));
         }
     }
-}
-
-/// Where the robot is, in numbers and in words.
-#[must_use]
-pub(super) fn pose_view(state: &State, moment: &Moment) -> Value {
-    let mut view = state
-        .locate(moment.map, moment.pose, true)
-        .map_or(Value::Null, |found| json::whereabout(state.world().expect("it located"), &found));
-    if view.is_null() {
-        let map = state.world().ok().and_then(|world| world.maps.get(&moment.map));
-        let hundredths = |value: f64| (value * 100.0).round() / 100.0;
-        let (at, heading) = (moment.pose.at, moment.pose.heading.get());
-        view = json!({
-            "map": map.map(|map| &map.name),
-            "pose": {
-                "x": hundredths(at.x), "y": hundredths(at.y), "heading_deg": hundredths(heading),
-            },
-        });
-    }
-    view
 }

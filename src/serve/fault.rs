@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{Error, json as views};
 use crate::map::World;
-use crate::units::Language;
+use crate::units::{Bilingual, Language};
 
 use super::desk::Gone;
 
@@ -40,6 +40,27 @@ impl Fault {
         )
     }
 
+    /// Arguments of a tool that it does not take, all at once.
+    #[must_use]
+    pub(super) fn of_arguments(tool: &str, faults: &[Bilingual]) -> Self {
+        let told = |language: Language| {
+            let head = language.pick("Вызов", "Call of");
+            let all: Vec<&str> = faults.iter().map(|fault| fault.say(language)).collect();
+            format!("{head} {tool}: {}.", all.join("; "))
+        };
+        let each: Vec<Value> = faults
+            .iter()
+            .map(|fault| {
+                let [russian, english] =
+                    [Language::Russian, Language::English].map(|language| fault.say(language));
+                json!({ "message": russian, "message_en": english })
+            })
+            .collect();
+        let [russian, english] = [Language::Russian, Language::English].map(told);
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, "assist::arguments", &russian, &english)
+            .with("faults", each)
+    }
+
     /// What is sent: code, message, help, in both languages.
     #[must_use]
     pub(super) fn body(&self) -> &Value {
@@ -48,8 +69,8 @@ impl Fault {
 
     /// With what else is to be known.
     #[must_use]
-    pub(super) fn with(mut self, field: &str, value: Value) -> Self {
-        self.body[field] = value;
+    pub(super) fn with(mut self, field: &str, value: impl Into<Value>) -> Self {
+        self.body[field] = value.into();
         self
     }
 

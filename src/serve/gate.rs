@@ -31,6 +31,17 @@ pub enum Role {
     Edit,
 }
 
+impl Role {
+    /// As programs read it, and write it.
+    pub(super) const fn word(self) -> &'static str {
+        match self {
+            Self::Look => "look",
+            Self::Drive => "drive",
+            Self::Edit => "edit",
+        }
+    }
+}
+
 /// One who came in.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Session {

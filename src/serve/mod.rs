@@ -16,7 +16,6 @@ mod book;
 mod centre;
 mod clearing;
 mod desk;
-mod drawing;
 mod drive;
 mod events;
 mod fault;

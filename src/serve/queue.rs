@@ -4,9 +4,9 @@
 
 use std::sync::Arc;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::engine::{Dialogue, Error, Waiting, queue_in_words, waiting};
+use crate::engine::{Dialogue, Error, Waiting, json as views, queue_in_words, waiting};
 use crate::units::Language;
 
 use super::book::Task;
@@ -58,9 +58,7 @@ impl Tasks {
         let alone =
             rehearse(&state, &Dialogue::new(Language::of(&task.text)), &Line::Said(&task.text));
         let is_plain = alone.is_ok_and(|alone| {
-            alone
-                .plan
-                .is_some_and(|plan| plan["more"] == json!(0) && is_same_plan(&plan, &task.plan))
+            alone.plan.is_some_and(|plan| plan["more"] == 0 && is_same_plan(&plan, &task.plan))
         });
         task.before = Some(before);
         task.is_strict = is_strict;
@@ -118,7 +116,7 @@ impl Tasks {
                 true
             })
         };
-        self.events.tell("stop", &json!({ "by": by, "is_running": is_running }));
+        self.events.tell("stop", &views::stop_raised(by, is_running));
         self.note(by);
         is_running
     }
@@ -193,10 +191,8 @@ impl Tasks {
         let words = Language::of(line);
         let language = if line.chars().any(char::is_alphabetic) { words } else { language };
         let tell = |outcome: &str, text: &str| {
-            let reply = json!({
-                "outcome": outcome, "text": text, "language": language.pick("ru", "en"),
-            });
-            Ok(Some(json!({ "replies": [reply], "revision": self.desk.state().revision() })))
+            let reply = views::said(outcome, text, Some(language));
+            Ok(Some(views::line(&[reply], self.desk.state().revision(), None, None)))
         };
         let ids: Vec<(u64, String)> = {
             let book = self.book();

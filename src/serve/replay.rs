@@ -5,8 +5,9 @@
 
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
+use crate::engine::json::{self as views, TaskEnd};
 use crate::engine::{QueuedTask, State};
 use crate::recording::{Played, Told};
 use crate::robot::Moment;
@@ -14,7 +15,7 @@ use crate::store::Timestamp;
 use crate::units::{Deg, Point, Pose, Stop};
 
 use super::book::{Running, Task};
-use super::drive::{GLANCE, TELL, Tasks, pose_view};
+use super::drive::{GLANCE, TELL, Tasks};
 
 /// Whose tasks they are.
 const BY: &str = "replay";
@@ -51,7 +52,7 @@ impl Tasks {
             left_out = None;
             if let Some(moment) = pose.and_then(|pose| moment(&state, pose)) {
                 shown = Some(Instant::now());
-                self.events.robot_is(pose_view(&state, &moment));
+                self.events.robot_is(views::robot(&state, &moment));
             }
             self.happened(told, &played.told[number + 1..], &stop);
         }
@@ -83,9 +84,8 @@ impl Tasks {
                 let (text, by) = (text("text").to_owned(), BY.to_owned());
                 let noted = QueuedTask { id: 0, text, by, at, from: None, is_begun: true };
                 let id = book.next_id();
-                let mut view = Task::kept(id, noted).view("running");
-                view["plan"] = as_it_went(then);
-                view["is_replayed"] = json!(true);
+                let task = Task::kept(id, noted).view("running");
+                let view = views::played_again(task, &as_it_went(then));
                 let (stop, is_dropped) = (stop.clone(), false);
                 let (why, noted, answer) = (None, None, None);
                 let shown = view.clone();
@@ -96,9 +96,8 @@ impl Tasks {
             }
             ("/tasks", _) => self.ended_again(text("outcome"), text("text")),
             ("/directives" | "/surprises", _) => {
-                let mut view = value.clone();
-                view["task"] = json!(self.book().running.as_ref().map(|running| running.id));
-                self.events.tell("directive", &view);
+                let task = self.book().running.as_ref().map(|running| running.id);
+                self.events.tell("directive", &views::of_task(value.clone(), task));
             }
             _ => {}
         }
@@ -106,14 +105,16 @@ impl Tasks {
 
     fn ended_again(&self, state: &str, text: &str) {
         let Some(running) = self.book().running.take() else { return };
-        let mut view = running.view;
-        view["state"] = json!(state);
-        view["text_end"] = json!(text);
-        view["stopped_by"] = json!(running.why);
-        if let Some(why) = running.why {
-            self.events.tell("stopped", &json!({ "by": why, "task": running.id }));
+        if let Some(why) = &running.why {
+            self.events.tell("stopped", &views::stopped(why, running.id));
         }
-        self.end(&view);
+        let end = TaskEnd {
+            state: state.to_owned(),
+            text_end: text.to_owned(),
+            stopped_by: running.why,
+            ..TaskEnd::default()
+        };
+        self.end(&views::ended(running.view, &end));
     }
 }
 
@@ -124,18 +125,10 @@ fn as_it_went(then: &[Told]) -> Value {
     for told in then {
         match (told.topic.as_str(), told.value["event"].as_str().unwrap_or_default()) {
             ("/tasks", "task_ended") if told.value["outcome"] == "done" => {
-                let sum = |field: &str| {
-                    let each = directives.iter().filter_map(|one: &Value| one[field].as_f64());
-                    each.sum::<f64>()
-                };
-                let (seconds, length) = (sum("seconds"), sum("length_cm"));
                 let planned = then.iter().map(|told| &told.value);
                 let planned = planned.filter(|event| event["event"] == "planned").take(1);
                 let planned: Vec<&Value> = planned.collect();
-                return json!({
-                    "directives": directives, "seconds": seconds, "length_cm": length,
-                    "events": planned,
-                });
+                return views::as_it_went(&directives, &planned);
             }
             ("/tasks", _) | ("/directives", "replanned") | ("/surprises", _) => break,
             ("/directives", "arrived" | "done") => {

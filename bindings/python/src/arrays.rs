@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use orthoframe::engine::Value;
 use orthoframe::{MapId, Passframe, State};
-use orthoframe_facts::Value;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 

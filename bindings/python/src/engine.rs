@@ -5,13 +5,11 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant, SystemTime};
 
 use orthoframe::engine::{
-    Change, Dialogue as Talk, Drawing, Format, ImportOptions, Method, Mode, Rules, When,
-    change_now, json, name_in, parse_pose, read_building,
+    Change, Dialogue as Talk, Drawing, Format, ImportOptions, Limits, Method, Mode, Rules,
+    Scenario, Seen, Wanted, When, change_now, json, name_in, parse_pose, read_building,
 };
+use orthoframe::vehicle::{Address, Patience};
 use orthoframe::{Deg, Edits, Frame, Language, SourceText, World};
-use orthoframe_graphplan::Limits;
-use orthoframe_robot::{Address, Patience, Wanted};
-use orthoframe_strips::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use serde_json::{Value, json};
@@ -363,7 +361,7 @@ impl Engine {
                 let (area, surveyed) = (thing.area, thing.frame);
                 let before = match map {
                     Some(_) => engine
-                        .on_map(&orthoframe_store::Seen { area, frame: surveyed })?
+                        .on_map(&Seen { area, frame: surveyed })?
                         .map_or(surveyed, |(_, frame)| frame),
                     None => surveyed,
                 };

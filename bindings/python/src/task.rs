@@ -5,8 +5,8 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 use orthoframe::engine::{Dialogue, Event, Outcome, Progress, Reply, TaskEvents, json};
+use orthoframe::vehicle::{Address, Moment, Patience, RemoteVehicle};
 use orthoframe::{Engine, Stop, Vehicle};
-use orthoframe_robot::{Address, Moment, Patience, RemoteVehicle};
 use pyo3::exceptions::PyTimeoutError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};

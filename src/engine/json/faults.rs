@@ -4,6 +4,8 @@ use miette::{Diagnostic, LabeledSpan, SourceCode};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::language::Language;
+use crate::map::{EnglishMapErrors, MapErrors};
 use crate::units::OwnText;
 
 /// One fault.
@@ -34,6 +36,15 @@ pub fn faults(error: &dyn Diagnostic) -> Vec<Value> {
     let mut leaves = Vec::new();
     gather(error, None, &mut leaves);
     leaves.iter().map(|leaf| json!(leaf)).collect()
+}
+
+/// Each warning with its place and remedy.
+pub(super) fn warnings(warnings: &MapErrors, language: Language) -> Vec<Value> {
+    match language {
+        _ if warnings.faults.is_empty() => Vec::new(),
+        Language::Russian => faults(warnings),
+        Language::English => faults(&EnglishMapErrors::from(warnings)),
+    }
 }
 
 fn gather(error: &dyn Diagnostic, source: Option<&dyn SourceCode>, into: &mut Vec<FaultView>) {

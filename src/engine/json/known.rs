@@ -2,9 +2,12 @@
 
 use serde_json::{Value, json};
 
-use super::tuple;
+use super::faults::warnings;
+use super::values::{merge, tuple};
 use crate::engine::{Believed, Difference, Edited, Error, Revision, Source, State};
 use crate::language::Language;
+use crate::map::World;
+use crate::semantics::Relations;
 use crate::store::{Cell, Fate, ImportReport, Seen};
 
 /// The facts of a relation, or about a thing, as [`State::facts`] finds them.
@@ -42,6 +45,7 @@ fn place(state: &State, seen: &Seen) -> Result<Value, Error> {
     });
     Ok(json!({
         "area": world.areas.get(&seen.area).map(|a| a.name.as_str()),
+        "area_en": world.areas.get(&seen.area).map(|a| a.name_en.as_str()),
         "at": [f.x.get(), f.y.get(), f.z.get()],
         "angle_deg": f.angle.get(),
         "on_map": on_map,
@@ -54,8 +58,12 @@ fn place(state: &State, seen: &Seen) -> Result<Value, Error> {
 /// There is no map.
 pub fn believed(state: &State, found: &Believed) -> Result<Value, Error> {
     let b = &found.belief;
+    // What is in the robot's hand stands in the world as surveyed alone.
+    let replica = |world: &World| world.replicas.get(&found.replica).map(|r| r.name_en.clone());
+    let name_en = replica(state.uncarried()?).or_else(|| replica(state.world().ok()?));
     Ok(json!({
         "name": found.name,
+        "name_en": name_en,
         "place": place(state, &b.place)?,
         "confidence": (b.confidence * 1000.0).round() / 1000.0,
         "since": b.since.to_string(),
@@ -76,7 +84,7 @@ pub fn story(state: &State, name: &str) -> Result<Value, Error> {
     for station in state.story_of(name)? {
         let place = station.place.as_ref().map(|seen| place(state, seen)).transpose()?;
         let mut view = json!({ "at": station.at.to_string(), "place": place });
-        super::merge(
+        merge(
             &mut view,
             match &station.source {
                 Source::Map { revision, user } => {
@@ -136,6 +144,7 @@ pub fn edited(edited: &Edited, language: Language) -> Value {
         "differences": differences(&edited.differences, language),
         "left_behind": edited.left_behind,
         "warnings": edited.warnings.faults.len(),
+        "told": warnings(&edited.warnings, language),
     })
 }
 
@@ -159,4 +168,30 @@ pub fn revision(r: &Revision) -> Value {
         "kind": r.kind.word(), "undoes": r.undoes, "created": r.counts.created,
         "changed": r.counts.changed, "deleted": r.counts.deleted,
     })
+}
+
+/// How many tuples each relation has.
+#[must_use]
+pub fn counts(relations: &Relations) -> Value {
+    let rows: Vec<Value> = relations
+        .counts()
+        .into_iter()
+        .map(|c| json!({"name": c.name, "name_en": c.name_en, "count": c.count}))
+        .collect();
+    json!({ "relations": rows })
+}
+
+/// Things that are believed to stand elsewhere than the map has them.
+///
+/// # Errors
+/// There is no map.
+pub fn proposals(state: &State, all: &[Believed]) -> Result<Value, Error> {
+    let all = all.iter().map(|one| believed(state, one)).collect::<Result<Vec<_>, _>>()?;
+    Ok(json!({ "proposals": all }))
+}
+
+/// A thing is held to stand where the map has it, whatever was seen.
+#[must_use]
+pub fn rejected(revision: u64) -> Value {
+    json!({ "outcome": "rejected", "revision": revision })
 }

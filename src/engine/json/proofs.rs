@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::tuple;
+use super::values::tuple;
 use crate::engine::{Error, QueryAnswer, State};
 use crate::facts::{self, Because, Below, FailedRule, Premise, Proof, WhyNot};
 use crate::language::Language;
@@ -44,6 +44,16 @@ pub fn query(
         view["unknown"] = json!(answer.unknown);
     }
     Ok(view)
+}
+
+/// A fact with the name of its relation in a language.
+pub(super) fn display(
+    relations: &Relations,
+    name: &str,
+    values: &[facts::Value],
+    language: Language,
+) -> Value {
+    json!({ "relation": relations.display_name(name, language), "args": tuple(values) })
 }
 
 /// A step an object; a premise that is a fact names its step by number.

@@ -2,13 +2,13 @@
 
 use serde_json::{Value, json};
 
-use super::numbers::{point, round};
+use super::values::{point, round};
 use crate::units::InEnglish as _;
 use crate::vectors::read::{LogError, LogFault};
 use crate::vectors::{Cut, End, Segment, Truth};
 
 /// What was wrong with lines of a log.
-pub fn log_faults(error: Option<&LogError>) -> Vec<Value> {
+pub(super) fn log_faults(error: Option<&LogError>) -> Vec<Value> {
     let told = |error: &LogError| -> Vec<Value> {
         let fault = |fault: &LogFault| {
             let (line, column) = error.source_text.position(fault.offset());
@@ -21,6 +21,16 @@ pub fn log_faults(error: Option<&LogError>) -> Vec<Value> {
         error.faults.iter().map(fault).collect()
     };
     error.map(told).unwrap_or_default()
+}
+
+/// What was made of a log, with how many scans it has, where that is to be told, and what was wrong with its lines.
+#[must_use]
+pub fn of_log(mut view: Value, scans: Option<usize>, faults: Option<&LogError>) -> Value {
+    if let Some(scans) = scans {
+        view["scans"] = json!(scans);
+    }
+    view["faults"] = json!(log_faults(faults));
+    view
 }
 
 /// `deviation`: of the two ends across and along, the greatest.

@@ -94,6 +94,15 @@ impl Number {
         )
     }
 
+    /// Its Russian and English name.
+    #[must_use]
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Singular => ("единственное", "singular"),
+            Self::Plural => ("множественное", "plural"),
+        }
+    }
+
     pub(crate) fn index(self) -> usize {
         self as usize
     }
@@ -119,6 +128,16 @@ impl Gender {
                 (["средний", "neuter"], Self::Neuter),
             ],
         )
+    }
+
+    /// Its Russian and English name.
+    #[must_use]
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Masculine => ("мужской", "masculine"),
+            Self::Feminine => ("женский", "feminine"),
+            Self::Neuter => ("средний", "neuter"),
+        }
     }
 }
 

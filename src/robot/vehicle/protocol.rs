@@ -33,6 +33,7 @@ pub struct Order {
 pub enum Wish {
     /// The first line; answered by `ready`.
     Hello {
+        #[schemars(range(max = u32::MAX))]
         protocol: u32,
         /// The name of the building.
         domain: String,
@@ -115,6 +116,7 @@ pub struct Message {
 pub enum Saying {
     /// To `hello`.
     Ready {
+        #[schemars(range(max = u32::MAX))]
         protocol: u32,
         /// What the vehicle is called, for people.
         name: String,

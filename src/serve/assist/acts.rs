@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::time::SystemTime;
 
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::engine::{Error, Mode, change_now, rehearsal, waiting};
+use crate::engine::{Error, Mode, change_now, json as views, rehearsal, waiting};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
@@ -62,12 +62,12 @@ impl Call<'_> {
         }
         let text = text.to_owned();
         let heard = asked(move |stop| house.tasks.say(&session, &text, language, stop));
-        let mut view = heard.await?;
-        view["text"] = match view.get("task") {
-            Some(task) => json!(plan_in_words(task, language)),
-            None => json!(said(&view["replies"])),
+        let view = heard.await?;
+        let text = match view.get("task") {
+            Some(task) => plan_in_words(task, language),
+            None => said(&view["replies"]),
         };
-        Ok(Told::Value(view))
+        Ok(Told::Value(views::with_text(view, &text)))
     }
 
     pub(super) async fn carry_out(&self, plan: Plan) -> Answer {
@@ -125,14 +125,6 @@ impl Call<'_> {
             }
         };
         let sure = seen.sure.unwrap_or(0.9);
-        let numbers = [seen.x.unwrap_or(0.0), seen.y.unwrap_or(0.0), seen.z, seen.angle];
-        if !(0.0..=1.0).contains(&sure) || numbers.iter().any(|n| !n.is_finite() || n.abs() > 1e7) {
-            return Err(refuse(
-                "assist::number",
-                "sure – от 0 до 1, а место – в пределах здания",
-                "sure is from 0 to 1, and the place within the building",
-            ));
-        }
         let observer = self.session.name.clone();
         let house = self.house();
         let noted = house.desk.ask(move |engine| {
@@ -146,8 +138,8 @@ impl Call<'_> {
             }
         });
         noted.await?.map_err(|error| self.named(&error))?;
-        house.events.tell("known", &json!({}));
-        Ok(Told::Value(json!({ "outcome": "noted" })))
+        house.events.tell("known", &views::known_changed(None));
+        Ok(Told::Value(views::done("noted")))
     }
 
     /// A fault with the names of the map as it is.
@@ -178,7 +170,7 @@ impl Call<'_> {
                 let mut edit = proposed.edit;
                 // Who writes it is its author; who thought of it is told in the reason.
                 let reason = format!("{}: {}", self.session.name, proposed.reason);
-                edit.insert("reason".to_owned(), json!(reason));
+                edit.insert("reason".to_owned(), reason.into());
                 return self.laid_beside(Waits { on, edit }, tried).await;
             }
             Err(fault) => return Err(fault),
@@ -188,7 +180,7 @@ impl Call<'_> {
 
     /// Leaves an edit that nobody could be asked about for the operator: in the console, and as a file that
     /// `ortho edit --file` takes.
-    async fn laid_beside(&self, waits: Waits, mut tried: Value) -> Answer {
+    async fn laid_beside(&self, waits: Waits, tried: Value) -> Answer {
         let at =
             SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |d| d.as_millis());
         let house = self.house();
@@ -201,17 +193,14 @@ impl Call<'_> {
             }
             Err(_) => return Err(desk::Gone.into()),
         };
-        self.house().events.tell("proposed", &json!({ "id": id }));
-        tried["outcome"] = json!("proposed");
-        tried["id"] = json!(id);
+        self.house().events.tell("proposed", &views::edit_named(&id));
         let by_file = file.as_ref().map_or_else(String::new, |file| {
             format!(", or by `ortho edit --file {}`", file.display())
         });
-        tried["file"] = json!(file.map(|file| file.display().to_string()));
-        tried["text"] = json!(format!(
+        let text = format!(
             "The edit is sound and not written: nobody could be asked. The operator can write it in the console{by_file}."
-        ));
-        Ok(Told::Value(tried))
+        );
+        Ok(Told::Value(views::laid_beside(tried, &id, file.as_deref(), &text)))
     }
 }
 
@@ -229,7 +218,7 @@ fn edit_in_words(tried: &Value, reason: &str) -> String {
     if list("left_behind").next().is_some() {
         lines.push(&left);
     }
-    lines.extend(list("warnings").filter_map(|warning| warning["message"].as_str()));
+    lines.extend(list("told").filter_map(|warning| warning["message"].as_str()));
     lines.retain(|line| !line.is_empty());
     lines.join("\n")
 }
@@ -265,7 +254,7 @@ fn plan_in_words(task: &Value, language: Language) -> String {
             lines.push(format!("{head}: {}", names.join(", ")));
         }
     }
-    if plan["more"] != json!(0) {
+    if plan["more"] != 0 {
         lines.push(
             language
                 .pick(

@@ -7,14 +7,17 @@ use rmcp::model::{CallToolRequestParams, InputRequiredResult, Task};
 use rmcp::service::{RequestContext, RoleServer};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::{Map, Value};
 
+use crate::engine::json as views;
 use crate::units::Language;
 
 use super::super::fault::Fault;
 use super::super::gate::Session;
 use super::super::{House, apart, read};
+use super::arguments;
 use super::client::Assistant;
+use super::tools::Row;
 
 /// What a call came to.
 pub(super) enum Told {
@@ -55,19 +58,12 @@ impl Said {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Nothing {}
-
 pub(super) fn refuse(code: &str, russian: &str, english: &str) -> Fault {
     Fault::new(StatusCode::UNPROCESSABLE_ENTITY, code, russian, english)
 }
 
-fn arguments<T: DeserializeOwned>(given: Value) -> Result<T, Fault> {
-    serde_json::from_value(given).map_err(|error| {
-        let (ru, en) = (format!("аргументы: {error}"), format!("arguments: {error}"));
-        refuse("assist::arguments", &ru, &en)
-    })
+fn taken<T: DeserializeOwned>(given: Value) -> T {
+    serde_json::from_value(given).expect("what fits the schema of its tool is read")
 }
 
 /// What was replied, as one text.
@@ -81,36 +77,31 @@ impl Call<'_> {
         Arc::clone(&self.assistant.house)
     }
 
-    pub(super) async fn run(&self, name: &str, given: Value) -> Answer {
-        match name {
-            "ask" => self.ask(arguments(given)?).await,
-            "query" => self.query(arguments(given)?).await,
-            "where_is" => self.where_is(arguments(given)?).await,
-            "relations" => self.relations(arguments(given)?).await,
-            "why" => self.reasons(arguments(given)?, true).await,
-            "why_not" => self.reasons(arguments(given)?, false).await,
-            "route" => self.route(arguments(given)?).await,
-            "map" => self.map(arguments(given)?).await,
-            "history" => self.history(arguments(given)?).await,
-            "as_of" => self.as_of(arguments(given)?).await,
-            "tasks" => {
-                let Nothing {} = arguments(given)?;
-                Ok(Told::Value(self.house().tasks.view()))
-            }
-            "proposals" => {
-                let Nothing {} = arguments(given)?;
-                read::proposed(&self.house()).await.map(Told::Value)
-            }
-            "plan" => self.plan(arguments(given)?).await,
-            "run" => self.carry_out(arguments(given)?).await,
+    pub(super) async fn run(&self, row: &Row, given: Map<String, Value>) -> Answer {
+        arguments::check(row.name, &row.takes(), &given)?;
+        let given = Value::Object(given);
+        match row.name {
+            "ask" => self.ask(taken(given)).await,
+            "query" => self.query(taken(given)).await,
+            "where_is" => self.where_is(taken(given)).await,
+            "relations" => self.relations(taken(given)).await,
+            "why" => self.reasons(taken(given), true).await,
+            "why_not" => self.reasons(taken(given), false).await,
+            "route" => self.route(taken(given)).await,
+            "map" => self.map(taken(given)).await,
+            "history" => self.history(taken(given)).await,
+            "as_of" => self.as_of(taken(given)).await,
+            "tasks" => Ok(Told::Value(self.house().tasks.view())),
+            "proposals" => read::proposed(&self.house()).await.map(Told::Value),
+            "plan" => self.plan(taken(given)).await,
+            "run" => self.carry_out(taken(given)).await,
             "stop" => {
-                let Nothing {} = arguments(given)?;
                 let (house, by) = (self.house(), self.session.name.clone());
                 let is_running = apart(move || Ok(house.tasks.stop(&by))).await?;
-                Ok(Told::Value(json!({ "stopped": is_running })))
+                Ok(Told::Value(views::stop(is_running)))
             }
-            "observe" => self.observe(arguments(given)?).await,
-            "propose_edit" => self.propose_edit(arguments(given)?).await,
+            "observe" => self.observe(taken(given)).await,
+            "propose_edit" => self.propose_edit(taken(given)).await,
             other => unreachable!("the table has no {other}"),
         }
     }

@@ -9,7 +9,9 @@ use std::time::Duration;
 use rmcp::model::{ProgressNotificationParam, ProgressToken, Task};
 use rmcp::service::{RequestContext, RoleServer};
 use rmcp::task_manager::{TaskContext, TaskExit, TaskManager, TaskOptions};
-use serde_json::{Value, json};
+use serde_json::Value;
+
+use crate::engine::json as views;
 
 use super::super::events::Hearing;
 use super::super::fault::Fault;
@@ -161,15 +163,15 @@ impl Driven {
                 }
             };
             for (kind, data) in happened {
-                let mut event: Value = serde_json::from_str(&data).unwrap_or_default();
-                if event["task"] != json!(id) {
+                let event: Value = serde_json::from_str(&data).unwrap_or_default();
+                if event["task"] != id {
                     continue;
                 }
                 let state = event["state"].as_str().unwrap_or_default();
                 if kind == "task" && !["queued", "running"].contains(&state) {
                     watch.is_over = true;
-                    event["text"] = event["text_end"].clone();
-                    return (Ok(event), is_given_up);
+                    let text = event["text_end"].as_str().unwrap_or_default().to_owned();
+                    return (Ok(views::with_text(event, &text)), is_given_up);
                 }
                 if kind == "directive" && far.follow(&event) {
                     asker.is_told(&far).await;

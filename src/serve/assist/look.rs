@@ -2,16 +2,14 @@
 
 use std::sync::Arc;
 
-use serde::Deserialize;
-use serde_json::{Value, json};
-
 use crate::engine::calls;
 use crate::engine::{Drawing, Method, RequestError, json as views, rehearsal};
 use crate::robot::Moment;
 use crate::units::Language;
+use serde::Deserialize;
 
-use super::super::drive::{Answered, pose_view};
-use super::super::{apart, asked, drawing, read};
+use super::super::drive::Answered;
+use super::super::{apart, asked, read};
 use super::call::{Answer, Call, Said, Told, refuse, said};
 
 #[derive(Deserialize)]
@@ -83,9 +81,9 @@ impl Call<'_> {
             asked(move |stop| house.tasks.answer(&session, question.text.trim(), language, stop))
                 .await?;
         match heard {
-            Answered::Told(mut view) => {
-                view["text"] = json!(said(&view["replies"]));
-                Ok(Told::Value(view))
+            Answered::Told(view) => {
+                let text = said(&view["replies"]);
+                Ok(Told::Value(views::with_text(view, &text)))
             }
             Answered::IsOrder => Err(refuse(
                 "assist::order",
@@ -97,11 +95,12 @@ impl Call<'_> {
 
     pub(super) async fn query(&self, given: Query) -> Answer {
         let state = self.house().desk.state();
-        let found = asked(move |stop| state.heeding(stop).query(&given.query, false)).await?;
-        let rows: Vec<Value> = found.rows.iter().map(|row| json!(views::tuple(row))).collect();
-        Ok(Told::Value(json!({
-            "columns": found.columns, "rows": rows, "unknown": found.unknown,
-        })))
+        let view = asked(move |stop| {
+            let state = state.heeding(stop);
+            let found = state.query(&given.query, false)?;
+            views::query(&state, &found, false, Language::English)
+        });
+        view.await.map(Told::Value)
     }
 
     pub(super) async fn where_is(&self, named: Name) -> Answer {
@@ -115,45 +114,37 @@ impl Call<'_> {
             let view = apart(move || {
                 let (map, pose) = state.robot()?;
                 let moment = Moment { time: 0.0, map, pose };
-                Ok(pose_view(&state, &moment))
+                Ok(views::robot(&state, &moment))
             });
             return view.await.map(Told::Value);
         };
         let state = house.desk.state();
-        let view = apart(move || read::about(&state, &name, Language::English));
+        let view = apart(move || views::about(&state, &name, Language::English));
         view.await.map(Told::Value)
     }
 
     pub(super) async fn relations(&self, about: About) -> Answer {
         let state = self.house().desk.state();
-        let found = apart(move || {
-            let facts = state.facts(about.name.as_deref(), about.of.as_deref())?;
-            let relations = state.relations()?;
-            let one = |(name, values): &(String, Vec<crate::facts::Value>)| {
-                json!({
-                    "relation": relations.display_name(name, Language::English),
-                    "args": views::tuple(values),
-                })
-            };
-            Ok(facts.iter().map(one).collect::<Vec<_>>())
+        let view = apart(move || {
+            let (name, of) = (about.name.as_deref(), about.of.as_deref());
+            views::facts(&state, name, of, Language::English)
         });
-        Ok(Told::Value(json!({ "relations": found.await? })))
+        view.await.map(Told::Value)
     }
 
     pub(super) async fn reasons(&self, fact: Fact, expected: bool) -> Answer {
         let state = self.house().desk.state();
         let view = apart(move || {
             let of: Vec<&str> = fact.of.iter().map(String::as_str).collect();
-            read::reasons(&state, &fact.relation, &of, Language::English)
+            views::reasons(&state, &fact.relation, &of, Language::English)
         });
-        let mut view = view.await?;
-        if view["holds"] != json!(expected) {
-            view["note"] = json!(match expected {
-                true => "It does not hold; this is what was missing.",
-                false => "It does hold; this is the proof.",
-            });
-        }
-        Ok(Told::Value(view))
+        let view = view.await?;
+        let note = match expected {
+            true => "It does not hold; this is what was missing.",
+            false => "It does hold; this is the proof.",
+        };
+        let is_as_asked = view["holds"] == expected;
+        Ok(Told::Value(if is_as_asked { view } else { views::with_note(view, note) }))
     }
 
     pub(super) async fn route(&self, way: Way) -> Answer {
@@ -173,8 +164,8 @@ impl Call<'_> {
             let drawing = Drawing { only, language: Language::English, ..Drawing::default() };
             let svg = if named.picture { Some(state.draw(map, &drawing)?) } else { None };
             let data = match (only, &named.name) {
-                (Some(_), Some(room)) => read::about(&state, room, Language::English)?,
-                _ => drawing::storey(&state, map, drawing::Part::Whole { most: usize::MAX })?,
+                (Some(_), Some(room)) => views::about(&state, room, Language::English)?,
+                _ => views::storey(&state, map, views::Part::Whole { most: usize::MAX })?,
             };
             Ok((svg, data))
         })
@@ -207,9 +198,7 @@ impl Call<'_> {
             rehearsal::replied(&Arc::new(state.heeding(stop)), then.text.trim(), language)
         });
         let replies = replies.await?;
-        Ok(Told::Value(json!({
-            "revision": then.revision, "text": said(&replies), "replies": replies,
-        })))
+        Ok(Told::Value(views::of_the_past(then.revision, &said(&replies), &replies)))
     }
 }
 

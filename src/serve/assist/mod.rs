@@ -14,6 +14,7 @@
 
 mod acts;
 mod approval;
+mod arguments;
 mod call;
 mod calls;
 mod client;
@@ -28,8 +29,9 @@ use std::time::SystemTime;
 use rmcp::handler::server::ServerHandler;
 use rmcp::model::{
     CallToolRequestParams, CallToolResponse, CallToolResult, CancelTaskParams, ContentBlock,
-    CreateTaskResult, GetTaskParams, GetTaskResult, Implementation, ListToolsResult,
-    PaginatedRequestParams, ServerCapabilities, ServerConfig, Tool, UpdateTaskParams,
+    CreateTaskResult, CustomRequest, CustomResult, ErrorCode, GetTaskParams, GetTaskResult,
+    Implementation, ListToolsResult, PaginatedRequestParams, ServerCapabilities, ServerConfig,
+    Tool, UpdateTaskParams,
 };
 use rmcp::service::{RequestContext, RoleServer, ServiceExt as _};
 use serde_json::Value;
@@ -81,7 +83,8 @@ impl ServerHandler for Assistant {
                 format!("there is no tool {:?}; there are {}", request.name, known.join(", "));
             return Err(McpError::invalid_params(text, None));
         };
-        let arguments = Value::Object(request.arguments.clone().unwrap_or_default());
+        let given = request.arguments.clone().unwrap_or_default();
+        let arguments = Value::Object(given.clone());
         let told = if session.role < row.needs {
             Err(Fault::of_role())
         } else {
@@ -92,7 +95,7 @@ impl ServerHandler for Assistant {
                 context: &context,
             };
             tokio::select! {
-                told = call.run(row.name, arguments.clone()) => told,
+                told = call.run(row, given) => told,
                 // What acts ends by itself, when the robot stands.
                 () = context.ct.cancelled(), if row.reads() => Err(call::refuse(
                     "assist::cancelled",
@@ -120,6 +123,23 @@ impl ServerHandler for Assistant {
             }
             Err(fault) => refused(&fault).into(),
         })
+    }
+
+    /// What the protocol's library can make nothing of: of a method that is known here, its parameters are wrong.
+    async fn on_custom_request(
+        &self,
+        request: CustomRequest,
+        _: RequestContext<RoleServer>,
+    ) -> Result<CustomResult, McpError> {
+        let CustomRequest { method, params, .. } = request;
+        let fault = match method.as_str() {
+            "tools/call" => arguments::of_no_call(&params.unwrap_or_default()),
+            "initialize" | "ping" | "tools/list" | "tasks/get" | "tasks/update"
+            | "tasks/cancel" => arguments::of_no_request(&method),
+            _ => return Err(McpError::new(ErrorCode::METHOD_NOT_FOUND, method, None)),
+        };
+        let said = fault.body()["message_en"].as_str().unwrap_or_default().to_owned();
+        Err(McpError::invalid_params(said, Some(fault.body().clone())))
     }
 
     async fn get_task(

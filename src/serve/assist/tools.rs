@@ -21,6 +21,11 @@ impl Row {
     pub(super) fn reads(&self) -> bool {
         self.effect == Effect::Reads
     }
+
+    /// The schema of its arguments.
+    pub(super) fn takes(&self) -> Value {
+        (self.takes)()
+    }
 }
 
 /// What a tool does to the world.
@@ -32,12 +37,25 @@ enum Effect {
     Acts,
 }
 
+/// Longer than any name, question, order or query has reason to be.
+const LONGEST: u32 = 20_000;
+/// No building is so large, cm; no turn is so many degrees.
+const FARTHEST: u32 = 10_000_000;
+/// The largest number that JSON's readers agree on.
+const LAST: u64 = (1 << 53) - 1;
+
 fn text(about: &str) -> Value {
-    json!({ "type": "string", "description": about })
+    json!({ "type": "string", "maxLength": LONGEST, "description": about })
 }
 
 fn number(about: &str) -> Value {
-    json!({ "type": "number", "description": about })
+    let farthest = i64::from(FARTHEST);
+    json!({ "type": "number", "minimum": -farthest, "maximum": farthest, "description": about })
+}
+
+/// A revision, or the id of a plan.
+fn ordinal(least: u32, about: &str) -> Value {
+    json!({ "type": "integer", "minimum": least, "maximum": LAST, "description": about })
 }
 
 fn of(properties: &Value, required: &[&str]) -> Value {
@@ -148,7 +166,7 @@ const ROWS: &[Row] = &[
         effect: Effect::Reads,
         takes: || {
             of(
-                &json!({ "from": { "type": "integer", "minimum": 0 }, "to": { "type": "integer", "minimum": 0 }, "calls": { "type": "boolean" } }),
+                &json!({ "from": ordinal(0, "A revision"), "to": ordinal(0, "A revision; the present one without it"), "calls": { "type": "boolean", "description": "The calls of assistants as well" } }),
                 &[],
             )
         },
@@ -161,7 +179,7 @@ const ROWS: &[Row] = &[
         effect: Effect::Reads,
         takes: || {
             of(
-                &json!({ "revision": { "type": "integer", "minimum": 1 }, "text": text("The question") }),
+                &json!({ "revision": ordinal(1, "Of the map"), "text": text("The question") }),
                 &["revision", "text"],
             )
         },
@@ -198,12 +216,7 @@ const ROWS: &[Row] = &[
         about: "Has the robot carry out a plan by its id, that plan and no other. A person is asked first. Refused when the map, or anything that the plan rests on, has changed since. Tells of its progress, as a task where the client speaks of tasks; cancelling stops the robot.",
         needs: Role::Drive,
         effect: Effect::Acts,
-        takes: || {
-            of(
-                &json!({ "id": { "type": "integer", "minimum": 1, "description": "As `plan` gave it" } }),
-                &["id"],
-            )
-        },
+        takes: || of(&json!({ "id": ordinal(1, "As `plan` gave it") }), &["id"]),
     },
     Row {
         name: "stop",
@@ -241,7 +254,7 @@ const ROWS: &[Row] = &[
             of(
                 &json!({
                     "edit": { "type": "object", "description": "{\"edit\": [{\"move\": \"Chair 1\", \"by\": [10, 0]}]}: docs/cli.md" },
-                    "reason": text("Why"), "on": { "type": "integer", "description": "The revision that it was made on; the present one without it" },
+                    "reason": text("Why"), "on": ordinal(0, "The revision that it was made on; the present one without it"),
                 }),
                 &["edit"],
             )
@@ -253,7 +266,7 @@ fn fact() -> Value {
     of(
         &json!({
             "relation": text("Name of the relation, in Russian or English"),
-            "of": { "type": "array", "items": { "type": "string" }, "description": "The names, in order" },
+            "of": { "type": "array", "maxItems": 16, "items": text("A name"), "description": "The names, in order" },
         }),
         &["relation", "of"],
     )
@@ -269,7 +282,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 
 pub(super) fn all() -> Vec<Tool> {
     let one = |row: &Row| {
-        let Value::Object(schema) = (row.takes)() else { unreachable!("a schema is an object") };
+        let Value::Object(schema) = row.takes() else { unreachable!("a schema is an object") };
         let reads = row.reads();
         let hints = ToolAnnotations::with_title(row.title)
             .read_only(reads)

@@ -121,12 +121,12 @@ function thingTab(act) {
   const relations = thing.relations.filter((relation) => relation.args.length > 1).slice(0, 120);
   if (relations.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Отношения', 'Relations'), el('span', { class: 'num' }, String(relations.length))), el('ul', { class: 'rel' }, relations.map((relation) => relationRow(relation, thing)))));
   if (thing.kind === 'thing') parts.push(whyNot(thing, act));
-  if (thing.story?.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Где бывала', 'Where it was')), el('ul', { class: 'list' }, thing.story.slice(-10).reverse().map((one) => el('li', null, I(one.source.observer ? 'eye' : 'map'), el('span', { class: 'g' }, one.place ? placeWords(one.place) : L('не на месте', 'not there'), el('div', { class: 'sub' }, `${when(one.at)} · ${one.source.observer ? `${one.source.observer}, ${Math.round(one.source.sure * 100)} %` : `${L('карта', 'map')} ${one.source.revision}, ${one.source.user}`}`)))))));
+  if (thing.story?.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Где бывала', 'Where it was')), el('ul', { class: 'list' }, thing.story.slice(-10).reverse().map((one) => el('li', null, I(one.source === 'seen' ? 'eye' : 'map'), el('span', { class: 'g' }, one.place ? placeWords(one.place) : L('не на месте', 'not there'), el('div', { class: 'sub' }, `${when(one.at)} · ${one.source === 'seen' ? `${one.observer}, ${Math.round(one.sure * 100)} %` : `${L('карта', 'map')} ${one.revision}, ${one.user}`}`)))))));
   if (thing.changes?.length) parts.push(el('div', { class: 'sec' }, el('h2', null, L('Правки на карте', 'Edits on the map')), el('ul', { class: 'list' }, thing.changes.slice(-10).reverse().map((one) => el('li', null, I('clock'), el('span', { class: 'g' }, L(`ревизия ${one.revision}`, `revision ${one.revision}`), el('div', { class: 'sub' }, `${one.user} · ${when(one.at)}`)), one.revision > 1 ? el('button', { class: 'lnk', type: 'button', 'aria-label': L(`Что изменила ревизия ${one.revision}`, `What revision ${one.revision} changed`), onclick: () => act.compare(one.revision - 1, one.revision) }, L('что', 'what')) : null)))));
   return parts;
 }
 const surely = (share) => L(`уверенность ${Math.round(share * 100)} %`, `${Math.round(share * 100)} % sure`);
-const placeWords = (where) => (where ? `${S.lang === 'en' && where.room_en ? where.room_en : where.room} (${num(where.at[0], 0)}; ${num(where.at[1], 0)})` : '?');
+const placeWords = (where) => (where?.on_map ? `${S.lang === 'en' && where.area_en ? where.area_en : where.area} (${num(where.on_map.at[0], 0)}; ${num(where.on_map.at[1], 0)})` : '?');
 const when = (at) => new Date(at).toLocaleString(S.lang === 'ru' ? 'ru' : 'en-GB', { dateStyle: 'short', timeStyle: 'short' });
 
 function relationRow(relation, thing) {
@@ -221,7 +221,7 @@ export function verdict(act) {
   if (!edit) return parts;
   if (edit.wrong) parts.push(el('div', { class: 'note bad', role: 'alert' }, el('b', null, L('Так нельзя', 'This cannot be')), edit.wrong.map((text) => el('span', null, text))));
   if (edit.steps?.length) {
-    if (edit.tried) parts.push(el('div', { class: 'note ok' }, el('b', null, L('Всё верно', 'All is right')), el('ul', { class: 'diff' }, some(edit.tried.differences.filter((d) => !/SIDES/i.test(d.table) || edit.tried.differences.length < 7))), edit.tried.warnings.map((w) => el('span', null, w.message)), edit.tried.left_behind.length ? el('span', null, `${L('Остаётся на месте', 'Stays behind')}: ${edit.tried.left_behind.map(N).join(', ')}`) : null));
+    if (edit.tried) parts.push(el('div', { class: 'note ok' }, el('b', null, L('Всё верно', 'All is right')), el('ul', { class: 'diff' }, some(edit.tried.differences.filter((d) => !/SIDES/i.test(d.table) || edit.tried.differences.length < 7))), edit.tried.told.map((w) => el('span', null, w.message)), edit.tried.left_behind.length ? el('span', null, `${L('Остаётся на месте', 'Stays behind')}: ${edit.tried.left_behind.map(N).join(', ')}`) : null));
     if (edit.theirs) parts.push(el('div', { class: 'note warn', role: 'alert' }, el('b', null, L('Пока вы правили, карта изменилась', 'The map changed while you edited')), edit.theirs.map((one) => el('div', null, `${one.revision}, ${one.user}: `, one.differences.map((d) => L(d.ru, d.en)).join('; '))), el('div', { class: 'btns' }, button('pri', L('Записать поверх их правки', 'Write on top of theirs'), act.onTop), button('', L('Оставить их', 'Keep theirs'), act.drop))));
     else parts.push(el('div', { class: 'btns' }, button('pri wide', [L('Записать', 'Write'), ' ', el('kbd', null, 'Enter')], act.write, { id: 'write', disabled: Boolean(edit.wrong) }), button('wide', [L('Бросить', 'Drop'), ' ', el('kbd', null, 'Esc')], act.drop)));
   }

@@ -4,6 +4,7 @@
 
 use serde_json::{Value, json};
 
+use super::values::{point, round};
 use crate::engine::{Error, State};
 use crate::geometry::{FloorPlan, Opening, PlacedZone, Polygon, Region, Scene};
 use crate::map::{
@@ -13,7 +14,7 @@ use crate::units::{AreaId, InOrder as _, Language, MapId, Point};
 
 /// How much of a storey is wanted.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Part {
+pub enum Part {
     /// All of it, but for its things and doors where there are more than so many.
     Whole { most: usize },
     /// The things, doors and places that meet a box, on the Map: left, bottom, right, top.
@@ -24,7 +25,7 @@ pub(super) enum Part {
 ///
 /// # Errors
 /// There is no map.
-pub(super) fn storey(state: &State, map: MapId, part: Part) -> Result<Value, Error> {
+pub fn storey(state: &State, map: MapId, part: Part) -> Result<Value, Error> {
     let world = state.world()?;
     let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
     let now = state.world_now()?;
@@ -234,7 +235,7 @@ pub(super) fn objects(world: &World) -> Vec<Value> {
 ///
 /// # Errors
 /// There is no map.
-pub(super) fn floor(state: &State, map: MapId) -> Result<Value, Error> {
+pub fn floor(state: &State, map: MapId) -> Result<Value, Error> {
     let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
     let (mut frames, mut dead) = (Vec::new(), Vec::new());
     for fragment in floor.fragments() {
@@ -336,13 +337,17 @@ fn doors(world: &World, now: &World, floor: &FloorPlan) -> Vec<Value> {
     openings.map(|shared| &**shared).filter_map(opening).collect()
 }
 
-fn leaves(view: &mut Value, opening: &Opening, door: &Door) {
-    let leaves = opening.leaves(door);
-    view["state"] = json!(match door.state.status {
+pub(super) const fn door_state(door: &Door) -> &'static str {
+    match door.state.status {
         DoorStatus::Open => "open",
         DoorStatus::Closed => "closed",
         DoorStatus::Locked => "locked",
-    });
+    }
+}
+
+fn leaves(view: &mut Value, opening: &Opening, door: &Door) {
+    let leaves = opening.leaves(door);
+    view["state"] = json!(door_state(door));
     view["opening"] = json!(round(door.state.opening));
     view["leaves"] = json!(leaves.at(door.state).iter().map(outline).collect::<Vec<_>>());
     let arc = |points: &Vec<Point>| points.iter().map(|p| point(*p)).collect::<Vec<_>>();
@@ -403,13 +408,4 @@ fn frame(frame: &crate::units::Frame) -> Value {
 
 fn outline(polygon: &Polygon) -> Vec<[f64; 2]> {
     polygon.corners.iter().map(|corner| point(*corner)).collect()
-}
-
-pub(super) fn point(p: Point) -> [f64; 2] {
-    [round(p.x), round(p.y)]
-}
-
-/// A tenth of a millimetre; nothing is minus zero.
-fn round(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0 + 0.0
 }
