@@ -10,7 +10,6 @@ use crate::engine::{
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase};
-use crate::map::{EnglishMapErrors, MapErrors};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 

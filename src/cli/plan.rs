@@ -13,7 +13,6 @@ use crate::engine::{
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
 use crate::robot::Wanted;
-use crate::semantics::planning::InitialFact;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario, Wording};
 use crate::units::{English, write_file};
 

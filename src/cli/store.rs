@@ -10,7 +10,6 @@ use crate::engine::{
 };
 use crate::store::{Forgotten, ImportReport, Timestamp};
 use crate::units::write_file;
-use clap::Subcommand;
 
 use super::args::{Common, Lang, when};
 use super::fault::Failure;

@@ -47,9 +47,8 @@ pub use reasons::reasons;
 pub use replies::{answer, doubt, heard, queue, reply, task};
 pub use scans::{changes, differing, found_scans, things, view};
 pub use segments::{ends, of_log};
-pub use store::{
-    backup, diff, forgotten, map_text, restored, revisions, store_check, with_calls,
-};
+pub(crate) use store::with_calls;
+pub use store::{backup, diff, forgotten, map_text, restored, revisions, store_check};
 pub use storey::{Part, floor, storey};
 #[cfg(feature = "serve")]
 pub(crate) use tasks::{
@@ -60,4 +59,3 @@ pub(crate) use tasks::{
 pub use thing::{about, kinds};
 pub use values::tuple;
 pub use ways::{faces, journey, region, route, whereabout, with_words};
-

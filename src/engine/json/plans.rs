@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::engine::narration::outcome;
 use crate::engine::{PlanStep, Replanned, Solved, in_rule_text, steps};
 use crate::graphplan::{Limit, NoPlanReason, Outcome, Plan};
 use crate::language::Language;
@@ -158,14 +159,6 @@ pub fn replayed(replayed: &Replayed) -> Value {
         "steps": steps,
         "broken": broken,
     })
-}
-
-pub(in crate::engine) fn outcome(outcome: &Outcome) -> &'static str {
-    match outcome {
-        Outcome::Plan(_) => "plan",
-        Outcome::NoPlan { .. } => "no_plan",
-        Outcome::LimitReached(_) => "limit",
-    }
 }
 
 /// A plan whose search was broken off, with what would help.

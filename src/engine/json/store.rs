@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::known::{differences, revision};
+use crate::engine::calls::Call;
 use crate::engine::{Difference, FsckReport, Revision, Severity};
 use crate::language::Language;
 use crate::store::{Finding, Forgotten};
@@ -58,7 +59,7 @@ pub fn revisions<'a>(all: impl IntoIterator<Item = &'a Revision>) -> Value {
 
 /// A history with the calls of assistants.
 #[must_use]
-pub fn with_calls<'a>(mut view: Value, calls: impl IntoIterator<Item = &'a Call>) -> Value {
+pub(crate) fn with_calls<'a>(mut view: Value, calls: impl IntoIterator<Item = &'a Call>) -> Value {
     view["calls"] = calls.into_iter().map(|call| json!(call)).collect();
     view
 }

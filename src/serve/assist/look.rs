@@ -185,7 +185,7 @@ impl Call<'_> {
         };
         if let Some(file) = self.assistant.calls.file.clone().filter(|_| between.calls) {
             let (calls, _) = apart(move || Ok(calls::noted(&file)?)).await?;
-            view["calls"] = json!(calls);
+            view = views::with_calls(view, &calls);
         }
         Ok(Told::Value(view))
     }
