@@ -50,6 +50,7 @@ mod passframes;
 mod planning;
 mod planning_front;
 mod planning_interference;
+mod planning_judge;
 mod planning_mutants;
 mod planning_properties;
 mod planning_time;
