@@ -48,6 +48,7 @@ mod orders;
 mod partition;
 mod passframes;
 mod planning;
+mod planning_floor;
 mod planning_front;
 mod planning_interference;
 mod planning_judge;

@@ -1,6 +1,6 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{Barrier, NoRoute, Remedy, Route};
+use crate::geometry::{NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::{InitialFact, PlanPlace};
@@ -31,7 +31,8 @@ use super::directive::{Deed, Directive};
 use super::idle::without_idle;
 use super::rehearsal::{Known, rehearse};
 use super::reins::Reins;
-use super::solve::{Solved, solve_again};
+use super::solve::{Solved, solve_again, solve_in_time};
+use super::timing::Clock;
 use super::vehicle::protocol::Scan;
 use super::vehicle::{
     Bump, Failure, Moment, Obstruction, Outlines, Refusal, Sighting, Unfinished, Vehicle,
@@ -151,12 +152,6 @@ pub enum Ending {
 const MOST_CHANGES: usize = 20;
 
 impl Surprise {
-    /// Whether a zone bars the way: nobody moves it, and what would lead through it is no plan.
-    fn is_of_zone(&self) -> bool {
-        let is_zone = |barrier: &Barrier| matches!(barrier, Barrier::Zone { .. });
-        matches!(self, Self::NoWay { why, .. } if why.barriers().iter().any(is_zone))
-    }
-
     /// Whether a way is given up for it, that the rules then know nothing of.
     fn bars_a_way(&self) -> bool {
         let is_jammed =
@@ -208,8 +203,8 @@ pub struct Mission<'r> {
     lifts: Vec<Lift>,
     /// How often what was seen of each thing changed the belief.
     changes: BTreeMap<Obstruction, usize>,
-    /// The first plan of an attempt that was not begun; told once, where the goal is pursued no further.
-    refused: Option<Planned>,
+    /// Whether the plan is wanted that is driven in the least time.
+    in_time: bool,
 }
 
 impl<'r> Mission<'r> {
@@ -223,8 +218,20 @@ impl<'r> Mission<'r> {
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
-        let (changes, refused) = (BTreeMap::new(), None);
-        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, refused }
+        let (changes, in_time) = (BTreeMap::new(), false);
+        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, in_time }
+    }
+
+    /// The same, that plans for the least driven time, however many steps it takes.
+    #[must_use]
+    pub fn in_least_time(self) -> Self {
+        Self { in_time: true, ..self }
+    }
+
+    /// The same, given a plan that names the places, doors and lifts of the map.
+    pub(super) fn knowing(self, clock: &Clock<'_>) -> Self {
+        let (places, joins) = (clock.places_named.clone(), clock.joins.clone());
+        Self { places, joins, lifts: clock.lifts.clone(), ..self }
     }
 
     /// The plan for a goal from what is believed now.
@@ -258,7 +265,19 @@ impl<'r> Mission<'r> {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
             problem.add_goal(&fact.predicate, &args);
         }
-        let (solved, now_learned) = solve_again(self.domain, &problem, &self.limits, learned)?;
+        let in_time = match self.in_time {
+            true => {
+                let belief = &self.belief;
+                let mut clock = Clock::new(&belief.world, relations, belief.floors());
+                clock = clock.knowing(&belief.spots);
+                solve_in_time(self.domain, &problem, &mut clock, &self.limits)?
+            }
+            false => None,
+        };
+        let (solved, now_learned) = match in_time {
+            Some(solved) => (solved, None),
+            None => solve_again(None, self.domain, &problem, &self.limits, learned)?,
+        };
         let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
         let steps = match solved.outcome.plan() {
             Some(plan) => {
@@ -311,7 +330,6 @@ impl<'r> Mission<'r> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
-        self.refused = None;
         loop {
             if reins.stop.is_raised() {
                 return Ok(Ending::Stopped);
@@ -350,7 +368,6 @@ impl<'r> Mission<'r> {
             self.joins.clone_from(&planned.joins);
             self.lifts.clone_from(&planned.lifts);
             if let Err((known, surprise)) = rehearse(self, &directives, &reins.stop) {
-                self.refused.get_or_insert(planned);
                 if !self.take_over(known) {
                     return Ok(Ending::Stuck(surprise));
                 }
@@ -358,7 +375,6 @@ impl<'r> Mission<'r> {
                 learned = now_learned.and_then(|learned| learned.after(&[]));
                 continue;
             }
-            self.refused = None;
             (reins.tell)(&Event::Planned(&planned));
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });

@@ -6,9 +6,10 @@
 //!
 //! **Invariant**: neither the mission nor the vehicle is changed by it.
 
-use crate::map::{DoorStatus, Entity};
+use crate::map::{DoorState, DoorStatus, Entity};
 use crate::units::{AreaId, ReplicaId, Stop};
 
+use super::belief::Belief;
 use super::directive::{Deed, Directive};
 use super::mission::{Event, Mission, Surprise};
 use super::reins::Reins;
@@ -82,4 +83,53 @@ pub(super) fn rehearse(
         _ => Known::Nothing,
     };
     Err((known, surprise))
+}
+
+/// Tries a plan for a scenario: the first directive that the floor refuses, and why. What fails for another reason the
+/// scenario may know better, and it is taken to be done.
+pub(super) fn refused_on_floor(
+    mission: &Mission<'_>,
+    directives: &[Directive],
+    stop: &Stop,
+) -> Option<(usize, Surprise)> {
+    let mut trial = mission.clone();
+    let put_down = |belief: &Belief| {
+        let vehicle = Simulator::new(belief.world.clone(), belief.map, belief.pose);
+        vehicle.laden(belief.held.clone(), &belief.handed_over, &belief.aboard)
+    };
+    let mut vehicle = put_down(&trial.belief);
+    for (at, directive) in directives.iter().enumerate() {
+        let (here, nobody) = ((trial.belief.map, trial.belief.pose), &mut |_: &Event<'_>| {});
+        let mut reins = Reins::new(&mut vehicle, here, stop, nobody).ok()?;
+        let surprise = match trial.carry_out(&[directive], &mut reins) {
+            Ok(()) => continue,
+            Err((_, Unfinished::Met(surprise))) => surprise,
+            Err(_) => return None,
+        };
+        match surprise {
+            Surprise::NoWay { .. }
+            | Surprise::NoReturn { .. }
+            | Surprise::Refused { refusal: Refusal::DoorJammed { .. }, .. } => {
+                return Some((at, trial.with_remedy(surprise)));
+            }
+            _ => {}
+        }
+        for deed in directive.deeds() {
+            match deed {
+                // Who unlocked it is not known.
+                Deed::SetDoor { door, status } => {
+                    let state = DoorState { status, ..DoorState::CLOSED };
+                    let state = if status == DoorStatus::Open { DoorState::OPEN } else { state };
+                    trial.belief.set_door(trial.door(&door).ok()?, state);
+                    vehicle = put_down(&trial.belief);
+                }
+                // From here on it is not known where the robot is.
+                Deed::GoToPlace(_) | Deed::GoToDoor(_) | Deed::Cross { .. } | Deed::Ride { .. } => {
+                    return None;
+                }
+                _ => {}
+            }
+        }
+    }
+    None
 }
