@@ -394,6 +394,9 @@ pub(super) struct DoArgs {
     /// The robot stands here: a name, or X,Y[,HEADING]; else where the last task left it, or at the map's start
     #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
     pub from: Option<String>,
+    /// What its plans have least of: steps, or the time to drive them
+    #[arg(long, value_enum, value_name = "METRIC")]
+    pub metric: Option<Metric>,
     /// Where something bars the only way, ask on standard input whether it is clear, instead of ending
     #[arg(long)]
     pub attended: bool,

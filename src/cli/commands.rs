@@ -16,7 +16,7 @@ use crate::recording::Played;
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
 
-use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
+use super::args::{Common, Detail, DoArgs, Lang, Metric, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::teller::Teller;
 use super::{Answer, came_to, heeded, json, say, text};
@@ -293,6 +293,9 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     if let Some(from) = &args.from {
         engine.place_robot(from, &change_now(&common.user, "do --from"))?;
+    }
+    if args.metric == Some(Metric::Time) {
+        engine.plan_in_time();
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
     if let Some(scenario) = &scenario {
