@@ -11,11 +11,15 @@ use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
 use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, solve_learning, validate};
-use orthoframe_strips::{RuleFaults, Scenario, Task};
+use orthoframe_strips::{PlanText, RuleFaults, Scenario, Task};
 use orthoframe_units::Source;
 
 #[path = "planning/families.rs"]
 mod families;
+#[path = "../src/graphplan/judges/judge.rs"]
+mod judge;
+
+use judge::{Texts, Verdict};
 
 /// Least seconds in which a peer proves the fewest steps of a home robot's task.
 const HOME_ROBOT: [(&str, f64); 3] = [("h2", 0.007), ("h3", 0.029), ("h4", 1.39)];
@@ -29,6 +33,31 @@ fn main() {
         [flag] if flag == "--soon" => table_of_large(families::soon()),
         [flag, names @ ..] if flag == "--replan" => names.iter().for_each(|name| replan(name)),
         _ => table(arguments.first().map_or("", String::as_str)),
+    }
+}
+
+/// The texts of what is measured by name.
+fn texts(name: &str) -> Texts {
+    let drawn = families::all().into_iter().map(|measured| measured.instance);
+    let mut drawn = drawn.chain(families::large()).chain(families::soon());
+    if let Some(instance) = drawn.find(|instance| instance.name == name) {
+        return Texts::Pddl { domain: instance.domain, problem: instance.problem };
+    }
+    let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_default();
+    let rules = read(&rules().join("service-robot.strips"));
+    if let Some(building) = families::buildings().into_iter().find(|found| found.name == name) {
+        return Texts::Rules(rules + &building.scenario);
+    }
+    match home_robot().into_iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)) {
+        Some(problem) => {
+            let domain = read(&problem.with_file_name("domain.pddl"));
+            Texts::Pddl { domain, problem: read(&problem) }
+        }
+        None => {
+            let walk = read(&self::rules().join("scenarios/medicine-walk.strips"));
+            let own = walk.lines().filter(|line| !line.starts_with("Включить:"));
+            Texts::Rules(own.fold(rules, |text, line| text + "\n" + line))
+        }
     }
 }
 
@@ -115,14 +144,16 @@ fn alone(name: &str) {
     let (spent, peak) = (start.elapsed(), peak_megabytes());
     let start = ProcessTime::now();
     let soon = solve_any(&task, &Limits { shorten: 0, ..limits() });
-    let (steps, actions) = answer(&task, &best);
-    let (soon_steps, soon_actions) = answer(&task, &soon);
+    let spent_soon = ground + start.elapsed();
+    let texts = texts(name);
+    let (steps, actions) = answer(&task, &best, Some(&texts));
+    let (soon_steps, soon_actions) = answer(&task, &soon, Some(&texts));
     println!(
         "{}\t{}\t{steps}\t{actions}\t{:.3}\t{peak}\t{:.3}\t{soon_steps}, {soon_actions}",
         task.facts.len(),
         task.operators.len(),
         spent.as_secs_f64(),
-        (ground + start.elapsed()).as_secs_f64(),
+        spent_soon.as_secs_f64(),
     );
 }
 
@@ -157,12 +188,14 @@ fn ground_alone(name: &str) {
         ..Limits::default()
     };
     let start = ProcessTime::now();
-    let (_, actions) = answer(&task, &solve_any(&task, &limits));
+    let soon = solve_any(&task, &limits);
+    let spent = start.elapsed();
+    let (_, actions) = answer(&task, &soon, Some(&texts(name)));
     println!(
         "{} | {} | {ground:.2} | {peak} | {:.2} | {actions}",
         task.facts.len(),
         task.operators.len(),
-        start.elapsed().as_secs_f64(),
+        spent.as_secs_f64(),
     );
 }
 
@@ -188,7 +221,8 @@ fn replan(name: &str) {
         let spent = start.elapsed().as_secs_f64();
         let start = ProcessTime::now();
         let (second, _) = solve_learning(&rest, learned.as_ref(), &limits);
-        assert_eq!(answer(&rest, &first).0, answer(&rest, &second).0, "the same number of steps");
+        let steps = |outcome| answer(&rest, outcome, None).0;
+        assert_eq!(steps(&first), steps(&second), "the same number of steps");
         if matches!(first, Outcome::Plan(_)) {
             anew += spent;
             again += start.elapsed().as_secs_f64();
@@ -198,10 +232,18 @@ fn replan(name: &str) {
     println!("{name}: {plans} withdrawals, {anew:.3} s anew, {again:.3} s with what was learned");
 }
 
-fn answer(task: &Task, outcome: &Outcome) -> (String, String) {
+/// Steps and actions of a plan that was replayed and, where there are texts of its rules, stood before a judge that shares
+/// no code with the planner.
+fn answer(task: &Task, outcome: &Outcome, texts: Option<&Texts>) -> (String, String) {
     match outcome {
         Outcome::Plan(plan) => {
             assert_eq!(validate(task, plan), Ok(()), "a plan is replayed before it is counted");
+            if let Some(texts) = texts {
+                let (mut task, mut steps) = (task.clone(), plan.steps.clone());
+                task.settle_goal(&mut steps);
+                let text = PlanText::write(&task, &steps);
+                assert_eq!(judge::judge(texts, &text), Verdict::Works, "{text}");
+            }
             (plan.steps.len().to_string(), plan.action_count().to_string())
         }
         Outcome::NoPlan { leveled_off_at, .. } => {

@@ -134,7 +134,7 @@ fn what_was_withdrawn_is_what_would_help() {
         let facts: Vec<String> = facts.iter().map(|&fact| fact.to_owned()).collect();
         let mut problem = scenario.problem.clone();
         let limits = Limits::default();
-        solve_without(&scenario.domain, &mut problem, &facts, &limits, Wanted::Shortest)
+        solve_without(None, &scenario.domain, &mut problem, &facts, &limits, Wanted::Shortest)
     };
     let other = without(&["ДОРОГА_(Б, В)"]).unwrap();
     assert!(other.rested_on() && other.learned_before);
@@ -182,8 +182,14 @@ fn planning_without_an_assumption_comes_to_what_planning_anew_comes_to() {
         for fact in assumed.split_inclusive(')').map(str::trim).filter(|fact| !fact.is_empty()) {
             let (mut problem, limits) = (scenario.problem.clone(), Limits::default());
             let facts = [fact.to_owned()];
-            let replanned =
-                solve_without(&scenario.domain, &mut problem, &facts, &limits, Wanted::Shortest);
+            let replanned = solve_without(
+                None,
+                &scenario.domain,
+                &mut problem,
+                &facts,
+                &limits,
+                Wanted::Shortest,
+            );
             let replanned = replanned.unwrap_or_else(|faults| panic!("seed {seed}: {faults}"));
             let anew = solve_problem(&scenario.domain, &problem, &limits, Wanted::Shortest);
             let steps = |outcome: &Outcome| match outcome {

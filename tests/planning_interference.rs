@@ -7,6 +7,7 @@ use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, validate};
 use orthoframe_strips::{PlanText, Scenario};
 use orthoframe_units::Source;
 
+use crate::planning_judge::{Texts, stands};
 use crate::planning_properties::random::Random;
 
 const SENDING: &str = "(define (domain d) (:requirements :strips :typing) (:types rover lander message)
@@ -17,7 +18,7 @@ const SENDING: &str = "(define (domain d) (:requirements :strips :typing) (:type
  (:action reset :parameters (?l - lander) :precondition (and) :effect (and (tuned ?l) (free ?l))))";
 
 /// So many rovers have a message for each other, and send them over so many landers.
-fn sending(rovers: usize, landers: usize, has: &[usize], tuned: bool) -> Scenario {
+fn sending(rovers: usize, landers: usize, has: &[usize], tuned: bool) -> (Scenario, Texts) {
     let names = |letter: char, count: usize, kind: &str| -> String {
         (0..count).map(|n| format!("{letter}{n} - {kind} ")).collect()
     };
@@ -33,10 +34,12 @@ fn sending(rovers: usize, landers: usize, has: &[usize], tuned: bool) -> Scenari
         names('l', landers, "lander"),
         names('m', has.len(), "message"),
     );
-    Scenario::parse_pddl(&Source::new("d", SENDING), &Source::new("p", problem)).unwrap()
+    let domain = Source::new("d", SENDING);
+    let scenario = Scenario::parse_pddl(&domain, &Source::new("p", &problem)).unwrap();
+    (scenario, Texts::Pddl { domain: SENDING.to_owned(), problem })
 }
 
-fn steps(scenario: &Scenario) -> usize {
+fn steps((scenario, texts): &(Scenario, Texts)) -> usize {
     let task = scenario.ground().unwrap();
     task.check_invariants();
     let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("there is a plan") };
@@ -45,6 +48,7 @@ fn steps(scenario: &Scenario) -> usize {
     };
     for plan in [&plan, &any] {
         assert_eq!(validate(&task, plan), Ok(()));
+        assert!(stands(texts, &task, plan));
         let text = PlanText::write(&task, &plan.steps);
         let read = PlanText::parse(&Source::new("план", text)).unwrap();
         assert!(read.check(&scenario.domain, &scenario.problem).is_ok());
@@ -70,7 +74,7 @@ fn who_only_needs_the_channel_waits_for_it_too() {
 
 #[test]
 fn two_messages_in_one_step_break_a_plan() {
-    let scenario = sending(2, 1, &[0, 1], false);
+    let (scenario, _) = sending(2, 1, &[0, 1], false);
     let check = |text: &str| {
         let plan = PlanText::parse(&Source::new("план", text)).unwrap();
         plan.check(&scenario.domain, &scenario.problem).map_err(|faults| faults.codes())
@@ -123,11 +127,12 @@ fn the_fewest_steps_are_those_of_the_busiest() {
         let problem = format!(
             "(define (problem p) (:domain d) (:objects {objects}) (:init {init}) (:goal (and {goal})))"
         );
-        let scenario =
-            Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem)).unwrap();
+        let sources = (Source::new("d", &domain), Source::new("p", &problem));
+        let scenario = Scenario::parse_pddl(&sources.0, &sources.1).unwrap();
+        let given = (scenario, Texts::Pddl { domain, problem });
         let at_rover = |r| pairs.iter().filter(|pair| pair.0 == r).count();
         let at_lander = |l| pairs.iter().filter(|pair| pair.1 == l).count();
         let busiest = (0..rovers).map(at_rover).chain((0..landers).map(at_lander)).max();
-        assert_eq!(Some(steps(&scenario)), busiest, "seed {seed}: {pairs:?}");
+        assert_eq!(Some(steps(&given)), busiest, "seed {seed}: {pairs:?}");
     }
 }

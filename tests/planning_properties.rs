@@ -17,6 +17,7 @@ pub(crate) mod random;
 use random::Random;
 
 use crate::files::long;
+use crate::planning_judge::{Texts, stands};
 
 /// `t1 - t0`, `t2 - t0`, `t3 - t1`; `t4` has no parent but "object".
 const PARENT: [Option<usize>; 5] = [None, Some(0), Some(0), Some(1), None];
@@ -254,6 +255,15 @@ impl Drawn {
             Scenario::parse(&Source::new("правила", self.as_rules()))
         };
         read.unwrap_or_else(|faults| panic!("{faults}"))
+    }
+
+    fn texts(&self) -> Texts {
+        if self.pddl {
+            let (domain, problem) = self.as_pddl();
+            Texts::Pddl { domain, problem }
+        } else {
+            Texts::Rules(self.as_rules())
+        }
     }
 
     fn as_pddl(&self) -> (String, String) {
@@ -638,6 +648,7 @@ fn drawn_rules_are_answered_as_plain_search_answers_them() {
         match solve(&task, &Limits::default()) {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert!(stands(&drawn.texts(), &task, &plan), "seed {seed}");
                 assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
                 let text = PlanText::write(&task, &plan.steps);
                 let replayed = PlanText::parse(&Source::new("план", &text))
@@ -659,6 +670,7 @@ fn drawn_rules_are_answered_as_plain_search_answers_them() {
         match solve_any(&task, &Limits::default()) {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert!(stands(&drawn.texts(), &task, &plan), "seed {seed}");
                 assert!(Some(plan.steps.len()) >= fewest && fewest.is_some(), "seed {seed}");
             }
             _ => assert_eq!(fewest, None, "seed {seed}"),

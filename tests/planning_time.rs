@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashSet};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Error, PlanAnswer};
+use orthoframe::engine::{Error, PlanAnswer, facts_in_rule_text};
 use orthoframe_graphplan::{Limits, Outcome, validate};
 use orthoframe_map::*;
 use orthoframe_robot::{Reason, Wanted};
@@ -15,6 +15,7 @@ use orthoframe_units::*;
 use crate::files::project;
 use crate::floors::{Builder, Opening, p};
 use crate::generated_worlds::Dice;
+use crate::planning_judge::{Texts, stands};
 
 const DEPTH: f64 = 300.0;
 /// Of a door, from the middle of its side to either end.
@@ -30,7 +31,16 @@ const HALF: f64 = 45.0;
 ///  |        D             |
 ///  +--------+-------------+
 /// ```
-fn building(widths: &[f64], mut door: impl FnMut(usize, usize) -> Option<DoorState>) -> World {
+fn building(widths: &[f64], door: impl FnMut(usize, usize) -> Option<DoorState>) -> World {
+    building_of(DoorKind::Sliding, widths, door).0.world
+}
+
+/// The same to be furnished, its doors of a kind.
+pub(crate) fn building_of(
+    kind: DoorKind,
+    widths: &[f64],
+    mut door: impl FnMut(usize, usize) -> Option<DoorState>,
+) -> (Builder, Vec<AreaId>) {
     let mut b = Builder::new();
     let columns = widths.len();
     let mut sides: Vec<Vec<(usize, Opening)>> = vec![Vec::new(); 2 * columns];
@@ -40,7 +50,7 @@ fn building(widths: &[f64], mut door: impl FnMut(usize, usize) -> Option<DoorSta
         let above = (room < columns).then_some((room + columns, 7, 1));
         for (other, own_side, other_side) in right.into_iter().chain(above) {
             let Some(state) = door(room, other) else { continue };
-            let id = b.door(DoorKind::Sliding, 2.0 * HALF, state);
+            let id = b.door(kind, 2.0 * HALF, state);
             sides[room].push((own_side, Opening::Door(id)));
             sides[other].push((other_side, Opening::Door(id)));
             links.push(((room, own_side), (other, other_side)));
@@ -83,17 +93,25 @@ fn building(widths: &[f64], mut door: impl FnMut(usize, usize) -> Option<DoorSta
     for ((a, side_a), (other, side_b)) in links {
         b.link(areas[a], side_a, areas[other], side_b);
     }
-    let mut world = b.world;
     places.into_iter().for_each(|place| {
-        world.places.insert(place.id, place);
+        b.world.places.insert(place.id, place);
     });
-    world
+    (b, areas)
 }
 
-fn scenario(start: &str, goal: &str) -> Scenario {
+pub(crate) fn scenario(start: &str, goal: &str) -> Scenario {
+    Scenario::parse(&Source::new("scenario", text(start, goal))).unwrap()
+}
+
+fn text(start: &str, goal: &str) -> String {
     let rules = std::fs::read_to_string(project("rules/service-robot.strips")).unwrap();
-    let text = format!("{rules}\nИсходная позиция: {start}\nЦелевая позиция: {goal}\n");
-    Scenario::parse(&Source::new("scenario", &text)).unwrap()
+    format!("{rules}\nИсходная позиция: {start}\nЦелевая позиция: {goal}\n")
+}
+
+/// The same with all that a map gives to it.
+pub(crate) fn texts(engine: &Engine, start: &str, goal: &str) -> Texts {
+    let facts = facts_in_rule_text(&engine.facts_given(None).unwrap());
+    Texts::Rules(text(start, goal) + &facts)
 }
 
 /// The plan for a scenario by time, and by steps.
@@ -153,6 +171,8 @@ fn the_quickest_plan_is_that_of_a_search_through_all_states() {
         match &solved.outcome {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&solved.task, plan), Ok(()), "seed {seed}");
+                let engine = Engine::in_memory(world, None).unwrap();
+                assert!(stands(&texts(&engine, &start, &goal), &solved.task, plan), "seed {seed}");
                 let time = solved.time.expect("it was planned for time");
                 assert_eq!((Some(time.takes), Some(time.at_least)), (least, least), "seed {seed}");
                 let Outcome::Plan(shortest) = &shortest.solved.outcome else {

@@ -17,6 +17,7 @@ use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::notes::{note, warn};
 use super::opened::{open, rules_dir};
+use super::plan::Metric;
 use super::teller::{RecordArgs, Teller};
 use super::vehicle::VehicleArgs;
 use super::{Answer, came_to, heeded, json, say, text};
@@ -49,6 +50,9 @@ pub(super) struct DoArgs {
     /// The robot stands here: a name, or X,Y[,HEADING]; else where the last task left it, or at the map's start
     #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
     pub from: Option<String>,
+    /// What its plans have least of: steps, or the time to drive them
+    #[arg(long, value_enum, value_name = "METRIC")]
+    pub metric: Option<Metric>,
     /// Where something bars the only way, ask on standard input whether it is clear, instead of ending
     #[arg(long)]
     pub attended: bool,
@@ -141,6 +145,9 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     }
     if let Some(from) = &args.from {
         engine.place_robot(from, &change_now(&common.user, "do --from"))?;
+    }
+    if args.metric == Some(Metric::Time) {
+        engine.plan_in_time();
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
     if let Some(scenario) = &scenario {

@@ -135,7 +135,10 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     let (solved, warnings, told) = if args.without.is_empty() {
         let PlanAnswer { solved, warnings } = match args.metric {
             Some(Metric::Time) => quickest(engine.as_ref(), scenario, limits.clone())?,
-            _ => plan_alone(scenario, &limits, args.wanted())?,
+            _ => match &engine {
+                Some(engine) => engine.plan_supplied(scenario, &limits, args.wanted())?,
+                None => plan_alone(scenario, &limits, args.wanted())?,
+            },
         };
         let told = match common.json {
             true => {
@@ -151,8 +154,11 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         };
         (solved, warnings, told)
     } else {
-        let (replanned, warnings) =
-            plan_alone_without(scenario, &args.without, &limits, args.wanted())?;
+        let (without, wanted) = (&args.without, args.wanted());
+        let (replanned, warnings) = match &engine {
+            Some(engine) => engine.plan_supplied_without(scenario, without, &limits, wanted)?,
+            None => plan_alone_without(scenario, without, &limits, wanted)?,
+        };
         let after = &replanned.after;
         let told = match common.json {
             true => {

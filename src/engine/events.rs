@@ -94,6 +94,13 @@ pub struct PlanView {
     pub goal: Vec<String>,
     /// Parallel steps, empty where there is no plan.
     pub steps: Vec<Vec<DirectiveView>>,
+    /// Proven: no plan has fewer parallel steps. None where there is no plan, or one by driven time.
+    pub at_least_steps: Option<usize>,
+    /// So many the plan that is known has, where one is.
+    pub at_most_steps: Option<usize>,
+    /// With a plan by driven time: how long it takes, and what none takes less than.
+    pub seconds: Option<f64>,
+    pub at_least_seconds: Option<f64>,
     pub assumptions: Vec<String>,
     pub assumptions_ru: Vec<String>,
     pub assumptions_en: Vec<String>,
@@ -258,6 +265,7 @@ impl PlanView {
             step.iter().map(|directive| DirectiveView::of(world, directive)).collect()
         };
         let is_plan = matches!(solved.outcome, Outcome::Plan(_));
+        let is_bounded = !matches!(solved.outcome, Outcome::NoPlan { .. }) && solved.time.is_none();
         Self {
             outcome: match solved.outcome {
                 Outcome::Plan(_) => "plan",
@@ -266,6 +274,10 @@ impl PlanView {
             },
             goal: solved.task.goal.iter().map(|&id| solved.task.fact(id).to_string()).collect(),
             steps: planned.steps.iter().map(step).collect(),
+            at_least_steps: is_bounded.then_some(solved.at_least),
+            at_most_steps: solved.outcome.plan().map(|_| planned.steps.len()),
+            seconds: solved.time.map(|time| time.takes as f64 / 100.0),
+            at_least_seconds: solved.time.map(|time| time.at_least as f64 / 100.0),
             assumptions: solved.assumptions.iter().map(ToString::to_string).collect(),
             assumptions_ru: assumptions_in_russian(world, solved),
             assumptions_en: solved.assumptions_with(&english),

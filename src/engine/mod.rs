@@ -224,6 +224,11 @@ impl Engine {
         Ok(Arc::clone(&self.state))
     }
 
+    /// From now on tasks are planned for the least driven time, however many steps it takes.
+    pub fn plan_in_time(&mut self) {
+        self.next().plans_in_time = true;
+    }
+
     /// The state that is to follow: this one itself where nobody else has it.
     fn next(&mut self) -> &mut State {
         if Arc::get_mut(&mut self.state).is_none() {

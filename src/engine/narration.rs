@@ -101,11 +101,8 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
             text.push_str(&format!("\n{label:>4} {action}"));
         }
     }
-    if let (Outcome::LimitReached(_), None, Some(known)) =
-        (&solved.outcome, &driven, solved.explanation_with(wording))
-    {
-        let head = pick("Это не ответ до конца: ", "This is no full answer: ");
-        text.push_str(&format!("\n{head}{known}"));
+    if let Some(open) = left_open(solved, wording) {
+        text.push_str(&format!("\n{open}"));
     }
     if !solved.assumptions.is_empty() {
         let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
@@ -113,6 +110,14 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
         text.push_str(&format!("\n{head}\n     {told}"));
     }
     text
+}
+
+/// Of a plan where the search was given up, what it leaves open: between which bounds the fewest steps lie.
+pub(super) fn left_open(solved: &Solved, wording: &Wording<'_>) -> Option<String> {
+    let is_open = matches!(solved.outcome, Outcome::LimitReached(_)) && solved.time.is_none();
+    let known = solved.explanation_with(wording).filter(|_| is_open)?;
+    let head = wording.language.pick("Это не ответ до конца: ", "This is no full answer: ");
+    Some(format!("{head}{known}"))
 }
 
 /// "1 step, 2 actions"

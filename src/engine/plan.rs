@@ -1,12 +1,18 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
 use crate::graphplan::Limits;
+use crate::map::{Entity, World};
 use crate::robot::{
-    Clock, Replanned, Solved, Wanted, facts_of_map, solve, solve_quickest, solve_without, state,
+    Replanned, Solved, Surprise, Terrain, Wanted, facts_of_map, solve_on, solve_quickest,
+    solve_without, state,
 };
-use crate::strips::{PlanText, Replayed, RuleError, RuleFault, Scenario, without_price};
+use crate::semantics::predicate;
+use crate::strips::{
+    Domain, PlanText, Problem, Replayed, RuleError, RuleFault, Scenario, without_price,
+};
+use crate::units::{Bilingual, ReplicaId, name_key};
 
-use super::{Error, RequestError, State};
+use super::{Error, RequestError, State, surprise_in_words};
 
 /// The types of things that the Map alone makes known.
 const OF_MAP: [&str; 2] = ["помещение", "дверь"];
@@ -59,7 +65,8 @@ pub fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
 }
 
 impl State {
-    /// Plans a scenario with the facts of the map that the engine holds, if it holds one.
+    /// Plans a scenario with the facts of the map that the engine holds, if it holds one: a plan that can be driven on its
+    /// floor.
     ///
     /// # Errors
     /// All faults of the scenario.
@@ -69,7 +76,47 @@ impl State {
         limits: &Limits,
         wanted: Wanted,
     ) -> Result<PlanAnswer, Error> {
-        plan_alone(self.supplemented(scenario)?, limits, wanted)
+        self.plan_supplied(self.supplemented(scenario)?, limits, wanted)
+    }
+
+    /// The same for a scenario that the map has supplemented.
+    ///
+    /// # Errors
+    /// All faults of the scenario.
+    pub fn plan_supplied(
+        &self,
+        scenario: Scenario,
+        limits: &Limits,
+        wanted: Wanted,
+    ) -> Result<PlanAnswer, Error> {
+        if self.world().is_err() {
+            return plan_alone(scenario, limits, wanted);
+        }
+        let Scenario { domain, problem, warnings, .. } = scenario;
+        self.on_terrain(&problem, |terrain| {
+            planned(Some(terrain), &domain, &problem, warnings, limits, wanted)
+        })
+    }
+
+    /// The same; then assumptions are withdrawn, and it is planned anew with what was learned.
+    ///
+    /// # Errors
+    /// All faults of the scenario, and of what is to be withdrawn.
+    pub fn plan_supplied_without(
+        &self,
+        scenario: Scenario,
+        withdrawn: &[String],
+        limits: &Limits,
+        wanted: Wanted,
+    ) -> Result<(Replanned, Vec<RuleFault>), Error> {
+        if self.world().is_err() {
+            return plan_alone_without(scenario, withdrawn, limits, wanted);
+        }
+        let Scenario { domain, problem, warnings, .. } = scenario;
+        self.on_terrain(&problem, |terrain| {
+            let given = (&domain, problem.clone(), warnings);
+            planned_without(Some(terrain), given, withdrawn, limits, wanted)
+        })
     }
 
     /// The plan for a scenario, supplemented with the map, that is driven in the least time on the map's floor.
@@ -78,13 +125,41 @@ impl State {
     /// There is no map, or it does not tell where something is that the scenario has the robot go to; all faults of the
     /// scenario.
     pub fn plan_quickest(&self, scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
-        let mut clock = Clock::new(self.world()?, self.relations()?, self.floors()?);
         let Scenario { domain, problem, warnings, .. } = scenario;
-        let solved = solve_quickest(&domain, &problem, &mut clock, limits)?.map_err(|names| {
-            let names: Vec<String> = names.into_iter().collect();
-            RequestError::Untimed { names: names.join(", ") }
+        let solved = self.on_terrain(&problem, |terrain| {
+            Ok(solve_quickest(&domain, &problem, terrain, limits)?.map_err(|names| {
+                let names: Vec<String> = names.into_iter().collect();
+                RequestError::Untimed { names: names.join(", ") }
+            })?)
         })?;
         Ok(PlanAnswer::of(solved, warnings))
+    }
+
+    /// The map's floor as a scenario finds it: what is to be pushed stands nowhere on it, since the rules tell where that
+    /// goes.
+    fn on_terrain<T>(
+        &self,
+        problem: &Problem,
+        plan: impl FnOnce(&mut Terrain<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let (world, floors) = (self.world()?, self.floors()?);
+        let key = name_key(predicate::BLOCKS_DOOR);
+        let stated = problem.stated_facts();
+        let pushed = stated.filter(|fact| name_key(fact.predicate()) == key);
+        let things = pushed.flat_map(|fact| fact.args().first().map(|name| world.find(name)));
+        let of_thing = |entity| if let Entity::Replica(id) = entity { Some(id) } else { None };
+        let things: Vec<ReplicaId> = things.flatten().filter_map(of_thing).collect();
+        let relations = self.followed(world)?;
+        let rules = &self.rules().relations;
+        if things.is_empty() {
+            return plan(&mut Terrain::new(world, relations, floors, rules, told));
+        }
+        let (mut world, mut floors) = (world.clone(), floors.clone());
+        for thing in &things {
+            world.replicas.remove(thing);
+        }
+        floors.values_mut().for_each(|floor| floor.rebuild(&world, &things));
+        plan(&mut Terrain::new(&world, relations, &floors, rules, told))
     }
 
     /// A scenario with the facts of the map that the engine holds, if it holds one.
@@ -113,6 +188,11 @@ impl State {
     }
 }
 
+/// What the floor refuses, in words.
+fn told(world: &World, surprise: &Surprise) -> Bilingual {
+    Bilingual::both(|language| surprise_in_words(world, surprise, language))
+}
+
 /// Plans a scenario that needs no map, withdraws assumptions, and plans anew with what was learned.
 ///
 /// # Errors
@@ -123,12 +203,22 @@ pub fn plan_alone_without(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<(Replanned, Vec<RuleFault>), Error> {
-    let Scenario { domain, mut problem, mut warnings, .. } = scenario;
-    let mut replanned = solve_without(&domain, &mut problem, withdrawn, limits, wanted)?;
+    let Scenario { domain, problem, warnings, .. } = scenario;
+    planned_without(None, (&domain, problem, warnings), withdrawn, limits, wanted)
+}
+
+fn planned_without(
+    terrain: Option<&mut Terrain<'_>>,
+    (domain, mut problem, mut warnings): (&Domain, Problem, Vec<RuleFault>),
+    withdrawn: &[String],
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<(Replanned, Vec<RuleFault>), Error> {
+    let mut replanned = solve_without(terrain, domain, &mut problem, withdrawn, limits, wanted)?;
     for solved in [&mut replanned.before, &mut replanned.after] {
         solved.is_of_whole_actions = are_whole(&warnings);
     }
-    warnings.extend(without_price(&domain, &problem, &replanned.after.task)?);
+    warnings.extend(without_price(domain, &problem, &replanned.after.task)?);
     Ok((replanned, warnings))
 }
 
@@ -141,9 +231,20 @@ pub fn plan_alone(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<PlanAnswer, Error> {
-    let Scenario { domain, problem, mut warnings, .. } = scenario;
-    let solved = solve(&domain, &problem, limits, wanted)?;
-    warnings.extend(without_price(&domain, &problem, &solved.task)?);
+    let Scenario { domain, problem, warnings, .. } = scenario;
+    planned(None, &domain, &problem, warnings, limits, wanted)
+}
+
+fn planned(
+    terrain: Option<&mut Terrain<'_>>,
+    domain: &Domain,
+    problem: &Problem,
+    mut warnings: Vec<RuleFault>,
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<PlanAnswer, Error> {
+    let solved = solve_on(terrain, domain, problem, limits, wanted)?;
+    warnings.extend(without_price(domain, problem, &solved.task)?);
     Ok(PlanAnswer::of(solved, warnings))
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::directive_words::name_in;
+use super::narration::left_open;
 use super::{
     Dialogue, Engine, Error, Event, Heard, Outcome, Progress, Queue, QueuedTask, Reply, State,
     TaskEvents, json, progress_in_words,
@@ -64,14 +65,17 @@ pub(crate) fn is_same_plan(one: &Value, other: &Value) -> bool {
     plans_of(one).eq(plans_of(other))
 }
 
-/// What a person is told of a plan before saying yes, beside its steps and what it rests on: how long it is and whether
-/// that is proven; what it opens, and what it takes along or pushes away.
+/// What a person is told of a plan before saying yes, beside its steps and what it rests on: how long it is, whether that
+/// is proven, and else how short it might be; what it opens, and what it takes along or pushes away.
 #[derive(Debug, Default)]
 struct Outlook {
     proof_ru: Vec<String>,
     proof_en: Vec<String>,
     /// None until there is a plan; false where one of several is not proven.
     is_shortest: Option<bool>,
+    /// Proven: so many steps are needed, of several plans in all; and so many they have.
+    at_least: usize,
+    at_most: usize,
     opens: Vec<String>,
     carries: Vec<String>,
 }
@@ -83,7 +87,10 @@ impl Outlook {
             // What stands above the steps.
             let head =
                 told.iter().flat_map(|text| text.lines().take_while(|l| !l.starts_with(' ')));
-            head.map(str::to_owned).collect()
+            let name = |name: &str| name_in(world, name, language);
+            let open = left_open(&planned.solved, &planned.solved.wording(language, &name));
+            let open = open.filter(|_| !told.is_empty());
+            head.map(str::to_owned).chain(open).collect()
         };
         let (russian, english) = (proof(Language::Russian), proof(Language::English));
         if russian.is_empty() {
@@ -93,6 +100,8 @@ impl Outlook {
         self.proof_en.extend(english);
         let is_shortest = planned.solved.is_shortest && self.is_shortest != Some(false);
         self.is_shortest = Some(is_shortest);
+        self.at_least += planned.solved.at_least;
+        self.at_most += planned.steps.len();
         for primitive in planned.steps.iter().flatten().flat_map(|directive| directive.primitives())
         {
             let (list, name) = match primitive {
@@ -118,6 +127,9 @@ impl Outlook {
         plan["proof_ru"] = json!(self.proof_ru.join("\n"));
         plan["proof_en"] = json!(self.proof_en.join("\n"));
         plan["is_shortest"] = json!(self.is_shortest);
+        let bound = |steps: usize| self.is_shortest.map(|_| steps);
+        plan["at_least_steps"] = json!(bound(self.at_least));
+        plan["at_most_steps"] = json!(bound(self.at_most));
         plan["opens"] = named(self.opens);
         plan["carries"] = named(self.carries);
     }
@@ -199,5 +211,66 @@ impl State {
     /// There is no map, or the disk refused.
     pub fn rehearse(self: &Arc<Self>, before: &Dialogue, text: &str) -> Result<Rehearsed, Error> {
         rehearse(self, before, &Line::Said(text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graphplan::{Limits, Outcome};
+    use crate::robot::{Directive, Wanted, solve};
+    use crate::strips::Scenario;
+    use crate::units::Source;
+
+    /// Balls that two grippers carry from one room to the other: soon planned, and long proven.
+    fn open_plan() -> Planned {
+        const DOMAIN: &str = "(define (domain g) (:predicates (room ?r) (ball ?b) (gripper ?g) (robby ?r) (at ?b ?r) (free ?g) (carry ?b ?g))
+            (:action move :parameters (?a ?b) :precondition (and (room ?a) (room ?b) (robby ?a)) :effect (and (robby ?b) (not (robby ?a))))
+            (:action pick :parameters (?b ?r ?g) :precondition (and (ball ?b) (gripper ?g) (at ?b ?r) (robby ?r) (free ?g))
+             :effect (and (carry ?b ?g) (not (at ?b ?r)) (not (free ?g))))
+            (:action drop :parameters (?b ?r ?g) :precondition (and (carry ?b ?g) (robby ?r) (gripper ?g))
+             :effect (and (at ?b ?r) (free ?g) (not (carry ?b ?g)))))";
+        let each = |text: &str| -> String {
+            (0..20).map(|ball| text.replace('#', &ball.to_string())).collect()
+        };
+        let problem = format!(
+            "(define (problem p) (:domain g) (:objects a b l r {}) (:init (room a) (room b) (gripper l) (gripper r) (robby a) (free l) (free r) {}) (:goal (and {})))",
+            each("b# "),
+            each("(ball b#) (at b# a) "),
+            each("(at b# b) ")
+        );
+        let scenario =
+            Scenario::parse_pddl(&Source::new("d", DOMAIN), &Source::new("p", problem)).unwrap();
+        let limits = Limits { effort: Some(0), ..Limits::default() };
+        let Scenario { domain, problem, .. } = &scenario;
+        let solved = solve(domain, problem, &limits, Wanted::Anytime).unwrap();
+        assert!(matches!(solved.outcome, Outcome::LimitReached(_)), "{:?}", solved.outcome);
+        let plan = solved.outcome.plan().expect("there is one at once");
+        let directive = |&id| Directive::of(domain, &solved.task, solved.task.operator(id));
+        let steps = plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect();
+        let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
+        Planned { solved, steps, places, joins, lifts, learned_before: false }
+    }
+
+    #[test]
+    fn who_is_to_confirm_a_plan_is_told_its_bounds() {
+        let (planned, world) = (open_plan(), World::empty());
+        let (at_least, at_most) = (planned.solved.at_least, planned.steps.len());
+        assert!(0 < at_least && at_least < at_most, "{at_least} {at_most}");
+        let mut outlook = Outlook::default();
+        outlook.add(&world, &planned);
+        outlook.add(&world, &planned);
+        let mut plan = json!({});
+        outlook.put_into(&mut plan, &world);
+        assert_eq!(plan["is_shortest"], json!(false));
+        let bounds = (&plan["at_least_steps"], &plan["at_most_steps"]);
+        assert_eq!(bounds, (&json!(2 * at_least), &json!(2 * at_most)));
+        for (field, words) in [
+            ("proof_ru", format!("шагов нужно от {at_least} до {at_most}")),
+            ("proof_en", format!("it takes {at_least} to {at_most} steps")),
+        ] {
+            let told = plan[field].as_str().unwrap();
+            assert_eq!(told.matches(&words).count(), 2, "{told}");
+        }
     }
 }

@@ -41,6 +41,8 @@ pub struct State {
     pub(super) robot: OnceLock<(MapId, Pose)>,
     /// Where the person stands who gives the orders; none, where the robot does.
     pub(super) person: Option<(MapId, Point)>,
+    /// Whether tasks are planned for the least driven time.
+    pub(super) plans_in_time: bool,
     /// The moment at which the next zone begins or ends after `now` was found; none where none will.
     stands_until: OnceLock<Option<Timestamp>>,
     /// What the map and the robot's knowledge went through, for dialogues that began before.
@@ -66,6 +68,7 @@ impl State {
             now: OnceLock::new(),
             robot: OnceLock::new(),
             person: None,
+            plans_in_time: false,
             stands_until: OnceLock::new(),
             changes: Arc::default(),
             stop: Stop::new(),
@@ -92,6 +95,7 @@ impl State {
             now: OnceLock::new(),
             robot: OnceLock::new(),
             person: None,
+            plans_in_time: self.plans_in_time,
             stands_until: OnceLock::new(),
             changes: Arc::clone(&self.changes),
             stop: Stop::new(),

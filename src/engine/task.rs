@@ -464,6 +464,9 @@ impl State {
         let effort = Some(Limits::TO_START);
         let (rules, limits) = (&self.rules.relations, Limits { effort, ..Limits::default() });
         let mut mission = Mission::new(belief, domain, relations, rules, limits);
+        if self.plans_in_time {
+            mission = mission.in_least_time();
+        }
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);

@@ -253,4 +253,13 @@ impl FloorPlan {
         let middle = self.scene().areas.get(&area)?.prisms.first()?.polygon.centroid();
         self.standing_in(area, middle)
     }
+
+    /// A place in each piece of an Area's floor, which nothing within the Area joins to the others: the nearest to the
+    /// Area's middle in each, the largest piece first.
+    #[must_use]
+    pub fn rests_in(&self, area: AreaId) -> Vec<Point> {
+        let middle = self.scene().areas.get(&area).and_then(|placed| placed.prisms.first());
+        let (Some(middle), Some(number)) = (middle, self.number(area)) else { return Vec::new() };
+        self.rests(number as u32, middle.polygon.centroid())
+    }
 }

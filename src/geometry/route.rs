@@ -449,13 +449,29 @@ impl FloorPlan {
     /// As [`Self::standing_in`], with the cell.
     pub(super) fn rest(&self, number: u32, p: Point) -> Option<(Point, u32)> {
         let cells = &self.floor(number).cells;
-        let mut pieces: BTreeMap<u32, f64> = BTreeMap::new();
+        let largest = *self.pieces(number).first()?;
+        cells.nearest(p, |cell| cells.component(cell) == largest)
+    }
+
+    /// The same in every piece of floor of a Fragment, the largest first.
+    pub(super) fn rests(&self, number: u32, p: Point) -> Vec<Point> {
+        let cells = &self.floor(number).cells;
+        let in_piece = |piece| cells.nearest(p, |cell| cells.component(cell) == piece);
+        self.pieces(number).into_iter().filter_map(in_piece).map(|(at, _)| at).collect()
+    }
+
+    /// The pieces of floor of a Fragment, the largest first.
+    fn pieces(&self, number: u32) -> Vec<u32> {
+        let cells = &self.floor(number).cells;
+        let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
         for cell in cells.cells() {
-            *pieces.entry(cells.component(cell)).or_default() += cells.polygon(cell).signed_area();
+            *areas.entry(cells.component(cell)).or_default() += cells.polygon(cell).signed_area();
         }
-        let (largest, _) = pieces.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let inside = |cell: u32| cells.component(cell) == largest;
-        cells.nearest(p, inside)
+        let mut pieces: Vec<(u32, f64)> = areas.into_iter().collect();
+        // Of equals the later one comes first.
+        pieces.reverse();
+        pieces.order_by(|a, b| b.1.total_cmp(&a.1));
+        pieces.into_iter().map(|(piece, _)| piece).collect()
     }
 
     /// The robot's centre at `p`, or as near as it fits; in a region of the floor if one is named.

@@ -15,19 +15,31 @@ use std::collections::HashSet;
 use super::graph::PlanningGraph;
 use super::plan::Plan;
 use crate::strips::{FactId, Task};
-use crate::{Limit, Limits, NoPlanReason, Outcome, Unfinished, with_stack};
+use crate::tried::telling;
+use crate::{Attempt, Limit, Limits, NoPlanReason, Outcome, Unfinished, Way, with_stack};
 
 /// The paper's algorithm and nothing else: a plan with the fewest parallel steps, or the proof that there is none.
 ///
 /// What [`solve`](crate::solve) answers is the same; this is its textbook, and the judge of its tests.
 #[must_use]
 pub fn solve_plainly(task: &Task, limits: &Limits) -> Outcome {
-    with_stack(|| graphplan(task, limits)).unwrap_or_else(Outcome::LimitReached)
+    let search = |limits: &Limits| {
+        with_stack(|| graphplan(task, limits)).unwrap_or_else(Outcome::LimitReached)
+    };
+    telling(limits, search, |outcome| outcome)
 }
 
 fn graphplan(task: &Task, limits: &Limits) -> Result<Outcome, Unfinished> {
     let mut graph = PlanningGraph::new(task);
     let mut search = Search { task, limits, memoised: Vec::new(), ticks: 0, bytes: 0 };
+    let outcome = by_levels(&mut graph, &mut search);
+    let sets: usize = search.memoised.iter().map(HashSet::len).sum();
+    limits.note(Attempt::new(Way::Graph, graph.top(), sets as u64, search.ticks));
+    outcome
+}
+
+fn by_levels(graph: &mut PlanningGraph, search: &mut Search<'_>) -> Result<Outcome, Unfinished> {
+    let Search { task, limits, .. } = *search;
     // How many sets failed at the level at which the graph leveled off, when the last search had failed.
     let mut failed_before = None;
     loop {
@@ -35,7 +47,7 @@ fn graphplan(task: &Task, limits: &Limits) -> Result<Outcome, Unfinished> {
         let unfinished = |limit| Unfinished { at_least, ..Unfinished::from(limit) };
         limits.check(graph.bytes() + search.bytes).map_err(unfinished)?;
         if graph.is_possible(&task.goal) {
-            if let Some(plan) = search.extract(&graph).map_err(unfinished)? {
+            if let Some(plan) = search.extract(graph).map_err(unfinished)? {
                 return Ok(Outcome::Plan(plan));
             }
             if let Some(leveled_off_at) = graph.leveled_off_at()

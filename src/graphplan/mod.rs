@@ -69,6 +69,7 @@ mod mutex;
 mod plan;
 mod portfolio;
 mod proof;
+mod tried;
 
 use std::time::Instant;
 
@@ -77,6 +78,7 @@ pub use extract::solve_plainly;
 pub use plan::{Flaw, Plan, validate};
 pub use portfolio::{bounded, milestones, solve_any, solve_anytime, solve_soon};
 pub use proof::{Learned, solve, solve_learning};
+pub use tried::{Attempt, Log, Way};
 
 use crate::strips::FactId;
 
@@ -124,11 +126,22 @@ pub struct Unfinished {
     pub at_least: usize,
     /// A plan, though shorter ones are not ruled out: the fewest steps are no more than its.
     pub plan: Option<Plan>,
+    /// The ways that were tried, and how far they came.
+    pub tried: Vec<Attempt>,
 }
 
 impl From<Limit> for Unfinished {
     fn from(limit: Limit) -> Self {
-        Self { limit, at_least: 0, plan: None }
+        Self { limit, at_least: 0, plan: None, tried: Vec::new() }
+    }
+}
+
+impl Unfinished {
+    /// Given up before there was a task.
+    #[must_use]
+    pub fn in_grounding(limit: Limit) -> Self {
+        let tried = vec![Attempt::new(Way::Grounding, 0, 0, 0)];
+        Self { tried, ..limit.into() }
     }
 }
 
@@ -177,6 +190,8 @@ pub struct Limits {
     /// What a proof, or [`solve_anytime`] in all, may take, in variables set by the solver and what takes as long, if
     /// that is limited.
     pub effort: Option<u64>,
+    /// Where it is noted what was tried; each search has a log of its own where none is given.
+    pub log: Option<Log>,
 }
 
 impl Default for Limits {
@@ -193,6 +208,7 @@ impl Default for Limits {
             tell: None,
             tell_bound: None,
             effort: None,
+            log: None,
         }
     }
 }
@@ -200,6 +216,12 @@ impl Default for Limits {
 impl Limits {
     /// What a robot that is to start within two seconds may take.
     pub const TO_START: u64 = 1 << 25;
+
+    /// The same, of which nobody is told anything on the way.
+    #[must_use]
+    pub fn quiet(&self) -> Self {
+        Self { tell: None, tell_bound: None, ..self.clone() }
+    }
 
     /// Whether the clock and so much memory held allow to go on.
     ///

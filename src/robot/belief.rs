@@ -211,6 +211,10 @@ impl Belief {
         &self.floors[&self.map]
     }
 
+    pub(super) fn floors(&self) -> &BTreeMap<MapId, FloorPlan> {
+        &self.floors
+    }
+
     /// That of another Map; none where no lift leads.
     pub(super) fn floor_of(&self, map: MapId) -> Option<&FloorPlan> {
         self.floors.get(&map)

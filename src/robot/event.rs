@@ -118,12 +118,6 @@ pub enum Ending {
 }
 
 impl Surprise {
-    /// Whether a zone bars the way: nobody moves it, and what would lead through it is no plan.
-    pub(super) fn is_of_zone(&self) -> bool {
-        let is_zone = |barrier: &Barrier| matches!(barrier, Barrier::Zone { .. });
-        matches!(self, Self::NoWay { why, .. } if why.barriers().iter().any(is_zone))
-    }
-
     /// Whether a way is given up for it, that the rules then know nothing of.
     pub(super) fn bars_a_way(&self) -> bool {
         let is_jammed =

@@ -20,7 +20,7 @@ pub(super) fn keep_what_helps(
     obstacles: &mut [Obstacle],
     limits: &Limits,
 ) {
-    let limits = Limits { effort: Some(EFFORT), tell: None, tell_bound: None, ..limits.clone() };
+    let limits = Limits { effort: Some(EFFORT), ..limits.quiet() };
     let first: Vec<Option<Vec<Said>>> =
         obstacles.iter().map(|obstacle| obstacle.help.first().cloned()).collect();
     for (number, obstacle) in obstacles.iter_mut().enumerate() {

@@ -1,5 +1,6 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
+use crate::geometry::{NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::PlanPlace;
@@ -31,7 +32,8 @@ use super::event::{Ending, Event, Leg, Planned, Surprise};
 use super::goal::{GoalFact, state};
 use super::idle::without_idle;
 use super::reins::Reins;
-use super::solve::solve_again;
+use super::solve::{solve_again, solve_in_time};
+use super::timing::Clock;
 use super::vehicle::{
     Bump, Failure, Obstruction, Outlines, Refusal, Sighting, Unfinished, Vehicle,
 };
@@ -78,8 +80,8 @@ pub struct Mission<'r> {
     lifts: Vec<Lift>,
     /// How often what was seen of each thing changed the belief.
     changes: BTreeMap<Obstruction, usize>,
-    /// The first plan of an attempt that was not begun; told once, where the goal is pursued no further.
-    refused: Option<Planned>,
+    /// Whether the plan is wanted that is driven in the least time.
+    in_time: bool,
 }
 
 impl<'r> Mission<'r> {
@@ -93,8 +95,20 @@ impl<'r> Mission<'r> {
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
-        let (changes, refused) = (BTreeMap::new(), None);
-        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, refused }
+        let (changes, in_time) = (BTreeMap::new(), false);
+        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, in_time }
+    }
+
+    /// The same, that plans for the least driven time, however many steps it takes.
+    #[must_use]
+    pub fn in_least_time(self) -> Self {
+        Self { in_time: true, ..self }
+    }
+
+    /// The same, given a plan that names the places, doors and lifts of the map.
+    pub(super) fn knowing(self, clock: &Clock<'_>) -> Self {
+        let (places, joins) = (clock.places_named.clone(), clock.joins.clone());
+        Self { places, joins, lifts: clock.lifts.clone(), ..self }
     }
 
     /// The plan for a goal from what is believed now.
@@ -128,7 +142,19 @@ impl<'r> Mission<'r> {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
             problem.add_goal(&fact.predicate, &args);
         }
-        let (solved, now_learned) = solve_again(self.domain, &problem, &self.limits, learned)?;
+        let in_time = match self.in_time {
+            true => {
+                let belief = &self.belief;
+                let mut clock = Clock::new(&belief.world, relations, belief.floors());
+                clock = clock.knowing(&belief.spots);
+                solve_in_time(self.domain, &problem, &mut clock, &self.limits)?
+            }
+            false => None,
+        };
+        let (solved, now_learned) = match in_time {
+            Some(solved) => (solved, None),
+            None => solve_again(None, self.domain, &problem, &self.limits, learned)?,
+        };
         let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
         let steps = match solved.outcome.plan() {
             Some(plan) => {
@@ -181,7 +207,6 @@ impl<'r> Mission<'r> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
-        self.refused = None;
         loop {
             if reins.stop.is_raised() {
                 return Ok(Ending::Stopped);
@@ -220,7 +245,6 @@ impl<'r> Mission<'r> {
             self.joins.clone_from(&planned.joins);
             self.lifts.clone_from(&planned.lifts);
             if let Err((known, surprise)) = rehearse(self, &directives, &reins.stop) {
-                self.refused.get_or_insert(planned);
                 if !self.take_over(known) {
                     return Ok(Ending::Stuck(surprise));
                 }
@@ -228,7 +252,6 @@ impl<'r> Mission<'r> {
                 learned = now_learned.and_then(|learned| learned.after(&[]));
                 continue;
             }
-            self.refused = None;
             (reins.tell)(&Event::Planned(&planned));
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });

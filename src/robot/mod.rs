@@ -42,6 +42,7 @@ mod seek;
 mod shortness;
 mod simulator;
 mod solve;
+mod terrain;
 mod timing;
 mod vehicle;
 mod wishes;
@@ -58,10 +59,8 @@ pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use shortness::Shortness;
 pub use simulator::Simulator;
 pub use simulator::senses::{Senses, SensingRobot, Touch};
-pub use solve::{
-    DrivenTime, Reason, Replanned, Solved, Wanted, solve, solve_quickest, solve_without,
-};
-pub use timing::Clock;
+pub use solve::{DrivenTime, Reason, Refused, Replanned, Solved, Wanted, solve};
+pub use terrain::{Terrain, solve_on, solve_quickest, solve_without};
 pub use vehicle::{
     Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience,
     Refusal, RemoteVehicle, Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,

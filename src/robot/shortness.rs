@@ -27,7 +27,7 @@ impl Solved {
         let said = |fact| Said::from(task.fact(fact));
         let goals: Vec<_> = task.goal.iter().filter(|goal| !task.init.contains(goal)).collect();
         let several = task.goal_steps == 0 && (2..=MOST_GOALS).contains(&goals.len());
-        let quiet = Limits { tell: None, tell_bound: None, ..limits.clone() };
+        let quiet = limits.quiet();
         let alone = goals.iter().filter(|_| several).filter_map(|&&goal| {
             let only = Task { goal: vec![goal], ..task.clone() };
             let steps = graphplan::solve(&only, &quiet).plan()?.steps.len();

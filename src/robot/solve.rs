@@ -1,19 +1,19 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::directive::Directive;
 use super::grounding::grounded;
 use super::helping::keep_what_helps;
-use super::timing::{Clock, Takes};
+use super::timing::Clock;
 use super::wishes::{self, Wishes};
-use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
+use crate::graphplan::{
+    self, Attempt, Learned, Limit, Limits, NoPlanReason, Outcome, Unfinished, Way,
+};
 use crate::strips::{
     Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
     explain_unreachable,
 };
-use crate::units::{Language, name_key};
+use crate::units::{Bilingual, Language, name_key};
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -61,8 +61,8 @@ pub enum Reason {
     Exclusive(Vec<(Said, Said)>),
     /// Goals that cannot all hold at once.
     Together(Vec<Said>),
-    /// By the rules there is a plan; for these of its actions the floor has no way, and without them there is none.
-    NoWay(Vec<Said>),
+    /// By the rules there is a plan; these of its actions the floor refuses, and without them there is none.
+    NoWay(Vec<Refused>),
     /// The search was given up.
     Limit {
         limit: Limit,
@@ -70,6 +70,8 @@ pub enum Reason {
         at_least: usize,
         /// There is a plan of so many steps, though shorter ones are not ruled out.
         at_most: Option<usize>,
+        /// What was tried, and how far it came.
+        tried: Vec<Attempt>,
     },
 }
 
@@ -111,10 +113,16 @@ impl Reason {
                     "по правилам план есть, но на полу нет пути для действий: ",
                     "by the rules there is a plan, but the floor has no way for the actions: ",
                 );
-                let actions: Vec<String> = actions.iter().map(|one| wording.action(one)).collect();
+                let action = |refused: &Refused| match &refused.why {
+                    Some(why) => {
+                        format!("{} ({})", wording.action(&refused.action), why.say(language))
+                    }
+                    None => wording.action(&refused.action),
+                };
+                let actions: Vec<String> = actions.iter().map(action).collect();
                 head.to_owned() + &actions.join(language.pick(", ", "; "))
             }
-            Self::Limit { limit, at_least, at_most: None } => {
+            Self::Limit { limit, at_least, at_most: None, tried } => {
                 let ended = match limit {
                     Limit::Time => language.pick(
                         "время вышло раньше, чем нашёлся план",
@@ -137,15 +145,25 @@ impl Reason {
                         "the effort allowed was spent before a plan was found",
                     ),
                 };
-                match at_least {
+                let known = match at_least {
                     0 => ended.to_owned(),
                     least => language.pick(
                         format!("{ended}; доказано, что шагов нужно не меньше {least}"),
                         format!("{ended}; proven: at least {least} steps are needed"),
                     ),
+                };
+                let tried: Vec<String> =
+                    tried.iter().map(|attempt| tried_in_words(attempt, language)).collect();
+                match tried.is_empty() {
+                    true => known,
+                    false => format!(
+                        "{known}; {}: {}",
+                        language.pick("испробовано", "tried"),
+                        tried.join(", ")
+                    ),
                 }
             }
-            Self::Limit { limit, at_least, at_most: Some(most) } => {
+            Self::Limit { limit, at_least, at_most: Some(most), .. } => {
                 let ended = match limit {
                     Limit::Time => language.pick("время вышло", "the time was up"),
                     Limit::Memory => language.pick("память вышла", "the memory was used up"),
@@ -164,6 +182,31 @@ impl Reason {
             }
         }
     }
+}
+
+/// A way that was tried, and how far it came: levels of the graph, sets of goals or states, effort.
+fn tried_in_words(attempt: &Attempt, language: Language) -> String {
+    let Attempt { way, times, levels, nodes, effort } = *attempt;
+    let way = match way {
+        Way::Grounding => {
+            return language
+                .pick("составление действий по правилам", "making ground actions of the rules")
+                .to_owned();
+        }
+        Way::Graph => language.pick("граф планирования", "the planning graph"),
+        Way::Proof => language.pick("доказательство кратчайшего", "the proof of the fewest steps"),
+        Way::Forward => language.pick("поиск вперёд", "search forward"),
+    };
+    let mut far = Vec::new();
+    if levels > 0 {
+        far.push(language.pick(format!("уровней {levels}"), format!("levels: {levels}")));
+    }
+    far.push(language.pick(format!("узлов {nodes}"), format!("nodes: {nodes}")));
+    far.push(language.pick(format!("усилие {effort}"), format!("effort: {effort}")));
+    if times > 1 {
+        far.push(language.pick(format!("раз {times}"), format!("times: {times}")));
+    }
+    format!("{way} ({})", far.join(", "))
 }
 
 impl Solved {
@@ -226,109 +269,125 @@ pub fn solve(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
-    match problem.preferences().next() {
-        Some(_) => wishes::solve(domain, problem, limits, wanted),
-        None => solve_goal(domain, problem, limits, wanted),
-    }
+    solve_on(None, domain, problem, limits, wanted)
 }
 
-/// The same, and preferences are none of its business.
-pub(super) fn solve_goal(
+/// The same on a floor, where there is one: of what the rules allow that has no way there.
+///
+/// # Errors
+/// As [`solve`].
+pub(super) fn solve_on(
+    floor: Option<&mut dyn Passable>,
     domain: &Domain,
     problem: &Problem,
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
-    let (task, outcome) = match grounded(domain, problem, limits)? {
-        Ok(task) => {
-            let outcome = match wanted {
-                Wanted::Shortest => graphplan::solve(&task, limits),
-                Wanted::Any => graphplan::solve_any(&task, limits),
-                Wanted::Anytime => graphplan::solve_anytime(&task, limits),
-                Wanted::Plain => graphplan::solve_plainly(&task, limits),
-            };
-            (task, outcome)
-        }
-        Err(limit) => (Task::default(), Outcome::LimitReached(limit.into())),
-    };
-    told(domain, problem, task, outcome, wanted, limits)
+    match problem.preferences().next() {
+        Some(_) => wishes::solve(floor, domain, problem, limits, wanted),
+        None => solve_goal(floor, domain, problem, limits, wanted),
+    }
 }
 
-/// The plan that is driven in the least time, as the clock tells what each action takes, however many steps it has; of
-/// preferences those are met that can be in the shortest plan. What the floor has no way for is left out.
-///
-/// # Errors
-/// As [`solve`]; and, within, the names of which the map does not tell where they are.
-pub fn solve_quickest(
+/// The same, and preferences are none of its business.
+pub(super) fn solve_goal(
+    floor: Option<&mut dyn Passable>,
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<Solved, RuleFaults> {
+    let mut search = |task: &Task| match wanted {
+        Wanted::Shortest => graphplan::solve(task, limits),
+        Wanted::Any => graphplan::solve_any(task, limits),
+        Wanted::Anytime => graphplan::solve_anytime(task, limits),
+        Wanted::Plain => graphplan::solve_plainly(task, limits),
+    };
+    let (task, found) = found_on(floor, domain, problem, limits, &mut search)?;
+    told(domain, problem, task, found, wanted, limits)
+}
+
+/// What a search came to, and which actions the floor refuses where there is no plan for that reason.
+pub(super) type Found = (Outcome, Vec<Refused>);
+
+/// Grounds a problem and searches for a plan that the floor does not refuse.
+fn found_on(
+    floor: Option<&mut dyn Passable>,
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    search: &mut dyn FnMut(&Task) -> Outcome,
+) -> Result<(Task, Found), RuleFaults> {
+    let mut task = match grounded(domain, problem, limits)? {
+        Ok(task) => task,
+        Err(limit) => {
+            let outcome = Outcome::LimitReached(Unfinished::in_grounding(limit));
+            return Ok((Task::default(), (outcome, Vec::new())));
+        }
+    };
+    let found = match floor {
+        Some(floor) => floor.search((domain, problem), &mut task, limits, search),
+        None => (search(&task), Vec::new()),
+    };
+    Ok((task, found))
+}
+
+/// A floor on which plans are driven, as a search for one sees it; this file knows no missions.
+pub(super) trait Passable {
+    /// Searches for a plan that can be driven. The task is left without the actions that the floor refuses; where there is
+    /// no plan for that reason alone, it is told which.
+    fn search(
+        &mut self,
+        given: (&Domain, &Problem),
+        task: &mut Task,
+        limits: &Limits,
+        search: &mut dyn FnMut(&Task) -> Outcome,
+    ) -> Found;
+}
+
+/// An action that the rules allow and the floor does not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    pub action: Said,
+    /// What bars its way, and what would open it; none where the robot's start is not known.
+    pub why: Option<Bilingual>,
+}
+
+/// The plan that takes the least time, for a robot that tries its plans itself; none where the rules do not tell where it
+/// stands, or the floor has no way: of that the plan by steps tells more.
+pub(super) fn solve_in_time(
     domain: &Domain,
     problem: &Problem,
     clock: &mut Clock<'_>,
     limits: &Limits,
-) -> Result<Result<Solved, BTreeSet<String>>, RuleFaults> {
-    if problem.preferences().next().is_some() {
-        let chosen = wishes::solve(domain, problem, limits, Wanted::Shortest)?;
-        let Some(wishes) = &chosen.wishes else { return Ok(Ok(chosen)) };
-        let all: Vec<_> = problem.preferences().cloned().collect();
-        let kept = problem.with_preferences(|number| wishes.met.contains(&all[number]));
-        let quickest = solve_quickest(domain, &kept, clock, limits)?;
-        return Ok(quickest.map(|solved| Solved { wishes: chosen.wishes, ..solved }));
+) -> Result<Option<Solved>, RuleFaults> {
+    let Ok(mut task) = grounded(domain, problem, limits)? else { return Ok(None) };
+    if !clock.charge(domain, &mut task).is_empty() {
+        return Ok(None);
     }
-    let mut task = match grounded(domain, problem, limits)? {
-        Ok(task) => task,
-        Err(limit) => {
-            let outcome = Outcome::LimitReached(limit.into());
-            return told(domain, problem, Task::default(), outcome, Wanted::Any, limits).map(Ok);
-        }
-    };
-    let (mut unknown, mut barred) = (BTreeSet::new(), vec![false; task.operators.len()]);
-    for id in task.operator_ids() {
-        let cost = match task.is_goal_step(id) {
-            true => 0,
-            false => match clock.takes(&Directive::of(domain, &task, task.operator(id))) {
-                Takes::Seconds(seconds) => (seconds * 100.0).round() as u32,
-                Takes::NoWay => {
-                    barred[id.index()] = true;
-                    0
-                }
-                Takes::Unknown(name) => {
-                    unknown.insert(name);
-                    0
-                }
-            },
-        };
-        task.operators[id.index()].cost = cost;
-    }
-    if !unknown.is_empty() {
-        return Ok(Err(unknown));
-    }
-    let by_rules = barred.contains(&true).then(|| task.clone());
-    let mut is_barred = barred.iter();
-    task.operators.retain(|_| !is_barred.next().is_some_and(|barred| *barred));
+    clock.bar(domain, &mut task);
     let (outcome, at_least) = graphplan::solve_cheapest(&task, limits);
-    if let (Outcome::NoPlan { .. }, Some(whole)) = (&outcome, by_rules)
-        && let Outcome::Plan(plan) = graphplan::solve_any(&whole, limits)
-    {
-        let barred = plan.operators().filter(|id| barred[id.index()]);
-        let actions = barred.map(|id| Said::from(whole.operator(id))).collect();
-        return Ok(Ok(Solved {
-            task,
-            outcome,
-            is_shortest: false,
-            at_least: 0,
-            assumptions: Vec::new(),
-            reason: Some(Reason::NoWay(actions)),
-            phrases: Arc::clone(domain.phrases()),
-            wishes: None,
-            time: None,
-            is_of_whole_actions: false,
-        }));
+    if outcome.plan().is_none() {
+        return Ok(None);
     }
-    let takes = outcome.plan().map(|plan| plan.cost(&task));
-    let mut solved = told(domain, problem, task, outcome, Wanted::Shortest, limits)?;
+    timed(domain, problem, task, (outcome, Vec::new()), at_least, limits).map(Some)
+}
+
+/// A plan found for its cost, which is time.
+pub(super) fn timed(
+    domain: &Domain,
+    problem: &Problem,
+    task: Task,
+    found: Found,
+    at_least: u64,
+    limits: &Limits,
+) -> Result<Solved, RuleFaults> {
+    let takes = found.0.plan().map(|plan| plan.cost(&task));
+    let mut solved = told(domain, problem, task, found, Wanted::Shortest, limits)?;
     // Of its steps nothing is proven.
     (solved.is_shortest, solved.at_least) = (false, 0);
     solved.time = takes.map(|takes| DrivenTime { takes, at_least: at_least.min(takes) });
-    Ok(Ok(solved))
+    Ok(solved)
 }
 
 /// The shortest plan, or the best that the effort allows, with what was learned by planning before where that is sound, and what is learned now.
@@ -336,19 +395,20 @@ pub fn solve_quickest(
 /// # Errors
 /// As [`solve`].
 pub(super) fn solve_again(
+    floor: Option<&mut dyn Passable>,
     domain: &Domain,
     problem: &Problem,
     limits: &Limits,
     learned: Option<&Learned>,
 ) -> Result<(Solved, Option<Learned>), RuleFaults> {
-    let (task, (outcome, learned)) = match grounded(domain, problem, limits)? {
-        Ok(task) => {
-            let solved = graphplan::solve_soon(&task, learned, limits);
-            (task, solved)
-        }
-        Err(limit) => (Task::default(), (Outcome::LimitReached(limit.into()), None)),
+    let mut now_learned = None;
+    let mut search = |task: &Task| {
+        let (outcome, learned) = graphplan::solve_soon(task, learned, limits);
+        now_learned = learned;
+        outcome
     };
-    Ok((told(domain, problem, task, outcome, Wanted::Shortest, limits)?, learned))
+    let (task, found) = found_on(floor, domain, problem, limits, &mut search)?;
+    Ok((told(domain, problem, task, found, Wanted::Shortest, limits)?, now_learned))
 }
 
 /// What became of a plan when assumptions were withdrawn.
@@ -379,7 +439,8 @@ impl Replanned {
 ///
 /// # Errors
 /// As [`solve`]; and what cannot be withdrawn, all of it at once.
-pub fn solve_without(
+pub(super) fn solve_without(
+    mut floor: Option<&mut dyn Passable>,
     domain: &Domain,
     problem: &mut Problem,
     withdrawn: &[String],
@@ -397,24 +458,26 @@ pub fn solve_without(
     if !faults.is_empty() {
         return Err(RuleFaults(faults));
     }
-    let (before, after, learned_before) = match wanted {
-        Wanted::Any | Wanted::Anytime | Wanted::Plain => {
-            let before = solve(domain, problem, limits, wanted)?;
-            (before, solve(domain, &without, limits, wanted)?, false)
-        }
-        Wanted::Shortest if problem.preferences().next().is_some() => {
-            let before = solve(domain, problem, limits, wanted)?;
-            (before, solve(domain, &without, limits, wanted)?, false)
-        }
-        Wanted::Shortest => {
-            let (before, learned) = solve_again(domain, problem, limits, None)?;
-            let (after, _) = solve_again(domain, &without, limits, learned.as_ref())?;
-            let serves = learned.is_some_and(|learned| learned.serves(&after.task));
-            (before, after, serves)
-        }
+    let is_plain = problem.preferences().next().is_none();
+    let (before, after, learned_before) = if wanted == Wanted::Shortest && is_plain {
+        let (before, learned) = solve_again(again(&mut floor), domain, problem, limits, None)?;
+        let (after, _) = solve_again(floor, domain, &without, limits, learned.as_ref())?;
+        let serves = learned.is_some_and(|learned| learned.serves(&after.task));
+        (before, after, serves)
+    } else {
+        let before = solve_on(again(&mut floor), domain, problem, limits, wanted)?;
+        (before, solve_on(floor, domain, &without, limits, wanted)?, false)
     };
     *problem = without;
     Ok(Replanned { before, after, withdrawn: gone, learned_before })
+}
+
+/// The same floor for one search of several.
+pub(super) fn again<'f>(floor: &'f mut Option<&mut dyn Passable>) -> Option<&'f mut dyn Passable> {
+    match floor {
+        Some(floor) => Some(&mut **floor),
+        None => None,
+    }
 }
 
 /// Of a goal of several disjuncts the one that the plan meets; the operator that only says so is no step.
@@ -434,11 +497,11 @@ fn choose_disjunct(task: &mut Task, outcome: &mut Outcome) {
     }
 }
 
-fn told(
+pub(super) fn told(
     domain: &Domain,
     problem: &Problem,
     mut task: Task,
-    mut outcome: Outcome,
+    (mut outcome, refused): Found,
     wanted: Wanted,
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
@@ -463,7 +526,10 @@ fn told(
     let assumptions = outcome.plan().map_or_else(Vec::new, |plan| {
         plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
     });
-    let reason = explain(domain, problem, &task, &outcome, limits)?;
+    let reason = match refused.is_empty() {
+        true => explain(domain, problem, &task, &outcome, limits)?,
+        false => Some(Reason::NoWay(refused)),
+    };
     let phrases = Arc::clone(domain.phrases());
     Ok(Solved {
         task,
@@ -510,6 +576,7 @@ fn explain(
             limit: known.limit,
             at_least: known.at_least,
             at_most: known.plan.as_ref().map(|plan| plan.steps.len()),
+            tried: known.tried.clone(),
         },
     }))
 }

@@ -8,7 +8,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashSet};
 
-use super::solve::{Solved, Wanted, solve_goal};
+use super::solve::{Passable, Solved, Wanted, again, solve_goal};
 use crate::graphplan::{Limits, Outcome};
 use crate::strips::{Domain, Preference, Problem, RuleFaults};
 use crate::units::{Gather as _, Language};
@@ -62,17 +62,18 @@ fn written(thousandths: u64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// As [`super::solve`], for a problem with preferences.
+/// As [`super::solve_on`], for a problem with preferences.
 pub(super) fn solve(
+    mut floor: Option<&mut dyn Passable>,
     domain: &Domain,
     problem: &Problem,
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
     let all: Vec<Preference> = problem.preferences().cloned().collect();
-    let without = |left_out: &BTreeSet<usize>| {
+    let mut without = |left_out: &BTreeSet<usize>| {
         let problem = problem.with_preferences(|number| !left_out.contains(&number));
-        solve_goal(domain, &problem, limits, wanted)
+        solve_goal(again(&mut floor), domain, &problem, limits, wanted)
     };
     let told = |mut solved: Solved, left_out: &BTreeSet<usize>, is_least| {
         let (mut met, mut unmet) = (Vec::new(), Vec::new());
@@ -183,7 +184,8 @@ mod tests {
         let all: Vec<Preference> = scenario.problem.preferences().cloned().collect();
         let failing = (0..1_usize << all.len()).filter_map(|kept| {
             let problem = scenario.problem.with_preferences(|number| kept >> number & 1 == 1);
-            let solved = solve_goal(&scenario.domain, &problem, limits, Wanted::Shortest).ok()?;
+            let solved =
+                solve_goal(None, &scenario.domain, &problem, limits, Wanted::Shortest).ok()?;
             let left = all.iter().enumerate().filter(|(number, _)| kept >> number & 1 == 0);
             solved.outcome.plan().is_some().then(|| left.map(|(_, one)| one.weight).sum())
         });

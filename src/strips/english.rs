@@ -146,6 +146,9 @@ impl RuleError {
             Self::TooManyCases { of, limit } => {
                 format!("the conditions of “{of}” fall into more than {limit} cases")
             }
+            Self::LastingCompound { .. } => {
+                "while an action lasts plain facts can be asked: its start touches what the condition asks".to_owned()
+            }
             Self::Durations { .. } => {
                 "actions that last are planned whole, one after another; steps are counted in these actions, and a duration is a cost".to_owned()
             }
@@ -215,6 +218,9 @@ impl RuleError {
             }
             Self::TooManyCases { .. } => {
                 "divide the action into several, or use fewer objects under “forall” and “when”"
+            }
+            Self::LastingCompound { .. } => {
+                "divide the condition into facts, or ask it at the start"
             }
             Self::Durations { .. } => {
                 "a plan that needs one action to go on within another is not found this way"

@@ -568,6 +568,19 @@ pub enum RuleError {
         at: SourceSpan,
     },
 
+    /// What is asked while an action lasts is no plain fact, and its start may touch it.
+    #[error(
+        "пока действие длится, нужны простые факты: своё начало задевает то, о чём спрашивает условие"
+    )]
+    #[diagnostic(
+        code(strips::lasting_condition),
+        help("разделите условие на факты, или спросите его в начале")
+    )]
+    LastingCompound {
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
     /// What a rule derives is stated, or changed by an action.
     #[error(
         "предикат «{name}» выводится правилом, поэтому его нельзя ни утверждать, ни менять действием"

@@ -352,7 +352,9 @@ impl Document {
         self.goal.extend(other.goal);
         self.goal_is_empty |= other.goal_is_empty;
         self.preferences.extend(other.preferences);
-        self.violations = self.violations.take().or(other.violations);
+        if let Some(more) = other.violations {
+            self.violations.get_or_insert_default().extend(more);
+        }
         self.map = self.map.take().or(other.map);
         self.phrases.extend(other.phrases);
         self.warnings.extend(other.warnings);

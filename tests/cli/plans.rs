@@ -102,9 +102,21 @@ fn the_quickest_plan_takes_as_long_as_its_drive() {
     let told = json["seconds"].as_f64().unwrap();
     assert_eq!(json["at_least_seconds"].as_f64(), Some(told), "{json}");
     let driven = place.run(&["do", "--json", "--scenario", &walk]).is(0).out;
+    let planned: Value = serde_json::from_str(driven.lines().next().unwrap()).unwrap();
+    let steps = json!(planned["steps"].as_array().unwrap().len());
+    assert_eq!((&planned["at_least_steps"], &planned["at_most_steps"]), (&steps, &steps));
     let end: Value = serde_json::from_str(driven.lines().last().unwrap()).unwrap();
     let driven = end["seconds"].as_f64().unwrap();
     assert!((told - driven).abs() < 0.15 * driven, "{told} told, {driven} driven");
+    // A robot that is to plan for time drives that plan, and tells its time beforehand.
+    let driven = place.run(&["do", "--json", "--metric", "time", "--scenario", &walk]).is(0).out;
+    let planned: Value = serde_json::from_str(driven.lines().next().unwrap()).unwrap();
+    assert_eq!((&planned["event"], &planned["outcome"]), (&json!("planned"), &json!("plan")));
+    let (seconds, least) = (&planned["seconds"], &planned["at_least_seconds"]);
+    assert_eq!(seconds, least, "{planned}");
+    assert!((seconds.as_f64().unwrap() - told).abs() < 0.15 * told, "{told} told: {planned}");
+    let words = place.run(&["--lang", "en", "do", "--metric", "time", "--scenario", &walk]).is(0);
+    assert!(words.out.contains("a quicker one is proven impossible"), "{}", words.out);
     let words = place.run(&["--lang", "en", "plan", "--metric", "time", &walk]).is(0).out;
     assert!(words.contains("a quicker one is proven impossible"), "{words}");
     // A lift opens its own doors, which takes as long as with others.
@@ -288,6 +300,150 @@ fn a_search_given_up_tells_what_is_known_and_what_would_help() {
     assert!(told.contains("не меньше") && told.contains("Помогло бы: --any"), "{told}");
     let told = place.run(&[&args[..], &["--lang", "en"]].concat()).is(1).out;
     assert!(told.contains("at least") && told.contains("It would help: --any"), "{told}");
+}
+
+/// What `--anytime --json` tells, line by line: lower bounds only rise, plans only get shorter, neither passes the other,
+/// and the last line is the answer, one of the four kinds.
+#[test]
+fn the_stream_of_an_anytime_plan_comes_to_its_answer() {
+    let place = Place::empty();
+    let unsolvable = place.write("none.pddl", "(define (problem p) (:domain g) (:objects a b) (:init (room a) (robby a)) (:goal (robby b)))");
+    let none = |place: &Place| {
+        let [domain, _] = gripper(place, 1);
+        [domain, unsolvable.clone()]
+    };
+    // Proven, none, open with a plan, and nothing known.
+    type Files<'f> = &'f dyn Fn(&Place) -> [String; 2];
+    let cases: [(Files<'_>, &[&str], &str); 4] = [
+        (&|place| gripper(place, 6), &[], "plan"),
+        (&none, &[], "no_plan"),
+        (&|place| gripper(place, 30), &["--effort", "1"], "bounds"),
+        (&tiles, &["--time-limit", "0"], "nothing"),
+    ];
+    for (files, limits, kind) in cases {
+        let [domain, problem] = &files(&place);
+        let files = ["plan", "--domain", domain, "--problem", problem];
+        let args = [&files[..], &["--anytime", "--json"], limits].concat();
+        let (mut at_least, mut at_most) = (0, u64::MAX);
+        let told = place.run(&args).is(i32::from(kind != "plan")).out;
+        let lines: Vec<Value> =
+            told.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let (end, stream) = lines.split_last().unwrap();
+        for line in stream {
+            match line["event"].as_str().unwrap() {
+                "bound" => {
+                    let bound = line["at_least_steps"].as_u64().unwrap();
+                    assert!(bound > at_least, "{told}");
+                    at_least = bound;
+                }
+                "plan" => {
+                    let steps = line["parallel_steps"].as_u64().unwrap();
+                    assert!(steps < at_most && line["actions"].as_u64() >= Some(steps), "{told}");
+                    at_most = steps;
+                }
+                other => panic!("{other}: {told}"),
+            }
+            assert!(at_least <= at_most, "{told}");
+        }
+        assert!(end.get("event").is_none(), "{end}");
+        let steps = end["parallel_steps"].as_u64().unwrap();
+        match kind {
+            "plan" => {
+                assert_eq!((&end["outcome"], &end["optimal"]), (&json!("plan"), &json!(true)));
+                // 11 trips, of which 6 with balls: all that the stream told led here.
+                assert_eq!((at_least, at_most), (steps, steps), "bounds meet: {told}");
+            }
+            "no_plan" => {
+                assert_eq!(end["outcome"], json!("no_plan"), "{told}");
+                assert_eq!(at_most, u64::MAX, "{told}");
+            }
+            "bounds" => {
+                assert_eq!((&end["outcome"], &end["limit"]), (&json!("limit"), &json!("effort")));
+                assert_eq!(end["at_least_steps"], json!(at_least), "{told}");
+                assert_eq!((&end["at_most_steps"], steps), (&json!(at_most), at_most), "{told}");
+                assert!(at_least < at_most, "{told}");
+            }
+            _ => {
+                assert_eq!((&end["outcome"], &end["limit"]), (&json!("limit"), &json!("time")));
+                assert_eq!((&end["at_most_steps"], steps), (&json!(null), 0), "{told}");
+            }
+        }
+        // Where effort alone ends it the answer is the same without the stream.
+        if kind != "nothing" {
+            let plain = [&files[..], &["--anytime"], limits].concat();
+            let words = place.run(&[&["--lang", "en"], &plain[..]].concat());
+            let words = words.is(i32::from(kind != "plan"));
+            match kind {
+                "plan" => assert!(words.out.contains("proven impossible"), "{}", words.out),
+                "no_plan" => assert!(words.out.contains("There is no plan"), "{}", words.out),
+                _ => {
+                    let bounds = format!("it takes {at_least} to {at_most} steps");
+                    assert!(words.out.contains(&bounds), "{bounds}: {}", words.out);
+                    assert!(words.out.contains("It would help: more effort"), "{}", words.out);
+                    assert!(words.err.contains("Proven: at least"), "{}", words.err);
+                }
+            }
+        }
+    }
+    // Effort is that of --anytime alone.
+    let [domain, balls] = gripper(&place, 1);
+    let files = ["plan", "--domain", &domain, "--problem", &balls];
+    place.run(&[&files[..], &["--effort", "1"]].concat()).is(2);
+    place.run(&[&files[..], &["--anytime", "--any"]].concat()).is(2);
+}
+
+/// The paper's own algorithm answers as all of them together do.
+#[test]
+fn the_plain_algorithm_answers_the_same() {
+    let place = Place::empty();
+    for (balls, code) in [(1, 0), (3, 0)] {
+        let [domain, problem] = gripper(&place, balls);
+        let args = ["plan", "--domain", &domain, "--problem", &problem];
+        let best = place.json(&args, code);
+        let plain = place.json(&[&args[..], &["--plain"]].concat(), code);
+        for field in ["outcome", "parallel_steps", "optimal"] {
+            assert_eq!(plain[field], best[field], "{field}");
+        }
+    }
+    let exclusive = scenario("two-goals-exclude");
+    let none = place.json(&["plan", &exclusive, "--plain"], 1);
+    assert_eq!(none["outcome"], json!("no_plan"), "{none}");
+}
+
+/// What was tried before a search is given up, and how far it came, is told in both languages and as data.
+#[test]
+fn a_search_given_up_tells_what_it_tried() {
+    let place = Place::empty();
+    let [domain, problem] = tiles(&place);
+    let args = ["plan", "--domain", &domain, "--problem", &problem, "--time-limit", "2"];
+    for (option, way, russian, english) in [
+        (
+            &[][..],
+            "proof",
+            "доказательство кратчайшего (уровней",
+            "the proof of the fewest steps (",
+        ),
+        (&["--plain"], "graph", "граф планирования (уровней", "the planning graph (levels: "),
+    ] {
+        let args = [&args[..], option].concat();
+        let limited = place.json(&args, 1);
+        let tried = limited["tried"].as_array().unwrap();
+        let found = tried.iter().find(|one| one["way"] == way).expect(way);
+        for (field, least) in [("times", 1), ("levels", 6), ("nodes", 1), ("effort", 1)] {
+            assert!(found[field].as_u64() >= Some(least), "{field}: {limited}");
+        }
+        if limited["at_most_steps"].is_null() {
+            let told = |language| place.run(&[&["--lang", language], &args[..]].concat()).is(1).out;
+            let (told, english_told) = (told("ru"), told("en"));
+            assert!(told.contains("; испробовано: ") && told.contains(russian), "{told}");
+            let told = english_told;
+            assert!(told.contains("; tried: ") && told.contains(english), "{told}");
+        }
+    }
+    let none = place.json(&["plan", &scenario("tidy-up"), "--time-limit", "0"], 1);
+    assert_eq!(none["tried"][0]["way"], json!("grounding"), "{none}");
+    let told = place.run(&["plan", &scenario("tidy-up"), "--time-limit", "0"]).is(1).out;
+    assert!(told.contains("испробовано: составление действий"), "{told}");
 }
 
 /// A child whose handlers of signals stand.

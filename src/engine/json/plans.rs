@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 
 use crate::engine::narration::outcome;
 use crate::engine::{PlanStep, Replanned, Solved, in_rule_text, steps};
-use crate::graphplan::{Limit, NoPlanReason, Outcome, Plan};
+use crate::graphplan::{Attempt, Limit, NoPlanReason, Outcome, Plan, Way};
 use crate::language::Language;
-use crate::robot::Shortness;
+use crate::robot::{Reason, Refused, Shortness};
 use crate::semantics::planning::InitialFact;
 use crate::strips::{Preference, Replayed, Said, Wording};
 
@@ -57,6 +57,18 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
             "proven_least": wishes.is_least,
         });
     }
+    if let Some(Reason::NoWay(refused)) = &solved.reason {
+        let refused = refused.iter().map(|Refused { action, why }| {
+            let why = |language| why.as_ref().map(|why| why.say(language));
+            json!({
+                "action": action.to_string(),
+                "action_en": english.action(action),
+                "explanation": why(Language::Russian),
+                "explanation_en": why(Language::English),
+            })
+        });
+        view["no_way"] = refused.collect();
+    }
     match &solved.outcome {
         Outcome::NoPlan { leveled_off_at, reason } => {
             let fact = |id: &_| solved.task.fact(*id).to_string();
@@ -83,6 +95,7 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
             });
             view["at_least_steps"] = json!(known.at_least);
             view["at_most_steps"] = json!(known.plan.as_ref().map(|plan| plan.steps.len()));
+            view["tried"] = known.tried.iter().map(tried).collect();
         }
         Outcome::Plan(_) if !solved.is_shortest && solved.time.is_none() => {
             view["at_least_steps"] = json!(solved.at_least);
@@ -90,6 +103,18 @@ pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
         Outcome::Plan(_) => {}
     }
     view
+}
+
+/// A way that was tried, and how far it came.
+fn tried(attempt: &Attempt) -> Value {
+    let Attempt { way, times, levels, nodes, effort } = attempt;
+    let way = match way {
+        Way::Grounding => "grounding",
+        Way::Graph => "graph",
+        Way::Proof => "proof",
+        Way::Forward => "forward",
+    };
+    json!({"way": way, "times": times, "levels": levels, "nodes": nodes, "effort": effort})
 }
 
 /// Why no plan has fewer steps.

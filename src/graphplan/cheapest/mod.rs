@@ -13,6 +13,7 @@ use crate::portfolio::relaxed::{carry_out, initial, needed_by};
 use crate::portfolio::solve_anytime;
 use crate::proof::needed::Reduced;
 use crate::strips::{OperatorId, Task};
+use crate::tried::telling;
 use crate::{Limit, Limits, Outcome, Unfinished, validate};
 
 mod search;
@@ -29,12 +30,12 @@ const WIDTHS: [usize; 3] = [8, 16, 32];
 /// least; a plan that is not stands in [`Unfinished`], whose `at_least` counts steps as ever.
 #[must_use]
 pub fn solve_cheapest(task: &Task, limits: &Limits) -> (Outcome, u64) {
-    let soon = Limits {
-        tell: None,
-        tell_bound: None,
-        effort: Some(limits.effort.unwrap_or(Limits::TO_START).min(Limits::TO_START)),
-        ..limits.clone()
-    };
+    telling(limits, |limits| cheapest(task, limits), |(outcome, _)| outcome)
+}
+
+fn cheapest(task: &Task, limits: &Limits) -> (Outcome, u64) {
+    let effort = Some(limits.effort.unwrap_or(Limits::TO_START).min(Limits::TO_START));
+    let soon = Limits { effort, ..limits.quiet() };
     let (first, limit, at_least_steps) = match solve_anytime(task, &soon) {
         Outcome::NoPlan { leveled_off_at, reason } => {
             return (Outcome::NoPlan { leveled_off_at, reason }, 0);
@@ -60,7 +61,7 @@ pub fn solve_cheapest(task: &Task, limits: &Limits) -> (Outcome, u64) {
         // The planning graph tells why.
         (Ok(()), None) => (crate::solve(task, limits), at_least),
         (Err(limit), plan) => {
-            let known = Unfinished { limit, at_least: at_least_steps, plan };
+            let known = Unfinished { at_least: at_least_steps, plan, ..limit.into() };
             (Outcome::LimitReached(known), at_least)
         }
     }

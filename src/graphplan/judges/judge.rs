@@ -1,146 +1,330 @@
-//! A judge of plans that shares no code with the planner, nor with the reading of rules: it reads PDDL and the plan's
-//! text by itself, and carries the plan out on sets of words.
+//! A judge of plans that shares no code with the planner, nor with the reading of rules: it reads PDDL or a rule file, and
+//! the plan's text, by itself, and carries the plan out on sets of words, by the rules as they are given: conditions with
+//! `or` and quantifiers, effects that hang on conditions, what is derived.
 //!
 //! A plan must work in three ways: step by step, where every action of a step can be carried out before the step and
 //! none takes what another needs or brings; one action after the other as they are written; and with each step written
-//! backwards. It knows `and`, `not`, `=`, `when` without variables of its own, types as the reader of an action's
-//! parameters, and nothing else: what it does not know it refuses.
+//! backwards; and all must end alike. What it does not know it does not judge, and says so: numbers but as costs, actions
+//! that last, preferences, what other files say. An object whose type is stated nowhere is of every type that a parameter
+//! has of which some rule says what a fact says of the object.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A word or a list in brackets.
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum Form {
-    Word(String),
-    List(Vec<Self>),
-}
+#[path = "judge/pddl.rs"]
+mod pddl;
+#[path = "judge/rules.rs"]
+mod rules;
 
-impl Form {
-    fn word(&self) -> &str {
-        match self {
-            Self::Word(word) => word,
-            Self::List(_) => panic!("a word is wanted: {self:?}"),
-        }
-    }
-
-    fn list(&self) -> &[Self] {
-        match self {
-            Self::List(list) => list,
-            Self::Word(_) => panic!("a list is wanted: {self:?}"),
-        }
-    }
-
-    fn head(&self) -> &str {
-        self.list().first().map_or("", Self::word)
-    }
-}
-
-fn read(text: &str) -> Vec<Form> {
-    let mut open = vec![Vec::new()];
-    let without_comments: String = text
-        .lines()
-        .map(|line| line.split(';').next().unwrap_or_default().to_lowercase() + "\n")
-        .collect();
-    let spaced = without_comments.replace('(', " ( ").replace(')', " ) ");
-    for word in spaced.split_whitespace() {
-        match word {
-            "(" => open.push(Vec::new()),
-            ")" => {
-                let list = open.pop().expect("a bracket was opened");
-                open.last_mut().expect("the text itself is open").push(Form::List(list));
-            }
-            word => open.last_mut().expect("the text is open").push(Form::Word(word.to_owned())),
-        }
-    }
-    assert_eq!(open.len(), 1, "all brackets are closed");
-    open.remove(0)
-}
-
-/// `a b - kind c - other` as names with their kinds.
-fn typed(forms: &[Form]) -> Vec<(String, Vec<String>)> {
-    let (mut all, mut names) = (Vec::new(), Vec::new());
-    let mut forms = forms.iter();
-    while let Some(form) = forms.next() {
-        if *form == Form::Word("-".to_owned()) {
-            let kinds: Vec<String> = match forms.next().expect("a kind follows") {
-                Form::Word(kind) => vec![kind.clone()],
-                Form::List(either) => {
-                    either[1..].iter().map(|kind| kind.word().to_owned()).collect()
-                }
-            };
-            all.extend(names.drain(..).map(|name| (name, kinds.clone())));
-        } else {
-            names.push(form.word().to_owned());
-        }
-    }
-    all.extend(names.into_iter().map(|name| (name, vec!["object".to_owned()])));
-    all
-}
-
-type State = BTreeSet<Vec<String>>;
+/// A predicate and its arguments; in a rule variables among them, with their question marks.
+type Atom = Vec<String>;
+type State = BTreeSet<Atom>;
 type Binding = BTreeMap<String, String>;
+/// Variables or names, each with its types; none means any.
+type Typed = Vec<(String, Vec<String>)>;
 
-fn atom(form: &Form, binding: &Binding) -> Vec<String> {
-    let value =
-        |form: &Form| binding.get(form.word()).cloned().unwrap_or_else(|| form.word().to_owned());
-    form.list().iter().map(value).collect()
+#[derive(Debug, Clone)]
+enum Condition {
+    Holds(Atom),
+    Equal(String, String),
+    Not(Box<Self>),
+    All(Vec<Self>),
+    Any(Vec<Self>),
+    Every(Typed, Box<Self>),
+    Some(Typed, Box<Self>),
 }
 
-/// What a condition asks for: these hold, those do not. None where an equation is wrong.
-fn asked(form: &Form, binding: &Binding) -> Option<(State, State)> {
-    let (mut holding, mut lacking) = (State::new(), State::new());
-    match form.head() {
-        "" => {}
-        "and" => {
-            for part in &form.list()[1..] {
-                let (more, less) = asked(part, binding)?;
-                holding.extend(more);
-                lacking.extend(less);
-            }
+/// What comes about where a condition holds before, for every choice of objects.
+#[derive(Debug, Clone)]
+struct Effect {
+    variables: Typed,
+    condition: Condition,
+    adds: bool,
+    atom: Atom,
+}
+
+#[derive(Debug, Clone)]
+struct Action {
+    parameters: Typed,
+    precondition: Condition,
+    effects: Vec<Effect>,
+}
+
+/// A domain with its problem, as given.
+#[derive(Debug)]
+struct Given {
+    /// Of each type those that it is one of.
+    kinds: BTreeMap<String, Vec<String>>,
+    objects: BTreeMap<String, BTreeSet<String>>,
+    actions: BTreeMap<String, Action>,
+    /// An atom of variables holds where the condition does.
+    derived: Vec<(Typed, Atom, Condition)>,
+    init: State,
+    goal: Vec<Condition>,
+    /// Equal for names that are the same.
+    key: fn(&str) -> String,
+}
+
+impl Given {
+    fn new(key: fn(&str) -> String) -> Self {
+        Self {
+            kinds: BTreeMap::new(),
+            objects: BTreeMap::new(),
+            actions: BTreeMap::new(),
+            derived: Vec::new(),
+            init: State::new(),
+            goal: Vec::new(),
+            key,
         }
-        "=" => {
-            let sides = atom(form, binding);
-            if sides[1] != sides[2] {
-                return None;
-            }
-        }
-        "not" if form.list()[1].head() == "=" => {
-            let sides = atom(&form.list()[1], binding);
-            if sides[1] == sides[2] {
-                return None;
-            }
-        }
-        "not" => drop(lacking.insert(atom(&form.list()[1], binding))),
-        "or" | "imply" | "forall" | "exists" | "when" => panic!("not for this judge: {form:?}"),
-        _ => drop(holding.insert(atom(form, binding))),
     }
-    Some((holding, lacking))
-}
 
-/// What an effect adds and deletes.
-fn effects(form: &Form, binding: &Binding, adds: &mut State, deletes: &mut State) {
-    match form.head() {
-        "" | "increase" => {}
-        "and" => form.list()[1..].iter().for_each(|part| effects(part, binding, adds, deletes)),
-        "not" => drop(deletes.insert(atom(&form.list()[1], binding))),
-        "when" | "forall" => panic!("not for this judge: {form:?}"),
-        _ => drop(adds.insert(atom(form, binding))),
+    fn is_a(&self, object: &str, wanted: &[String]) -> bool {
+        if wanted.is_empty() || wanted.iter().any(|kind| kind == "object" || kind == "объект")
+        {
+            return true;
+        }
+        let mut open: Vec<&String> = self.objects.get(object).into_iter().flatten().collect();
+        let mut seen = BTreeSet::new();
+        while let Some(kind) = open.pop() {
+            if wanted.contains(kind) {
+                return true;
+            }
+            if seen.insert(kind) {
+                open.extend(self.kinds.get(kind).into_iter().flatten());
+            }
+        }
+        false
+    }
+
+    /// Objects that nobody declared get the types of the parameters that stand where facts name them.
+    fn find_types(&mut self) {
+        let declared: BTreeSet<String> = self
+            .objects
+            .iter()
+            .filter(|(_, kinds)| !kinds.is_empty())
+            .map(|(o, _)| o.clone())
+            .collect();
+        let mut places: BTreeMap<(String, usize), BTreeSet<String>> = BTreeMap::new();
+        let mut note = |atom: &Atom, variables: &Typed| {
+            for (at, argument) in atom[1..].iter().enumerate() {
+                let kinds =
+                    variables.iter().find(|(name, _)| name == argument).map(|(_, kinds)| kinds);
+                let place = places.entry((atom[0].clone(), at)).or_default();
+                place.extend(kinds.into_iter().flatten().cloned());
+            }
+        };
+        for action in self.actions.values() {
+            action.precondition.each_atom(&action.parameters, &mut note);
+            for effect in &action.effects {
+                let bound = both(&action.parameters, &effect.variables);
+                effect.condition.each_atom(&bound, &mut note);
+                note(&effect.atom, &bound);
+            }
+        }
+        for (variables, atom, condition) in &self.derived {
+            note(atom, variables);
+            condition.each_atom(variables, &mut note);
+        }
+        let mut named: Vec<Atom> = self.init.iter().cloned().collect();
+        let mut keep = |atom: &Atom, _: &Typed| named.push(atom.clone());
+        self.goal.iter().for_each(|goal| goal.each_atom(&Vec::new(), &mut keep));
+        for atom in named {
+            for (at, object) in atom[1..].iter().enumerate() {
+                if !declared.contains(object) && !object.starts_with('?') {
+                    let kinds = places.get(&(atom[0].clone(), at)).cloned().unwrap_or_default();
+                    self.objects.entry(object.clone()).or_default().extend(kinds);
+                }
+            }
+        }
+    }
+
+    /// Every choice of objects for variables.
+    fn choices(&self, variables: &[(String, Vec<String>)], around: &Binding) -> Vec<Binding> {
+        let mut all = vec![around.clone()];
+        for (name, kinds) in variables {
+            let fitting: Vec<&String> =
+                self.objects.keys().filter(|o| self.is_a(o, kinds)).collect();
+            let with = |binding: &Binding| -> Vec<Binding> {
+                let one = |object: &&String| {
+                    let mut binding = binding.clone();
+                    binding.insert(name.clone(), (*object).clone());
+                    binding
+                };
+                fitting.iter().map(one).collect()
+            };
+            all = all.iter().flat_map(with).collect();
+        }
+        all
+    }
+
+    fn holds(&self, condition: &Condition, state: &State, binding: &Binding) -> bool {
+        let each = |variables: &Typed| self.choices(variables, binding);
+        match condition {
+            Condition::Holds(atom) => state.contains(&ground(atom, binding)),
+            Condition::Equal(a, b) => value(a, binding) == value(b, binding),
+            Condition::Not(inner) => !self.holds(inner, state, binding),
+            Condition::All(parts) => parts.iter().all(|part| self.holds(part, state, binding)),
+            Condition::Any(parts) => parts.iter().any(|part| self.holds(part, state, binding)),
+            Condition::Every(variables, inner) => {
+                each(variables).iter().all(|binding| self.holds(inner, state, binding))
+            }
+            Condition::Some(variables, inner) => {
+                each(variables).iter().any(|binding| self.holds(inner, state, binding))
+            }
+        }
+    }
+
+    /// A state with all that is derived in it, stratum by stratum.
+    fn with_derived<'s>(&self, state: &'s State) -> Cow<'s, State> {
+        if self.derived.is_empty() {
+            return Cow::Borrowed(state);
+        }
+        let mut full = state.clone();
+        let strata = self.strata();
+        for stratum in 0..=strata.values().copied().max().unwrap_or_default() {
+            let rules: Vec<_> =
+                self.derived.iter().filter(|(_, atom, _)| strata[&atom[0]] == stratum).collect();
+            loop {
+                let before = full.len();
+                for (variables, atom, condition) in &rules {
+                    for binding in self.choices(variables, &Binding::new()) {
+                        let atom = ground(atom, &binding);
+                        if !full.contains(&atom) && self.holds(condition, &full, &binding) {
+                            full.insert(atom);
+                        }
+                    }
+                }
+                if full.len() == before {
+                    break;
+                }
+            }
+        }
+        Cow::Owned(full)
+    }
+
+    /// A derived predicate stands above those whose absence it asks for.
+    fn strata(&self) -> BTreeMap<String, usize> {
+        let heads: BTreeSet<String> =
+            self.derived.iter().map(|(_, atom, _)| atom[0].clone()).collect();
+        let mut strata: BTreeMap<String, usize> =
+            heads.iter().map(|name| (name.clone(), 0)).collect();
+        for _ in 0..=heads.len() {
+            for (_, atom, condition) in &self.derived {
+                let mut least = strata[&atom[0]];
+                condition.each_sign(false, &mut |name, negated| {
+                    if let Some(below) = strata.get(name) {
+                        least = least.max(below + usize::from(negated));
+                    }
+                });
+                strata.insert(atom[0].clone(), least);
+            }
+        }
+        strata
     }
 }
 
-struct Done {
-    name: String,
+impl Condition {
+    fn each_atom(&self, bound: &Typed, f: &mut dyn FnMut(&Atom, &Typed)) {
+        match self {
+            Self::Holds(atom) => f(atom, bound),
+            Self::Equal(..) => {}
+            Self::Not(inner) => inner.each_atom(bound, f),
+            Self::All(parts) | Self::Any(parts) => parts.iter().for_each(|p| p.each_atom(bound, f)),
+            Self::Every(variables, inner) | Self::Some(variables, inner) => {
+                inner.each_atom(&both(bound, variables), f);
+            }
+        }
+    }
+
+    /// Every predicate, and whether it is asked to be absent.
+    fn each_sign(&self, negated: bool, f: &mut dyn FnMut(&str, bool)) {
+        match self {
+            Self::Holds(atom) => f(&atom[0], negated),
+            Self::Equal(..) => {}
+            Self::Not(inner) => inner.each_sign(!negated, f),
+            Self::All(parts) | Self::Any(parts) => {
+                parts.iter().for_each(|p| p.each_sign(negated, f))
+            }
+            Self::Every(_, inner) | Self::Some(_, inner) => inner.each_sign(negated, f),
+        }
+    }
+
+    /// The facts that it asks for and those whose absence it asks for, as far as all must be so.
+    fn literals(&self, binding: &Binding, holding: &mut State, lacking: &mut State) {
+        match self {
+            Self::Holds(atom) => drop(holding.insert(ground(atom, binding))),
+            Self::All(parts) => parts.iter().for_each(|p| p.literals(binding, holding, lacking)),
+            Self::Not(inner) => {
+                if let Self::Holds(atom) = &**inner {
+                    lacking.insert(ground(atom, binding));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn both(some: &Typed, more: &Typed) -> Typed {
+    // The inner ones first: they hide what bears the same name outside.
+    more.iter().chain(some).cloned().collect()
+}
+
+fn value(word: &str, binding: &Binding) -> String {
+    binding.get(word).map_or_else(|| word.to_owned(), Clone::clone)
+}
+
+fn ground(atom: &Atom, binding: &Binding) -> Atom {
+    atom.iter().map(|word| value(word, binding)).collect()
+}
+
+/// A line of a plan.
+struct Done<'g> {
+    line: String,
+    action: &'g Action,
+    binding: Binding,
+}
+
+/// What a line comes to in a state.
+struct Change {
     holding: State,
     lacking: State,
     adds: State,
     deletes: State,
 }
 
-impl Done {
-    fn is_possible(&self, state: &State) -> bool {
-        self.holding.is_subset(state) && self.lacking.is_disjoint(state)
+impl Done<'_> {
+    /// None where it cannot be carried out.
+    fn change(&self, given: &Given, state: &State) -> Option<Change> {
+        let full = given.with_derived(state);
+        if !given.holds(&self.action.precondition, &full, &self.binding) {
+            return None;
+        }
+        let mut change = Change {
+            holding: State::new(),
+            lacking: State::new(),
+            adds: State::new(),
+            deletes: State::new(),
+        };
+        let Change { holding, lacking, adds, deletes } = &mut change;
+        self.action.precondition.literals(&self.binding, holding, lacking);
+        for effect in &self.action.effects {
+            for binding in given.choices(&effect.variables, &self.binding) {
+                if given.holds(&effect.condition, &full, &binding) {
+                    effect.condition.literals(&binding, holding, lacking);
+                    let atom = ground(&effect.atom, &binding);
+                    if effect.adds {
+                        adds.insert(atom)
+                    } else {
+                        deletes.insert(atom)
+                    };
+                }
+            }
+        }
+        Some(change)
     }
+}
 
+impl Change {
     /// What is deleted and added holds.
     fn carry_out(&self, state: &mut State) {
         state.retain(|fact| !self.deletes.contains(fact));
@@ -153,125 +337,121 @@ impl Done {
     }
 }
 
-/// The actions of the plan by steps, what holds at first, and the goal.
-struct Case {
-    steps: Vec<Vec<Done>>,
-    init: State,
-    goal: (State, State),
-}
-
-fn section<'f>(forms: &'f [Form], name: &str) -> &'f [Form] {
-    forms
-        .iter()
-        .find(|form| matches!(form, Form::List(_)) && form.head() == name)
-        .map_or(&[], |f| &f.list()[1..])
-}
-
-fn case(domain: &str, problem: &str, plan: &str) -> Result<Case, String> {
-    let (domain, problem) = (read(domain), read(problem));
-    let (domain, problem) = (domain[0].list(), problem[0].list());
-    let parents: BTreeMap<String, Vec<String>> =
-        typed(section(domain, ":types")).into_iter().collect();
-    let objects: BTreeMap<String, Vec<String>> = typed(section(domain, ":constants"))
-        .into_iter()
-        .chain(typed(section(problem, ":objects")))
-        .collect();
-    let is_a = |object: &str, wanted: &[String]| {
-        let mut open = objects.get(object).cloned().unwrap_or_default();
-        let mut seen = BTreeSet::new();
-        while let Some(kind) = open.pop() {
-            if wanted.contains(&kind) || wanted.contains(&"object".to_owned()) {
-                return true;
-            }
-            if seen.insert(kind.clone()) {
-                open.extend(parents.get(&kind).cloned().unwrap_or_default());
-            }
-        }
-        false
-    };
-    let mut actions: BTreeMap<&str, BTreeMap<&str, &Form>> = BTreeMap::new();
-    for form in domain.iter().filter(|f| matches!(f, Form::List(_)) && f.head() == ":action") {
-        let parts = form.list()[2..].chunks(2).map(|pair| (pair[0].word(), &pair[1])).collect();
-        actions.insert(form.list()[1].word(), parts);
-    }
-    let none = Form::List(Vec::new());
-    let mut steps: BTreeMap<usize, Vec<Done>> = BTreeMap::new();
+/// The plan's lines by their steps: `step: (action object …)`.
+fn lines<'g>(given: &'g Given, plan: &str) -> Result<Vec<Vec<Done<'g>>>, String> {
+    let mut steps: BTreeMap<usize, Vec<Done<'g>>> = BTreeMap::new();
     for line in plan.lines().map(|line| line.split(';').next().unwrap_or_default()) {
         let Some((step, call)) = line.split_once(':') else { continue };
         let step = step
             .trim()
             .parse()
             .map_err(|why: std::num::ParseIntError| format!("no step ({why}): {line}"))?;
-        let call = read(call);
-        let words: Vec<&str> = call[0].list().iter().map(Form::word).collect();
-        let action = actions.get(words[0]).ok_or_else(|| format!("no such action: {line}"))?;
-        let parameters = typed(action.get(":parameters").unwrap_or(&&none).list());
-        if parameters.len() != words.len() - 1 {
+        let words = called(call, given.key);
+        let name = words.first().ok_or_else(|| format!("no action: {line}"))?;
+        let action = given.actions.get(name).ok_or_else(|| format!("no such action: {line}"))?;
+        if action.parameters.len() != words.len() - 1 {
             return Err(format!("not so many arguments: {line}"));
         }
         let mut binding = Binding::new();
-        for ((name, kinds), word) in parameters.iter().zip(&words[1..]) {
-            if !is_a(word, kinds) {
+        for ((name, kinds), word) in action.parameters.iter().zip(&words[1..]) {
+            if !given.is_a(word, kinds) {
                 return Err(format!("{word} is no {kinds:?}: {line}"));
             }
-            binding.insert(name.clone(), (*word).to_owned());
+            binding.insert(name.clone(), word.clone());
         }
-        let asked = asked(action.get(":precondition").unwrap_or(&&none), &binding);
-        let (holding, lacking) = asked.ok_or_else(|| format!("equal or not: {line}"))?;
-        let (mut adds, mut deletes) = (State::new(), State::new());
-        effects(action.get(":effect").unwrap_or(&&none), &binding, &mut adds, &mut deletes);
-        let done = Done { name: line.trim().to_owned(), holding, lacking, adds, deletes };
+        let done = Done { line: line.trim().to_owned(), action, binding };
         steps.entry(step).or_default().push(done);
     }
-    let nothing = Binding::new();
-    let init = section(problem, ":init")
-        .iter()
-        .filter(|f| f.head() != "=")
-        .map(|f| atom(f, &nothing))
-        .collect();
-    let goal =
-        asked(section(problem, ":goal").first().unwrap_or(&none), &nothing).ok_or("no goal")?;
-    Ok(Case { steps: steps.into_values().collect(), init, goal })
+    Ok(steps.into_values().collect())
 }
 
-/// Whether the plan works; the first reason why not.
-///
-/// # Errors
-/// Why it does not.
-pub(crate) fn judge(domain: &str, problem: &str, plan: &str) -> Result<(), String> {
-    let case = case(domain, problem, plan)?;
-    let mut state = case.init.clone();
-    for step in &case.steps {
-        for (at, action) in step.iter().enumerate() {
-            if !action.is_possible(&state) {
-                return Err(format!("cannot be carried out: {}", action.name));
-            }
-            for other in &step[..at] {
-                if action.spoils(other) || other.spoils(action) {
-                    return Err(format!("not in one step: {} and {}", action.name, other.name));
-                }
-            }
+/// The words of a call in brackets; those with blanks stand in quotation marks.
+fn called(call: &str, key: fn(&str) -> String) -> Vec<String> {
+    let (mut words, mut word, mut until) = (Vec::new(), String::new(), None);
+    for sign in call.chars() {
+        match (until, sign) {
+            (Some(end), sign) if sign == end => until = None,
+            (None, '«') => until = Some('»'),
+            (None, '"') => until = Some('"'),
+            (None, '(' | ')' | ' ' | '\t') => words.push(std::mem::take(&mut word)),
+            _ => word.push(sign),
         }
-        step.iter().for_each(|action| action.carry_out(&mut state));
     }
-    let reached = |state: &State| case.goal.0.is_subset(state) && case.goal.1.is_disjoint(state);
-    if !reached(&state) {
+    words.push(word);
+    words.into_iter().filter(|word| !word.is_empty()).map(|word| key(&word)).collect()
+}
+
+/// What is judged by: the text of a rule file, or those of a domain and a problem.
+#[derive(Debug, Clone)]
+pub(crate) enum Texts {
+    Pddl { domain: String, problem: String },
+    Rules(String),
+}
+
+/// A judgement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    Works,
+    /// The first reason why not.
+    Fails(String),
+    /// The texts say what the judge does not read.
+    Unread(String),
+}
+
+/// Whether the plan works.
+pub(crate) fn judge(texts: &Texts, plan: &str) -> Verdict {
+    let given = match texts {
+        Texts::Pddl { domain, problem } => pddl::read(domain, problem),
+        Texts::Rules(text) => rules::read(text),
+    };
+    match given {
+        Ok(mut given) => {
+            given.find_types();
+            carried_out(&given, plan).map_or_else(Verdict::Fails, |()| Verdict::Works)
+        }
+        Err(why) => Verdict::Unread(why),
+    }
+}
+
+fn carried_out(given: &Given, plan: &str) -> Result<(), String> {
+    let steps = lines(given, plan)?;
+    let is_reached = |state: &State| {
+        let full = given.with_derived(state);
+        given.goal.iter().all(|goal| given.holds(goal, &full, &Binding::new()))
+    };
+    let mut state = given.init.clone();
+    for step in &steps {
+        let mut changes: Vec<(Change, &str)> = Vec::new();
+        for action in step {
+            let Some(change) = action.change(given, &state) else {
+                return Err(format!("cannot be carried out: {}", action.line));
+            };
+            if let Some((_, other)) =
+                changes.iter().find(|(c, _)| c.spoils(&change) || change.spoils(c))
+            {
+                return Err(format!("not in one step: {} and {other}", action.line));
+            }
+            changes.push((change, &action.line));
+        }
+        changes.iter().for_each(|(change, _)| change.carry_out(&mut state));
+    }
+    if !is_reached(&state) {
         return Err("the goal is missed".to_owned());
     }
     for backwards in [false, true] {
-        let mut state = case.init.clone();
-        for step in &case.steps {
-            let order: Vec<&Done> =
+        let mut in_turn = given.init.clone();
+        for step in &steps {
+            let order: Vec<&Done<'_>> =
                 if backwards { step.iter().rev().collect() } else { step.iter().collect() };
             for action in order {
-                if !action.is_possible(&state) {
-                    return Err(format!("cannot be carried out in turn: {}", action.name));
-                }
-                action.carry_out(&mut state);
+                let Some(change) = action.change(given, &in_turn) else {
+                    return Err(format!("cannot be carried out in turn: {}", action.line));
+                };
+                change.carry_out(&mut in_turn);
             }
         }
-        if !reached(&state) {
-            return Err("the goal is missed in turn".to_owned());
+        if in_turn != state {
+            return Err("another end in turn".to_owned());
         }
     }
     Ok(())

@@ -19,7 +19,7 @@ use super::relaxed::{Estimate, Relaxed, State, carry_out, holds, initial};
 use crate::bits;
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
-use crate::{Limit, Limits};
+use crate::{Attempt, Limit, Limits, Way};
 
 /// What forward search came to.
 pub(crate) enum Found {
@@ -50,7 +50,9 @@ const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
 pub(crate) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
     let mut forward = Forward::new(task, limits, effort);
-    let operators = match forward.sequence()? {
+    let found = forward.sequence();
+    forward.note();
+    let operators = match found? {
         Searched::Path(operators) => operators,
         Searched::Exhausted => return Ok(Found::Exhausted),
         Searched::Open => return Ok(Found::Open),
@@ -82,8 +84,9 @@ pub(crate) fn step_by_step(
     let landmarks = Landmarks::of(task);
     let state = initial(task);
     let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
-    let found = forward.best_first(Stage { state, attained }, landmarks.as_ref(), false)?;
-    Ok(found.map(|(operators, _)| without_needless(task, operators)))
+    let found = forward.best_first(Stage { state, attained }, landmarks.as_ref(), false);
+    forward.note();
+    Ok(found?.map(|(operators, _)| without_needless(task, operators)))
 }
 
 fn without_needless(task: &Task, operators: Vec<OperatorId>) -> Plan {
@@ -119,6 +122,11 @@ impl<'a> Forward<'a> {
             effort,
             looks_ahead: true,
         }
+    }
+
+    fn note(&self) {
+        let effort = self.relaxed.effort + self.by_layers.effort;
+        self.limits.note(Attempt::new(Way::Forward, 0, self.evaluated, effort));
     }
 
     /// Hill climbing, then a little width, and with the least effort no more; then landmarks, then width, then relaxed plans and landmarks.

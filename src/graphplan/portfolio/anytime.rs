@@ -10,6 +10,7 @@ use super::{fewer, shorten};
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Working, prove};
 use crate::strips::{FactId, Task};
+use crate::tried::telling;
 use crate::units::InOrder as _;
 use crate::{Learned, Limit, Limits, Outcome, Plan, Unfinished, solve, solve_learning, validate};
 
@@ -63,7 +64,10 @@ impl Best<'_> {
     fn end(self, limit: Limit) -> Outcome {
         match self.plan {
             Some(plan) if plan.steps.len() <= self.at_least => Outcome::Plan(plan),
-            plan => Outcome::LimitReached(Unfinished { limit, at_least: self.at_least, plan }),
+            plan => {
+                let at_least = self.at_least;
+                Outcome::LimitReached(Unfinished { at_least, plan, ..limit.into() })
+            }
         }
     }
 }
@@ -73,12 +77,15 @@ impl Best<'_> {
 /// plan with fewer steps, [`Limits::tell_bound`] of every higher bound.
 #[must_use]
 pub fn solve_anytime(task: &Task, limits: &Limits) -> Outcome {
-    let mut best = Best { task, limits, plan: None, at_least: 0 };
-    match run(&mut best) {
-        Ok(Some(outcome)) => outcome,
-        Ok(None) => best.end(Limit::Effort),
-        Err(limit) => best.end(limit),
-    }
+    let search = |limits: &Limits| {
+        let mut best = Best { task, limits, plan: None, at_least: 0 };
+        match run(&mut best) {
+            Ok(Some(outcome)) => outcome,
+            Ok(None) => best.end(Limit::Effort),
+            Err(limit) => best.end(limit),
+        }
+    };
+    telling(limits, search, |outcome| outcome)
 }
 
 /// As [`solve_learning`] as long as [`Limits::effort`] lasts; where the proof has not come to an end by then, what
@@ -89,6 +96,10 @@ pub fn solve_soon(
     learned: Option<&Learned>,
     limits: &Limits,
 ) -> (Outcome, Option<Learned>) {
+    telling(limits, |limits| soon(task, learned, limits), |(outcome, _)| outcome)
+}
+
+fn soon(task: &Task, learned: Option<&Learned>, limits: &Limits) -> (Outcome, Option<Learned>) {
     let solved = solve_learning(task, learned, limits);
     let Outcome::LimitReached(refuted) = &solved.0 else { return solved };
     if refuted.limit != Limit::Effort {

@@ -16,6 +16,7 @@ pub use anytime::{solve_anytime, solve_soon};
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Turn, Working, prove, search};
 use crate::strips::{FactId, Task};
+use crate::tried::telling;
 use crate::{Limit, Limits, Outcome, Plan, Unfinished, solve, with_stack};
 
 /// Steps that a task takes at least, as far as can be seen at once: where deletes are forgotten.
@@ -62,6 +63,10 @@ pub fn bounded(task: &Task, plan: Plan, limits: &Limits) -> (Plan, usize) {
 /// [`Limits::shorten`], but not proven to be the shortest; that there is no plan is proven all the same.
 #[must_use]
 pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
+    telling(limits, |limits| soon(task, limits), |outcome| outcome)
+}
+
+fn soon(task: &Task, limits: &Limits) -> Outcome {
     /// Turns of the graph's extraction at a level, when forward search is stuck.
     const FEW_TURNS: u32 = 3;
     /// A graph that takes more than this part of the memory, or more steps, is left alone.

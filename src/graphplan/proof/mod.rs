@@ -28,7 +28,8 @@ pub use replan::Learned;
 
 use crate::portfolio::{any, parallel};
 use crate::strips::{FactId, Task};
-use crate::{Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, with_stack};
+use crate::tried::telling;
+use crate::{Attempt, Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, Way, with_stack};
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
 use induction::{Induction, Proof};
@@ -52,6 +53,11 @@ pub fn solve_learning(
     learned: Option<&Learned>,
     limits: &Limits,
 ) -> (Outcome, Option<Learned>) {
+    let search = |limits: &Limits| learning(task, learned, limits);
+    telling(limits, search, |(outcome, _)| outcome)
+}
+
+fn learning(task: &Task, learned: Option<&Learned>, limits: &Limits) -> (Outcome, Option<Learned>) {
     let inherited = learned.and_then(|learned| learned.about(task));
     if inherited.is_none() && task.facts.len() >= LARGE {
         return (solve_large(task, limits).unwrap_or_else(Outcome::LimitReached), None);
@@ -161,7 +167,9 @@ pub(crate) fn search(
 ) -> Result<(Option<Outcome>, Learned), Unfinished> {
     let mut extractor = Extractor::new(task, limits, turn);
     let mut graph = PlanningGraph::new(task);
-    match by_levels(&mut graph, &mut extractor, inherited) {
+    let found = by_levels(&mut graph, &mut extractor, inherited);
+    extractor.note(&graph);
+    match found {
         Ok(outcome) => {
             let fewest_steps = graph.top();
             let no_goods = extractor.search.into_no_goods();
@@ -169,7 +177,8 @@ pub(crate) fn search(
             Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
         }
         Err(limit) => {
-            Err(Unfinished { limit, at_least: extractor.at_least, plan: extractor.known })
+            let (at_least, plan) = (extractor.at_least, extractor.known);
+            Err(Unfinished { at_least, plan, ..limit.into() })
         }
     }
 }
@@ -240,6 +249,7 @@ pub(crate) fn prove(task: &Task, ceiling: usize, effort: u64, limits: &Limits) -
         let mut extractor = Extractor::new(task, &limits, turn);
         let mut graph = PlanningGraph::new(task);
         let outcome = by_levels(&mut graph, &mut extractor, None);
+        extractor.note(&graph);
         let at_least = extractor.at_least;
         Ok(match outcome {
             Ok(Some(Outcome::Plan(plan))) => Tried::Plan(plan),
@@ -363,6 +373,11 @@ impl<'a> Extractor<'a> {
         let induction = self.induction.as_ref().map_or(0, Induction::effort);
         let choices = self.search.choices() * EFFORT_A_CHOICE;
         graph.effort() + choices + self.encoding.effort() + induction
+    }
+
+    fn note(&self, graph: &PlanningGraph) {
+        let (levels, nodes) = (graph.top(), self.search.choices());
+        self.limits.note(Attempt::new(Way::Proof, levels, nodes, self.effort(graph)));
     }
 
     /// The fewest steps are no more than those of a plan found soon.

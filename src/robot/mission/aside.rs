@@ -3,7 +3,7 @@
 //! Invariant: a push is tried only of what the map says is movable, and only where it opens the way.
 
 use crate::belief::InTheWay;
-use crate::geometry::{Method, Remedy, Target};
+use crate::geometry::{Method, NoRoute, Remedy, Target};
 use crate::map::Entity;
 use crate::reins::Reins;
 use crate::semantics::{cargo, predicate};
@@ -113,9 +113,25 @@ impl Mission<'_> {
     }
 
     /// The surprise for which a mission ends, with what would open the way.
-    pub(super) fn with_remedy(&self, surprise: Surprise) -> Surprise {
+    pub(crate) fn with_remedy(&self, surprise: Surprise) -> Surprise {
         let Surprise::NoWay { to, why, remedy: None } = surprise else { return surprise };
         let remedy = self.remedy_for(&to, self.belief.area);
+        if let (NoRoute::NoFloor, None) = (&why, &remedy)
+            && let Some((why, remedy)) = self.barred_behind(&to)
+        {
+            return Surprise::NoWay { to, why, remedy: remedy.map(Box::new) };
+        }
         Surprise::NoWay { to, why, remedy: remedy.map(Box::new) }
+    }
+
+    /// Where there is no room to stand before a door: what bars the way into the room behind it, and what would open that.
+    fn barred_behind(&self, door: &str) -> Option<(NoRoute, Option<Remedy>)> {
+        let (floor, world) = (self.belief.floor(), &self.belief.world);
+        let here = self.belief.area;
+        let join = self.joins.iter().find(|join| join.opening == door && join.from == here)?;
+        let (start, behind) = (self.belief.pose.at, Target::Area(join.to));
+        let no = floor.route(world, start, behind, Method::Shortest).err()?;
+        let remedy = floor.remedy(world, start, behind, &no);
+        (!no.barriers().is_empty()).then_some((no, remedy))
     }
 }

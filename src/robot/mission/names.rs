@@ -78,7 +78,7 @@ impl Mission<'_> {
         self.entity(name, |e| if let Entity::Area(id) = e { Some(id) } else { None })
     }
 
-    pub(super) fn door(&self, name: &str) -> Result<DoorId, Surprise> {
+    pub(crate) fn door(&self, name: &str) -> Result<DoorId, Surprise> {
         self.entity(name, |e| if let Entity::Door(id) = e { Some(id) } else { None })
     }
 

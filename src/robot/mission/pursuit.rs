@@ -82,12 +82,7 @@ impl Mission<'_> {
                     // Who is told may stop: another way that the task has is not tried then.
                     if reins.stop.is_raised() { Ending::Stopped } else { Ending::NoPlan(planned) }
                 }
-                Ending::Stuck(surprise) => {
-                    if let Some(planned) = self.refused.take().filter(|_| !surprise.is_of_zone()) {
-                        (reins.tell)(&Event::Planned(&planned));
-                    }
-                    Ending::Stuck(self.with_remedy(surprise))
-                }
+                Ending::Stuck(surprise) => Ending::Stuck(self.with_remedy(surprise)),
                 other => other,
             });
         }

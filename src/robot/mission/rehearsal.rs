@@ -6,10 +6,11 @@
 //!
 //! **Invariant**: neither the mission nor the vehicle is changed by it.
 
-use crate::map::{DoorStatus, Entity};
+use crate::map::{DoorState, DoorStatus, Entity};
 use crate::units::{AreaId, ReplicaId, Stop};
 
 use super::Mission;
+use crate::belief::Belief;
 use crate::directive::{Directive, Primitive};
 use crate::event::{Event, Surprise};
 use crate::reins::Reins;
@@ -83,4 +84,53 @@ pub(super) fn rehearse(
         _ => Known::Nothing,
     };
     Err((known, surprise))
+}
+
+/// Tries a plan for a scenario: the first directive that the floor refuses, and why. What fails for another reason the
+/// scenario may know better, and it is taken to be done.
+pub(super) fn refused_on_floor(
+    mission: &Mission<'_>,
+    directives: &[Directive],
+    stop: &Stop,
+) -> Option<(usize, Surprise)> {
+    let mut trial = mission.clone();
+    let put_down = |belief: &Belief| {
+        let vehicle = Simulator::new(belief.world.clone(), belief.map, belief.pose);
+        vehicle.laden(belief.held.clone(), &belief.handed_over, &belief.aboard)
+    };
+    let mut vehicle = put_down(&trial.belief);
+    for (at, directive) in directives.iter().enumerate() {
+        let (here, nobody) = ((trial.belief.map, trial.belief.pose), &mut |_: &Event<'_>| {});
+        let mut reins = Reins::new(&mut vehicle, here, stop, nobody).ok()?;
+        let surprise = match trial.carry_out(&[directive], &mut reins) {
+            Ok(()) => continue,
+            Err((_, Unfinished::Met(surprise))) => surprise,
+            Err(_) => return None,
+        };
+        match surprise {
+            Surprise::NoWay { .. }
+            | Surprise::NoReturn { .. }
+            | Surprise::Refused { refusal: Refusal::DoorJammed { .. }, .. } => {
+                return Some((at, trial.with_remedy(surprise)));
+            }
+            _ => {}
+        }
+        for primitive in directive.primitives() {
+            match primitive {
+                // Who unlocked it is not known.
+                Primitive::SetDoor { door, status } => {
+                    let state = DoorState { status, ..DoorState::CLOSED };
+                    let state = if status == DoorStatus::Open { DoorState::OPEN } else { state };
+                    trial.belief.set_door(trial.door(&door).ok()?, state);
+                    vehicle = put_down(&trial.belief);
+                }
+                // From here on it is not known where the robot is.
+                Primitive::GoToPlace(_) | Primitive::GoToDoor(_) | Primitive::Cross { .. } | Primitive::Ride { .. } => {
+                    return None;
+                }
+                _ => {}
+            }
+        }
+    }
+    None
 }

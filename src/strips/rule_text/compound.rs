@@ -110,7 +110,7 @@ impl Parser<'_> {
     }
 
     /// One condition, or a group as its parts.
-    fn one(&mut self) -> Parsed<Vec<Condition>> {
+    pub(super) fn one(&mut self) -> Parsed<Vec<Condition>> {
         match self.kind() {
             Some(TokenKind::Open) => self.group(),
             _ => Ok(vec![self.condition()?]),

@@ -124,9 +124,9 @@ impl<'a> Parser<'a> {
         let help = Some(match near {
             Some(near) => perhaps(near),
             None => Bilingual::new(
-                "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
+                "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, Желательно, \
                  Типы, Предикаты, Объекты, Включить, Карта, По-английски",
-                "sections: Action, Facts, Assumptions, Initial, Goal, Types, Predicates, Objects, \
+                "sections: Action, Facts, Assumptions, Initial, Goal, Preferably, Types, Predicates, Objects, \
                  Include, Map, In English",
             ),
         });

@@ -10,8 +10,14 @@ pub(super) enum Heading {
     AddEffect,
     DelEffect,
     Cost,
+    Duration,
+    Throughout,
+    AtEnd,
+    StartAdd,
+    StartDel,
     Initial,
     Goal,
+    Wishes,
     Facts,
     Assumptions,
     Types,
@@ -37,6 +43,16 @@ pub(super) const HEADINGS: &[(&str, Heading)] = &[
     ("Effect-", Heading::DelEffect),
     ("Стоимость", Heading::Cost),
     ("Cost", Heading::Cost),
+    ("Длительность", Heading::Duration),
+    ("Duration", Heading::Duration),
+    ("Всё-время", Heading::Throughout),
+    ("Throughout", Heading::Throughout),
+    ("Под-конец", Heading::AtEnd),
+    ("At-end", Heading::AtEnd),
+    ("Начало+", Heading::StartAdd),
+    ("Start+", Heading::StartAdd),
+    ("Начало-", Heading::StartDel),
+    ("Start-", Heading::StartDel),
     ("Исходная позиция", Heading::Initial),
     ("Initial", Heading::Initial),
     ("Initial position", Heading::Initial),
@@ -44,6 +60,8 @@ pub(super) const HEADINGS: &[(&str, Heading)] = &[
     ("Цель", Heading::Goal),
     ("Goal", Heading::Goal),
     ("Goal position", Heading::Goal),
+    ("Желательно", Heading::Wishes),
+    ("Preferably", Heading::Wishes),
     ("Факты", Heading::Facts),
     ("Facts", Heading::Facts),
     ("Предположения", Heading::Assumptions),
@@ -76,7 +94,16 @@ impl Heading {
     pub(super) fn is_part_of_action(self) -> bool {
         matches!(
             self,
-            Self::Parameters | Self::Precondition | Self::AddEffect | Self::DelEffect | Self::Cost
+            Self::Parameters
+                | Self::Precondition
+                | Self::AddEffect
+                | Self::DelEffect
+                | Self::Cost
+                | Self::Duration
+                | Self::Throughout
+                | Self::AtEnd
+                | Self::StartAdd
+                | Self::StartDel
         )
     }
 }

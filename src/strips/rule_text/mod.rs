@@ -7,9 +7,12 @@
 //!              | "Типы:" { name ["—" type {"," type}] }        | "Объекты:" { name ["—" type] }
 //!              | "Предикаты:" { name "(" [type {"," type}] ")" }
 //!              | ("По-русски:" | "По-английски:") { ["НЕ"] name ["(" [variable {"," variable}] ")"] "=" "«" phrase "»" }
+//!              | "Желательно:" { name [number] condition }
 //!              | "Включить:" path | "Карта:" path
 //! part        := "Параметры:" { [type] variable } | "Предусловие:" { condition }
 //!              | "Эффект+:" { effect } | "Эффект-:" { effect } | "Стоимость:" number
+//!              | "Длительность:" number | ("Всё-время:" | "Под-конец:") { condition }
+//!              | ("Начало+:" | "Начало-:") { effect }
 //!              | "Выводится:" atom ["ЕСЛИ" condition]
 //! condition   := ["НЕ"] (atom | "(" condition {"," condition} {"ИЛИ" condition {"," condition}} ")")
 //!              | ("ДЛЯ-ВСЕХ" | "СУЩЕСТВУЕТ") "(" { [type] variable } ")" condition
@@ -27,11 +30,14 @@ mod heading;
 use cursor::Ahead;
 use heading::Heading;
 
+use miette::SourceSpan;
+
+use crate::durative::Lasting;
 use crate::error::RuleError;
 use crate::fault::RuleFault;
 use crate::syntax::{
     ActionText, Amount, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter,
-    PhraseText, Signature, Term,
+    PhraseText, PreferenceText, Signature, Term,
 };
 use crate::token::{Token, TokenKind, tokens};
 use crate::units::{Language, Source, name_key};
@@ -49,8 +55,7 @@ pub(super) struct RuleText {
 
 pub(super) fn parse(source: &Source) -> RuleText {
     let tokens = tokens(source.text());
-    let mut parser =
-        Parser { source, tokens: &tokens, next: 0, depth: 0, text: RuleText::default() };
+    let mut parser = Parser::new(source, &tokens);
     parser.file();
     parser.text
 }
@@ -61,12 +66,18 @@ struct Parser<'a> {
     next: usize,
     /// Brackets open around the condition that is being read.
     depth: usize,
+    /// Of the action opened last, where it lasts.
+    lasting: Option<Lasting>,
     text: RuleText,
 }
 
 type Parsed<T> = Result<T, RuleFault>;
 
 impl<'a> Parser<'a> {
+    fn new(source: &'a Source, tokens: &'a [Token<'a>]) -> Self {
+        Self { source, tokens, next: 0, depth: 0, lasting: None, text: RuleText::default() }
+    }
+
     fn file(&mut self) {
         while self.next < self.tokens.len() && self.text.faults.len() < MAX_FAULTS {
             self.depth = 0;
@@ -75,6 +86,7 @@ impl<'a> Parser<'a> {
                 self.skip_to_heading();
             }
         }
+        self.end_action();
     }
 
     fn section(&mut self) -> Parsed<()> {
@@ -123,6 +135,7 @@ impl<'a> Parser<'a> {
                 self.text.document.goal.extend(goal);
                 Ok(())
             }
+            Heading::Wishes => self.wishes(),
             Heading::Types => {
                 let types = self.declarations()?;
                 self.text.document.types.get_or_insert_default().extend(types);
@@ -153,6 +166,7 @@ impl<'a> Parser<'a> {
     }
 
     fn action(&mut self) -> Parsed<()> {
+        self.end_action();
         let name = self.name(("имя действия", "the name of an action"))?;
         self.text.document.actions.push(ActionText::new(name));
         Ok(())
@@ -194,8 +208,27 @@ impl<'a> Parser<'a> {
                 self.last_action().del.extend(atoms);
                 self.last_action().conditional.extend(conditional);
             }
+            Heading::Throughout | Heading::AtEnd => {
+                let later = self.conditions()?;
+                self.lasting(here).later.extend(later);
+            }
+            Heading::StartAdd => {
+                let (atoms, conditional) = self.effects(true)?;
+                let start = &mut self.lasting(here).start;
+                start.add.extend(atoms);
+                start.conditional.extend(conditional);
+            }
+            Heading::StartDel => {
+                let (atoms, conditional) = self.effects(false)?;
+                let start = &mut self.lasting(here).start;
+                start.del.extend(atoms);
+                start.conditional.extend(conditional);
+            }
             _ => {
                 let cost = self.cost()?;
+                if heading == Heading::Duration {
+                    self.lasting(here);
+                }
                 self.last_action().cost.push(CostTerm::Number(cost));
             }
         }
@@ -213,6 +246,38 @@ impl<'a> Parser<'a> {
 
     fn last_action(&mut self) -> &mut ActionText {
         self.text.document.actions.last_mut().expect("a part is read after its action's name")
+    }
+
+    /// What the action opened last, which therefore lasts, does at its start and asks later.
+    fn lasting(&mut self, at: SourceSpan) -> &mut Lasting {
+        let action = self.text.document.actions.last();
+        let action = action.expect("a part is read after its action's name");
+        self.lasting.get_or_insert_with(|| Lasting::new(action, at))
+    }
+
+    /// The action opened last has no more parts.
+    fn end_action(&mut self) {
+        let RuleText { document, faults, .. } = &mut self.text;
+        if let (Some(lasting), Some(action)) = (self.lasting.take(), document.actions.last_mut()) {
+            lasting.into_one_piece(self.source, action, &mut document.warnings, faults);
+        }
+    }
+
+    /// `свет 2.5 ПОМЕЩЕНИЕ-ОСВЕЩЕНО_(Комната-А)`: what is wanted where it can be had, and what it costs if not.
+    fn wishes(&mut self) -> Parsed<()> {
+        while matches!(self.kind(), Some(TokenKind::Word(_))) && self.heading_ahead().is_none() {
+            let name = self.name(("имя желания", "the name of a preference"))?;
+            let is_number = |word: &str| word.starts_with(|sign: char| sign.is_ascii_digit());
+            let weight = match self.kind() {
+                Some(TokenKind::Word(word)) if is_number(word) => self.cost()?,
+                _ => Amount::ONE,
+            };
+            let condition = Condition::Any(vec![self.one()?]);
+            let document = &mut self.text.document;
+            document.violations.get_or_insert_default().push((name.clone(), weight));
+            document.preferences.push(PreferenceText { name, condition });
+        }
+        Ok(())
     }
 
     pub(super) fn parameters(&mut self) -> Parsed<Vec<Parameter>> {
@@ -529,8 +594,7 @@ fn is_not(word: &str) -> bool {
 /// The conditions that a text of its own consists of, such as facts given in an argument.
 pub(super) fn conditions(source: &Source) -> Result<Vec<Condition>, RuleFault> {
     let tokens = tokens(source.text());
-    let mut parser =
-        Parser { source, tokens: &tokens, next: 0, depth: 0, text: RuleText::default() };
+    let mut parser = Parser::new(source, &tokens);
     let conditions = parser.conditions()?;
     match parser.kind() {
         None => Ok(conditions),

@@ -60,3 +60,24 @@ fn what_is_not_read_is_refused_with_its_place() {
     let maximized = read("(:goal (preference p (lit a))) (:metric maximize (is-violated p))");
     assert_eq!(maximized.map(|scenario| scenario.warnings.len()), Ok(1));
 }
+
+/// What PDDL says of preferences rule files of either language say as well.
+#[test]
+fn rule_files_have_wishes() {
+    for (heading, or, not) in [("Желательно", "ИЛИ", "НЕ"), ("Preferably", "OR", "NOT")]
+    {
+        let text = format!(
+            "Action: go (Parameters: ?a, ?b) (Precondition: in(?a)) (Effect+: in(?b)) (Effect-: in(?a))
+            Action: light (Parameters: ?a) (Precondition: in(?a) dark(?a)) (Effect+: lit(?a)) (Effect-: dark(?a))
+            Initial: in(a) dark(b)  Goal: in(b)
+            {heading}: light 2.5 (lit(a) {or} dark(b))  home {not} in(a)"
+        );
+        let scenario = Scenario::parse(&Source::new("rules", &text))
+            .unwrap_or_else(|faults| panic!("{faults}"));
+        let told = |own: &Preference| (own.name.clone(), own.weight);
+        let wishes: Vec<_> = scenario.problem.preferences().map(told).collect();
+        assert_eq!(wishes, [("light".to_owned(), 2500), ("home".to_owned(), 1000)]);
+        let kept = scenario.problem.with_preferences(|_| true);
+        assert!(ground(&scenario.domain, &kept).is_ok());
+    }
+}
