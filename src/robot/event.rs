@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use crate::geometry::{Barrier, NoRoute, Remedy, Route};
+use crate::geometry::{NoRoute, Remedy, Route};
 use crate::semantics::planning::PlanPlace;
 use crate::semantics::{Join, Lift};
 use crate::units::{AreaId, DoorId, MapId, Point};

@@ -1,6 +1,5 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{NoRoute, Remedy, Route};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::PlanPlace;
@@ -24,6 +23,7 @@ mod rehearsal;
 mod round;
 
 pub(super) use names::before_passage;
+pub(super) use rehearsal::refused_on_floor;
 use rehearsal::{Known, rehearse};
 
 use super::belief::Belief;

@@ -18,9 +18,9 @@ use crate::units::{Bilingual, MapId, name_key};
 
 use super::belief::{Belief, Station};
 use super::directive::Directive;
+use super::event::Surprise;
 use super::grounding::grounded;
-use super::mission::{Mission, Surprise};
-use super::rehearsal::refused_on_floor;
+use super::mission::{Mission, refused_on_floor};
 use super::solve::{self, Found, Passable, Refused, Replanned, Solved, Wanted, timed, told};
 use super::timing::{Clock, leave_out};
 

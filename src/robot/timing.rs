@@ -22,7 +22,7 @@ use crate::strips::{Domain, OperatorId, Task};
 use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, Pose, ReplicaId, name_key};
 
 use super::belief::Spot;
-use super::directive::{Primitive, Directive, Effect};
+use super::directive::{Directive, Effect, Primitive};
 use super::mission::before_passage;
 
 /// Seconds to press a button.
@@ -218,7 +218,9 @@ impl<'a> Clock<'a> {
             }
             Primitive::SetDoor { .. } | Primitive::SetOpen { .. } => DOOR_TIME,
             Primitive::CallLift { door, .. } => LIFT_WAIT + self.opens(door),
-            Primitive::Ride { lift, to, door } => self.ride(directive, lift, to)? + self.opens(door),
+            Primitive::Ride { lift, to, door } => {
+                self.ride(directive, lift, to)? + self.opens(door)
+            }
             Primitive::Push(_) => PUSH_TIME,
             Primitive::Take(_) | Primitive::Put { .. } | Primitive::HandOver { .. } => GRASP_TIME,
             Primitive::Switch { .. } => SWITCH_TIME,

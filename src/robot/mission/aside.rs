@@ -131,7 +131,7 @@ impl Mission<'_> {
         let join = self.joins.iter().find(|join| join.opening == door && join.from == here)?;
         let (start, behind) = (self.belief.pose.at, Target::Area(join.to));
         let no = floor.route(world, start, behind, Method::Shortest).err()?;
-        let remedy = floor.remedy(world, start, behind, &no);
+        let remedy = floor.remedy(world, start, behind, &no, self.pushed_at_most());
         (!no.barriers().is_empty()).then_some((no, remedy))
     }
 }

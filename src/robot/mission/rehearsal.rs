@@ -88,7 +88,7 @@ pub(super) fn rehearse(
 
 /// Tries a plan for a scenario: the first directive that the floor refuses, and why. What fails for another reason the
 /// scenario may know better, and it is taken to be done.
-pub(super) fn refused_on_floor(
+pub(crate) fn refused_on_floor(
     mission: &Mission<'_>,
     directives: &[Directive],
     stop: &Stop,
@@ -125,7 +125,10 @@ pub(super) fn refused_on_floor(
                     vehicle = put_down(&trial.belief);
                 }
                 // From here on it is not known where the robot is.
-                Primitive::GoToPlace(_) | Primitive::GoToDoor(_) | Primitive::Cross { .. } | Primitive::Ride { .. } => {
+                Primitive::GoToPlace(_)
+                | Primitive::GoToDoor(_)
+                | Primitive::Cross { .. }
+                | Primitive::Ride { .. } => {
                     return None;
                 }
                 _ => {}
