@@ -240,7 +240,7 @@ fn answer(task: &Task, outcome: &Outcome, texts: Option<&Texts>) -> (String, Str
             assert_eq!(validate(task, plan), Ok(()), "a plan is replayed before it is counted");
             if let Some(texts) = texts {
                 let (mut task, mut steps) = (task.clone(), plan.steps.clone());
-                task.settle_goal(&mut steps);
+                task.choose_disjunct(&mut steps);
                 let text = PlanText::write(&task, &steps);
                 assert_eq!(judge::judge(texts, &text), Verdict::Works, "{text}");
             }

@@ -14,7 +14,7 @@ use judge::{Verdict, judge};
 /// Whether the judge reads the texts; by those that it reads the plan works.
 pub(crate) fn stands(texts: &Texts, task: &Task, plan: &Plan) -> bool {
     let (mut task, mut steps) = (task.clone(), plan.steps.clone());
-    task.settle_goal(&mut steps);
+    task.choose_disjunct(&mut steps);
     let text = PlanText::write(&task, &steps);
     match judge(texts, &text) {
         Verdict::Works => true,

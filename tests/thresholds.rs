@@ -419,7 +419,7 @@ fn what_is_said_changes_with_its_threshold() {
         ("rb2", "\"top free\",            50", "\"top free\", 1000", "Свободен ли Стол-1?"),
     ] {
         let [before, after] =
-            [STANDARD, &changed(from, to)].map(|rules| answer(&of(map, rules), question));
+            [*STANDARD, &changed(from, to)].map(|rules| answer(&of(map, rules), question));
         assert_ne!(before, after, "{to}");
     }
 }
@@ -438,7 +438,7 @@ fn a_map_is_doubted_by_the_thresholds_of_the_rules() {
         let (_, told) = check_map_closely(&file, Some(dir.path())).unwrap();
         told.faults.iter().map(ToString::to_string).collect()
     };
-    let standard = doubted(STANDARD);
+    let standard = doubted(&STANDARD);
     for (from, to, thing, is_doubted) in [
         ("\"floor gap\",          800", "\"floor gap\", 1000", "Коробка-1", false),
         ("\"hanging gap\",        800", "\"hanging gap\", 100", "Картина-1", true),
