@@ -29,7 +29,7 @@ fn size(world: &World) -> Value {
 
 /// A map without faults, and what there is to doubt in it.
 #[must_use]
-pub fn sound_map(world: &World, doubts: &MapErrors, language: Language) -> Value {
+pub(crate) fn sound_map(world: &World, doubts: &MapErrors, language: Language) -> Value {
     let names: Vec<Value> = uncertain_names(world)
         .iter()
         .map(|phrase| json!({"name": phrase.name(), "genitive": phrase.case(Case::Genitive)}))
@@ -45,13 +45,13 @@ pub fn sound_map(world: &World, doubts: &MapErrors, language: Language) -> Value
 
 /// The same map, drawn into a file.
 #[must_use]
-pub fn drawn_map(doubts: &MapErrors, drawing: &Path) -> Value {
+pub(crate) fn drawn_map(doubts: &MapErrors, drawing: &Path) -> Value {
     json!({"outcome": "sound", "warnings": doubts.faults.len(), "file": drawing})
 }
 
 /// A building taken over, with the report of what became of it.
 #[must_use]
-pub fn imported(world: &World, imported: &Imported, language: Language) -> Value {
+pub(crate) fn imported(world: &World, imported: &Imported, language: Language) -> Value {
     let mut view = changed("imported", &imported.report);
     merge(
         &mut view,
@@ -67,7 +67,7 @@ pub fn imported(world: &World, imported: &Imported, language: Language) -> Value
 
 /// The tables of a store taken over as they are.
 #[must_use]
-pub fn imported_tables(world: &World, report: &ImportReport) -> Value {
+pub(crate) fn imported_tables(world: &World, report: &ImportReport) -> Value {
     let mut view = changed("imported", report);
     merge(&mut view, json!({ "warnings": 0, "world": size(world) }));
     view
@@ -75,7 +75,7 @@ pub fn imported_tables(world: &World, report: &ImportReport) -> Value {
 
 /// A map made of what a log saw: how many rooms, doorways and things.
 #[must_use]
-pub fn map_of_log(
+pub(crate) fn map_of_log(
     file: &Path,
     [rooms, doors, things]: [usize; 3],
     log: Option<&LogError>,

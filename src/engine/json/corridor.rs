@@ -6,7 +6,7 @@ use crate::corridor::Directions;
 
 /// A way through corridors, vertex by vertex and in words.
 #[must_use]
-pub fn directions(way: &Directions) -> Value {
+pub(crate) fn directions(way: &Directions) -> Value {
     let steps: Vec<_> = way
         .steps
         .iter()

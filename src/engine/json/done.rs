@@ -10,7 +10,7 @@ use crate::language::Language;
 
 /// What does not succeed.
 #[must_use]
-pub fn failed(error: &dyn Diagnostic) -> Value {
+pub(crate) fn failed(error: &dyn Diagnostic) -> Value {
     json!({ "outcome": "error", "errors": faults(error) })
 }
 
@@ -22,25 +22,25 @@ pub fn event(event: &TaskEvent) -> Value {
 
 /// Files that were written.
 #[must_use]
-pub fn written(files: &[String]) -> Value {
+pub(crate) fn written(files: &[String]) -> Value {
     json!({"outcome": "done", "written": files})
 }
 
 /// Rule files that were put into the usual form, those alone that were not in it.
 #[must_use]
-pub fn formatted(changed: &[String]) -> Value {
+pub(crate) fn formatted(changed: &[String]) -> Value {
     json!({"outcome": "done", "changed": changed})
 }
 
 /// Files of foreign formats that were written.
 #[must_use]
-pub fn exported(files: &[String]) -> Value {
+pub(crate) fn exported(files: &[String]) -> Value {
     json!({ "outcome": "exported", "files": files })
 }
 
 /// A Datalog program that ran on files of facts; with its trace, how each rule was derived.
 #[must_use]
-pub fn program_run(report: &FilesReport, with_trace: bool, language: Language) -> Value {
+pub(crate) fn program_run(report: &FilesReport, with_trace: bool, language: Language) -> Value {
     let sizes: Vec<_> =
         report.sizes.iter().map(|(name, n)| json!({"relation": name, "tuples": n})).collect();
     let mut view = json!({
@@ -61,7 +61,7 @@ pub fn program_run(report: &FilesReport, with_trace: bool, language: Language) -
 
 /// An event of a recording, with when it happened.
 #[must_use]
-pub fn told_again(event: &Value, at_seconds: f64) -> Value {
+pub(crate) fn told_again(event: &Value, at_seconds: f64) -> Value {
     let mut view = event.clone();
     view["at_seconds"] = json!(at_seconds);
     view
@@ -69,6 +69,6 @@ pub fn told_again(event: &Value, at_seconds: f64) -> Value {
 
 /// A recording that is told to its end, and why it was cut off, where it was.
 #[must_use]
-pub fn told_to_its_end(seconds: f64, cut: Option<&str>) -> Value {
+pub(crate) fn told_to_its_end(seconds: f64, cut: Option<&str>) -> Value {
     json!({ "outcome": "replayed", "seconds": seconds, "cut": cut })
 }

@@ -185,13 +185,13 @@ pub fn counts(relations: &Relations) -> Value {
 ///
 /// # Errors
 /// There is no map.
-pub fn proposals(state: &State, all: &[Believed]) -> Result<Value, Error> {
+pub(crate) fn proposals(state: &State, all: &[Believed]) -> Result<Value, Error> {
     let all = all.iter().map(|one| believed(state, one)).collect::<Result<Vec<_>, _>>()?;
     Ok(json!({ "proposals": all }))
 }
 
 /// A thing is held to stand where the map has it, whatever was seen.
 #[must_use]
-pub fn rejected(revision: u64) -> Value {
+pub(crate) fn rejected(revision: u64) -> Value {
     json!({ "outcome": "rejected", "revision": revision })
 }

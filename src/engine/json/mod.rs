@@ -23,39 +23,43 @@ mod thing;
 mod values;
 mod ways;
 
-pub use building::{drawn_map, imported, imported_tables, map_of_log, sound_map};
+pub(crate) use building::{drawn_map, imported, imported_tables, map_of_log, sound_map};
 #[cfg(feature = "serve")]
 pub(crate) use console::{
     Completion, ProposedEdit, Seat, completions, console, edit_named, house, invitation,
     laid_beside, others, proposed_edits, revised, robot,
 };
-pub use corridor::directions;
-pub use done::{
-    event, exported, failed, formatted, program_run, told_again, told_to_its_end, written,
+pub(crate) use corridor::directions;
+pub use done::event;
+pub(crate) use done::{
+    exported, failed, formatted, program_run, told_again, told_to_its_end, written,
 };
 pub use faults::faults;
-pub use known::{
-    believed, changed, counts, differences, edited, facts, proposals, rejected, revision, story,
-};
-pub use names::declined;
-pub use plans::{
-    better_plan, given_facts, higher_bound, plan, replanned, replayed, with_remedies,
-    with_shortness,
+pub use known::{believed, changed, counts, differences, edited, facts, revision, story};
+pub(crate) use known::{proposals, rejected};
+pub(crate) use names::declined;
+pub use plans::plan;
+pub(crate) use plans::{
+    better_plan, given_facts, higher_bound, replanned, replayed, with_remedies, with_shortness,
 };
 pub use proofs::{query, why};
 pub use reasons::reasons;
 pub use replies::{answer, doubt, heard, queue, reply, task};
-pub use scans::{changes, differing, found_scans, things, view};
-pub use segments::{ends, of_log};
+pub use scans::things;
+pub(crate) use scans::{changes, differing, found_scans, view};
+pub(crate) use segments::{ends, of_log};
 pub(crate) use store::with_calls;
-pub use store::{backup, diff, forgotten, map_text, restored, revisions, store_check};
-pub use storey::{Part, floor, storey};
+pub(crate) use store::{backup, diff, forgotten, map_text, restored, revisions, store_check};
+pub use storey::Part;
+pub(crate) use storey::{floor, storey};
 #[cfg(feature = "serve")]
 pub(crate) use tasks::{
     TaskEnd, TaskView, Waiting, as_it_went, barred, cleared, done, ended, known_changed, lease,
     line, of_task, of_the_past, played_again, said, stop, stop_raised, stopped, tasks, waiting,
     with_note, with_text,
 };
-pub use thing::{about, kinds};
+pub use thing::about;
+pub(crate) use thing::kinds;
 pub use values::tuple;
-pub use ways::{faces, journey, region, route, whereabout, with_words};
+pub(crate) use ways::{faces, with_words};
+pub use ways::{journey, region, route, whereabout};

@@ -8,7 +8,7 @@ use crate::language::{Animacy, Case, Evidence, PlaceSense};
 
 /// All forms of a name, Russian and English, and where they come from.
 #[must_use]
-pub fn declined(named: &Named) -> Value {
+pub(crate) fn declined(named: &Named) -> Value {
     let phrase = named.phrase();
     let forms: Vec<Value> = numbers(phrase)
         .iter()

@@ -130,7 +130,7 @@ fn shortness(why: &Shortness, english: &Wording<'_>) -> Value {
 }
 
 /// The plan after assumptions were withdrawn, and what became of the one before.
-pub fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
+pub(crate) fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
     let before = steps(&replanned.before);
     let mut view = plan(&replanned.after, name);
     view["withdrawn"] =
@@ -146,7 +146,7 @@ pub fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value 
 }
 
 /// A plan carried out, as far as it goes.
-pub fn replayed(replayed: &Replayed) -> Value {
+pub(crate) fn replayed(replayed: &Replayed) -> Value {
     let steps: Vec<Value> = replayed
         .steps
         .iter()
@@ -188,34 +188,34 @@ pub fn replayed(replayed: &Replayed) -> Value {
 
 /// A plan whose search was broken off, with what would help.
 #[must_use]
-pub fn with_remedies(mut view: Value, remedies: &[&str]) -> Value {
+pub(crate) fn with_remedies(mut view: Value, remedies: &[&str]) -> Value {
     view["help"] = json!(remedies);
     view
 }
 
 /// A plan with why none has fewer steps.
 #[must_use]
-pub fn with_shortness(mut view: Value, why: &Shortness, english: &Wording<'_>) -> Value {
+pub(crate) fn with_shortness(mut view: Value, why: &Shortness, english: &Wording<'_>) -> Value {
     view["why_not_shorter"] = shortness(why, english);
     view
 }
 
 /// A plan that is found while a shorter one is sought.
 #[must_use]
-pub fn better_plan(plan: &Plan) -> Value {
+pub(crate) fn better_plan(plan: &Plan) -> Value {
     let (steps, actions) = (plan.steps.len(), plan.action_count());
     json!({"event": "plan", "parallel_steps": steps, "actions": actions})
 }
 
 /// So many steps are needed at the least.
 #[must_use]
-pub fn higher_bound(at_least: usize) -> Value {
+pub(crate) fn higher_bound(at_least: usize) -> Value {
     json!({"event": "bound", "at_least_steps": at_least})
 }
 
 /// What the map gives to planning.
 #[must_use]
-pub fn given_facts(facts: &[InitialFact]) -> Value {
+pub(crate) fn given_facts(facts: &[InitialFact]) -> Value {
     let fact = |fact: &InitialFact| {
         let args: Vec<&str> = fact.arguments.iter().map(|a| a.name.as_str()).collect();
         let kinds: Vec<&str> = fact.arguments.iter().map(|a| a.kind).collect();

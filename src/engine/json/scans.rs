@@ -12,7 +12,7 @@ use crate::vectors::Segment;
 
 /// Where scans can have been taken.
 #[must_use]
-pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
+pub(crate) fn found_scans(world: &World, found: &[FoundScan]) -> Value {
     let scan = |found: &FoundScan| {
         let poses = found.poses.iter().map(|at| {
             json!({
@@ -46,7 +46,7 @@ pub fn found_scans(world: &World, found: &[FoundScan]) -> Value {
 
 /// What scans see that a map has otherwise.
 #[must_use]
-pub fn differing(world: &World, seen: &Differing) -> Value {
+pub(crate) fn differing(world: &World, seen: &Differing) -> Value {
     let place = |seen: &crate::store::Seen| {
         json!({
             "area": world.name(Entity::Area(seen.area)),
@@ -97,7 +97,7 @@ pub fn differing(world: &World, seen: &Differing) -> Value {
 }
 
 /// The segments of a scan or a picture.
-pub fn view(view: &View) -> Value {
+pub(crate) fn view(view: &View) -> Value {
     json!({
         "outcome": "segments",
         "unit": if view.is_picture { "px" } else { "cm" },
@@ -144,7 +144,7 @@ pub fn things(things: &Things) -> Value {
 }
 
 /// Two scans: which segment is which, what moved by itself, what is new or not found again.
-pub fn changes(changes: &Changes) -> Value {
+pub(crate) fn changes(changes: &Changes) -> Value {
     let found = &changes.difference;
     let part = |part: &crate::vectors::RigidPart<2>| {
         let motion = part.motion.isometry;

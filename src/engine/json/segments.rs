@@ -25,7 +25,7 @@ pub(super) fn log_faults(error: Option<&LogError>) -> Vec<Value> {
 
 /// What was made of a log, with how many scans it has, where that is to be told, and what was wrong with its lines.
 #[must_use]
-pub fn of_log(mut view: Value, scans: Option<usize>, faults: Option<&LogError>) -> Value {
+pub(crate) fn of_log(mut view: Value, scans: Option<usize>, faults: Option<&LogError>) -> Value {
     if let Some(scans) = scans {
         view["scans"] = json!(scans);
     }
@@ -46,7 +46,7 @@ pub(super) fn segment(segment: &Segment<2>) -> Value {
 
 /// Words for what the ends of a segment are.
 #[must_use]
-pub fn ends(segment: &Segment<2>) -> [&'static str; 2] {
+pub(crate) fn ends(segment: &Segment<2>) -> [&'static str; 2] {
     segment.ends.map(end)
 }
 

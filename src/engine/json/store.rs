@@ -12,7 +12,7 @@ use crate::store::{Finding, Forgotten};
 
 /// What looking through a store found.
 #[must_use]
-pub fn store_check(report: &FsckReport, language: Language) -> Value {
+pub(crate) fn store_check(report: &FsckReport, language: Language) -> Value {
     let finding = |finding: &Finding| {
         let severity = match finding.severity {
             Severity::Note => "note",
@@ -33,19 +33,19 @@ pub fn store_check(report: &FsckReport, language: Language) -> Value {
 
 /// A copy of a store that is written and read back.
 #[must_use]
-pub fn backup(file: &Path) -> Value {
+pub(crate) fn backup(file: &Path) -> Value {
     json!({"outcome": "written", "file": file})
 }
 
 /// A store that a copy was made into again.
 #[must_use]
-pub fn restored(store: &Path, revision: u64) -> Value {
+pub(crate) fn restored(store: &Path, revision: u64) -> Value {
     json!({"outcome": "restored", "store": store, "revision": revision})
 }
 
 /// What of the past is forgotten.
 #[must_use]
-pub fn forgotten(forgotten: &Forgotten) -> Value {
+pub(crate) fn forgotten(forgotten: &Forgotten) -> Value {
     json!({
         "outcome": "done", "versions": forgotten.versions, "not_freed": forgotten.not_freed,
     })
@@ -53,7 +53,7 @@ pub fn forgotten(forgotten: &Forgotten) -> Value {
 
 /// The history, the oldest first.
 #[must_use]
-pub fn revisions<'a>(all: impl IntoIterator<Item = &'a Revision>) -> Value {
+pub(crate) fn revisions<'a>(all: impl IntoIterator<Item = &'a Revision>) -> Value {
     json!({ "revisions": all.into_iter().map(revision).collect::<Vec<_>>() })
 }
 
@@ -66,12 +66,12 @@ pub(crate) fn with_calls<'a>(mut view: Value, calls: impl IntoIterator<Item = &'
 
 /// What differs between two revisions.
 #[must_use]
-pub fn diff(from: u64, to: u64, all: &[Difference], language: Language) -> Value {
+pub(crate) fn diff(from: u64, to: u64, all: &[Difference], language: Language) -> Value {
     json!({"from": from, "to": to, "differences": differences(all, language)})
 }
 
 /// A map as the text of its file.
 #[must_use]
-pub fn map_text(text: &str) -> Value {
+pub(crate) fn map_text(text: &str) -> Value {
     json!({ "map": text })
 }

@@ -25,7 +25,7 @@ pub enum Part {
 ///
 /// # Errors
 /// There is no map.
-pub fn storey(state: &State, map: MapId, part: Part) -> Result<Value, Error> {
+pub(crate) fn storey(state: &State, map: MapId, part: Part) -> Result<Value, Error> {
     let world = state.world()?;
     let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
     let now = state.world_now()?;
@@ -235,7 +235,7 @@ pub(super) fn objects(world: &World) -> Vec<Value> {
 ///
 /// # Errors
 /// There is no map.
-pub fn floor(state: &State, map: MapId) -> Result<Value, Error> {
+pub(crate) fn floor(state: &State, map: MapId) -> Result<Value, Error> {
     let floor = state.floors()?.get(&map).expect("every map of the world has a floor");
     let (mut frames, mut dead) = (Vec::new(), Vec::new());
     for fragment in floor.fragments() {

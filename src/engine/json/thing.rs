@@ -80,7 +80,7 @@ pub fn about(state: &State, name: &str, language: Language) -> Result<Value, Err
 ///
 /// # Errors
 /// There is no map.
-pub fn kinds(state: &State) -> Result<Value, Error> {
+pub(crate) fn kinds(state: &State) -> Result<Value, Error> {
     let between = state.relations()?.derived().relations().filter(|(_, info)| {
         let is_shown = !info.outputs.is_empty() && info.columns.len() == 2;
         is_shown && info.columns.iter().all(|column| column.kind == Kind::Symbol)

@@ -164,13 +164,13 @@ fn passage(world: &World, way: &crate::semantics::Way) -> Value {
 
 /// Faces in view, the nearest first.
 #[must_use]
-pub fn faces(world: &World, seen: &[FaceInView], language: Language) -> Value {
+pub(crate) fn faces(world: &World, seen: &[FaceInView], language: Language) -> Value {
     seen.iter().map(|one| face(world, one, language)).collect()
 }
 
 /// A way with what is said of it.
 #[must_use]
-pub fn with_words(mut view: Value, words: &[String]) -> Value {
+pub(crate) fn with_words(mut view: Value, words: &[String]) -> Value {
     view["words"] = json!(words);
     view
 }
