@@ -16,7 +16,7 @@ use crate::strips::Scenario;
 use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::notes::{note, warn};
-use super::opened::{open, rules_dir};
+use super::opened::{open, open_held, rules_dir};
 use super::plan::Metric;
 use super::teller::{RecordArgs, Teller};
 use super::vehicle::VehicleArgs;
@@ -137,8 +137,8 @@ pub(super) fn relations(
 pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure> {
     let scenario = args.scenario.as_deref().map(Scenario::read).transpose()?;
     let mut engine = match scenario.as_ref().map(|scenario| &scenario.map) {
-        Some(map) => super::plan::engine_for(common, map.as_deref())?,
-        None => open(common)?,
+        Some(map) => super::plan::engine_for(common, map.as_deref(), open_held)?,
+        None => open_held(common)?,
     };
     if args.reset {
         engine.reset_robot(&change_now(&common.user, "do --reset"))?;

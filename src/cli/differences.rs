@@ -9,7 +9,7 @@ use crate::engine::{Sighted, json};
 use super::args::{Common, LogOnMap};
 use super::fault::Failure;
 use super::notes::warn_of_lines;
-use super::opened::open;
+use super::opened::{open, open_held};
 use super::{Answer, say};
 
 #[derive(Debug, Args)]
@@ -28,7 +28,7 @@ pub(super) struct DifferencesArgs {
 }
 
 pub(super) fn run(common: &Common, args: &DifferencesArgs) -> Result<Answer, Failure> {
-    let mut engine = open(common)?;
+    let mut engine = if args.keep { open_held(common)? } else { open(common)? };
     let log = Sighted::read(&args.of.log)?;
     let map = engine.map_named(args.of.map.as_deref())?;
     let now = SystemTime::now().into();

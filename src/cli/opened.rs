@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::engine::{Engine, Rules};
+use crate::engine::{Engine, Error, Rules};
+use crate::store::StoreError;
 
 use super::args::Common;
 use super::fault::Failure;
@@ -19,14 +20,35 @@ pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
     common.rules.clone().or_else(Rules::default_dir)
 }
 
-/// Opens a store that is there already.
+/// Opens a store that is there already, to be asked. Where another program has it open, a server that lives for days, it
+/// is read as it stands.
 pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
     let (dir, rules) = (store_dir(common), rules_dir(common));
-    let engine = if common.read_only {
-        Engine::open_read_only(&dir, rules.as_deref())?
-    } else {
-        Engine::open_existing(&dir, rules.as_deref())?
+    let engine = match common.read_only {
+        true => Engine::open_read_only(&dir, rules.as_deref())?,
+        false => match Engine::open_existing(&dir, rules.as_deref()) {
+            Err(Error::Store(StoreError::Locked { .. })) => {
+                tracing::info!(dir = %dir.display(), "another program has the store open: it is read only");
+                Engine::open_read_only(&dir, rules.as_deref())?
+            }
+            opened => opened?,
+        },
     };
+    seen(common, engine)
+}
+
+/// Opens a store that is there already, and keeps other programs from writing it meanwhile.
+pub(super) fn open_held(common: &Common) -> Result<Engine, Failure> {
+    let (dir, rules) = (store_dir(common), rules_dir(common));
+    let engine = match common.read_only {
+        true => Engine::open_read_only(&dir, rules.as_deref())?,
+        false => Engine::open_existing(&dir, rules.as_deref())?,
+    };
+    seen(common, engine)
+}
+
+/// As it is to be seen: now, or as it stood.
+fn seen(common: &Common, engine: Engine) -> Result<Engine, Failure> {
     note_repairs(&engine, common.lang);
     Ok(match common.as_of {
         Some(when) => engine.as_of(when)?,
@@ -39,5 +61,5 @@ pub(super) fn open_to_write(common: &Common) -> Result<Engine, Failure> {
     if common.as_of.is_some() {
         return Err(crate::engine::RequestError::PastIsPast.into());
     }
-    open(common)
+    open_held(common)
 }

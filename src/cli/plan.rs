@@ -290,8 +290,12 @@ fn stream_bound(at_least: usize) {
 }
 
 /// Who knows the map of a scenario: the store that was named; else the map that the scenario names; else the default
-/// store.
-pub(super) fn engine_for(common: &Common, map: Option<&Path>) -> Result<Engine, Failure> {
+/// store, opened as it is to be used.
+pub(super) fn engine_for(
+    common: &Common,
+    map: Option<&Path>,
+    open: impl FnOnce(&Common) -> Result<Engine, Failure>,
+) -> Result<Engine, Failure> {
     match map {
         Some(map) if common.store.is_none() => {
             let (world, _) = check_map(map)?;
@@ -328,7 +332,7 @@ fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), 
     let engine = || -> Result<Option<Engine>, Failure> {
         let is_any =
             common.store.is_some() || scenario.map.is_some() || Path::new(DEFAULT_STORE).is_dir();
-        is_any.then(|| engine_for(common, scenario.map.as_deref())).transpose()
+        is_any.then(|| engine_for(common, scenario.map.as_deref(), open)).transpose()
     };
     if faults.is_empty() {
         let engine = engine()?;

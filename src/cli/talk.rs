@@ -17,12 +17,12 @@ use rustyline::{Config, Context, Editor, Helper};
 
 use super::args::Common;
 use super::fault::Failure;
-use super::opened::open;
+use super::opened::open_held;
 use super::teller::{RecordArgs, Teller};
 use super::{Answer, say};
 
 pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failure> {
-    let engine = open(common)?;
+    let engine = open_held(common)?;
     let mut dialogue = Dialogue::new(common.lang.language());
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();

@@ -162,10 +162,19 @@ fn scenarios_and_rules_are_refused_at_their_place() {
 }
 
 #[test]
-fn a_store_in_use_is_left_alone() {
+fn a_store_in_use_is_read_and_left_alone() {
     let place = Place::with_rb2();
+    let reading = [&["relations"][..], &["where", "--at", "225,395"], &["ask", "Где лекарство?"]];
+    let free = reading.map(|args| place.run(args).is(0).out);
     let (held, _) = Store::open(place.path("ortho-store")).unwrap();
-    for args in [&["relations"][..], &["import", &rb2()], &["where", "--at", "225,395"]] {
+    // Whoever only asks is answered as ever.
+    assert_eq!(reading.map(|args| place.run(args).is(0).out), free);
+    for args in [
+        &["import", &rb2()][..],
+        &["do", "Принеси лекарство"],
+        &["edit", "rename", "Лекарство", "Таблетки"],
+        &["observe", "Лекарство", "--missing"],
+    ] {
         let run = place.run(args).is(2);
         assert!(
             run.err.contains("открыто другой программой") && run.err.contains("help:"),
@@ -175,7 +184,7 @@ fn a_store_in_use_is_left_alone() {
         assert_eq!(place.json(args, 2)["errors"][0]["code"], "store::locked");
     }
     drop(held);
-    place.run(&["relations"]).is(0);
+    place.run(&["edit", "rename", "Лекарство", "Таблетки"]).is(0);
 }
 
 #[test]
