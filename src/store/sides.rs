@@ -74,7 +74,7 @@ impl Sheet {
     /// The derived tables of a world: ObjectItemSides, AreaItemSides, AreaObjectSides, MapItemSides.
     ///
     /// # Errors
-    /// [`StoreError::Duplicate`] when two parts of the world have one key.
+    /// [`StoreError::Duplicate`](crate::StoreError::Duplicate) when two parts of the world have one key.
     pub fn derived(world: &World) -> Result<Self> {
         let mut sheet = Self::default();
         let of_item = |item: &Item| item.is_base;

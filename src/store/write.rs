@@ -81,7 +81,7 @@ impl Sheet {
     /// The records of a world.
     ///
     /// # Errors
-    /// [`StoreError::Duplicate`] when two parts of the world have one key.
+    /// [`StoreError::Duplicate`](crate::StoreError::Duplicate) when two parts of the world have one key.
     pub fn of(world: &World) -> Result<Self> {
         let mut sheet = Self::default();
         type_lists(&mut sheet, world)?;

@@ -278,6 +278,22 @@ impl Knowledge<'_> {
         };
         let russian = self.is_russian();
         Some(match (name, russian) {
+            ("amid", _) => {
+                let Some(Value::Symbol(how)) = values.get(3) else { return None };
+                let share = percent(4);
+                match (&**how, russian) {
+                    ("way", true) => format!("занимает {} кратчайшего пути между ними", cm(4)),
+                    ("way", false) => {
+                        format!("it takes {} of the shortest way between them", cm(4))
+                    }
+                    ("aside", true) => format!("в {} от кратчайшего пути между ними", cm(4)),
+                    ("aside", false) => {
+                        format!("it is {} from the shortest way between them", cm(4))
+                    }
+                    (_, true) => format!("на {share:.0} % лежит там, откуда видно обоих"),
+                    (_, false) => format!("{share:.0} % of it lies where both are in sight"),
+                }
+            }
             ("over", true) => {
                 let gap = match number(4).abs() < 0.05 {
                     true => format!("касается верха {b}"),
@@ -462,6 +478,10 @@ impl Knowledge<'_> {
             && let Some(words) = self.value_words(x, &property, value)
         {
             return words;
+        }
+        if let ("BETWEEN", Some(x), Some(a), Some(b)) = (relation, thing(0), thing(1), thing(2)) {
+            let place = self.place(Rel::Between, &[a, b]);
+            return format!("{} {} {place}", self.name(x), self.is(&[x]));
         }
         let words: Vec<String> = args.iter().map(|a| self.symbol_words(a)).collect();
         match (relation, self.is_russian(), &words[..]) {

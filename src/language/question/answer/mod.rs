@@ -303,6 +303,19 @@ impl Knowledge<'_> {
                 facts.extend(found.iter().take(50).filter_map(held));
                 continue;
             }
+            if restriction.rel == Rel::Between && !restriction.negated {
+                let ends = self.ends_between(restriction).unwrap_or_default();
+                if let [a, b] = ends[..]
+                    && let (Some(_), Some(_)) = (a.replica(), b.replica())
+                {
+                    let fact = |thing: &Thing| {
+                        let of = [*thing, a, b].map(|one| self.symbol(one));
+                        Fact::holding("BETWEEN", of.to_vec())
+                    };
+                    facts.extend(found.iter().take(50).map(fact));
+                }
+                continue;
+            }
             let Ok(anchors) = self.find(anchor, true) else { continue };
             for thing in found.iter().take(50) {
                 facts.extend(anchors.iter().find_map(|a| self.fact(restriction.rel, *thing, *a)));
