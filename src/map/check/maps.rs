@@ -305,6 +305,10 @@ impl<'w> Checker<'w> {
     }
 
     fn connected_areas(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
+        // What was checked before hangs together.
+        if self.scope.is_some_and(|scope| scope.came_linked(map)) {
+            return;
+        }
         let mut parts = Parts::new(map.items.len());
         // Of one that stands twice the last place counts.
         let mut indices: Vec<(AreaId, usize)> =

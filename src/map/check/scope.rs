@@ -26,6 +26,8 @@ pub(super) struct Scope<'w> {
     keys: BTreeMap<&'static str, BTreeSet<&'w str>>,
     /// Of Maps how many links at the beginning and at the end are as they were.
     links: BTreeMap<MapId, (usize, usize)>,
+    /// Of Maps that got Areas and links and lost none, and whose other Areas are as they were: the Areas that came.
+    came: BTreeMap<MapId, BTreeSet<AreaId>>,
     /// Names that something bore or bears now, and who bears them; none where no name changed.
     pub(super) names: Option<(BTreeSet<&'w str>, NameIndex)>,
 }
@@ -166,6 +168,11 @@ impl<'w> Scope<'w> {
                 let (was, is) = (&was.links[first..], &is.links[first..]);
                 let last = was.iter().rev().zip(is.iter().rev()).take_while(same).count();
                 self.links.insert(id, (first, last));
+                let are_as_they_were =
+                    self.areas.iter().all(|area| !before.areas.contains_key(area));
+                if last == was.len() && are_as_they_were {
+                    self.note_what_came(id, before, after);
+                }
             }
         }
         if self.moved.is_empty() {
@@ -177,6 +184,38 @@ impl<'w> Scope<'w> {
                 self.links.entry(map.id).or_insert((map.links.len(), 0));
             }
         }
+    }
+
+    fn note_what_came(&mut self, id: MapId, before: &World, after: &World) {
+        let items = [before, after].map(|world| &world.maps[&id].items);
+        let Some(came) = items[1].strip_prefix(items[0].as_slice()) else { return };
+        let areas = came.iter().filter_map(|item| after.areas.get(&item.area));
+        // A third room at a door of two takes it from them.
+        let mut doors = areas.flat_map(|area| &area.doors).map(|mount| mount.door);
+        if doors.all(|door| !before.doors.contains_key(&door)) {
+            self.came.insert(id, came.iter().map(|item| item.area).gather());
+        }
+    }
+
+    /// Whether all that came to a Map is linked to what was there, which lacked nothing.
+    pub(super) fn came_linked(&self, map: &Map) -> bool {
+        let Some(came) = self.came.get(&map.id) else { return false };
+        let (first, last) = self.links.get(&map.id).copied().unwrap_or_default();
+        let new = &map.links[first..map.links.len() - last];
+        let mut apart = came.clone();
+        while !apart.is_empty() {
+            let size = apart.len();
+            for link in new {
+                if apart.contains(&link.area) != apart.contains(&link.to_area) {
+                    apart.remove(&link.area);
+                    apart.remove(&link.to_area);
+                }
+            }
+            if apart.len() == size {
+                return false;
+            }
+        }
+        true
     }
 
     /// What stands in Areas of the scope, is of a kind of it, or is served from a place of it.

@@ -71,6 +71,16 @@ fn rebuild(world: &mut World, throw: &mut impl FnMut(usize) -> usize) {
             item.frame = Frame::new(item.frame.x.get() + 9.0 * x, 9.0 * y, z, item.frame.angle);
             if throw(4) > 0 {
                 map.items.push(item);
+                // Linked as another is, or to what is no neighbour.
+                for _ in 0..throw(3) {
+                    if let Some(mut link) =
+                        (!map.links.is_empty()).then(|| map.links[throw(map.links.len())].clone())
+                    {
+                        Arc::make_mut(&mut link).area = id;
+                        let at = if throw(2) == 0 { map.links.len() } else { 0 };
+                        map.links.insert(at, link);
+                    }
+                }
             }
             world.areas.insert(id, Area { id, key, name, ..area });
         }
