@@ -201,27 +201,31 @@ impl Program {
     /// The relations that rules derive from some others, by whatever way.
     #[must_use]
     pub fn depend_on(&self, relations: impl Iterator<Item = RelationId>) -> Vec<RelationId> {
-        let given: Vec<RelationId> = relations.collect();
-        let mut reached = given.clone();
-        let mut at = 0;
-        while let Some(from) = reached.get(at).copied() {
-            at += 1;
-            for clause in self.clauses.iter().filter(|clause| clause.reads(from)) {
-                if !reached.contains(&clause.head) {
-                    reached.push(clause.head);
-                }
+        let mut is_reached = vec![false; self.relations.len()];
+        relations.for_each(|relation| is_reached[relation.index()] = true);
+        let mut reached = Vec::new();
+        // Each stratum after those it reads.
+        for stratum in self.strata.iter() {
+            let clauses = stratum.clauses.iter().map(|n| &*self.clauses[*n]);
+            let subsumed = stratum.subsumptions.iter().map(|n| &self.subsumptions[*n].clause);
+            if clauses.chain(subsumed).any(|clause| clause.reads_any(&is_reached)) {
+                let new = stratum.relations.iter().filter(|of| !is_reached[of.index()]);
+                reached.extend(new);
+                stratum.relations.iter().for_each(|of| is_reached[of.index()] = true);
             }
         }
-        reached.split_off(given.len())
+        reached
     }
 }
 
 impl Clause {
-    /// Whether a relation is among what it reads.
-    fn reads(&self, relation: RelationId) -> bool {
-        let mut is_read = false;
-        reads(&self.body, false, &mut |of, _, _| is_read |= of == relation);
-        is_read
+    /// Whether it reads any of the relations that are marked.
+    fn reads_any(&self, is_marked: &[bool]) -> bool {
+        let mut any = false;
+        reads(&self.body, false, &mut |of, _, _| {
+            any |= is_marked.get(of.index()).is_some_and(|marked| *marked);
+        });
+        any
     }
 }
 
@@ -254,8 +258,10 @@ impl<'a> Answers<'a> {
         let relation = |n: usize| RelationId((question.known + n) as u32);
         let (mut kept, mut is_stored) = (kept, is_stored);
         let anew = program.depend_on(computed.iter().map(|(relation, _)| *relation));
-        let of_question = &question.program.clauses[program.clauses.len()..];
-        if of_question.iter().any(|clause| anew.iter().any(|relation| clause.reads(*relation))) {
+        let mut is_anew = vec![false; is_stored.len()];
+        anew.iter().for_each(|relation| is_anew[relation.index()] = true);
+        let mut of_question = question.program.clauses[program.clauses.len()..].iter();
+        if of_question.any(|clause| clause.reads_any(&is_anew)) {
             let mut own = Kept::clone(&kept);
             for relation in anew {
                 is_stored[relation.index()] = false;
