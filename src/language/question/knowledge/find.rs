@@ -9,7 +9,7 @@ use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::query::{Best, Extreme, Head, Noun, Reach, Rel, Restriction, Thing};
 use crate::units::{AreaId, InOrder as _, Vector};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// To more things than this ways are not looked for at once.
 const MOST_DRIVEN: usize = 200;
@@ -26,11 +26,13 @@ impl Knowledge<'_> {
         if head.anything {
             return self.members(&Extension::Things);
         }
-        let mut found: BTreeSet<Thing> = BTreeSet::new();
-        for kind in &head.kinds {
-            found.extend(self.members(&self.lexicon().kind(*kind).extension));
+        let kinds = head.kinds.iter().map(|kind| self.lexicon().kind(*kind).extension);
+        let mut found: Vec<Thing> = kinds.flat_map(|kind| self.members(&kind)).collect();
+        if !found.is_sorted() {
+            found.order();
         }
-        found.into_iter().collect()
+        found.dedup();
+        found
     }
 
     /// "Things" in general.
