@@ -23,28 +23,27 @@ pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
 /// Opens a store that is there already, to be asked. Where another program has it open, a server that lives for days, it
 /// is read as it stands.
 pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
-    let (dir, rules) = (store_dir(common), rules_dir(common));
-    let engine = match common.read_only {
-        true => Engine::open_read_only(&dir, rules.as_deref())?,
-        false => match Engine::open_existing(&dir, rules.as_deref()) {
-            Err(Error::Store(StoreError::Locked { .. })) => {
-                tracing::info!(dir = %dir.display(), "another program has the store open: it is read only");
-                Engine::open_read_only(&dir, rules.as_deref())?
-            }
-            opened => opened?,
-        },
+    let engine = match opened(common, common.read_only) {
+        Err(Error::Store(StoreError::Locked { dir })) => {
+            tracing::info!(dir, "another program has the store open: it is read only");
+            opened(common, true)?
+        }
+        opened => opened?,
     };
     seen(common, engine)
 }
 
 /// Opens a store that is there already, and keeps other programs from writing it meanwhile.
 pub(super) fn open_held(common: &Common) -> Result<Engine, Failure> {
+    seen(common, opened(common, common.read_only)?)
+}
+
+fn opened(common: &Common, is_read_only: bool) -> Result<Engine, Error> {
     let (dir, rules) = (store_dir(common), rules_dir(common));
-    let engine = match common.read_only {
-        true => Engine::open_read_only(&dir, rules.as_deref())?,
-        false => Engine::open_existing(&dir, rules.as_deref())?,
-    };
-    seen(common, engine)
+    match is_read_only {
+        true => Engine::open_read_only(&dir, rules.as_deref()),
+        false => Engine::open_existing(&dir, rules.as_deref()),
+    }
 }
 
 /// As it is to be seen: now, or as it stood.
