@@ -64,7 +64,7 @@ impl Openings {
         let mut anew = Anew {
             world: after,
             reach,
-            linked: ends(&new_links),
+            linked: Linked::by(new_links.clone()),
             mounted: OnceCell::new(),
             stands: &stands,
             placed: BTreeMap::new(),
@@ -131,23 +131,38 @@ fn is_same(one: &OpenSide, other: &OpenSide) -> bool {
 /// A side of an Area.
 type End<'w> = (AreaId, &'w SideRef);
 
-/// Both ends of all links, each with the other, in the order of links; sorted by the Area of the first.
-fn ends<'w>(links: &[&'w Arc<MapLink>]) -> Vec<[End<'w>; 2]> {
-    let both = links.iter().flat_map(|link| {
-        let (one, other) = ((link.area, &link.side), (link.to_area, &link.to_side));
-        [[one, other], [other, one]]
-    });
-    let mut ends: Vec<_> = both.collect();
-    ends.order_by_key(|[(area, _), _]| *area);
-    ends
+/// Links, found by the Areas that they link.
+struct Linked<'w> {
+    links: Vec<&'w Arc<MapLink>>,
+    /// Each end of each link: its Area, and the number of the link twice, and one more at its other end; sorted.
+    ends: Vec<(AreaId, usize)>,
+}
+
+impl<'w> Linked<'w> {
+    fn by(links: Vec<&'w Arc<MapLink>>) -> Self {
+        let both =
+            |(n, link): (usize, &&Arc<MapLink>)| [(link.area, 2 * n), (link.to_area, 2 * n + 1)];
+        let mut ends: Vec<(AreaId, usize)> = links.iter().enumerate().flat_map(both).collect();
+        ends.sort_unstable();
+        Self { links, ends }
+    }
+
+    /// The links of an Area's sides in their order, its own end first.
+    fn of(&self, area: AreaId) -> impl Iterator<Item = [End<'w>; 2]> {
+        let from = self.ends.partition_point(|(own, _)| *own < area);
+        self.ends[from..].iter().take_while(move |(own, _)| *own == area).map(|(_, end)| {
+            let link: &'w MapLink = self.links[end / 2];
+            let (one, other) = ((link.area, &link.side), (link.to_area, &link.to_side));
+            if end % 2 == 0 { [one, other] } else { [other, one] }
+        })
+    }
 }
 
 /// Sides that are to be paired anew, in the making.
 struct Anew<'w> {
     world: &'w World,
     reach: f64,
-    /// Each linked side, with the side that it is linked with; sorted by its Area.
-    linked: Vec<[End<'w>; 2]>,
+    linked: Linked<'w>,
     /// Which doors are mounted in which Areas, sorted; found when it is asked for.
     mounted: OnceCell<Vec<(DoorId, AreaId)>>,
     stands: &'w [Stand],
@@ -191,19 +206,12 @@ impl<'w> Anew<'w> {
         for (_, side) in &mut sides {
             floors.step_off(side, self.reach);
         }
-        for [(_, side), (other, _)] in self.linked_of(stand.area) {
-            if let Some((_, own)) = sides.iter_mut().find(|(_, own)| own.side == **side) {
-                own.linked = Some(*other);
+        for [(_, side), (other, _)] in self.linked.of(stand.area) {
+            if let Some((_, own)) = sides.iter_mut().find(|(_, own)| own.side == *side) {
+                own.linked = Some(other);
             }
         }
         sides
-    }
-
-    /// The links of an Area's sides, its own end first.
-    fn linked_of(&self, area: AreaId) -> &[[End<'w>; 2]] {
-        let from = self.linked.partition_point(|[(own, _), _]| *own < area);
-        let rest = &self.linked[from..];
-        &rest[..rest.partition_point(|[(own, _), _]| *own == area)]
     }
 
     /// Takes the sides of an Area of which this holds.
@@ -270,8 +278,8 @@ impl<'w> Anew<'w> {
                 return None;
             }
             let side = self.group[&place].clone();
-            let own = self.linked_of(side.area).iter().filter(|[(_, own), _]| **own == side.side);
-            for (area, other) in own.map(|[_, other]| *other).collect::<Vec<_>>() {
+            let own = self.linked.of(side.area).filter(|[(_, own), _]| **own == side.side);
+            for (area, other) in own.map(|[_, other]| other).collect::<Vec<_>>() {
                 self.take_side(area, other);
             }
             if let Some(mount) = &side.mount {

@@ -176,11 +176,17 @@ impl Sheet {
         }
         for id in ids {
             let [was, is] = [before.maps.get(&id), after.maps.get(&id)];
-            for (sheet, world, own, other) in
-                [(&mut *old, before, was, is), (&mut *new, after, is, was)]
+            let mut beside = [None, None];
+            if let (Some(was), Some(is)) = (was, is) {
+                let now = Beside::of(is, was, &others, after);
+                beside = [Some(Beside { other: is, ..now }), Some(now)];
+            }
+            let [by_now, by_then] = &beside;
+            for (sheet, world, own, beside) in
+                [(&mut *old, before, was, by_now), (&mut *new, after, is, by_then)]
             {
                 if let Some(map) = own {
-                    put_map(sheet, world, map, other.map(|other| (other, &others)))?;
+                    put_map(sheet, world, map, beside.as_ref())?;
                 }
             }
         }
@@ -360,29 +366,51 @@ fn properties<T: super::Record>(
     properties.iter().try_for_each(|(prop, value)| sheet.put(&record(prop.clone(), value.clone())))
 }
 
-/// Overall sizes of a group of items along its own axes, and its height.
-pub(super) fn group_size(world: &World, items: &[Item]) -> (f64, f64, f64) {
-    size_of(world, items.iter().map(|item| (item.orthoframe, item.frame)))
+/// The box around Orthoframes, along the axes of what they are part of.
+#[derive(Clone, Copy)]
+struct Around {
+    low: [f64; 3],
+    high: [f64; 3],
 }
 
-/// Overall sizes of Orthoframes that stand so.
-fn size_of(world: &World, parts: impl Iterator<Item = (OrFrId, Frame)>) -> (f64, f64, f64) {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for (orthoframe, frame) in parts {
-        let Some(orthoframe) = world.orthoframes.get(&orthoframe) else { continue };
+impl Around {
+    const NOTHING: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+
+    fn take(&mut self, world: &World, orthoframe: OrFrId, frame: &Frame) {
+        let Some(orthoframe) = world.orthoframes.get(&orthoframe) else { return };
         let bottom = frame.z.get();
         for corner in orthoframe.corners() {
             let p = frame.apply(corner);
             for (axis, value) in [(0, p.x), (1, p.y), (2, bottom)] {
-                low[axis] = low[axis].min(value);
-                high[axis] = high[axis].max(value);
+                self.low[axis] = self.low[axis].min(value);
+                self.high[axis] = self.high[axis].max(value);
             }
         }
-        high[2] = high[2].max(bottom + orthoframe.height.get());
+        self.high[2] = self.high[2].max(bottom + orthoframe.height.get());
     }
-    let extent = |axis: usize| if low[axis] <= high[axis] { high[axis] - low[axis] } else { 0.0 };
-    (extent(0), extent(1), extent(2))
+
+    /// Takes an Area that stands on a Map.
+    fn take_area(&mut self, world: &World, placed: &MapItem) {
+        for item in world.areas.get(&placed.area).map_or(&[][..], |area| &area.items) {
+            self.take(world, item.orthoframe, &placed.frame.compose(&item.frame));
+        }
+    }
+
+    /// Length, breadth, height.
+    fn size(&self) -> (f64, f64, f64) {
+        let extent = |axis: usize| match self.low[axis] <= self.high[axis] {
+            true => self.high[axis] - self.low[axis],
+            false => 0.0,
+        };
+        (extent(0), extent(1), extent(2))
+    }
+}
+
+/// Overall sizes of a group of items along its own axes, and its height.
+pub(super) fn group_size(world: &World, items: &[Item]) -> (f64, f64, f64) {
+    let mut around = Around::NOTHING;
+    items.iter().for_each(|item| around.take(world, item.orthoframe, &item.frame));
+    around.size()
 }
 
 fn put_object(sheet: &mut Sheet, world: &World, object: &Object) -> Result<()> {
@@ -527,27 +555,47 @@ fn item_orthoframe(world: &World, area: crate::units::AreaId, item: &str) -> u32
     world.areas.get(&area).and_then(|a| a.item(item)).map_or(0, |i| i.orthoframe.0)
 }
 
-/// The records of a Map. Beside another one, those of its items and links are left out that it has in common with that, but
-/// for those of some Areas.
-fn put_map(
-    sheet: &mut Sheet,
-    world: &World,
-    map: &Map,
-    beside: Option<(&Map, &BTreeSet<AreaId>)>,
-) -> Result<()> {
-    let is_common = |no: usize, item: &MapItem| {
-        beside.is_some_and(|(other, but)| {
-            other.items.get(no) == Some(item) && !but.contains(&item.area)
-        })
-    };
-    let is_common_link = |no: usize, link: &Arc<MapLink>| {
-        beside.is_some_and(|(other, but)| {
-            let is_of = |area| but.contains(area);
-            let same = |other: &Arc<MapLink>| Arc::ptr_eq(other, link) || other == link;
-            other.links.get(no).is_some_and(same) && !is_of(&link.area) && !is_of(&link.to_area)
-        })
-    };
-    let (size_x, size_y, height) = map_size(world, map);
+/// Another state of a Map, beside which only what differs is told.
+struct Beside<'w> {
+    other: &'w Map,
+    /// Areas that differ though they stand alike.
+    but: &'w BTreeSet<AreaId>,
+    /// What stands alike on both.
+    common: Around,
+}
+
+impl<'w> Beside<'w> {
+    fn of(map: &Map, other: &'w Map, but: &'w BTreeSet<AreaId>, world: &World) -> Self {
+        let mut beside = Self { other, but, common: Around::NOTHING };
+        let mut common = Around::NOTHING;
+        let items = map.items.iter().enumerate().filter(|(no, item)| beside.has(*no, item));
+        items.for_each(|(_, item)| common.take_area(world, item));
+        beside.common = common;
+        beside
+    }
+
+    fn has(&self, no: usize, item: &MapItem) -> bool {
+        self.other.items.get(no) == Some(item) && !self.but.contains(&item.area)
+    }
+
+    fn has_link(&self, no: usize, link: &Arc<MapLink>) -> bool {
+        let same = |other: &Arc<MapLink>| Arc::ptr_eq(other, link) || other == link;
+        let is_other = |area| self.but.contains(area);
+        self.other.links.get(no).is_some_and(same)
+            && !is_other(&link.area)
+            && !is_other(&link.to_area)
+    }
+}
+
+/// The records of a Map. Beside another one, those of its items and links are left out that it has in common with that.
+fn put_map(sheet: &mut Sheet, world: &World, map: &Map, beside: Option<&Beside<'_>>) -> Result<()> {
+    let is_common = |no: usize, item: &MapItem| beside.is_some_and(|beside| beside.has(no, item));
+    let is_common_link =
+        |no: usize, link: &Arc<MapLink>| beside.is_some_and(|beside| beside.has_link(no, link));
+    let mut around = beside.map_or(Around::NOTHING, |beside| beside.common);
+    let own = map.items.iter().enumerate().filter(|(no, item)| !is_common(*no, item));
+    own.for_each(|(_, item)| around.take_area(world, item));
+    let (size_x, size_y, height) = around.size();
     sheet.put(&t::Map {
         id: map.id.0,
         name: map.name.clone(),
@@ -598,15 +646,6 @@ fn put_map(
         })?;
     }
     Ok(())
-}
-
-fn map_size(world: &World, map: &Map) -> (f64, f64, f64) {
-    let areas =
-        map.items.iter().filter_map(|placed| Some((placed, world.areas.get(&placed.area)?)));
-    let parts = areas.flat_map(|(placed, area)| {
-        area.items.iter().map(|item| (item.orthoframe, placed.frame.compose(&item.frame)))
-    });
-    size_of(world, parts)
 }
 
 fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {
