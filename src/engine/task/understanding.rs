@@ -9,9 +9,7 @@ use crate::language::command::{
     Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
     without_clock,
 };
-use crate::language::question::{
-    Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
-};
+use crate::language::question::{Answer, Conditional, Memory, Thing, Unanswered, conditional};
 use crate::map::Entity;
 use crate::units::Point;
 
@@ -104,7 +102,10 @@ impl State {
             }
         }
         let answered = self.ask(&conditional.question, memory)?;
-        Ok(answered.map(|answer| (matches!(answer.said, Said::Yes | Said::Found), answer)))
+        Ok(answered.and_then(|answer| match answer.is_so() {
+            Some(holds) => Ok((holds, answer)),
+            None => Err(Unanswered::undecided(&conditional.question, answer)),
+        }))
     }
 
     fn understood(

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::vocabulary::{Meaning, Verb, longest, verbs};
+use super::vocabulary::{Meaning, Verb, is_wished, longest, verbs};
 use crate::units::name_key;
 use crate::words::word_ranges;
 
@@ -217,12 +217,19 @@ pub(super) fn first(text: &str) -> Option<(Range<usize>, Verb)> {
         match meaning_at(&keys, at)? {
             (taken, Meaning::Filler | Meaning::Me | Meaning::And) => at += taken,
             (taken, Meaning::Verb(verb)) => {
-                return Some((words[at].start..words[at + taken - 1].end, verb));
+                let tells = tells_of_the_past(&keys, at);
+                return (!tells).then(|| (words[at].start..words[at + taken - 1].end, verb));
             }
             _ => return None,
         }
     }
     None
+}
+
+/// Whether a Russian verb tells or asks what was done: «ты закрыл дверь?».
+fn tells_of_the_past(keys: &[String], at: usize) -> bool {
+    const WISHES: [&str; 3] = ["чтобы", "чтоб", "бы"];
+    is_wished(&keys[at]) && !keys[..at].iter().any(|key| WISHES.contains(&key.as_str()))
 }
 
 /// Whether a text begins with what is not to be done: «не открывай дверь», "don't go there".

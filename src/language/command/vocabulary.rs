@@ -1,10 +1,10 @@
 //! The words of commands in both languages, and what each does in a sentence.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::OnceLock;
 
 use super::Relation;
-use crate::units::InOrder as _;
+use crate::units::{InOrder as _, name_key};
 use crate::words::ordering_verb;
 
 /// What a word or phrase does in a command.
@@ -124,7 +124,7 @@ const fn link(relation: Relation, role: Role) -> Meaning {
 const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::GoTo),
-        "приезжай|приехать|прибудь|окажись|добравшись|поезжай|поезжайте|поехал|подъехал|езжай|езжайте|поехали|едь|едьте|ехать|поехать|съезди|съездите|подъедь|подъедьте|подъезжай|подъезжайте|\
+        "приезжай|приехать|прибудь|окажись|добравшись|поезжай|поезжайте|езжай|езжайте|поехали|едь|едьте|ехать|поехать|съезди|съездите|подъедь|подъедьте|подъезжай|подъезжайте|\
         подъехать|заедь|заезжай|иди|идите|идти|пойди|пойдите|пойти|сходи|сходите|подойди|подойдите|подойти|зайди|зайдите|зайти|пройди|пройдите|\
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
         поднимись|поднимитесь|подняться|спускайся|спускайтесь|поднимайся|поднимайтесь|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
@@ -168,7 +168,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (Meaning::Verb(Verb::Get), "get|go get|go and get|go fetch|getting"),
     (
         Meaning::Verb(Verb::Bring),
-        "принеси|принесите|принёс|принесла|привёз|достал|подал|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\
+        "принеси|принесите|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\
         подать|дай|дайте|дать|достань|достаньте|отдай|отдайте|отдать|притащи|притащите|принесите ка|подкинь|передай|передайте|тащи|неси ка|bring|bring over|bring back|fetch|go fetch me|get me|give|deliver|hand|hand over|carry|pass|serve|grab me|bringing|bringing me|fetching|handing me|passing me|giving me",
     ),
     (
@@ -177,11 +177,11 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Take),
-        "сними|снимите|снять|возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take out|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
+        "сними|снимите|снять|возьми|возьмите|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take out|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
     ),
     (
         Meaning::Verb(Verb::Put),
-        "вези|везите|положи|положите|положил|поставил|отнёс|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
+        "вези|везите|положи|положите|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
         отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переставьте|переложи|переложите|\
         брось|бросьте|кинь|киньте|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|вынеси|вынесите|вывези|оставь|оставьте|\
         put|place|set|lay|hang|drop|throw|toss|поднеси|поднесите|drop off|insert|putting|placing",
@@ -198,31 +198,28 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Open),
-        "открой|открыл|откройте|открыть|открывай|открывайте|opening|отвори|отворите|распахни|распахните|приоткрой|приоткройте|open|open up",
+        "открой|откройте|открыть|открывай|открывайте|opening|отвори|отворите|распахни|распахните|приоткрой|приоткройте|open|open up",
     ),
     (
         Meaning::Verb(Verb::Close),
-        "закрой|закрыл|закройте|закрыть|закрывай|закрывайте|closing|shutting|прикрой|прикройте|затвори|затворите|захлопни|захлопните|close|shut|close up",
+        "закрой|закройте|закрыть|закрывай|закрывайте|closing|shutting|прикрой|прикройте|затвори|затворите|захлопни|захлопните|close|shut|close up",
     ),
-    (
-        Meaning::Verb(Verb::Lock),
-        "запри|запер|заприте|запереть|запирай|замкни|замкните|lock|lock up",
-    ),
+    (Meaning::Verb(Verb::Lock), "запри|заприте|запереть|запирай|замкни|замкните|lock|lock up"),
     (
         Meaning::Verb(Verb::Unlock),
         "отопри|отоприте|отпереть|отпирай|отомкни|отомкните|разблокируй|разблокируйте|unlock",
     ),
     (
         Meaning::Verb(Verb::SwitchOn),
-        "включи|включил|включите|включить|включай|зажги|light up|зажгите|зажечь|вруби|врубите|запусти|запустите|turn on|switch on|power on|power up|start|activate|turning on|switching on",
+        "включи|включите|включить|включай|зажги|light up|зажгите|зажечь|вруби|врубите|запусти|запустите|turn on|switch on|power on|power up|start|activate|turning on|switching on",
     ),
     (
         Meaning::Verb(Verb::SwitchOff),
-        "выключи|выключил|выключите|выключить|отключи|отключите|погаси|погасите|погасить|потуши|потушите|потушить|туши|выключай|гаси|выруби|вырубите|отключить|turn off|switch off|power off|power down|shut off|shut down|deactivate|turn out|turning off|switching off|kill",
+        "выключи|выключите|выключить|отключи|отключите|погаси|погасите|погасить|потуши|потушите|потушить|туши|выключай|гаси|выруби|вырубите|отключить|turn off|switch off|power off|power down|shut off|shut down|deactivate|turn out|turning off|switching off|kill",
     ),
     (
         Meaning::Verb(Verb::Find),
-        "найди|нашёл|найдите|найти|отыщи|отыщите|поищи|поищите|разыщи|разыщите|ищи|ищите|высмотри|find|find me|look for|search for|locate|seek|go find|hunt for|finding|looking for",
+        "найди|найдите|найти|отыщи|отыщите|поищи|поищите|разыщи|разыщите|ищи|ищите|высмотри|find|find me|look for|search for|locate|seek|go find|hunt for|finding|looking for",
     ),
     (
         Meaning::Verb(Verb::Tidy),
@@ -344,7 +341,28 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (Meaning::Them, "их|них|им|ими|ними|them|both of them|all of them"),
 ];
 
-/// The meaning of the longest phrase at the beginning of these words (in [`name_key`](crate::units::name_key) form),
+/// Past forms, which order behind «чтобы» and «бы» alone: «хочу, чтобы ты закрыл дверь». «Ты закрыл дверь?» orders nothing.
+const WISHED: &[(Verb, &str)] = &[
+    (Verb::GoTo, "поехал|подъехал"),
+    (Verb::Bring, "принёс|принесла|привёз|достал|подал"),
+    (Verb::Take, "взял"),
+    (Verb::Put, "положил|поставил|отнёс"),
+    (Verb::Open, "открыл"),
+    (Verb::Close, "закрыл"),
+    (Verb::Lock, "запер"),
+    (Verb::SwitchOn, "включил"),
+    (Verb::SwitchOff, "выключил"),
+    (Verb::Find, "нашёл"),
+];
+
+/// Whether a word, in [`name_key`] form, orders behind «чтобы» and «бы» alone.
+pub(super) fn is_wished(word: &str) -> bool {
+    static FORMS: OnceLock<HashSet<String>> = OnceLock::new();
+    let forms = || WISHED.iter().flat_map(|(_, list)| list.split('|')).map(name_key).collect();
+    FORMS.get_or_init(forms).contains(word)
+}
+
+/// The meaning of the longest phrase at the beginning of these words (in [`name_key`] form),
 /// with the number of words that it takes.
 pub(super) fn longest<'k>(
     words: &(impl Iterator<Item = &'k str> + Clone),
@@ -354,8 +372,7 @@ pub(super) fn longest<'k>(
     let table = TABLE.get_or_init(|| {
         let mut table: HashMap<String, Phrases> = HashMap::new();
         for (meaning, phrase) in phrases() {
-            let words: Vec<String> =
-                phrase.split_whitespace().map(crate::units::name_key).collect();
+            let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
             table.entry(words[0].clone()).or_default().push((words, meaning));
         }
         for phrases in table.values_mut() {
@@ -431,9 +448,9 @@ pub(super) fn verbs() -> impl Iterator<Item = &'static str> {
 }
 
 fn phrases() -> impl Iterator<Item = (Meaning, &'static str)> {
-    VOCABULARY
-        .iter()
-        .flat_map(|(meaning, list)| list.split('|').map(|phrase| (*meaning, phrase.trim())))
+    let wished = WISHED.iter().map(|(verb, list)| (Meaning::Verb(*verb), *list));
+    let all = VOCABULARY.iter().copied().chain(wished);
+    all.flat_map(|(meaning, list)| list.split('|').map(move |phrase| (meaning, phrase.trim())))
 }
 
 #[cfg(test)]
@@ -459,7 +476,7 @@ mod tests {
         let mut seen = HashMap::new();
         for (meaning, phrase) in phrases() {
             assert!(!phrase.is_empty());
-            if let Some(other) = seen.insert(crate::units::name_key(phrase), meaning) {
+            if let Some(other) = seen.insert(name_key(phrase), meaning) {
                 assert_eq!(other, meaning, "{phrase}");
             }
         }

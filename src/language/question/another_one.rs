@@ -4,6 +4,7 @@
 
 use super::grammar::{Item, Sentence, number_of};
 use super::mark::Mark;
+use super::query::Denial;
 use super::{Asker, Claim, Head, Memory, Noun, Query, Restriction, Thing, vocabulary};
 use crate::words::{word_keys, word_ranges};
 
@@ -86,7 +87,7 @@ impl Asker<'_> {
         let place = self.bare_place(&text[word_ranges(text).first()?.end..], memory)?;
         let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
         let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
-        Some(Query::Exists { what, either: false, negated: false })
+        Some(Query::Exists { what, either: false, denial: Denial::None })
     }
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
@@ -164,7 +165,7 @@ impl Asker<'_> {
             // "Which of them is open? And the other one?"
             Query::Find(asked) if !asked.filters.is_empty() => {
                 let claims = asked.filters.iter().cloned().map(Claim::Value).collect();
-                Query::Holds { subject: noun, claims, negated: false }
+                Query::Holds { subject: noun, claims, denial: Denial::None }
             }
             last => last.clone().of_another(&noun),
         })

@@ -2,6 +2,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
+use super::query::Denial;
 use super::{Asker, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction};
 use crate::words::word_keys;
 
@@ -67,7 +68,7 @@ impl Asker<'_> {
         let noun = self.fragment(&sentence, memory)?;
         let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
         let subject = Noun::of(vec![only]);
-        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
+        (!claims.is_empty()).then_some(Query::Holds { subject, claims, denial: Denial::None })
     }
 
     /// «Что ещё на столе? – … – Кроме карандашей?»: the same without those.
@@ -128,7 +129,7 @@ impl Asker<'_> {
             return None;
         }
         let what = vec![Noun { filters, other: false, ..asked.clone() }];
-        Some(Query::Exists { what, either: false, negated: false })
+        Some(Query::Exists { what, either: false, denial: Denial::None })
     }
 
     /// «Какая площадь у кухни? А у ванной?», "And of the bathroom?": the same of another room or thing.
@@ -219,14 +220,18 @@ impl Asker<'_> {
             }
             // «Книга на столе? А на полу?»
             // «Ноутбук включён? А открыт?»
-            Query::Holds { claims, negated, .. } if !noun.filters.is_empty() => {
+            Query::Holds { claims, denial, .. } if !noun.filters.is_empty() => {
                 *claims = noun.filters.into_iter().map(Claim::Value).collect();
-                *negated = false;
+                *denial = Denial::None;
                 return Some(query);
             }
             Query::Choice { subject, .. } if !noun.filters.is_empty() => {
                 let claims = noun.filters.into_iter().map(Claim::Value).collect();
-                return Some(Query::Holds { subject: subject.clone(), claims, negated: false });
+                return Some(Query::Holds {
+                    subject: subject.clone(),
+                    claims,
+                    denial: Denial::None,
+                });
             }
             Query::Holds { claims, .. } if !noun.restrictions.is_empty() => {
                 *claims = noun.restrictions.into_iter().map(Claim::Related).collect();

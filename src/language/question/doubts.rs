@@ -8,12 +8,27 @@ use super::outlive;
 use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
+use super::{Answer, Said};
 use crate::map::Entity;
 use crate::units::AreaId;
 use crate::words::russian::{self, Preposition};
 use crate::words::{Case, Language, alternatives, enumerate, everyday};
 
 impl Unanswered {
+    /// Of a condition that is neither so nor not so by its answer: the map does not tell it, or a denial in it is not understood.
+    #[must_use]
+    pub fn undecided(question: &str, answer: Answer) -> Self {
+        let language = answer.language;
+        let text = match answer.said {
+            Said::Unknown => answer.text,
+            _ => language.pick(
+                format!("Я не понимаю: «{question}»."),
+                format!("I do not understand \"{question}\"."),
+            ),
+        };
+        Self { doubt: Doubt::not_understood(question), language, text, names: Vec::new() }
+    }
+
     /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
     /// word that `known` does not say to be one, that is told as well.
     pub(super) fn not_denied(self, known: impl Fn(&str) -> bool) -> Self {

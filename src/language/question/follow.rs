@@ -4,6 +4,7 @@ use super::another_place::{another_placed, near_another};
 use super::bare::{by_how_much, room_alone, where_alone, where_such, which_alone};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
+use super::query::Denial;
 use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
     several,
@@ -82,7 +83,7 @@ impl Asker<'_> {
             }
             let head = Head { kinds, ..Head::default() };
             let what = vec![Noun { head, restrictions: place, plural: true, ..Noun::default() }];
-            return Some(Query::Exists { what, either: false, negated: false });
+            return Some(Query::Exists { what, either: false, denial: Denial::None });
         }
         // «Сколько телевизоров? А на кухне есть?»
         if let Some(placed) = text.trim_end_matches(['?', ' ']).strip_suffix(" есть")
@@ -95,7 +96,7 @@ impl Asker<'_> {
         {
             return Some(match query {
                 Query::Count(noun) | Query::Find(noun) if !noun.head.anything => {
-                    Query::Exists { what: vec![noun], either: false, negated: false }
+                    Query::Exists { what: vec![noun], either: false, denial: Denial::None }
                 }
                 query => query,
             });

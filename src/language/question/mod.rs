@@ -20,6 +20,7 @@ mod compared;
 mod constructions;
 mod courtesy;
 mod datalog;
+mod denial;
 mod departed;
 mod discourse;
 mod done;
@@ -90,7 +91,7 @@ pub use values::{Property, ValueEntry, ValueId, Values};
 use crate::command::is_too_long;
 use crate::map::World;
 use crate::semantics::Relations;
-use crate::words::{Language, everyday as everyday_words, phrase_at, word_keys};
+use crate::words::{Language, everyday as everyday_words, word_keys};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
@@ -157,6 +158,8 @@ pub struct Answer {
     compared: Vec<Thing>,
     /// The words of the question.
     words: String,
+    /// Whether what was asked is so as it was said, its denial included: "Isn't it on?" is so where it is off.
+    so: Option<bool>,
     /// Of which its query speaks by places in lists.
     stamp: Option<Stamp>,
 }
@@ -177,8 +180,16 @@ impl Answer {
             topic: Vec::new(),
             compared: Vec::new(),
             words: words.to_owned(),
+            so: truth(said),
             stamp: None,
         }
+    }
+
+    /// Whether what was asked is so as it was said, its denial included: "there is no milk" is so where the answer is "No, there
+    /// is none". None where nothing was asked to be so, or that is not known.
+    #[must_use]
+    pub fn is_so(&self) -> Option<bool> {
+        self.so
     }
 
     /// The same with what it found, which is then spoken of, and how many or how much.
@@ -211,6 +222,7 @@ impl Answer {
             topic: Vec::new(),
             compared: Vec::new(),
             words: String::new(),
+            so: answers.iter().try_fold(true, |so, answer| Some(so & answer.so?)),
             stamp: None,
         };
         let mut queries = Vec::new();
@@ -226,6 +238,15 @@ impl Answer {
         whole.text = texts.join(" ");
         whole.query = Query::Several(queries);
         whole
+    }
+}
+
+/// Whether an answer says yes.
+fn truth(said: Said) -> Option<bool> {
+    match said {
+        Said::Yes | Said::Found => Some(true),
+        Said::No | Said::Nothing => Some(false),
+        Said::Unknown => None,
     }
 }
 
@@ -462,18 +483,7 @@ impl Asker<'_> {
         };
         let mut query =
             assemble::query(&sentence, &self.mind.lexicon, &referent, knowledge.elided())?;
-        // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not"; the truth of a denial is not.
-        if sentence.language == Language::English
-            && !(0..sentence.keys.len()).any(|at| {
-                let said = ["true that", "correct that", "the case that"];
-                said.iter().any(|words| phrase_at(&sentence.keys, at, words).is_some())
-            })
-            // "Is there nothing on it?" denies all the same.
-            && !sentence.keys.iter().any(|key| key == "nothing")
-            && let Query::Holds { negated, .. } | Query::Exists { negated, .. } = &mut query
-        {
-            *negated = false;
-        }
+        denial::settle(&sentence, &mut query);
         Ok(query)
     }
 
@@ -639,7 +649,11 @@ impl Asker<'_> {
             return Err(Box::new((Doubt::NotUnderstood { words }, None)));
         }
         let answer = knowledge.answer(&query);
-        let answer = answer.map(|answer| Answer { words: text.to_owned(), ..answer });
+        let answer = answer.map(|answer| Answer {
+            words: text.to_owned(),
+            so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
+            ..answer
+        });
         answer.map_err(|doubt| Box::new((doubt, Some(query))))
     }
 }

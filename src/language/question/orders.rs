@@ -143,10 +143,16 @@ fn asked(claim: &str) -> Option<String> {
         true => "",
         false => &claim[words[range.start].start..words[range.end - 1].end],
     };
-    let is = keys.iter().position(|key| matches!(key.as_str(), "is" | "are" | "s"))?;
-    let (what, state) = (said(0..is), said(is + 1..words.len()));
-    let be = if keys[is] == "s" { "is" } else { &keys[is] };
-    Some(format!("{be} {what} {state}?"))
+    let is =
+        keys.iter().position(|key| matches!(key.as_str(), "is" | "are" | "s" | "isn" | "aren"))?;
+    let denies = matches!(keys[is].as_str(), "isn" | "aren") && keys.get(is + 1)? == "t";
+    let (what, state) = (said(0..is), said(is + 1 + usize::from(denies)..words.len()));
+    let be = match keys[is].as_str() {
+        "are" | "aren" => "are",
+        _ => "is",
+    };
+    let not = if denies { " not" } else { "" };
+    Some(format!("{be} {what}{not} {state}?"))
 }
 
 /// An order that depends on what is found: «Если дверь закрыта, открой её», "Bring the apple if it is on the shelf".

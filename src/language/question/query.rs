@@ -28,6 +28,31 @@ pub enum Courtesy {
     Assent,
 }
 
+/// How a question denies what it asks about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Denial {
+    #[default]
+    None,
+    /// Yes and no are said of the denial: «Телевизор не включён?» – «Да, он выключен».
+    Taken,
+    /// Yes and no are said of what is denied: "Isn't the TV on?" – "No, it is off".
+    Idle,
+}
+
+impl Denial {
+    /// Whether yes and no are said of the denial.
+    #[must_use]
+    pub fn is_taken(self) -> bool {
+        self == Self::Taken
+    }
+}
+
+impl From<bool> for Denial {
+    fn from(is_taken: bool) -> Self {
+        if is_taken { Self::Taken } else { Self::None }
+    }
+}
+
 /// What a question asks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Query {
@@ -38,17 +63,17 @@ pub enum Query {
     /// Which are there.
     Find(Noun),
     Count(Noun),
-    /// Whether there is one; of several, whether there are all, or any. `negated` for «… нет?»
+    /// Whether there is one; of several, whether there are all, or any.
     Exists {
         what: Vec<Noun>,
         either: bool,
-        negated: bool,
+        denial: Denial,
     },
     /// Whether all claims hold of the subject.
     Holds {
         subject: Noun,
         claims: Vec<Claim>,
-        negated: bool,
+        denial: Denial,
     },
     /// Which of several claims hold: "open or closed", «на столе или на полке».
     Choice {

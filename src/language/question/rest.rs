@@ -1,6 +1,7 @@
 //! Asking of the rest: whether what was told is all there is, and whether there is more of it elsewhere.
 
 use super::grammar::Sentence;
+use super::query::Denial;
 use super::{Asker, Head, Memory, Noun, Query, Thing};
 use crate::words::word_keys;
 
@@ -64,7 +65,7 @@ impl Asker<'_> {
                 false => self.described(named, memory)?,
             };
             let what = vec![but(noun, told)];
-            return Some(Query::Exists { what, either: false, negated: true });
+            return Some(Query::Exists { what, either: false, denial: Denial::Taken });
         }
         if MORE.contains(&key.as_str()) {
             return Some(Query::Count(self.left_of_kind(memory)?));
@@ -80,7 +81,7 @@ impl Asker<'_> {
             return None;
         }
         let what = vec![self.left_of_kind(memory)?];
-        Some(Query::Exists { what, either: false, negated: false })
+        Some(Query::Exists { what, either: false, denial: Denial::None })
     }
 
     /// What there is of the kind of what was told last, besides that.

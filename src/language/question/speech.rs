@@ -622,10 +622,11 @@ impl Knowledge<'_> {
         match (self.frame(anchor), self.is_russian()) {
             (Frame::Own, true) => {
                 let form = self.form(anchor, Case::Genitive);
-                format!(" (считая от лицевой стороны {form})")
+                format!(" (с собственной точки зрения {form})")
             }
             (Frame::Own, false) => {
-                format!(" (as seen from the front side of {})", self.form(anchor, Case::Nominative))
+                let name = self.form(anchor, Case::Nominative);
+                format!(" (from {} own point of view)", english::possessive(&name))
             }
             (Frame::Viewer, true) => " (если смотреть с моего места)".to_owned(),
             (Frame::Viewer, false) => " (as seen from where I stand)".to_owned(),

@@ -7,7 +7,7 @@ use super::property::status_word;
 use crate::map::{DoorStatus, Entity};
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::Extension;
-use crate::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
+use crate::question::query::{Claim, Denial, Extreme, Noun, Rel, Restriction, Thing};
 use crate::question::values::{Property, ValueId};
 use crate::question::{Doubt, Fact, Said};
 use crate::units::InOrder as _;
@@ -142,7 +142,7 @@ impl Knowledge<'_> {
                     Claim::Related(restriction) => Some(restriction.clone()),
                     _ => None,
                 }));
-                return self.exists(&[any], false, false);
+                return self.exists(&[any], false, Denial::None);
             }
             // "Is the remote not on the TV stand?": none of them is, whichever is meant.
             Err(Doubt::Ambiguous { candidates, reference }) => {

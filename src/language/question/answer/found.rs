@@ -6,7 +6,7 @@ use super::Draft;
 use crate::map::Entity;
 use crate::question::knowledge::{Frame, Held, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
-use crate::question::query::{Extreme, Head, Noun, Rel, Thing};
+use crate::question::query::{Denial, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Said};
 use crate::units::InOrder as _;
 use crate::words::length;
@@ -476,7 +476,7 @@ impl Knowledge<'_> {
         &self,
         what: &[Noun],
         either: bool,
-        negated: bool,
+        denial: Denial,
     ) -> Result<Draft, Doubt> {
         if let [noun] = what {
             if let Some(parts) = self.has_parts(noun)? {
@@ -516,12 +516,12 @@ impl Knowledge<'_> {
         let join = if all || (!any && what.len() > 1) { self.pick(", и ", " and ") } else { join };
         let text = parts.join(join);
         // «В комнате нет стула?» is answered by «Да, нет» only in words that cannot mislead.
-        let yes = holds != negated;
+        let yes = holds != denial.is_taken();
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let facts = what.iter().zip(&found).flat_map(|(n, f)| self.facts_of(n, f)).collect();
         let things: Vec<Thing> = found.concat();
         let anchors = self.anchor_things(&what[0]);
-        let said = if holds { Said::Yes } else { Said::No };
+        let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
             .about(&anchors))
     }

@@ -23,7 +23,7 @@ use super::knowledge::Knowledge;
 use super::query::{Best, Extreme, Noun, Query, Rel, Thing};
 use super::speech::sentence;
 use super::values::Property;
-use super::{Answer, Doubt, Fact, Said};
+use super::{Answer, Doubt, Fact, Said, truth as said_to_be};
 
 /// An answer on its way: what is known of it beside its words.
 #[derive(Debug, Default)]
@@ -105,14 +105,14 @@ impl Knowledge<'_> {
             Query::RoomOf(noun) => self.room_of(noun)?,
             Query::Find(noun) => self.say_found(noun)?,
             Query::Count(noun) => self.count(noun)?,
-            Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
-            Query::Holds { subject, claims, negated }
+            Query::Exists { what, either, denial } => self.exists(what, *either, *denial)?,
+            Query::Holds { subject, claims, denial }
                 if self.is_floor(subject) || self.is_walls(subject) =>
             {
-                self.surface_is(subject, claims, *negated)?
+                self.surface_is(subject, claims, denial.is_taken())?
             }
-            Query::Holds { subject, claims, negated } => {
-                self.say_holds(subject, claims, *negated)?
+            Query::Holds { subject, claims, denial } => {
+                self.say_holds(subject, claims, denial.is_taken())?
             }
             Query::Choice { subject, claims } => self.choose(subject, claims)?,
             Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,
@@ -202,6 +202,7 @@ impl Knowledge<'_> {
             topic,
             compared: self.measured_together(query),
             words: String::new(),
+            so: said_to_be(draft.said.unwrap_or(Said::Found)),
             stamp: None,
         })
     }

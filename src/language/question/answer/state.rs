@@ -39,7 +39,7 @@ impl Knowledge<'_> {
         };
         let words: Vec<String> = shown.iter().take(8).map(each).collect();
         let text = format!("{head}{}", enumerate(&words, self.language));
-        let said = if lit.is_empty() { Said::No } else { Said::Yes };
+        let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(shown.clone()))
     }
 
@@ -61,7 +61,7 @@ impl Knowledge<'_> {
             (false, true) => format!("{head}{place} {} {}", self.is(&held), self.list(&held)),
             (false, false) => format!("{head}{} {} {place}", self.list(&held), self.is(&held)),
         };
-        let said = if held.is_empty() { Said::Yes } else { Said::No };
+        let said = if yes { Said::Yes } else { Said::No };
         Draft::new(said, text).with(vec![thing]).about(&held)
     }
 }

@@ -7,7 +7,7 @@ use super::Spot;
 use crate::map::Entity;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
-use crate::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
+use crate::question::query::{Denial, Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::question::values::{Property, ValueId};
 use crate::report::Detail;
 use crate::words::Language;
@@ -372,7 +372,7 @@ impl Frame<'_, '_> {
             () if which => Query::Find(noun),
             () if self.asks() || self.has(Mark::List) => Query::Find(noun),
             () if self.has(Mark::Where) => Query::Where(noun),
-            () => Query::Exists { what: vec![noun], either: false, negated: false },
+            () => Query::Exists { what: vec![noun], either: false, denial: Denial::None },
         })
     }
 

@@ -6,7 +6,7 @@ use super::Frame;
 use super::Spot;
 use super::Subject;
 use crate::question::mark::Mark;
-use crate::question::query::{Claim, Extreme, Filter, Noun, Query, Rel, Restriction};
+use crate::question::query::{Claim, Denial, Extreme, Filter, Noun, Query, Rel, Restriction};
 use crate::question::values::ValueId;
 
 impl Frame<'_, '_> {
@@ -28,7 +28,7 @@ impl Frame<'_, '_> {
         }
         let claims = vec![Claim::Value(Filter::new(*value, *negated))];
         let subject = spot.nouns[0].clone();
-        Some(Query::Holds { subject, claims, negated: self.negated })
+        Some(Query::Holds { subject, claims, denial: self.negated.into() })
     }
 
     pub(super) fn why(&self) -> Query {
@@ -54,8 +54,10 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn exists(&self) -> Option<Query> {
+        // «нет красных чашек»: the genitive is of what there is none of, whatever stands between.
+        let lacks = self.sentence.keys.iter().any(|key| key == "нет" || key == "нету");
         let none = self.has(Mark::Not)
-            && self.values.is_empty()
+            && (lacks || self.values.is_empty())
             && self.nouns.iter().any(|s| !s.nominative);
         // «Ты видишь кресло?»: in view, not on the map.
         let key = |word: &str| self.sentence.keys.iter().any(|key| key == word);
@@ -100,7 +102,7 @@ impl Frame<'_, '_> {
                     negated: false,
                 }));
                 let what = vec![Noun { plural: true, ..self.with_rest(rooms, &[]) }];
-                return Some(Query::Exists { what, either: false, negated: self.negated });
+                return Some(Query::Exists { what, either: false, denial: self.negated.into() });
             }
             if !self.is_building(&owner.noun) {
                 let rel = if self.is_area(&owner.noun) { Rel::In } else { Rel::On };
@@ -133,9 +135,20 @@ impl Frame<'_, '_> {
             }
             what.push(self.with_rest(noun, &[]));
         }
+        // «Яблока нет на столе» denies the apple, and neither the place nor what it is like.
+        if none && self.marks.iter().filter(|(mark, _)| *mark == Mark::Not).count() == 1 {
+            for noun in &mut what {
+                noun.restrictions.iter_mut().for_each(|place| place.negated = false);
+                noun.filters.iter_mut().for_each(|filter| filter.negated = false);
+            }
+        }
         let either = self.has(Mark::Or);
-        let negated = (none && !self.has(Mark::Exists)) || self.says_nothing();
-        Some(Query::Exists { what, either, negated })
+        let denial = match none || self.says_nothing() {
+            // «Нет ли на кухне молока?», "Is there no milk?" ask whether there is some.
+            true if self.has(Mark::Exists) && !self.says_nothing() => Denial::Idle,
+            is_denied => is_denied.into(),
+        };
+        Some(Query::Exists { what, either, denial })
     }
 
     /// "Is there nothing on the sofa?"
@@ -183,8 +196,8 @@ impl Frame<'_, '_> {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
             noun.head.anything = true;
             let what = vec![self.with_rest(noun, &[])];
-            let negated = self.negated || self.says_nothing();
-            return Some(Query::Exists { what, either: false, negated });
+            let denial = (self.negated || self.says_nothing()).into();
+            return Some(Query::Exists { what, either: false, denial });
         }
         // "Is everything in the kitchen made of wood?"
         if self.has(Mark::All) && self.nouns.is_empty() && !self.values.is_empty() {
@@ -195,7 +208,7 @@ impl Frame<'_, '_> {
             }
             noun.except.extend(self.except.iter().cloned());
             let claims = self.filters().into_iter().map(Claim::Value).collect();
-            return Some(Query::Holds { subject: noun, claims, negated: self.negated });
+            return Some(Query::Holds { subject: noun, claims, denial: self.negated.into() });
         }
         if let Some(choice) = self.either_place() {
             return Some(choice);
@@ -284,12 +297,12 @@ impl Frame<'_, '_> {
                 Claim::Related(place) => Some(place),
                 _ => None,
             }));
-            return Some(Query::Exists { what: vec![noun], either: false, negated: false });
+            return Some(Query::Exists { what: vec![noun], either: false, denial: Denial::None });
         }
         // «Один ли телевизор в доме?»
         if claims.is_empty() && subject.count.is_some() && self.nouns.len() == 1 {
             let what = vec![Noun { plural: true, indefinite: true, ..subject }];
-            return Some(Query::Exists { what, either: false, negated: self.negated });
+            return Some(Query::Exists { what, either: false, denial: self.negated.into() });
         }
         if claims.is_empty() {
             return None;
@@ -316,7 +329,11 @@ impl Frame<'_, '_> {
             {
                 let mut noun = Noun { plural: true, ..subject };
                 noun.filters.extend(self.filters());
-                return Some(Query::Exists { what: vec![noun], either: false, negated: false });
+                return Some(Query::Exists {
+                    what: vec![noun],
+                    either: false,
+                    denial: Denial::None,
+                });
             }
             let mut noun = Noun { plural: true, ..subject.clone() };
             for claim in &claims {
@@ -325,11 +342,15 @@ impl Frame<'_, '_> {
                     Claim::Size(size) => noun.sizes.push(*size),
                     Claim::Related(place) => noun.restrictions.push(place.clone()),
                     Claim::Kind(_) => {
-                        return Some(Query::Holds { subject, claims, negated: self.negated });
+                        return Some(Query::Holds { subject, claims, denial: self.negated.into() });
                     }
                 }
             }
-            return Some(Query::Exists { what: vec![noun], either: false, negated: self.negated });
+            return Some(Query::Exists {
+                what: vec![noun],
+                either: false,
+                denial: self.negated.into(),
+            });
         }
         // «Лежит ли на комоде книга?» asks for any book; «Книга на комоде?» for the one.
         let places = claims.iter().all(|c| matches!(c, Claim::Related(_)));
@@ -344,7 +365,7 @@ impl Frame<'_, '_> {
             let mut noun = first.noun.clone();
             noun.indefinite = true;
             let what = vec![self.with_rest(noun, &[])];
-            return Some(Query::Exists { what, either: false, negated: false });
+            return Some(Query::Exists { what, either: false, denial: Denial::None });
         }
         let either = self.has(Mark::Or) || self.spots.iter().any(|s| s.either);
         let values = self.values.len() > 1 || (self.values.len() == 1 && claims.len() > 1);
@@ -356,9 +377,9 @@ impl Frame<'_, '_> {
             return Some(Query::Holds {
                 subject,
                 claims: vec![Claim::Value(filter)],
-                negated: self.negated,
+                denial: self.negated.into(),
             });
         }
-        Some(Query::Holds { subject, claims, negated: self.negated })
+        Some(Query::Holds { subject, claims, denial: self.negated.into() })
     }
 }

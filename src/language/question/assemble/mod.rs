@@ -8,6 +8,7 @@ mod account;
 mod activity;
 mod attach;
 mod claim;
+mod clauses;
 mod compare;
 mod elided;
 mod frame;
@@ -42,6 +43,9 @@ pub(super) fn query(
     let frame = Frame::of(sentence, lexicon, &items, referent)?;
     if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
         return Ok(Query::Several(queries));
+    }
+    if let Some(claims) = clauses::clauses_of(sentence, lexicon, &items, &frame, referent) {
+        return Ok(claims);
     }
     let read = match frame.read() {
         None => return Err(frame.not_understood(&items)),

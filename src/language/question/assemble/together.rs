@@ -90,7 +90,7 @@ impl Frame<'_, '_> {
             let [one, other] = [one, other].map(|thing| Noun::of(vec![*thing]));
             let place = Restriction { rel, anchors: vec![other], negated: false };
             let claims = vec![Claim::Related(place)];
-            return Some(Query::Holds { subject: one, claims, negated: self.negated });
+            return Some(Query::Holds { subject: one, claims, denial: self.negated.into() });
         }
         let [first, second] = &self.nouns[..] else { return None };
         if self.asks() || !self.has(Mark::And) || self.has(Mark::Where) || !self.spots.is_empty() {
@@ -98,7 +98,7 @@ impl Frame<'_, '_> {
         }
         let anchors = vec![second.noun.clone()];
         let claims = vec![Claim::Related(Restriction { rel, anchors, negated: false })];
-        Some(Query::Holds { subject: first.noun.clone(), claims, negated: self.negated })
+        Some(Query::Holds { subject: first.noun.clone(), claims, denial: self.negated.into() })
     }
 
     /// «Чем отличаются Шкаф-1 и Шкаф-2?», "What do the sofa and the bookshelf have in common?"

@@ -289,7 +289,7 @@ impl Frame<'_, '_> {
         let [subject, other] = <[Noun; 2]>::try_from(rooms).ok()?;
         let place = Restriction { rel: Rel::NextTo, anchors: vec![other], negated: false };
         let claims = vec![Claim::Related(place)];
-        Some(Query::Holds { subject, claims, negated: self.negated })
+        Some(Query::Holds { subject, claims, denial: self.negated.into() })
     }
 
     pub(super) fn leads(&self) -> Option<Query> {
@@ -465,7 +465,7 @@ impl Frame<'_, '_> {
         }
         let place = Restriction { rel: Rel::NextTo, anchors: vec![to], negated: false };
         let claims = vec![Claim::Related(place)];
-        Some(Query::Holds { subject: from, claims, negated: self.negated })
+        Some(Query::Holds { subject: from, claims, denial: self.negated.into() })
     }
 
     pub(super) fn rooms_near(&self, anchor: Noun) -> Noun {

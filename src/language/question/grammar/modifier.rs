@@ -81,6 +81,12 @@ impl Sentence<'_> {
                     false => Ok((Tokens(after), Modifier::Value(*other, false))),
                 };
             }
+            // «нет чёрных стульев», "no black chairs": there is none of them.
+            Tok::Mark(Mark::Not)
+                if ["нет", "нету", "no"].contains(&&*self.keys[first.from as usize]) =>
+            {
+                return fail(input);
+            }
             Tok::Mark(Mark::Not) => {
                 // «не чёрные стулья»
                 return match rest.0 {
