@@ -15,6 +15,10 @@
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg_attr(
+    not(feature = "serve"),
+    expect(dead_code, unused_imports, reason = "what only the faces use lies idle without them")
+)]
 pub mod engine;
 #[cfg(feature = "serve")]
 #[doc(hidden)]

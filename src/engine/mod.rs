@@ -30,7 +30,6 @@ mod after;
 mod apart;
 mod assumed;
 mod barriers;
-#[cfg(feature = "cli")]
 pub(crate) mod calls;
 mod changes;
 mod delivery;
@@ -74,10 +73,6 @@ mod queue;
 mod reading;
 #[cfg(feature = "recordings")]
 mod recording;
-#[cfg_attr(
-    not(feature = "serve"),
-    expect(dead_code, reason = "the console and assistants use all of it")
-)]
 pub(crate) mod rehearsal;
 mod route;
 mod rule_files;
@@ -105,7 +100,6 @@ use std::sync::Arc;
 pub use advice::Advice;
 pub use after::After;
 pub use barriers::no_way_in_words;
-#[cfg(feature = "cli")]
 pub(crate) use dialogue::queue_in_words;
 pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
 pub use directive_words::{actions_in_words, directive_in_words, name_in, task_in_words};
