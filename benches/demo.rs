@@ -6,8 +6,8 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use orthoframe::Engine;
-use orthoframe::engine::{Change, Method, Timestamp, World};
+use orthoframe::engine::{Change, Method, Timestamp};
+use orthoframe::{Engine, World};
 use orthoframe_geometry::{DoorStates, FloorPlan, Target};
 use orthoframe_graphplan::{Limits, solve};
 use orthoframe_robot::{facts_of_map, state};

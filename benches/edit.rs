@@ -9,8 +9,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use cpu_time::ProcessTime;
-use orthoframe::Engine;
-use orthoframe::engine::{Method, Mode, State, World, change_now};
+use orthoframe::engine::{Method, Mode, State, change_now};
+use orthoframe::{Engine, World};
 use orthoframe_map::{Area, Edits, Format, Forms, MapItem, MapLink, Place, Replica, SideRef};
 use orthoframe_store::Store;
 use orthoframe_units::{

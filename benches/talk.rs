@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
-use orthoframe::Engine;
-use orthoframe::engine::{Memory, World, change_now};
+use orthoframe::engine::{Memory, change_now};
+use orthoframe::{Engine, World};
 use orthoframe_language::question::Lexicon;
 use orthoframe_store::Store;
 use orthoframe_units::{Deg, Frame};

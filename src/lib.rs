@@ -9,12 +9,17 @@
 //! ```
 //!
 //! What a program needs of it is told in full by this crate: [`engine`] does the work, and the values that it takes and
-//! gives are named here. The folders below, each a crate of the workspace, may change from one version to the next; the
-//! surface does not change unseen, for it stands in `tests/golden/surface.txt`. `ARCHITECTURE.md` draws the folders.
+//! gives are named here; what only stands within one of them is read from it without a name. The folders below, each a
+//! crate of the workspace, may change from one version to the next; the surface does not change unseen, for it stands in
+//! `tests/golden/surface.txt`. `ARCHITECTURE.md` draws the folders.
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg_attr(
+    not(feature = "serve"),
+    expect(dead_code, unused_imports, reason = "what only the faces use lies idle without them")
+)]
 pub mod engine;
 #[cfg(feature = "serve")]
 #[doc(hidden)]
@@ -22,27 +27,24 @@ pub mod serve;
 
 pub use engine::{Dialogue, Engine, Error, State};
 
-/// Lengths, angles, places and ids.
+/// Lengths, angles, places, and the ids of all that an [`Entity`] is.
 pub use orthoframe_units::{
-    AreaId, Cm, Deg, DoorId, Frame, Language, MapId, ObjectId, OpeningId, PlaceId, Point, Pose,
-    ReplicaId, Source as SourceText, Stop, TypeId, Vector,
+    AreaId, Cm, Deg, DoorId, Frame, Language, MapId, PlaceId, Point, Pose, ReplicaId,
+    Source as SourceText, Stop, ZoneId,
 };
 
-/// The map: what stands in a [`World`].
+/// The map: what stands in a [`World`], and edits of it.
 pub use orthoframe_map::{
-    Area, Door, DoorKind, DoorState, DoorStatus, Edit, Edits, Entity, Fault, Item, MapErrors,
-    NextIds, Object, Orthoframe, Permeability, Place, Profile, Replica, RobotProfile, World,
+    Area, Door, DoorKind, DoorState, DoorStatus, Edit, Edits, Entity, MapErrors, Place, Profile,
+    Replica, World,
 };
 
-/// Free floor, openings and ways.
-pub use orthoframe_geometry::{
-    FloorPlan, FragmentFloor, OpenSide, Opening, Openings, Passframe, Polygon, Region, Route,
-    Target,
-};
+/// The pieces of the free floor, outlines and ways.
+pub use orthoframe_geometry::{Passframe, Polygon, Route};
 
 /// Relations, and the robot that a task is given to.
 pub use orthoframe_robot::{Simulator, Vehicle};
-pub use orthoframe_semantics::{Around, RelationRules, Relations};
+pub use orthoframe_semantics::Relations;
 
 /// What moves the robot: a simulator, what speaks the protocol of docs/vehicle.md, or a type of one's own.
 ///
@@ -59,9 +61,10 @@ pub use orthoframe_semantics::{Around, RelationRules, Relations};
 /// ```
 pub mod vehicle {
     pub use orthoframe_geometry::Ride;
+    pub use orthoframe_robot::protocol::Scan;
     pub use orthoframe_robot::{
-        Address, Bump, Done, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience,
-        Refusal, RemoteVehicle, Sighting, Unfinished, Watch,
+        Address, Bump, Failure, Gathered, Moment, Notice, Obstruction, Outlines, Patience, Refusal,
+        RemoteVehicle, Sighting, Unfinished, Watch,
     };
 }
 

@@ -7,8 +7,7 @@ use std::time::SystemTime;
 
 use orthoframe::Engine;
 use orthoframe::engine::{
-    Memory, Method, Progress, TaskAnswer, TaskEnding, Timestamp, change_now, opens_in_words,
-    surprise_in_words,
+    Memory, Method, Progress, TaskAnswer, TaskEnding, TaskEvents, Timestamp, change_now, json,
 };
 use orthoframe_language::Language;
 use orthoframe_language::question::Said;
@@ -133,12 +132,25 @@ fn relations(world: &World) -> Relations {
     derive(world, &RelationRules::standard(), Profile::Surveyed).unwrap()
 }
 
+/// What went otherwise than believed.
+fn explanation(world: &World, progress: &Progress<'_>) -> String {
+    let event = TaskEvents::default().of(world, progress).expect("an event");
+    event["explanation_en"].as_str().expect("a surprise").to_owned()
+}
+
+/// Why a task could not go on.
+fn stuck(engine: &Engine, answer: &TaskAnswer) -> String {
+    assert!(matches!(answer.ending, TaskEnding::Stuck(_)), "{:?}", answer.ending);
+    let view = json::task(engine.world().unwrap(), answer);
+    view["explanation_en"].as_str().expect("a surprise").to_owned()
+}
+
 /// Carries out an order in a world that is as believed, where nothing may surprise the robot, and remembers it.
 fn order(engine: &mut Engine, order: &str) -> Result<TaskAnswer, orthoframe::engine::Error> {
     let world = engine.world_now().unwrap().clone();
     let answer = engine.perform(order, &mut |progress| {
-        if let Progress::Surprised { directive, surprise } = progress {
-            let why = surprise_in_words(&world, surprise, Language::English);
+        if let Progress::Surprised { directive, .. } = progress {
+            let why = explanation(&world, progress);
             panic!("{order}: {directive} was begun and known to fail: {why}");
         }
     })?;
@@ -267,8 +279,7 @@ fn a_plan_that_the_floor_refuses_is_not_begun() {
     );
     let mut engine = home(&dir, &text);
     let answer = order(&mut engine, "Go to the closet").unwrap();
-    let TaskEnding::Stuck(why) = &answer.ending else { panic!("{:?}", answer.ending) };
-    let why = surprise_in_words(engine.world().unwrap(), why, Language::English);
+    let why = stuck(&engine, &answer);
     assert!(why.contains("the closet door"), "{why}");
     assert_eq!(answer.start, answer.end, "it set out");
     assert!(answer.reports.is_empty());
@@ -321,7 +332,7 @@ fn ways_are_told_in_the_world_as_it_is() {
     assert!(way.legs.iter().all(|leg| leg.route.is_ok()));
     let world = engine.world_now().unwrap();
     assert_eq!(
-        opens_in_words(world, &way.opens, Language::English),
+        way.opens_in_words(world, Language::English),
         "On the way the kitchen door must be opened (closed, not locked)."
     );
     let (said, text) = ask(&engine, "Can you get to the hall?");
@@ -616,8 +627,8 @@ fn in_truth(engine: &mut Engine, text: &str, truth: &mut World) -> (TaskAnswer, 
     let commands = engine.understand(text).unwrap();
     let mut told = Vec::new();
     let answer = engine.carry_out_in(&commands, truth, &mut |progress| {
-        if let Progress::Surprised { surprise, .. } = progress {
-            told.push(surprise_in_words(&world, surprise, Language::English));
+        if let Progress::Surprised { .. } = progress {
+            told.push(explanation(&world, progress));
         }
     });
     let answer = answer.unwrap_or_else(|e| panic!("{text}: {e}"));
@@ -649,8 +660,7 @@ fn what_is_not_in_its_place_is_sought_and_what_is_nowhere_is_remembered_to_be_go
             "{told:?}"
         );
         if is_gone {
-            let TaskEnding::Stuck(why) = &answer.ending else { panic!("{:?}", answer.ending) };
-            let why = surprise_in_words(engine.world().unwrap(), why, Language::English);
+            let why = stuck(&engine, &answer);
             assert_eq!(why, "Ball 1 is not in its place");
             let (said, text) = ask(&engine, "Where is Ball 1?");
             assert_eq!(said, Said::Unknown, "{text}");

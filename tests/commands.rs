@@ -3,9 +3,7 @@
 use std::collections::BTreeSet;
 
 use orthoframe::Engine;
-use orthoframe::engine::{
-    Memory, Progress, TaskAnswer, TaskEnding, actions_in_words, change_now, directive_in_words,
-};
+use orthoframe::engine::{Memory, Progress, TaskAnswer, TaskEnding, change_now};
 use orthoframe_geometry::Scene;
 use orthoframe_language::Language;
 use orthoframe_language::command::Command;
@@ -31,7 +29,7 @@ fn perform(engine: &Engine, command: &str) -> TaskAnswer {
 }
 
 fn said(world: &World, answer: &TaskAnswer, language: Language) -> Vec<String> {
-    answer.reports.iter().flat_map(|r| actions_in_words(world, &r.directive, language)).collect()
+    answer.reports.iter().flat_map(|r| r.actions_in_words(world, language)).collect()
 }
 
 /// The flat in a store of its own, so that one task goes on from another.
@@ -362,7 +360,7 @@ fn directives_are_told_in_words() {
     let told: Vec<String> = answer
         .reports
         .iter()
-        .map(|r| directive_in_words(lab.world().unwrap(), &r.directive, Language::English))
+        .map(|r| r.directive_in_words(lab.world().unwrap(), Language::English))
         .collect();
     assert_eq!(
         told,
@@ -385,7 +383,7 @@ fn directives_are_told_in_words() {
     let told: Vec<String> = answer
         .reports
         .iter()
-        .map(|r| directive_in_words(flat.world().unwrap(), &r.directive, Language::Russian))
+        .map(|r| r.directive_in_words(flat.world().unwrap(), Language::Russian))
         .collect();
     for words in ["подъехать к Двери-КY", "открыть Дверь-КY", "включить Торшер-1"]
     {
@@ -410,7 +408,7 @@ fn what_the_program_understands_of_a_map_may_be_english() {
     let words: Vec<String> = tidied
         .reports
         .iter()
-        .map(|r| directive_in_words(lab.world().unwrap(), &r.directive, Language::English))
+        .map(|r| r.directive_in_words(lab.world().unwrap(), Language::English))
         .collect();
     assert!(words.iter().any(|w| w.contains("Toolbox 1 on Workbench 1")), "{words:?}");
 }
@@ -581,7 +579,7 @@ fn to_a_window_the_robot_goes_as_near_as_it_can() {
         let found = engine.locate(done.end_map, done.end, false).unwrap();
         assert_eq!(engine.world().unwrap().name(Entity::Area(found.terms.area)), room, "{command}");
         let last = done.reports.last().expect("it drove");
-        let told = directive_in_words(engine.world().unwrap(), &last.directive, Language::Russian);
+        let told = last.directive_in_words(engine.world().unwrap(), Language::Russian);
         assert!(told.starts_with("подъехать к окну в Комнате-"), "{told}");
     }
 }

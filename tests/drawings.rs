@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Drawing, Lens, Method, parse_pose};
+use orthoframe::engine::{Drawing, Lens, Method, State};
 use orthoframe_corridor::{CorridorSystem, Shape, Variant, figure};
 use orthoframe_draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
@@ -160,7 +160,7 @@ fn a_view_shows_what_is_before_the_eye_and_not_what_is_behind_it() {
     let engine = engine();
     let (map, _) = engine.sheet_named(None).unwrap();
     let lens = |pose: &str| Lens {
-        pose: parse_pose(pose).unwrap(),
+        pose: State::parse_pose(pose).unwrap(),
         height: 120.0,
         field: 90.0,
         range: 1200.0,
@@ -465,7 +465,7 @@ fn only_what_has_the_trait_is_drawn_as_movable() {
 fn a_view_tells_from_where_it_is_seen() {
     let engine = engine();
     let (map, _) = engine.sheet_named(None).unwrap();
-    let pose = parse_pose("370,140,120").unwrap();
+    let pose = State::parse_pose("370,140,120").unwrap();
     let lens = Lens { pose, height: 120.0, field: 90.0, range: 1200.0 };
     for (language, words) in [
         (Language::Russian, ["Комната-В", "(370; 140)", "120°", "90°"]),

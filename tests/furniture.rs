@@ -3,8 +3,8 @@
 
 use std::time::SystemTime;
 
-use orthoframe::Engine;
-use orthoframe::engine::{Progress, TaskAnswer, TaskEnding, Timestamp, World, change_now};
+use orthoframe::engine::{Progress, TaskAnswer, TaskEnding, Timestamp, change_now};
+use orthoframe::{Engine, World};
 use orthoframe_language::Language;
 use orthoframe_map::{DoorStatus, Entity, stands};
 use orthoframe_semantics::{Profile, RelationRules, derive};

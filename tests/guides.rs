@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Rules, plan_alone};
+use orthoframe::engine::{PlanAnswer, Rules};
 use orthoframe_graphplan::{Limits, Outcome};
 use orthoframe_map::{Format, World};
 use orthoframe_robot::Wanted;
@@ -116,7 +116,8 @@ fn the_robot_of_the_guide_to_rules_waters_its_pots() {
         panic!("one rule file is shown")
     };
     let scenario = Scenario::parse(&Source::new("docs/rules.md", rules)).unwrap();
-    let solved = plan_alone(scenario, &Limits::default(), Wanted::Shortest).unwrap().solved;
+    let solved =
+        PlanAnswer::without_map(scenario, &Limits::default(), Wanted::Shortest).unwrap().solved;
     let Outcome::Plan(plan) = &solved.outcome else { panic!("{:?}", solved.outcome) };
     assert_eq!(plan.steps.len(), 8);
     assert!(solved.is_shortest);

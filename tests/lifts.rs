@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Method, no_way_in_words};
+use orthoframe::engine::Method;
 use orthoframe_geometry::*;
 use orthoframe_language::Language;
 use orthoframe_language::report::Detail;
@@ -164,7 +164,9 @@ fn without_a_lift_there_is_no_way_and_stairs_are_none() {
         let no = way(world, p(100., 100.), p(200., 100.)).expect_err("no lift");
         assert!(matches!(no.why, NoRoute::OtherMap { .. }), "{no:?}");
         for (language, told) in [Language::Russian, Language::English].into_iter().zip(told) {
-            let words = no_way_in_words(world, &no.why, language);
+            let engine = Engine::in_memory(world.clone(), None).expect("built-in rules");
+            let journey = engine.journey("Холл-1", "Холл-2", Method::Shortest).expect("two halls");
+            let words = journey.legs[0].no_way_in_words(world, language).expect("no lift");
             assert!(words.contains(told), "{words}");
         }
     };
@@ -258,8 +260,8 @@ fn what_hangs_is_told_to_hang_to_a_low_robot_too() {
         let engine = Engine::in_memory(b.world, None).expect("built-in rules");
         let journey =
             engine.journey("50,150", "350,150", Method::Shortest).expect("points of the hall");
-        let why = journey.legs[0].route.as_ref().expect_err("it is shut off");
-        let told = no_way_in_words(engine.world().unwrap(), why, Language::English);
+        let told = journey.legs[0].no_way_in_words(engine.world().unwrap(), Language::English);
+        let told = told.expect("it is shut off");
         assert!(told.contains(&format!("its underside at {low} cm")), "{told}");
     }
 }

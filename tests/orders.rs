@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Memory, TaskAnswer, TaskEnding, actions_in_words};
+use orthoframe::engine::{Memory, TaskAnswer, TaskEnding};
 use orthoframe_language::Language;
 use orthoframe_language::command::preamble;
 use orthoframe_map::{DoorState, Entity, World};
@@ -95,7 +95,7 @@ fn whoever_has_the_key_is_asked_to_unlock() {
         assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
         assert_eq!(actions(&answer)[..2], ["Позвать-оператора", "Открыть-дверь"]);
         let told = answer.reports.iter();
-        let told = told.flat_map(|r| actions_in_words(&world, &r.directive, Language::English));
+        let told = told.flat_map(|r| r.actions_in_words(&world, Language::English));
         assert!(
             told.into_iter().any(|said| said == "Please come to me and unlock the office door.")
         );

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use miette::Diagnostic;
-use orthoframe::engine::plan_alone;
+use orthoframe::engine::PlanAnswer;
 use orthoframe_graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
 use orthoframe_robot::Wanted;
 use orthoframe_strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
@@ -294,7 +294,7 @@ fn grounding_keeps_to_the_limits() {
     let scenario = Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem));
     let scenario = scenario.unwrap();
     let outcome = |limits: Limits| {
-        plan_alone(scenario.clone(), &limits, Wanted::Shortest).unwrap().solved.outcome
+        PlanAnswer::without_map(scenario.clone(), &limits, Wanted::Shortest).unwrap().solved.outcome
     };
     let small = Limits { memory_bytes: 1 << 20, ..Limits::default() };
     assert_eq!(outcome(small).limit(), Some(Limit::Memory));

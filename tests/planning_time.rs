@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashSet};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Error, PlanAnswer, facts_in_rule_text};
+use orthoframe::engine::{Error, PlanAnswer};
 use orthoframe_graphplan::{Limits, Outcome, validate};
 use orthoframe_map::*;
 use orthoframe_robot::{Reason, Wanted};
@@ -110,7 +110,7 @@ fn text(start: &str, goal: &str) -> String {
 
 /// The same with all that a map gives to it.
 pub(crate) fn texts(engine: &Engine, start: &str, goal: &str) -> Texts {
-    let facts = facts_in_rule_text(&engine.facts_given(None).unwrap());
+    let facts = engine.facts_in_rule_text(None).unwrap();
     Texts::Rules(text(start, goal) + &facts)
 }
 

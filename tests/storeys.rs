@@ -1,7 +1,7 @@
 //! Tasks from storey to storey: planned, driven by lift, told step by step.
 
 use orthoframe::Engine;
-use orthoframe::engine::{TaskAnswer, TaskEnding, change_now, directive_in_words};
+use orthoframe::engine::{TaskAnswer, TaskEnding, change_now};
 use orthoframe_language::Language;
 use orthoframe_map::{DoorState, Entity, Format, World};
 use orthoframe_units::{DoorId, Source};
@@ -28,7 +28,7 @@ fn perform(engine: &Engine, command: &str) -> TaskAnswer {
 
 fn words(engine: &Engine, answer: &TaskAnswer, language: Language) -> Vec<String> {
     let world = engine.world().unwrap();
-    answer.reports.iter().map(|r| directive_in_words(world, &r.directive, language)).collect()
+    answer.reports.iter().map(|r| r.directive_in_words(world, language)).collect()
 }
 
 #[test]

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Error, Memory, World, task_in_words};
+use orthoframe::World;
+use orthoframe::engine::{Error, Memory};
 use orthoframe_exchange::{Options, read};
 use orthoframe_facts::Value;
 use orthoframe_language::command::Misheard;
@@ -132,7 +133,7 @@ fn what_was_done_is_told_afterwards() {
     let order = "Go to Room Z";
     let commands = engine.understand_in(order, &mut memory).unwrap();
     let answer = engine.carry_out(&commands, &mut |_| {}).unwrap();
-    memory.did(task_in_words(engine.world().unwrap(), order, &answer));
+    memory.did(answer.in_words(engine.world().unwrap(), order));
     assert_eq!(
         said(&engine, "What did you do?", &mut memory),
         "The last task was “Go to Room Z”: drive to Door VZ, go through Door VZ into Room Z; done."

@@ -1,6 +1,7 @@
 //! Ways in words: what is told agrees with the route's geometry, in every world and both languages.
 
-use orthoframe::engine::{Engine, Memory, Method, RouteAnswer, World};
+use orthoframe::World;
+use orthoframe::engine::{Engine, Memory, Method, RouteAnswer};
 use orthoframe_exchange::{Options, read};
 use orthoframe_language::Language;
 use orthoframe_language::directions::{Directions, RoomPart, Side};

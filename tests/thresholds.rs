@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::engine::{Engine, Rules, check_map_closely};
+use orthoframe::engine::{Engine, Rules};
 use orthoframe_facts::{Value, WhyNot};
 use orthoframe_language::question::Memory;
 use orthoframe_map::{Entity, Format, Profile, World};
@@ -435,7 +435,7 @@ fn a_map_is_doubted_by_the_thresholds_of_the_rules() {
         let dir = rules_dir(rules, "");
         let file = dir.path().join("дом.toml");
         std::fs::write(&file, &text).unwrap();
-        let (_, told) = check_map_closely(&file, Some(dir.path())).unwrap();
+        let (_, told) = Engine::check_map(&file, Some(dir.path())).unwrap();
         told.faults.iter().map(ToString::to_string).collect()
     };
     let standard = doubted(&STANDARD);

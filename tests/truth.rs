@@ -5,7 +5,7 @@ use orthoframe::engine::{Error, Progress, TaskAnswer, TaskEnding, Timestamp, cha
 use orthoframe_geometry::Scene;
 use orthoframe_language::question::News;
 use orthoframe_map::{DoorState, Entity, Format, World};
-use orthoframe_robot::{GoalFact, Senses, Surprise, facts_of_map, is_obstacle};
+use orthoframe_robot::{GoalFact, Senses, SensingRobot, Surprise, facts_of_map, is_obstacle};
 use orthoframe_semantics::{Profile, RelationRules, derive};
 use orthoframe_units::{AreaId, Frame, Point, ReplicaId, Source, Stop};
 
@@ -367,7 +367,8 @@ fn what_was_met_is_believed_and_proposed_and_becomes_a_thing_of_the_map_or_none(
         engine.import(&project("maps/rb2.toml"), &change_now("тест", "импорт")).unwrap();
         let world = engine.world().unwrap().clone();
         let truth = || engine.truth(&edits(stranger), Format::Toml).unwrap().world;
-        let mut robot = engine.sensing_robot(Some(truth()), Senses::of_seed(3)).unwrap();
+        let mut robot =
+            SensingRobot::new(engine.simulator(Some(truth())).unwrap(), Senses::of_seed(3));
         let mut surprises = 0;
         let mut tell = |progress: &Progress<'_>| {
             surprises += usize::from(matches!(progress, Progress::Surprised { .. }));

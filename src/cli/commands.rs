@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::engine::{
-    Dialogue, Engine, Method, Outcome, Reply, Truth, World, change_now, check_map_closely,
-    opens_in_words, parse_pose, uncertain_names,
+    Dialogue, Engine, Method, Outcome, Reply, Rules, State, Truth, World, change_now,
+    uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase};
-use crate::robot::Vehicle;
+use crate::robot::{SensingRobot, Vehicle};
 use crate::strips::Scenario;
 
 use super::args::{Common, Detail, Lang, RouteMethod};
@@ -63,7 +63,7 @@ pub(super) struct DoArgs {
 }
 
 pub(super) fn check(common: &Common, file: &Path, strict: bool) -> Result<Answer, Failure> {
-    let (world, warnings) = check_map_closely(file, rules_dir(common).as_deref())?;
+    let (world, warnings) = Engine::check_map(file, rules_dir(common).as_deref())?;
     if strict && !warnings.faults.is_empty() {
         return Err(warnings.into());
     }
@@ -159,7 +159,7 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
             match args.vehicle.connect(engine.world()?, args.truth.as_deref())? {
                 Some(robot) => Box::new(robot),
                 None => match args.vehicle.senses() {
-                    Some(senses) => Box::new(engine.sensing_robot(truth, senses)?),
+                    Some(senses) => Box::new(SensingRobot::new(engine.simulator(truth)?, senses)),
                     None => Box::new(engine.simulator(truth)?),
                 },
             };
@@ -174,7 +174,7 @@ pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure>
     let task = args.task.as_deref().unwrap_or_default();
     let mut dialogue = Dialogue::new(common.lang.language());
     if let Some(senses) = args.vehicle.senses() {
-        dialogue = dialogue.driving(Box::new(engine.sensing_robot(truth, senses)?));
+        dialogue = dialogue.driving(Box::new(SensingRobot::new(engine.simulator(truth)?, senses)));
     } else if let Some(truth) = truth {
         dialogue = dialogue.in_truth(truth);
     }
@@ -219,10 +219,8 @@ fn truth(common: &Common, engine: &Engine, file: &Path) -> Result<World, Failure
 }
 
 pub(super) fn export_rules(common: &Common, dir: &Path, force: bool) -> Result<Answer, Failure> {
-    let written: Vec<String> = crate::engine::export_rules(dir, force)?
-        .into_iter()
-        .map(|path| path.display().to_string())
-        .collect();
+    let written: Vec<String> =
+        Rules::export(dir, force)?.into_iter().map(|path| path.display().to_string()).collect();
     if common.json {
         return say(&json::written(&written).to_string());
     }
@@ -286,7 +284,7 @@ pub(super) fn route(
                 parts.push(engine.ride_in_words(ride, language)?);
             }
         }
-        let opens = opens_in_words(world, &journey.opens, language);
+        let opens = journey.opens_in_words(world, language);
         parts.extend(Some(opens).filter(|told| !told.is_empty()));
         let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
         let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
@@ -304,7 +302,7 @@ pub(super) fn locate(
 ) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let (map, pose, facing) = match at {
-        Some(at) => (engine.map_named(map)?, parse_pose(at)?, at.split(',').count() == 3),
+        Some(at) => (engine.map_named(map)?, State::parse_pose(at)?, at.split(',').count() == 3),
         None => {
             let (map, pose) = engine.robot()?;
             (map, pose, true)

@@ -8,7 +8,7 @@ use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, 
 use crate::draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
 };
-use crate::engine::{Engine, Error, check_map, json};
+use crate::engine::{Engine, Error, json, read_map};
 use crate::units::Source;
 
 use super::args::{Common, Lang};
@@ -157,7 +157,7 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
     let mut system = match (&args.file, &args.map) {
         (Some(file), _) => read(file)?,
         (None, Some(map)) if Path::new(map).is_file() => {
-            let (world, _) = check_map(Path::new(map))?;
+            let (world, _) = read_map(Path::new(map))?;
             let engine = Engine::in_memory(world, rules_dir(common).as_deref())?;
             engine.corridors(None)?
         }

@@ -6,6 +6,7 @@ use std::time::Duration;
 use crate::engine::{
     Dialogue, Engine, Error, Event, Heard, Outcome, Progress, Reply, TaskAnswer, change_now,
 };
+#[cfg(feature = "serve")]
 use crate::recording::{Played, RecordingError};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
@@ -152,6 +153,7 @@ impl Scratch {
     }
 
     /// The map with which a recording began.
+    #[cfg(feature = "serve")]
     pub(super) fn map_of(&self, file: &Path, played: &Played) -> Result<PathBuf, Failure> {
         let Some(text) = &played.map else {
             let path = file.display().to_string();

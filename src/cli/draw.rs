@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::engine::{
-    Drawing, Engine, Lens, Method, RequestError, Sighted, TaskAnswer, directive_in_words,
-    face_in_words, no_way_in_words, opens_in_words, parse_pose,
+    Drawing, Engine, Lens, Method, RequestError, Sighted, State, TaskAnswer, directive_in_words,
+    face_in_words, no_way_in_words,
 };
 use crate::language::Language;
 use crate::robot::Directive;
@@ -228,7 +228,7 @@ fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure
     let language = common.lang.language();
     let world = engine.world_now()?;
     let journey = engine.journey(from, to, Method::Shortest)?;
-    let opens = opens_in_words(world, &journey.opens, language);
+    let opens = journey.opens_in_words(world, language);
     Some(opens).filter(|told| !told.is_empty()).iter().for_each(|told| note(told));
     let mut storeys: Vec<Storey> = Vec::new();
     let mut directives = Vec::new();
@@ -267,7 +267,7 @@ fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure
 /// The lens of a view and the map that it looks at.
 fn lens(engine: &Engine, args: &ViewArgs) -> Result<(MapId, Lens), Failure> {
     let map: MapId = engine.map_named(args.map.as_deref())?;
-    let pose = parse_pose(&args.at)?;
+    let pose = State::parse_pose(&args.at)?;
     let height = args
         .height
         .unwrap_or_else(|| engine.world().map_or(120.0, |world| world.robot.height.get()));

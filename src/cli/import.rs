@@ -1,6 +1,6 @@
 //! `ortho import`: a building of any known format into the store, with the report of what became of it.
 
-use crate::engine::{Engine, ImportOptions, change_now, json, read_building};
+use crate::engine::{Engine, ImportOptions, change_now, json};
 
 use super::args::{Common, ImportArgs, Lang};
 use super::fault::Failure;
@@ -28,7 +28,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
         pixel: args.pixel,
     };
     // The file is read before the store is opened or made, so that a faulty one leaves no trace.
-    let read = read_building(&args.file, &options)?;
+    let read = Engine::read_building(&args.file, &options)?;
     let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
     note_repairs(&engine, common.lang);
     let reason = args.file.display().to_string();

@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 
 use crate::engine::{
-    Engine, PlanAnswer, RequestError, Solved, check_map, check_plan_alone, facts_in_rule_text,
-    name_in, plan_alone, plan_alone_without,
+    Engine, PlanAnswer, RequestError, Solved, check_plan_alone, name_in, plan_alone_without,
+    read_map,
 };
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
@@ -137,12 +137,12 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
             Some(Metric::Time) => quickest(engine.as_ref(), scenario, limits.clone())?,
             _ => match &engine {
                 Some(engine) => engine.plan_supplied(scenario, &limits, args.wanted())?,
-                None => plan_alone(scenario, &limits, args.wanted())?,
+                None => PlanAnswer::without_map(scenario, &limits, args.wanted())?,
             },
         };
         let told = match common.json {
             true => {
-                let view = json::plan(&solved, &english);
+                let view = json::plan(&solved, world);
                 let view = with_reasons(view, &solved, &limits, args, &english);
                 with_help(view, &solved, args).to_string()
             }
@@ -162,7 +162,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         let after = &replanned.after;
         let told = match common.json {
             true => {
-                let view = json::replanned(&replanned, &english);
+                let view = json::replanned(&replanned, world);
                 let view = with_reasons(view, after, &limits, args, &english);
                 with_help(view, after, args).to_string()
             }
@@ -298,7 +298,7 @@ pub(super) fn engine_for(
 ) -> Result<Engine, Failure> {
     match map {
         Some(map) if common.store.is_none() => {
-            let (world, _) = check_map(map)?;
+            let (world, _) = read_map(map)?;
             Ok(Engine::in_memory(world, rules_dir(common).as_deref())?)
         }
         _ => open(common),
@@ -308,14 +308,14 @@ pub(super) fn engine_for(
 /// What the map gives to planning, in the language of rule files.
 fn facts(common: &Common, predicate: Option<&str>) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let facts = engine.facts_given(predicate)?;
     if common.json {
-        return say(&json::given_facts(&facts).to_string());
+        return say(&json::given_facts(&engine.facts_given(predicate)?).to_string());
     }
+    let facts = engine.facts_in_rule_text(predicate)?;
     if facts.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }
-    say(facts_in_rule_text(&facts).trim_end())
+    say(facts.trim_end())
 }
 
 /// The scenario with what its map knows, and who knows that map: the store that was named; else the map that the

@@ -1,6 +1,6 @@
 //! `ortho where --read`: a position report read back, as the region of which it is true.
 
-use crate::engine::{Engine, Region, json, parse_pose};
+use crate::engine::{Engine, Region, State, json};
 use crate::map::Entity;
 use crate::semantics::Claim;
 use crate::units::Point;
@@ -17,7 +17,7 @@ const POINTS: f64 = 10_000.0;
 /// With a pose, the answer is whether the report is true of it.
 pub(super) fn run(common: &Common, text: &str, at: Option<&str>) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let pose = at.map(parse_pose).transpose()?;
+    let pose = at.map(State::parse_pose).transpose()?;
     let region = engine.read_position(text)?;
     let holds = pose.map(|pose| engine.region_contains(&region, pose)).transpose()?;
     let size = region.bounds.max - region.bounds.min;

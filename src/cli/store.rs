@@ -5,9 +5,7 @@ use std::path::Path;
 use clap::Subcommand;
 
 use crate::engine::calls::{self, Call};
-use crate::engine::{
-    Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
-};
+use crate::engine::{Engine, Revision, RevisionKind, Severity, When, change_now};
 use crate::store::{Forgotten, ImportReport, Timestamp};
 use crate::units::write_file;
 
@@ -261,7 +259,7 @@ fn as_of(
 }
 
 fn fsck(common: &Common) -> Result<Answer, Failure> {
-    let report = check_store(&store_dir(common))?;
+    let report = Engine::check_store(&store_dir(common))?;
     let word = |severity| match severity {
         Severity::Note => common.lang.pick("заметка", "note"),
         Severity::Mendable => common.lang.pick("исправимо", "mendable"),
@@ -300,7 +298,7 @@ fn fsck(common: &Common) -> Result<Answer, Failure> {
 
 fn restore(common: &Common, file: &Path) -> Result<Answer, Failure> {
     let dir = store_dir(common);
-    let revision = restore_store(file, &dir)?;
+    let revision = Engine::restore_store(file, &dir)?;
     if common.json {
         return say(&json::restored(&dir, revision).to_string());
     }

@@ -127,7 +127,7 @@ impl Teller {
             {
                 if let Some(event) = self.events.of(world, progress) {
                     // A closed pipe is noticed by the command's last words.
-                    drop(say(&json::event(&event).to_string()));
+                    drop(say(&event.to_string()));
                 }
                 Ok(())
             }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::engine::{Rules, World, check_map_closely};
+use crate::engine::{Engine, Rules, World};
 use crate::robot::{
     Address, Moment, Patience, RemoteVehicle, Senses, SensingRobot, Served, Simulator, Vehicle,
     serve, starting_pose,
@@ -133,7 +133,7 @@ pub(super) fn patience(silence: Option<Duration>) -> Patience {
 
 /// The simulated robot at the map's start, for who speaks the protocol; between missions it stays as it was left.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, Failure> {
-    let (world, warnings) = check_map_closely(&args.map, rules_dir(common).as_deref())?;
+    let (world, warnings) = Engine::check_map(&args.map, rules_dir(common).as_deref())?;
     warn(&warnings, common.lang);
     let start = starting_pose(&world).ok_or(crate::engine::RequestError::RobotNowhere)?;
     let rules = Rules::read(rules_dir(common).as_deref())?.relations;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use crate::engine::{Drawing, Engine, check_map_closely};
+use crate::engine::{Drawing, Engine};
 use crate::units::InOrder as _;
 
 use super::args::Common;
@@ -78,7 +78,7 @@ fn look(
     rules: Option<&Path>,
     drawing: &Path,
 ) -> Result<String, Failure> {
-    let (world, warnings) = check_map_closely(map, rules)?;
+    let (world, warnings) = Engine::check_map(map, rules)?;
     warn(&warnings, common.lang);
     let described = described(&world, common.lang);
     let engine = Engine::in_memory(world, rules)?;

@@ -14,17 +14,16 @@ use super::{State, TaskAnswer};
 
 /// A room or storey where the robot cannot come, however doors stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Apart {
+struct Apart {
     /// An Area, or a Map as a storey.
-    pub place: Entity,
+    place: Entity,
     /// Stairs lead there, which a robot on wheels does not climb.
-    pub by_stairs: bool,
+    by_stairs: bool,
 }
 
 impl State {
     /// The rooms and storeys of a task's goal that nothing joins to the one in which the robot began, open or shut.
-    #[must_use]
-    pub fn unconnected(&self, answer: &TaskAnswer) -> Vec<Apart> {
+    fn unconnected(&self, answer: &TaskAnswer) -> Vec<Apart> {
         let (Ok(world), Ok(relations)) = (self.world(), self.relations()) else {
             return Vec::new();
         };

@@ -8,11 +8,20 @@ use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
 use crate::map::{DoorStatus, Entity, LiftStop, World};
 use crate::units::{AreaId, DoorId, Lengths, ReplicaId};
 
+use super::RouteAnswer;
 use super::lexicon::named;
+
+impl RouteAnswer {
+    /// Why there is no way, without a full stop; none where there is one.
+    #[must_use]
+    pub fn no_way_in_words(&self, world: &World, language: Language) -> Option<String> {
+        self.route.as_ref().err().map(|no| no_way_in_words(world, no, language))
+    }
+}
 
 /// «Дверь-ВZ заперта», "Door VZ is locked"; several barriers one after the other.
 #[must_use]
-pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> String {
+pub(crate) fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> String {
     let russian = language == Language::Russian;
     match no {
         NoRoute::Blocked { barriers, .. } if !barriers.is_empty() => {

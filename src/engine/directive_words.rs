@@ -14,11 +14,15 @@ use super::located::spot_in_words;
 
 use super::OPERATOR;
 use super::lexicon::named;
-use super::task::{OPERATOR_PLACE, TaskAnswer, TaskEnding};
+use super::task::{OPERATOR_PLACE, Report, TaskAnswer, TaskEnding};
 
 /// A sentence for each primitive that the robot's position does not tell; motion and doors are told by that.
 #[must_use]
-pub fn actions_in_words(world: &World, directive: &Directive, language: Language) -> Vec<String> {
+pub(super) fn actions_in_words(
+    world: &World,
+    directive: &Directive,
+    language: Language,
+) -> Vec<String> {
     let is_russian = language == Language::Russian;
     let name = |name: &str| {
         let thing = world.find(name).into_iter().find(|e| matches!(e, Entity::Replica(_)));
@@ -82,7 +86,11 @@ fn named_door(world: &World, name: &str, language: Language) -> String {
 /// What a directive asks for, as one tells a person: «открыть Дверь-КY», "open Door KY". An action that asks nothing of
 /// the vehicle is told by its name.
 #[must_use]
-pub fn directive_in_words(world: &World, directive: &Directive, language: Language) -> String {
+pub(crate) fn directive_in_words(
+    world: &World,
+    directive: &Directive,
+    language: Language,
+) -> String {
     let words = Words { world, language };
     let opened = |status| match (status, directive.needs(predicate::DOOR_LOCKED)) {
         (DoorStatus::Closed, true) if directive.needs(predicate::PERSON_HAS_KEY) => {
@@ -101,34 +109,50 @@ pub fn directive_in_words(world: &World, directive: &Directive, language: Langua
     }
 }
 
-/// What a command came to, for who asks afterwards: its steps, and whether it was done.
-#[must_use]
-pub fn task_in_words(world: &World, command: &str, answer: &TaskAnswer) -> Bilingual {
-    let told = |language: Language| {
-        let steps =
-            answer.reports.iter().map(|r| directive_in_words(world, &r.directive, language));
-        let steps = steps.collect::<Vec<_>>().join(", ");
-        let end = match answer.ending {
-            TaskEnding::Done => language.pick("сделано", "done"),
-            TaskEnding::AlreadyTrue => language.pick("так уже было", "it was so already"),
-            TaskEnding::NoPlan(_) => language.pick("плана не было", "there was no plan"),
-            TaskEnding::Stuck(_) => language.pick("не вышло", "it did not work out"),
-            TaskEnding::Stopped => language.pick("остановлено", "it was stopped"),
-            TaskEnding::Failed(_) => language.pick("робот отказал", "the robot failed"),
+impl Report {
+    /// What the directive asked for: «открыть Дверь-КY», "open Door KY".
+    #[must_use]
+    pub fn directive_in_words(&self, world: &World, language: Language) -> String {
+        directive_in_words(world, &self.directive, language)
+    }
+
+    /// What was done and the position does not tell, a sentence each: what was switched, found, put away, who was called.
+    #[must_use]
+    pub fn actions_in_words(&self, world: &World, language: Language) -> Vec<String> {
+        actions_in_words(world, &self.directive, language)
+    }
+}
+
+impl TaskAnswer {
+    /// What a command came to, for who asks afterwards: its steps, and whether it was done.
+    #[must_use]
+    pub fn in_words(&self, world: &World, command: &str) -> Bilingual {
+        let told = |language: Language| {
+            let steps =
+                self.reports.iter().map(|r| directive_in_words(world, &r.directive, language));
+            let steps = steps.collect::<Vec<_>>().join(", ");
+            let end = match self.ending {
+                TaskEnding::Done => language.pick("сделано", "done"),
+                TaskEnding::AlreadyTrue => language.pick("так уже было", "it was so already"),
+                TaskEnding::NoPlan(_) => language.pick("плана не было", "there was no plan"),
+                TaskEnding::Stuck(_) => language.pick("не вышло", "it did not work out"),
+                TaskEnding::Stopped => language.pick("остановлено", "it was stopped"),
+                TaskEnding::Failed(_) => language.pick("робот отказал", "the robot failed"),
+            };
+            let stop = if steps.is_empty() { "" } else { "; " };
+            match language {
+                Language::Russian => format!("последнее задание – «{command}»: {steps}{stop}{end}"),
+                Language::English => format!("the last task was “{command}”: {steps}{stop}{end}"),
+            }
         };
-        let stop = if steps.is_empty() { "" } else { "; " };
-        match language {
-            Language::Russian => format!("последнее задание – «{command}»: {steps}{stop}{end}"),
-            Language::English => format!("the last task was “{command}”: {steps}{stop}{end}"),
-        }
-    };
-    Bilingual::new(told(Language::Russian), told(Language::English))
+        Bilingual::new(told(Language::Russian), told(Language::English))
+    }
 }
 
 /// An object of a plan as it is called in a language: by its English name, where the map gives one; in Russian as the
 /// plan has it.
 #[must_use]
-pub fn name_in(world: &World, name: &str, language: Language) -> String {
+pub(crate) fn name_in(world: &World, name: &str, language: Language) -> String {
     match (language, name.strip_prefix(PLACE_BESIDE)) {
         (Language::Russian, _) => name.to_owned(),
         (Language::English, _) if name == OPERATOR => "the operator".to_owned(),

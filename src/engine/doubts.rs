@@ -7,27 +7,28 @@ use crate::map::{self, Format, MapErrors};
 use crate::semantics::RelationRules;
 use crate::units::{Gather as _, InOrder as _};
 
-use super::{Rules, World, check_map};
+use super::{Engine, Rules, World, read_map};
 
-/// Reads a map file as [`check_map`] does; to the warnings come those of impossible maps. Traits that the rule files of
-/// `rules` name are known, and their thresholds say what stands on what; those of the program where they are at fault.
-///
-/// # Errors
-/// All faults of the file.
-pub fn check_map_closely(
-    file: &Path,
-    rules: Option<&Path>,
-) -> Result<(World, MapErrors), MapErrors> {
-    let (world, mut told) = check_map(file)?;
-    let known = Rules::read(rules).map_or_else(|_| RelationRules::standard(), |r| r.relations);
-    let near = known.tolerances(world.domain.profile);
-    let mut doubts = map::doubts(&world, &near, &rules.map(quoted_words).unwrap_or_default());
-    if let Some(source) = &told.source {
-        map::locate(source, Format::of_text(file, source.text()), &mut doubts);
+impl Engine {
+    /// Reads a map file, without touching any store. With the world come the warnings, among them those of impossible maps.
+    /// Traits that the rule files of `rules` name are known, and their thresholds say what stands on what; those of the
+    /// program where they are at fault.
+    ///
+    /// # Errors
+    /// All faults of the file.
+    pub fn check_map(file: &Path, rules: Option<&Path>) -> Result<(World, MapErrors), MapErrors> {
+        let (world, mut told) = read_map(file)?;
+        let known = Rules::read(rules).map_or_else(|_| RelationRules::standard(), |r| r.relations);
+        let near = known.tolerances(world.domain.profile);
+        let mut doubts = map::doubts(&world, &near, &rules.map(quoted_words).unwrap_or_default());
+        if let Some(source) = &told.source {
+            map::locate(source, Format::of_text(file, source.text()), &mut doubts);
+        }
+        told.faults.extend(doubts);
+        told.faults
+            .order_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+        Ok((world, told))
     }
-    told.faults.extend(doubts);
-    told.faults.order_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
-    Ok((world, told))
 }
 
 /// A rule file larger than this is no rule file.

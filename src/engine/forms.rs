@@ -38,7 +38,7 @@ impl State {
 
 /// The names of a world that were declined by a mere guess from an ending, once each, in the order of the entities.
 #[must_use]
-pub fn uncertain_names(world: &World) -> Vec<NounPhrase> {
+pub(crate) fn uncertain_names(world: &World) -> Vec<NounPhrase> {
     let mut entities: Vec<Entity> = world.names().map(|(entity, _)| entity).collect();
     entities.dedup();
     let mut found: Vec<NounPhrase> = Vec::new();

@@ -27,11 +27,18 @@ impl State {
         }
         Ok(facts)
     }
+
+    /// The same as a rule file states them: what is written reads back. Empty where there are none.
+    ///
+    /// # Errors
+    /// As [`State::facts_given`].
+    pub fn facts_in_rule_text(&self, predicate: Option<&str>) -> Result<String, Error> {
+        Ok(in_rule_file(&self.facts_given(predicate)?))
+    }
 }
 
 /// Facts as a rule file states them: the objects with their types, the facts, the assumptions.
-#[must_use]
-pub fn facts_in_rule_text(facts: &[InitialFact]) -> String {
+fn in_rule_file(facts: &[InitialFact]) -> String {
     let mut text = String::new();
     let objects: BTreeSet<(&str, &str)> = facts
         .iter()
@@ -53,8 +60,7 @@ pub fn facts_in_rule_text(facts: &[InitialFact]) -> String {
 }
 
 /// `ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-ВZ, Комната-В)`, names of several words in quotes.
-#[must_use]
-pub fn in_rule_text(fact: &InitialFact) -> String {
+pub(super) fn in_rule_text(fact: &InitialFact) -> String {
     let args: Vec<_> = fact.arguments.iter().map(|a| in_quotes(&a.name)).collect();
     format!("{}_({})", fact.predicate, args.join(", "))
 }

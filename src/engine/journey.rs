@@ -14,7 +14,6 @@ use super::advice::Advice;
 use super::known::Known;
 use super::lexicon::named;
 use super::located::{End, Located};
-use super::opening::opens_in_words;
 use super::route::RouteAnswer;
 use super::{Error, State};
 
@@ -290,9 +289,8 @@ impl Known {
                 sentences.push(self.ride_in_words(ride, language)?);
             }
         }
-        sentences.extend(
-            Some(opens_in_words(world, &journey.opens, language)).filter(|told| !told.is_empty()),
-        );
+        sentences
+            .extend(Some(journey.opens_in_words(world, language)).filter(|told| !told.is_empty()));
         Ok(sentences)
     }
 

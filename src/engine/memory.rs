@@ -13,12 +13,12 @@ use crate::units::{AreaId, Deg, Gather as _, MapId, Pose, ReplicaId};
 
 use super::after::After;
 use super::obstacles::put_up;
-use super::route::{is_pair, parse_pose};
+use super::route::is_pair;
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError, State};
 
 /// Who notes what the robot saw.
-pub const ROBOT: &str = "робот";
+pub(super) const ROBOT: &str = "робот";
 impl State {
     /// The same at a moment: what was seen counts as it does then, and so do zones that begin and end.
     ///
@@ -255,7 +255,7 @@ impl Engine {
     /// Where one faces who stands at a place given by name, or as numbers.
     fn heading_at(&self, name: &str) -> Result<Deg, Error> {
         if is_pair(name) {
-            return Ok(parse_pose(name)?.heading);
+            return Ok(State::parse_pose(name)?.heading);
         }
         let Entity::Place(place) = self.find(name)? else { return Ok(Deg::ZERO) };
         let world = self.world()?;

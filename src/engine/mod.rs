@@ -30,7 +30,6 @@ mod after;
 mod apart;
 mod assumed;
 mod barriers;
-#[cfg(feature = "cli")]
 pub(crate) mod calls;
 mod changes;
 mod delivery;
@@ -44,7 +43,6 @@ mod drawing;
 mod edit;
 mod english;
 mod error;
-mod events;
 mod export;
 mod facing;
 pub(crate) mod forms;
@@ -74,10 +72,6 @@ mod queue;
 mod reading;
 #[cfg(feature = "recordings")]
 mod recording;
-#[cfg_attr(
-    not(feature = "serve"),
-    expect(dead_code, reason = "the console and assistants use all of it")
-)]
 pub(crate) mod rehearsal;
 mod route;
 mod rule_files;
@@ -102,66 +96,62 @@ mod zones;
 use std::path::Path;
 use std::sync::Arc;
 
-pub use advice::Advice;
 pub use after::After;
-pub use barriers::no_way_in_words;
-#[cfg(feature = "cli")]
+pub(crate) use barriers::no_way_in_words;
 pub(crate) use dialogue::queue_in_words;
-pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
-pub use directive_words::{actions_in_words, directive_in_words, name_in, task_in_words};
-pub use doubts::check_map_closely;
+pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply};
+use directive_words::actions_in_words;
+pub(crate) use directive_words::{directive_in_words, name_in};
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
-pub use events::{DirectiveView, PlanView, PoseView, ReportView, TaskEvent, TaskEvents};
-pub use forms::uncertain_names;
-pub use given::{facts_in_rule_text, in_rule_text};
+pub(crate) use forms::uncertain_names;
+use given::in_rule_text;
 pub use history::When;
 pub use journey::Journey;
+pub use json::TaskEvents;
 pub use localisation::{FoundPose, FoundScan};
-pub use located::{End, Located};
-pub use memory::ROBOT;
-pub use narration::{
-    counted_in_english, decimal, directive_told, plan_in_words, progress_in_words,
-};
-pub use observe::{Believed, Proposal, Source, Station};
-pub use opening::opens_in_words;
-pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, plan_alone_without, steps};
+pub use located::End;
+pub(crate) use narration::{counted_in_english, decimal, directive_told, plan_in_words};
+pub use observe::{Believed, Source, Station};
+use plan::steps;
+pub use plan::{PlanAnswer, PlanStep};
+pub(crate) use plan::{check_plan_alone, plan_alone_without};
 pub use position::Whereabout;
 pub use query::QueryAnswer;
 pub use reading::Region;
 #[cfg(feature = "recordings")]
 pub use recording::Recording;
-pub use route::{RouteAnswer, Stage, parse_pose};
+pub use route::RouteAnswer;
 pub(crate) use rule_files::question_beginnings;
-pub use rule_files::{export_rules, rule_files};
 pub use rules::Rules;
 pub use seeing::{Changes, Sighted, Things, View};
-pub use sight::face_in_words;
+pub(crate) use sight::face_in_words;
 pub use state::State;
-pub use surprises::surprise_in_words;
-pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
-pub use truth::Truth;
-pub use upkeep::{check_store, restore_store};
+use surprises::surprise_in_words;
+use task::OPERATOR;
+pub use task::{Progress, Report, TaskAnswer, TaskEnding};
+pub(crate) use truth::Truth;
 
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
-    Report as ReadingReport, read as read_building,
 };
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::graphplan::Limits;
 pub(crate) use crate::language::command::{Waiting, waiting};
 pub use crate::language::question::{Answer, Memory, Unanswered};
-pub use crate::map::{Format, World};
-pub use crate::robot::{Replanned, Solved, Wanted};
-pub use crate::semantics::Relations;
-pub use crate::store::{
-    Change, Difference, FsckReport, Revision, RevisionKind, Seen, Severity, Timestamp,
-};
-pub(crate) use crate::store::{Queue, QueuedTask};
+pub use crate::language::report::Detail;
+pub use crate::map::Format;
+pub(crate) use crate::map::World;
+pub use crate::robot::Wanted;
+pub(crate) use crate::robot::{Replanned, Solved};
+pub(crate) use crate::semantics::Relations;
+pub use crate::store::{Change, Difference, Revision, RevisionKind, Seen, Timestamp};
+pub(crate) use crate::store::{Queue, QueuedTask, Severity};
 pub use crate::strips::Scenario;
 
+use crate::exchange::Report as ReadingReport;
 use crate::map::{MapErrors, read_file};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};
 
@@ -287,13 +277,21 @@ impl Engine {
         Self { store: None, state, waiting, opened: OpenReport::default(), spares }
     }
 
+    /// Reads a building of any format that can be imported, without touching any store.
+    ///
+    /// # Errors
+    /// All faults of the file.
+    pub fn read_building(file: &Path, options: &ImportOptions) -> Result<ImportedFile, Error> {
+        Ok(crate::exchange::read(file, options)?)
+    }
+
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction
     /// that is on the disk when this returns.
     ///
     /// # Errors
     /// All faults of the file; the store is then as it was.
     pub fn import(&mut self, file: &Path, change: &Change) -> Result<Imported, Error> {
-        self.keep(crate::exchange::read(file, &ImportOptions::default())?, change)
+        self.keep(Self::read_building(file, &ImportOptions::default())?, change)
     }
 
     /// Makes a building that was read the store's map, as [`Engine::import`] does.
@@ -323,7 +321,7 @@ impl Engine {
 ///
 /// # Errors
 /// All faults of the file.
-pub fn check_map(file: &Path) -> Result<(World, MapErrors), MapErrors> {
+pub(crate) fn read_map(file: &Path) -> Result<(World, MapErrors), MapErrors> {
     let reading = read_file(file);
     match reading.world {
         Some(world) => Ok((world, reading.faults)),

@@ -24,7 +24,7 @@ pub(super) fn nothing_to_stop(language: Language) -> &'static str {
 /// A plan as the paper prints it, one directive a line, parallel ones under one number; by the phrases of the rules
 /// where they have any in the language.
 #[must_use]
-pub fn plan_in_words(solved: &Solved, wording: &Wording<'_>) -> String {
+pub(crate) fn plan_in_words(solved: &Solved, wording: &Wording<'_>) -> String {
     let directive = |id: &OperatorId| wording.action(&Said::from(solved.task.operator(*id)));
     let steps = solved.outcome.plan().map_or_else(Vec::new, |plan| {
         plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
@@ -122,82 +122,75 @@ pub(super) fn left_open(solved: &Solved, wording: &Wording<'_>) -> Option<String
 
 /// "1 step, 2 actions"
 #[must_use]
-pub fn counted_in_english(steps: usize, actions: usize) -> String {
+pub(crate) fn counted_in_english(steps: usize, actions: usize) -> String {
     let count = |number: usize, noun| english::count(number as u64, noun);
     format!("{}, {}", count(steps, "step"), count(actions, "action"))
 }
 
 /// A number with one decimal, its mark as the language has it.
 #[must_use]
-pub fn decimal(value: f64, unit: &str, language: Language) -> String {
+pub(crate) fn decimal(value: f64, unit: &str, language: Language) -> String {
     let text = format!("{value:.1} {unit}");
     if language == Language::Russian { text.replacen('.', ",", 1) } else { text }
 }
 
 /// A directive as the paper prints it; in English, where its Russian names tell nothing, in words.
 #[must_use]
-pub fn directive_told(world: &World, directive: &Directive, language: Language) -> String {
+pub(crate) fn directive_told(world: &World, directive: &Directive, language: Language) -> String {
     match language {
         Language::Russian => directive.to_string(),
         Language::English => directive_in_words(world, directive, language),
     }
 }
 
-/// What happens on the way, a line each; nothing for what is only begun.
-#[must_use]
-pub fn progress_in_words(
-    world: &World,
-    progress: &Progress<'_>,
-    language: Language,
-) -> Vec<String> {
-    match progress {
-        Progress::Planned(planned) => {
-            if planned.solved.outcome.plan().is_none() || planned.steps.is_empty() {
-                return Vec::new();
+impl Progress<'_> {
+    /// What happens on the way, a line each; nothing for what is only begun.
+    #[must_use]
+    pub fn in_words(&self, world: &World, language: Language) -> Vec<String> {
+        match self {
+            Self::Planned(planned) => {
+                if planned.solved.outcome.plan().is_none() || planned.steps.is_empty() {
+                    return Vec::new();
+                }
+                let told = |directive: &Directive| directive_told(world, directive, language);
+                let steps: Vec<Vec<String>> =
+                    planned.steps.iter().map(|step| step.iter().map(told).collect()).collect();
+                let name = |name: &str| name_in(world, name, language);
+                let wording = planned.solved.wording(language, &name);
+                vec![format!("{}\n", plan_of(&planned.solved, &steps, &wording))]
             }
-            let told = |directive: &Directive| directive_told(world, directive, language);
-            let steps: Vec<Vec<String>> =
-                planned.steps.iter().map(|step| step.iter().map(told).collect()).collect();
-            let name = |name: &str| name_in(world, name, language);
-            let wording = planned.solved.wording(language, &name);
-            vec![format!("{}\n", plan_of(&planned.solved, &steps, &wording))]
-        }
-        Progress::Started { .. }
-        | Progress::Sent { .. }
-        | Progress::Moved(_)
-        | Progress::Scanned(_) => Vec::new(),
-        Progress::Finished(report) => {
-            let way = if report.points.is_empty() {
-                String::new()
-            } else {
-                format!("{}, ", decimal(report.length / 100.0, language.pick("м", "m"), language))
-            };
-            let time = decimal(report.seconds, language.pick("с", "s"), language);
-            let mut lines = vec![format!(
-                "{:>4} {} – {way}{time}",
-                format!("{}.", report.number),
-                directive_told(world, &report.directive, language)
-            )];
-            let primitives = actions_in_words(world, &report.directive, language);
-            lines.extend(primitives.into_iter().map(|sentence| format!("     {sentence}")));
-            lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
-            lines
-        }
-        Progress::Barred { barred, .. } => vec![
-            format!("   ? {}", barred_in_words(world, barred, language)),
-            language
-                .pick(
-                    "     Не обойти и не сдвинуть: зову оператора.",
-                    "     No way leads round it, and it is not to be pushed: I call the operator.",
-                )
-                .to_owned(),
-        ],
-        Progress::Surprised { directive, surprise } => {
-            let what = surprise_in_words(world, surprise, language);
-            vec![
-                format!("   ! {}: {what}", directive_told(world, directive, language)),
-                language.pick("     Новый план.", "     Planning anew.").to_owned(),
-            ]
+            Self::Started { .. } | Self::Sent { .. } | Self::Moved(_) | Self::Scanned(_) => Vec::new(),
+            Self::Finished(report) => {
+                let way = decimal(report.length / 100.0, language.pick("м", "m"), language);
+                let way =
+                    if report.points.is_empty() { String::new() } else { format!("{way}, ") };
+                let time = decimal(report.seconds, language.pick("с", "s"), language);
+                let mut lines = vec![format!(
+                    "{:>4} {} – {way}{time}",
+                    format!("{}.", report.number),
+                    directive_told(world, &report.directive, language)
+                )];
+                let primitives = actions_in_words(world, &report.directive, language);
+                lines.extend(primitives.into_iter().map(|sentence| format!("     {sentence}")));
+                lines.extend(report.position.as_ref().map(|p| format!("     {}", p.say(language))));
+                lines
+            }
+            Self::Barred { barred, .. } => vec![
+                format!("   ? {}", barred_in_words(world, barred, language)),
+                language
+                    .pick(
+                        "     Не обойти и не сдвинуть: зову оператора.",
+                        "     No way leads round it, and it is not to be pushed: I call the operator.",
+                    )
+                    .to_owned(),
+            ],
+            Self::Surprised { directive, surprise } => {
+                let what = surprise_in_words(world, surprise, language);
+                vec![
+                    format!("   ! {}: {what}", directive_told(world, directive, language)),
+                    language.pick("     Новый план.", "     Planning anew.").to_owned(),
+                ]
+            }
         }
     }
 }

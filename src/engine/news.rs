@@ -199,7 +199,7 @@ impl State {
     ///
     /// # Errors
     /// There is no map.
-    pub fn telling_move(&self, found: &[FoundAt]) -> Result<Option<Move>, Error> {
+    fn telling_move(&self, found: &[FoundAt]) -> Result<Option<Move>, Error> {
         let Some(first) = found.first() else { return Ok(None) };
         let world = self.world()?;
         let chart = Chart::of_map(world, self.floor(first.map)?, Sighted::LASER_HEIGHT);

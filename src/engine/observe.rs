@@ -40,9 +40,6 @@ pub struct Station {
     pub source: Source,
 }
 
-/// A correction of the map that observations speak for.
-pub type Proposal = Believed;
-
 impl State {
     /// The thing of this name, in any of its forms.
     ///
@@ -234,7 +231,7 @@ impl Engine {
     ///
     /// # Errors
     /// The store cannot be read, or the relations cannot be derived.
-    pub fn proposals(&self, now: Timestamp) -> Result<Vec<Proposal>, Error> {
+    pub fn proposals(&self, now: Timestamp) -> Result<Vec<Believed>, Error> {
         let world = self.world()?;
         let carried = self.store()?.reader().robot_memory()?.carried;
         let told = self.relations()?.thresholds().belief_told;

@@ -6,7 +6,7 @@ use crate::robot::{outline_of, stand_obstacle};
 use crate::store::{Belief, Change, ImportReport, Seen, SeenObstacle, Timestamp};
 use crate::units::{ObjectId, OrFrId, ReplicaId};
 
-use super::observe::Proposal;
+use super::observe::Believed;
 use super::{Engine, Error, Mode, State};
 
 pub(super) use crate::robot::is_obstacle;
@@ -20,7 +20,7 @@ pub(super) fn put_up<'o>(world: &mut World, seen: impl Iterator<Item = &'o SeenO
 
 impl State {
     /// What was seen that the map lacks, by the names that it bears meanwhile.
-    pub(super) fn lacked(&self, now: Timestamp) -> Result<Vec<Proposal>, Error> {
+    pub(super) fn lacked(&self, now: Timestamp) -> Result<Vec<Believed>, Error> {
         let around = self.known_at(now)?;
         let all = around.world().replicas.values().filter(|thing| is_obstacle(thing.id));
         let proposal = |id: ReplicaId| {
@@ -35,7 +35,7 @@ impl State {
                 is_surveyed: false,
             };
             let name = thing.name.clone();
-            Some(Proposal { replica: id, name, belief, surveyed: None, carried: None })
+            Some(Believed { replica: id, name, belief, surveyed: None, carried: None })
         };
         // Those of lower numbers have higher ids.
         Ok(all.rev().filter_map(|thing| proposal(thing.id)).collect())

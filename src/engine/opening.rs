@@ -11,10 +11,10 @@ use crate::map::{DoorKind, DoorState, DoorStatus, Entity, World};
 use crate::semantics::lifts;
 use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
-use super::Error;
 use super::known::Known;
 use super::lexicon::named;
 use super::route::stages;
+use super::{Error, Journey};
 
 type Floors = BTreeMap<MapId, FloorPlan>;
 
@@ -132,16 +132,19 @@ fn cannot_open(world: &World, mut floors: Floors, doors: &[Shut]) -> Option<Door
     None
 }
 
-/// «По пути нужно открыть Дверь-ВZ (закрыто не на замок).»; empty where nothing is to be opened.
-#[must_use]
-pub fn opens_in_words(world: &World, doors: &[DoorId], language: Language) -> String {
-    if doors.is_empty() {
-        return String::new();
-    }
-    let name = |door: &DoorId| named(world, Entity::Door(*door)).form(Case::Accusative, language);
-    let doors = enumerate(&doors.iter().map(name).collect::<Vec<_>>(), language);
-    match language {
-        Language::Russian => format!("По пути нужно открыть {doors} (закрыто не на замок)."),
-        Language::English => format!("On the way {doors} must be opened (closed, not locked)."),
+impl Journey {
+    /// «По пути нужно открыть Дверь-ВZ (закрыто не на замок).»; empty where nothing is to be opened.
+    #[must_use]
+    pub fn opens_in_words(&self, world: &World, language: Language) -> String {
+        if self.opens.is_empty() {
+            return String::new();
+        }
+        let name =
+            |door: &DoorId| named(world, Entity::Door(*door)).form(Case::Accusative, language);
+        let doors = enumerate(&self.opens.iter().map(name).collect::<Vec<_>>(), language);
+        match language {
+            Language::Russian => format!("По пути нужно открыть {doors} (закрыто не на замок)."),
+            Language::English => format!("On the way {doors} must be opened (closed, not locked)."),
+        }
     }
 }

@@ -38,6 +38,15 @@ impl PlanAnswer {
         Self { solved, warnings }
     }
 
+    /// Plans a scenario that needs no map.
+    ///
+    /// # Errors
+    /// All faults of the scenario.
+    pub fn without_map(scenario: Scenario, limits: &Limits, wanted: Wanted) -> Result<Self, Error> {
+        let Scenario { domain, problem, warnings, .. } = scenario;
+        planned(None, &domain, &problem, warnings, limits, wanted)
+    }
+
     /// The parallel steps, empty unless there is a plan.
     #[must_use]
     pub fn steps(&self) -> Vec<Vec<PlanStep>> {
@@ -52,7 +61,7 @@ fn are_whole(warnings: &[RuleFault]) -> bool {
 
 /// The parallel steps of a plan, empty unless there is one; where the search was given up, of the best that was found.
 #[must_use]
-pub fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
+pub(super) fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
     let Some(plan) = solved.outcome.plan() else { return Vec::new() };
     let step = |&id| {
         let operator = solved.task.operator(id);
@@ -90,7 +99,7 @@ impl State {
         wanted: Wanted,
     ) -> Result<PlanAnswer, Error> {
         if self.world().is_err() {
-            return plan_alone(scenario, limits, wanted);
+            return PlanAnswer::without_map(scenario, limits, wanted);
         }
         let Scenario { domain, problem, warnings, .. } = scenario;
         self.on_terrain(&problem, |terrain| {
@@ -197,7 +206,7 @@ fn told(world: &World, surprise: &Surprise) -> Bilingual {
 ///
 /// # Errors
 /// All faults of the scenario, and of what is to be withdrawn.
-pub fn plan_alone_without(
+pub(crate) fn plan_alone_without(
     scenario: Scenario,
     withdrawn: &[String],
     limits: &Limits,
@@ -222,19 +231,6 @@ fn planned_without(
     Ok((replanned, warnings))
 }
 
-/// Plans a scenario that needs no map.
-///
-/// # Errors
-/// All faults of the scenario.
-pub fn plan_alone(
-    scenario: Scenario,
-    limits: &Limits,
-    wanted: Wanted,
-) -> Result<PlanAnswer, Error> {
-    let Scenario { domain, problem, warnings, .. } = scenario;
-    planned(None, &domain, &problem, warnings, limits, wanted)
-}
-
 fn planned(
     terrain: Option<&mut Terrain<'_>>,
     domain: &Domain,
@@ -252,6 +248,6 @@ fn planned(
 ///
 /// # Errors
 /// All faults of the scenario; that the plan breaks is no error.
-pub fn check_plan_alone(scenario: &Scenario, plan: &PlanText) -> Result<Replayed, Error> {
+pub(crate) fn check_plan_alone(scenario: &Scenario, plan: &PlanText) -> Result<Replayed, Error> {
     Ok(plan.replay(&scenario.domain, &scenario.problem)?)
 }

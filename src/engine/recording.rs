@@ -27,7 +27,7 @@ use crate::exchange::to_map_file;
 use crate::map::Format;
 use crate::recording::{Level, Message, Played, RecordingError, Scribe, Sink, Tape, Turn};
 
-use super::{Error, Event, Progress, Reply, State, TaskEvent, TaskEvents};
+use super::{Error, Event, Progress, Reply, State, TaskEvents};
 
 /// Who speaks in the log: the robot, and whoever gives it orders.
 const ROBOT: &str = "ortho";
@@ -150,11 +150,11 @@ impl Recording {
                 };
                 messages.extend(self.progress(state, progress));
                 if let Some(told) = self.events.of(world, progress) {
-                    let topic = match told {
-                        TaskEvent::Surprised { .. } | TaskEvent::Barred { .. } => "/surprises",
+                    let topic = match progress {
+                        Progress::Surprised { .. } | Progress::Barred { .. } => "/surprises",
                         _ => "/directives",
                     };
-                    messages.push(self.scribe.event(topic, &json!(told)));
+                    messages.push(self.scribe.event(topic, &told));
                 }
                 let level = match progress {
                     Progress::Surprised { .. } | Progress::Barred { .. } => Level::Warning,

@@ -8,7 +8,7 @@ use super::directive_words::name_in;
 use super::narration::left_open;
 use super::{
     Dialogue, Engine, Error, Event, Heard, Outcome, Progress, Queue, QueuedTask, Reply, State,
-    TaskEvents, json, progress_in_words,
+    TaskEvents, json,
 };
 use crate::map::{DoorStatus, World};
 use crate::robot::{Planned, Primitive};
@@ -83,7 +83,7 @@ struct Outlook {
 impl Outlook {
     fn add(&mut self, world: &World, planned: &Planned) {
         let proof = |language| -> Vec<String> {
-            let told = progress_in_words(world, &Progress::Planned(planned), language);
+            let told = Progress::Planned(planned).in_words(world, language);
             // What stands above the steps.
             let head =
                 told.iter().flat_map(|text| text.lines().take_while(|l| !l.starts_with(' ')));

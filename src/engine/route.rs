@@ -55,7 +55,7 @@ impl State {
     /// A name that means nothing, or something where one cannot stand.
     pub fn locate_name(&self, name: &str) -> Result<Located, Error> {
         if is_pair(name) {
-            let pose = parse_pose(name)?;
+            let pose = Self::parse_pose(name)?;
             return self.locate_point(self.map_named(None)?, pose.at);
         }
         self.locate_entity(self.find(name)?)
@@ -75,6 +75,39 @@ impl State {
     /// It is something where one cannot stand.
     pub fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
         self.around()?.locate_entity(entity)
+    }
+
+    /// Reads `X,Y` or `X,Y,HEADING` in cm and degrees.
+    ///
+    /// # Errors
+    /// [`RequestError::BadPose`].
+    pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
+        let bad = |reason: Bilingual| RequestError::BadPose { text: text.to_owned(), reason };
+        let numbers: Vec<f64> = text
+            .split(',')
+            .map(|part| part.trim().parse::<f64>())
+            .collect::<Result<_, _>>()
+            .map_err(|e| {
+                bad(bilingual!(
+                    "нужны числа через запятую ({e})",
+                    "numbers divided by commas are needed ({e})"
+                ))
+            })?;
+        let (x, y, heading) = match numbers[..] {
+            [x, y] => (x, y, 0.0),
+            [x, y, heading] => (x, y, heading),
+            _ => {
+                return Err(bad(
+                    ("нужны два или три числа", "two or three numbers are needed").into()
+                ));
+            }
+        };
+        let length =
+            |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(e.into()));
+        Ok(Pose {
+            at: Point::new(length(x)?, length(y)?),
+            heading: Deg::new(heading).map_err(|e| bad(e.into()))?,
+        })
     }
 }
 
@@ -105,33 +138,4 @@ pub(super) fn stages(passed: &Passed) -> Vec<Stage> {
 /// Numbers divided by commas, sound or not: coordinates are meant, not a name.
 pub(super) fn is_pair(text: &str) -> bool {
     text.contains(',') && text.split(',').all(|part| part.trim().parse::<f64>().is_ok())
-}
-
-/// Reads `X,Y` or `X,Y,HEADING` in cm and degrees.
-///
-/// # Errors
-/// [`RequestError::BadPose`].
-pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
-    let bad = |reason: Bilingual| RequestError::BadPose { text: text.to_owned(), reason };
-    let numbers: Vec<f64> =
-        text.split(',').map(|part| part.trim().parse::<f64>()).collect::<Result<_, _>>().map_err(
-            |e| {
-                bad(bilingual!(
-                    "нужны числа через запятую ({e})",
-                    "numbers divided by commas are needed ({e})"
-                ))
-            },
-        )?;
-    let (x, y, heading) = match numbers[..] {
-        [x, y] => (x, y, 0.0),
-        [x, y, heading] => (x, y, heading),
-        _ => {
-            return Err(bad(("нужны два или три числа", "two or three numbers are needed").into()));
-        }
-    };
-    let length = |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(e.into()));
-    Ok(Pose {
-        at: Point::new(length(x)?, length(y)?),
-        heading: Deg::new(heading).map_err(|e| bad(e.into()))?,
-    })
 }

@@ -9,7 +9,7 @@ use crate::meaning::FILES;
 use crate::semantics::STANDARD;
 use crate::units::{Carried, Gather as _, carried, is_input, write_file};
 
-use super::{Error, RequestError};
+use super::{Error, RequestError, Rules};
 
 macro_rules! files {
     ($($name:literal),+ $(,)?) => {
@@ -36,7 +36,7 @@ static OF_PLANNING: [(&str, Carried); 14] = files![
 ];
 
 /// Every rule file by its path within a directory of rules, and its text.
-pub fn rule_files() -> impl Iterator<Item = (String, &'static str)> {
+fn rule_files() -> impl Iterator<Item = (String, &'static str)> {
     let of_maps = [("relations.dl", &STANDARD), ("import-synonyms.toml", &SYNONYMS)];
     let of_planning = OF_PLANNING.iter().map(|(name, text)| (*name, text));
     let all = of_maps.into_iter().chain(of_planning).map(|(name, text)| (name.to_owned(), text));
@@ -44,34 +44,36 @@ pub fn rule_files() -> impl Iterator<Item = (String, &'static str)> {
     all.chain(of_language).map(|(name, text)| (name, **text))
 }
 
-/// Writes the built-in rule files into a directory, which is made where there is none; the paths written.
-///
-/// # Errors
-/// A file is there already and `overwrite` is not set: nothing is written then. The disk refused.
-pub fn export_rules(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> {
-    let there: Vec<String> = rule_files()
-        .map(|(name, _)| dir.join(name))
-        .filter(|path| path.symlink_metadata().is_ok())
-        .map(|path| path.display().to_string())
-        .collect();
-    if !there.is_empty() && !overwrite {
-        return Err(RequestError::RulesThere { files: there.join(", ") }.into());
-    }
-    let refused = |path: &Path, error: &std::io::Error| RequestError::File {
-        path: path.display().to_string(),
-        reason: error.to_string().into(),
-        is_input: is_input(error.kind()),
-    };
-    let mut written = Vec::new();
-    for (name, text) in rule_files() {
-        let path = dir.join(name);
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| refused(folder, &e))?;
+impl Rules {
+    /// Writes the built-in rule files into a directory, which is made where there is none; the paths written.
+    ///
+    /// # Errors
+    /// A file is there already and `overwrite` is not set: nothing is written then. The disk refused.
+    pub fn export(dir: &Path, overwrite: bool) -> Result<Vec<PathBuf>, Error> {
+        let there: Vec<String> = rule_files()
+            .map(|(name, _)| dir.join(name))
+            .filter(|path| path.symlink_metadata().is_ok())
+            .map(|path| path.display().to_string())
+            .collect();
+        if !there.is_empty() && !overwrite {
+            return Err(RequestError::RulesThere { files: there.join(", ") }.into());
         }
-        write_file(&path, text.as_bytes()).map_err(|e| refused(&path, &e))?;
-        written.push(path);
+        let refused = |path: &Path, error: &std::io::Error| RequestError::File {
+            path: path.display().to_string(),
+            reason: error.to_string().into(),
+            is_input: is_input(error.kind()),
+        };
+        let mut written = Vec::new();
+        for (name, text) in rule_files() {
+            let path = dir.join(name);
+            if let Some(folder) = path.parent() {
+                std::fs::create_dir_all(folder).map_err(|e| refused(folder, &e))?;
+            }
+            write_file(&path, text.as_bytes()).map_err(|e| refused(&path, &e))?;
+            written.push(path);
+        }
+        Ok(written)
     }
-    Ok(written)
 }
 
 /// How questions begin in the built-in frames, in either language: the words before the first part that varies.

@@ -21,7 +21,7 @@ impl State {
 
 /// «Стол-1, Столешница: верх», "Room V: side B"; a side that has a name of its own bears it.
 #[must_use]
-pub fn face_in_words(world: &World, face: &Face, language: Language) -> String {
+pub(crate) fn face_in_words(world: &World, face: &Face, language: Language) -> String {
     let name = |entity: Entity| match language {
         Language::Russian => world.name(entity).to_owned(),
         Language::English => named(world, entity).english(),

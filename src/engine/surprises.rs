@@ -13,7 +13,7 @@ use super::lexicon::named;
 
 /// What stood in the way, what the vehicle would not do, or what the map does not know.
 #[must_use]
-pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language) -> String {
+pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: Language) -> String {
     let form = |entity: Entity, case: Case| named(world, entity).form(case, language);
     let said = |entity: Entity| form(entity, Case::Nominative);
     let in_case = |what: Obstruction, case: Case| match what {

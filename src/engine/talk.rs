@@ -249,7 +249,7 @@ impl State {
     ///
     /// # Errors
     /// As [`State::ask`].
-    pub fn asks_something(&self, text: &str) -> Result<bool, Error> {
+    pub(super) fn asks_something(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.begins_as_question(text))
     }

@@ -10,8 +10,8 @@ use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
     Answer, Barred, Belief, Directive, Ending, Event, Failure, GoalFact, Ground, Leg, Mission,
-    MissionError, Moment, Person, Pilot, Planned, Senses, SensingRobot, Simulator, Station,
-    Surprise, Vehicle, facts_of_map, height_of_laser, protocol,
+    MissionError, Moment, Person, Pilot, Planned, Simulator, Station, Surprise, Vehicle,
+    facts_of_map, height_of_laser, protocol,
 };
 use crate::semantics::{Followed, Relations, predicate};
 use crate::strips::Domain;
@@ -26,7 +26,7 @@ use super::position::describe;
 use super::{Error, RequestError, State};
 
 /// What a person who gives a task is called in plans.
-pub const OPERATOR: &str = "Оператор";
+pub(super) const OPERATOR: &str = "Оператор";
 
 /// The name of the point where that person stands, for the time of a task.
 pub(super) const OPERATOR_PLACE: &str = "Место-оператора";
@@ -262,18 +262,6 @@ impl State {
         let robot =
             Simulator::new(truth, map, pose).through_walls(self.rules.relations.step_reach());
         Ok(robot.laden(around.held().cloned(), &around.handed_over(), &around.aboard()))
-    }
-
-    /// The same robot behind its senses, which alone it knows its world by.
-    ///
-    /// # Errors
-    /// There is no map.
-    pub fn sensing_robot(
-        &self,
-        truth: Option<World>,
-        senses: Senses,
-    ) -> Result<SensingRobot, Error> {
-        Ok(SensingRobot::new(self.simulator(truth)?, senses))
     }
 
     /// The same by the word of the vehicle, which knows where it stands; else why it cannot be used.

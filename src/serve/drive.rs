@@ -16,8 +16,8 @@ use serde_json::Value;
 
 use crate::engine::json::{self as views, TaskEnd};
 use crate::engine::{
-    After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvent,
-    TaskEvents, rehearsal,
+    After, Dialogue, Engine, Error, Event, Outcome, Progress, Reply, Report, State, TaskEvents,
+    rehearsal,
 };
 use crate::recording::Played;
 use crate::robot::{Address, Moment, Patience, Vehicle};
@@ -519,10 +519,8 @@ impl<'t> Drive<'t> {
                     }
                     _ => {}
                 }
-                if let Some(event) = self.events.of(world, progress) {
-                    let view = views::event(&event);
-                    let is_plan = matches!(event, TaskEvent::Planned(_) | TaskEvent::Replanned(_));
-                    if is_plan
+                if let Some(view) = self.events.of(world, progress) {
+                    if matches!(progress, Progress::Planned(_))
                         && let Some(agreed) = &mut self.agreed
                         && agreed.pop_front().as_ref() != Some(&view)
                     {

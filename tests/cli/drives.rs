@@ -1,8 +1,8 @@
 //! `ortho do --truth`, `--scenario`, events as JSON lines; the map's facts as rules, and the rule files written out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
-use orthoframe::engine::rule_files;
 use orthoframe_strips::Scenario;
 use orthoframe_units::Source;
 use serde_json::Value;
@@ -126,23 +126,30 @@ fn the_maps_facts_read_back() {
 fn rule_files_are_written_out_and_read_back() {
     let place = Place::empty();
     // None is forgotten.
-    let mut open = vec![project("rules")];
-    let mut files = BTreeSet::new();
-    while let Some(folder) = open.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            match path.is_dir() {
-                true => open.push(path),
-                false => files.extend([path.strip_prefix(project("rules")).unwrap().to_owned()]),
+    let files = |within: PathBuf| {
+        let mut open = vec![within.clone()];
+        let mut files = BTreeMap::new();
+        while let Some(folder) = open.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    open.push(path);
+                } else {
+                    let text = std::fs::read_to_string(&path).unwrap();
+                    files.insert(path.strip_prefix(&within).unwrap().to_owned(), text);
+                }
             }
         }
-    }
+        files
+    };
+    let mut own = files(project("rules"));
     // Held against the truth of a foreign data set, and no rules of a robot.
-    files.retain(|file| !file.starts_with("truth"));
-    assert_eq!(files, rule_files().map(|(name, _)| name.into()).collect());
+    own.retain(|file, _| !file.starts_with("truth"));
     place.run(&["rules", "--export", "own"]).is(0);
-    for (name, text) in rule_files() {
-        assert_eq!(std::fs::read_to_string(place.path("own").join(name)).unwrap(), text);
+    let written = files(place.path("own"));
+    assert!(written.keys().eq(own.keys()), "{:?} {:?}", written.keys(), own.keys());
+    for (file, text) in &written {
+        assert_eq!(text, &own[file], "{}", file.display());
     }
     place.write("own/relations.dl", "mine");
     let told = place.run(&["rules", "--export", "own"]).is(2).err;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use orthoframe::engine::{
     Change, Dialogue as Talk, Drawing, Format, ImportOptions, Limits, Method, Mode, Rules,
-    Scenario, Seen, Wanted, When, change_now, json, name_in, parse_pose, read_building,
+    Scenario, Seen, State, Wanted, When, change_now, json,
 };
 use orthoframe::vehicle::{Address, Patience};
 use orthoframe::{Deg, Edits, Frame, Language, SourceText, World};
@@ -96,8 +96,7 @@ impl Engine {
         user: &str,
     ) -> PyResult<Self> {
         made(py, language, user, rules, |rules| {
-            let read =
-                read_building(&map, &ImportOptions::default()).map_err(orthoframe::Error::from)?;
+            let read = orthoframe::Engine::read_building(&map, &ImportOptions::default())?;
             Ok(orthoframe::Engine::in_memory(read.world, rules)?)
         })
     }
@@ -130,7 +129,7 @@ impl Engine {
         self.desk.answer(py, || {
             self.desk.write(|engine| {
                 let options = ImportOptions { pixel, ..ImportOptions::default() };
-                let read = read_building(&file, &options).map_err(orthoframe::Error::from)?;
+                let read = orthoframe::Engine::read_building(&file, &options)?;
                 let imported = engine.keep(read, &change)?;
                 let mut view = json::changed("imported", &imported.report);
                 view["warnings"] = json!(json::faults(&imported.warnings));
@@ -271,11 +270,7 @@ impl Engine {
             let limits = Limits { deadline, ..Limits::default() };
             let state = self.desk.state()?;
             let answer = state.plan(Scenario::read(&file)?, &limits, Wanted::Shortest)?;
-            let name = |name: &str| match state.world() {
-                Ok(world) => name_in(world, name, Language::English),
-                Err(_) => name.to_owned(),
-            };
-            Ok(json::plan(&answer.solved, &name))
+            Ok(json::plan(&answer.solved, state.world().ok()))
         })
     }
 
@@ -304,7 +299,7 @@ impl Engine {
                 (Some(x), Some(y)) => {
                     let text = [Some(x), Some(y), heading];
                     let text: Vec<_> = text.iter().flatten().map(f64::to_string).collect();
-                    let pose = parse_pose(&text.join(","))?;
+                    let pose = State::parse_pose(&text.join(","))?;
                     (state.map_named(map)?, pose, heading.is_some())
                 }
                 (None, None) => {

@@ -141,9 +141,7 @@ impl Teller {
                     "heading_deg": pose.heading.get(),
                 }))
             }
-            Event::Progress { progress, world, .. } => {
-                self.events.of(world, progress).map(|event| json!(event))
-            }
+            Event::Progress { progress, world, .. } => self.events.of(world, progress),
             Event::Replied(reply) => Some(json!({
                 "event": "replied", "outcome": reply.outcome.word(), "text": reply.text,
             })),

@@ -5,7 +5,6 @@ use crate::language::command::Misheard;
 use crate::language::question::{Answer, Unanswered};
 use crate::map::World;
 
-use crate::engine::narration::progress_in_words;
 use crate::engine::{Error, Progress, Queue, TaskAnswer};
 
 /// What came of a line, in the order in which it was heeded.
@@ -144,9 +143,7 @@ impl Event<'_> {
     pub fn in_words(&self) -> Vec<String> {
         match self {
             Self::Ordered(_) => Vec::new(),
-            Self::Progress { progress, world, language } => {
-                progress_in_words(world, progress, *language)
-            }
+            Self::Progress { progress, world, language } => progress.in_words(world, *language),
             Self::Replied(reply) => vec![reply.text.clone()],
         }
     }

@@ -42,10 +42,10 @@ use crate::units::Stop;
 
 use super::narration::nothing_to_stop;
 use super::task::{OPERATOR, Progress};
-use super::{After, Engine, Error, QueuedTask, task_in_words};
+use super::{After, Engine, Error, QueuedTask};
 
 /// How whoever speaks is told what happens, as it happens.
-pub type Tell<'t> = dyn FnMut(&Engine, &Event<'_>) + 't;
+pub(super) type Tell<'t> = dyn FnMut(&Engine, &Event<'_>) + 't;
 
 /// What was said so far, and what waits for an answer.
 #[derive(Debug)]
@@ -557,7 +557,7 @@ impl Hearing<'_, '_> {
         if !task.ending.is_done() {
             self.dialogue.refusal = Some(ending.clone());
         }
-        self.dialogue.memory.did(task_in_words(self.engine.world()?, line, &task));
+        self.dialogue.memory.did(task.in_words(self.engine.world()?, line));
         self.put(Outcome::Task(Box::new(task)), &ending, language)?;
         let done = self.heard.replies.last().map(|reply| &reply.outcome);
         if let (true, Some(Outcome::Task(task))) = (self.dialogue.keeps, done) {

@@ -4,7 +4,6 @@ use miette::Diagnostic;
 use serde_json::{Value, json};
 
 use super::faults::faults;
-use crate::engine::TaskEvent;
 use crate::facts::{FilesReport, RuleTrace};
 use crate::language::Language;
 
@@ -12,12 +11,6 @@ use crate::language::Language;
 #[must_use]
 pub(crate) fn failed(error: &dyn Diagnostic) -> Value {
     json!({ "outcome": "error", "errors": faults(error) })
-}
-
-/// One thing that happened on the way.
-#[must_use]
-pub fn event(event: &TaskEvent) -> Value {
-    json!(event)
 }
 
 /// Files that were written.

@@ -6,6 +6,7 @@ mod building;
 mod console;
 mod corridor;
 mod done;
+mod events;
 mod faults;
 mod known;
 mod names;
@@ -30,10 +31,10 @@ pub(crate) use console::{
     laid_beside, others, proposed_edits, revised, robot,
 };
 pub(crate) use corridor::directions;
-pub use done::event;
 pub(crate) use done::{
     exported, failed, formatted, program_run, told_again, told_to_its_end, written,
 };
+pub use events::TaskEvents;
 pub use faults::faults;
 pub use known::{believed, changed, counts, differences, edited, facts, revision, story};
 pub(crate) use known::{proposals, rejected};
@@ -50,8 +51,7 @@ pub(crate) use scans::{changes, differing, found_scans, view};
 pub(crate) use segments::{ends, of_log};
 pub(crate) use store::with_calls;
 pub(crate) use store::{backup, diff, forgotten, map_text, restored, revisions, store_check};
-pub use storey::Part;
-pub(crate) use storey::{floor, storey};
+pub(crate) use storey::{Part, floor, storey};
 #[cfg(feature = "serve")]
 pub(crate) use tasks::{
     TaskEnd, TaskView, Waiting, as_it_went, barred, cleared, done, ended, known_changed, lease,

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::engine::narration::outcome;
-use crate::engine::{PlanStep, Replanned, Solved, in_rule_text, steps};
+use crate::engine::{PlanStep, Replanned, Solved, World, in_rule_text, name_in, steps};
 use crate::graphplan::{Attempt, Limit, NoPlanReason, Outcome, Plan, Way};
 use crate::language::Language;
 use crate::robot::{Reason, Refused, Shortness};
@@ -17,9 +17,13 @@ struct StepView {
     args: Vec<String>,
 }
 
-/// `name` gives the English names of objects.
-pub fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
-    let english = solved.wording(Language::English, name);
+/// A plan, or why there is none. Things of the map have the English names that it gives them.
+pub fn plan(solved: &Solved, world: Option<&World>) -> Value {
+    let name = |name: &str| match world {
+        Some(world) => name_in(world, name, Language::English),
+        None => name.to_owned(),
+    };
+    let english = solved.wording(Language::English, &name);
     let steps: Vec<Vec<StepView>> = steps(solved)
         .into_iter()
         .map(|step| {
@@ -130,9 +134,9 @@ fn shortness(why: &Shortness, english: &Wording<'_>) -> Value {
 }
 
 /// The plan after assumptions were withdrawn, and what became of the one before.
-pub(crate) fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
+pub(crate) fn replanned(replanned: &Replanned, world: Option<&World>) -> Value {
     let before = steps(&replanned.before);
-    let mut view = plan(&replanned.after, name);
+    let mut view = plan(&replanned.after, world);
     view["withdrawn"] =
         json!(replanned.withdrawn.iter().map(ToString::to_string).collect::<Vec<_>>());
     view["before"] = json!({

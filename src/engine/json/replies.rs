@@ -2,11 +2,12 @@
 
 use serde_json::{Value, json};
 
+use super::events::ReportView;
 use super::plans::plan;
 use super::values::{pose, round};
 use crate::engine::{
-    Answer, Engine, Error, Heard, Outcome as Heeded, Queue, Reply, ReportView, TaskAnswer,
-    TaskEnding, Unanswered, World, name_in, surprise_in_words,
+    Answer, Engine, Error, Heard, Outcome as Heeded, Queue, Reply, TaskAnswer, TaskEnding,
+    Unanswered, World, surprise_in_words,
 };
 use crate::language::Language;
 
@@ -109,8 +110,7 @@ pub fn task(world: &World, answer: &TaskAnswer) -> Value {
     });
     match &answer.ending {
         TaskEnding::NoPlan(planned) => {
-            let name = |name: &str| name_in(world, name, Language::English);
-            view["plan"] = plan(&planned.solved, &name);
+            view["plan"] = plan(&planned.solved, Some(world));
         }
         TaskEnding::Stuck(surprise) => {
             view["explanation"] = json!(surprise_in_words(world, surprise, Language::Russian));

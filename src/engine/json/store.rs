@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use super::known::{differences, revision};
 use crate::engine::calls::Call;
-use crate::engine::{Difference, FsckReport, Revision, Severity};
+use crate::engine::{Difference, Revision, Severity};
 use crate::language::Language;
-use crate::store::{Finding, Forgotten};
+use crate::store::{Finding, Forgotten, FsckReport};
 
 /// What looking through a store found.
 #[must_use]

@@ -14,7 +14,7 @@ use crate::units::{AreaId, InOrder as _, Language, MapId, Point};
 
 /// How much of a storey is wanted.
 #[derive(Debug, Clone, Copy)]
-pub enum Part {
+pub(crate) enum Part {
     /// All of it, but for its things and doors where there are more than so many.
     Whole { most: usize },
     /// The things, doors and places that meet a box, on the Map: left, bottom, right, top.

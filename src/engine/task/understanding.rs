@@ -88,7 +88,7 @@ impl State {
     ///
     /// # Errors
     /// As [`State::ask`].
-    pub fn holds(
+    pub(in crate::engine) fn holds(
         &self,
         conditional: &Conditional,
         memory: &mut Memory,

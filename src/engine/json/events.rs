@@ -1,5 +1,5 @@
-//! What happens while a task is driven, as data: one [`TaskEvent`] after another, each a JSON object with its name in
-//! the field `event` (docs/cli.md lists the fields, which stay).
+//! What happens while a task is driven, as data: one JSON object after another, each with its name in the field `event`
+//! (docs/cli.md lists the fields, which stay).
 //!
 //! ```
 //! use orthoframe::Engine;
@@ -10,29 +10,31 @@
 //! let (mut events, mut names) = (TaskEvents::default(), Vec::new());
 //! engine.perform("Поезжай к Точке-К", &mut |progress| {
 //!     let Some(event) = events.of(engine.world().unwrap(), progress) else { return };
-//!     let event = serde_json::to_value(event).unwrap();
 //!     names.push(event["event"].as_str().unwrap().to_owned());
 //! }).unwrap();
 //! assert_eq!(names[..3], ["planned", "started", "arrived"]);
 //! ```
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
+use crate::engine::assumed::assumptions_in_russian;
+use crate::engine::surprises::barred_in_words;
+use crate::engine::{
+    Progress, Report, actions_in_words, directive_in_words, name_in, surprise_in_words,
+};
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::map::{Entity, World};
 use crate::robot::{Barred, Directive, Planned, Primitive, Refusal, Surprise};
-use crate::units::{Point, Pose, ReplicaId};
+use crate::units::ReplicaId;
 
-use super::assumed::assumptions_in_russian;
-use super::surprises::barred_in_words;
-use super::{Progress, Report, actions_in_words, directive_in_words, name_in, surprise_in_words};
+use super::values::{point, pose, round};
 
 /// One thing that happened on the way.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum TaskEvent {
+enum TaskEvent {
     /// A goal has a plan, or is shown to have none.
     Planned(PlanView),
     /// The same after a surprise.
@@ -77,65 +79,57 @@ pub enum TaskEvent {
 }
 
 /// A directive in names and in words.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DirectiveView {
-    pub action: String,
-    pub args: Vec<String>,
-    pub do_ru: String,
-    pub do_en: String,
+#[derive(Debug, Serialize)]
+struct DirectiveView {
+    action: String,
+    args: Vec<String>,
+    do_ru: String,
+    do_en: String,
 }
 
 /// A plan, as far as who follows the drive cares.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PlanView {
+#[derive(Debug, Serialize)]
+struct PlanView {
     /// `plan`, `no_plan` or `limit`.
-    pub outcome: &'static str,
+    outcome: &'static str,
     /// The facts that are wanted, as the rule language writes them.
-    pub goal: Vec<String>,
+    goal: Vec<String>,
     /// Parallel steps, empty where there is no plan.
-    pub steps: Vec<Vec<DirectiveView>>,
+    steps: Vec<Vec<DirectiveView>>,
     /// Proven: no plan has fewer parallel steps. None where there is no plan, or one by driven time.
-    pub at_least_steps: Option<usize>,
+    at_least_steps: Option<usize>,
     /// So many the plan that is known has, where one is.
-    pub at_most_steps: Option<usize>,
+    at_most_steps: Option<usize>,
     /// With a plan by driven time: how long it takes, and what none takes less than.
-    pub seconds: Option<f64>,
-    pub at_least_seconds: Option<f64>,
-    pub assumptions: Vec<String>,
-    pub assumptions_ru: Vec<String>,
-    pub assumptions_en: Vec<String>,
+    seconds: Option<f64>,
+    at_least_seconds: Option<f64>,
+    assumptions: Vec<String>,
+    assumptions_ru: Vec<String>,
+    assumptions_en: Vec<String>,
     /// Why there is no plan.
-    pub explanation: Option<String>,
-    pub explanation_en: Option<String>,
+    explanation: Option<String>,
+    explanation_en: Option<String>,
 }
 
 /// A directive that is done, and where the robot then is.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReportView {
-    pub do_ru: String,
-    pub do_en: String,
+#[derive(Debug, Serialize)]
+pub(super) struct ReportView {
+    do_ru: String,
+    do_en: String,
     /// Sentences on what was switched, found, put away, and who was called.
-    pub done_ru: Vec<String>,
-    pub done_en: Vec<String>,
-    pub number: usize,
-    pub action: String,
-    pub args: Vec<String>,
-    pub map: String,
-    pub pose: PoseView,
-    pub length_cm: f64,
-    pub seconds: f64,
-    pub points: Vec<[f64; 2]>,
+    done_ru: Vec<String>,
+    done_en: Vec<String>,
+    number: usize,
+    action: String,
+    args: Vec<String>,
+    map: String,
+    pose: Value,
+    length_cm: f64,
+    seconds: f64,
+    points: Vec<[f64; 2]>,
     /// The report of the position; none outside of every room.
-    pub ru: Option<String>,
-    pub en: Option<String>,
-}
-
-/// On the Map, cm and degrees.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct PoseView {
-    pub x: f64,
-    pub y: f64,
-    pub heading_deg: f64,
+    ru: Option<String>,
+    en: Option<String>,
 }
 
 /// Makes events of the progress of one task.
@@ -147,7 +141,11 @@ pub struct TaskEvents {
 impl TaskEvents {
     /// The event for what has just happened, if it is one: a way, a pose on it and a scan are none. To be asked once for
     /// each, in order.
-    pub fn of(&mut self, world: &World, progress: &Progress<'_>) -> Option<TaskEvent> {
+    pub fn of(&mut self, world: &World, progress: &Progress<'_>) -> Option<Value> {
+        self.event(world, progress).map(|event| json!(event))
+    }
+
+    fn event(&mut self, world: &World, progress: &Progress<'_>) -> Option<TaskEvent> {
         Some(match progress {
             Progress::Sent { .. } | Progress::Moved(_) | Progress::Scanned(_) => return None,
             Progress::Planned(planned) => {
@@ -243,8 +241,7 @@ fn kind(surprise: &Surprise) -> &'static str {
 }
 
 impl DirectiveView {
-    #[must_use]
-    pub fn of(world: &World, directive: &Directive) -> Self {
+    fn of(world: &World, directive: &Directive) -> Self {
         let asked = |language| directive_in_words(world, directive, language);
         Self {
             action: directive.action.to_string(),
@@ -256,8 +253,7 @@ impl DirectiveView {
 }
 
 impl PlanView {
-    #[must_use]
-    pub fn of(world: &World, planned: &Planned) -> Self {
+    fn of(world: &World, planned: &Planned) -> Self {
         let solved = &planned.solved;
         let name = |name: &str| name_in(world, name, Language::English);
         let english = solved.wording(Language::English, &name);
@@ -288,12 +284,10 @@ impl PlanView {
 }
 
 impl ReportView {
-    #[must_use]
-    pub fn of(world: &World, report: &Report) -> Self {
+    pub(super) fn of(world: &World, report: &Report) -> Self {
         let DirectiveView { action, args, do_ru, do_en } =
             DirectiveView::of(world, &report.directive);
         let done = |language| actions_in_words(world, &report.directive, language);
-        let point = |p: &Point| [hundredths(p.x), hundredths(p.y)];
         let said = |language| report.position.as_ref().map(|position| position.say(language));
         Self {
             do_ru,
@@ -304,24 +298,12 @@ impl ReportView {
             action,
             args,
             map: world.maps[&report.map].name.clone(),
-            pose: report.pose.into(),
-            length_cm: hundredths(report.length),
-            seconds: hundredths(report.seconds),
-            points: report.points.iter().map(point).collect(),
+            pose: pose(report.pose),
+            length_cm: round(report.length),
+            seconds: round(report.seconds),
+            points: report.points.iter().copied().map(point).collect(),
             ru: said(Language::Russian),
             en: said(Language::English),
         }
     }
-}
-
-impl From<Pose> for PoseView {
-    fn from(pose: Pose) -> Self {
-        let heading_deg = hundredths(pose.heading.get());
-        Self { x: hundredths(pose.at.x), y: hundredths(pose.at.y), heading_deg }
-    }
-}
-
-/// A tenth of a millimetre, a hundredth of a degree; nothing is minus zero.
-fn hundredths(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0 + 0.0
 }
