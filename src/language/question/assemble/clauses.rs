@@ -3,7 +3,7 @@
 //!
 //! **Invariant**: a claim has its own thing, and its own place or value; what shares one of them is one claim.
 
-use super::super::grammar::{Item, Sentence};
+use super::super::grammar::{Item, Phrase, Sentence};
 use super::super::lexicon::Lexicon;
 use super::super::mark::Mark;
 use super::super::query::Query;
@@ -25,31 +25,50 @@ pub(super) fn clauses_of(
     if items.iter().any(asks) {
         return None;
     }
-    let joint = items.iter().position(|item| *item == Item::Mark(Mark::And))?;
-    let (one, other) = (&items[..joint], &items[joint + 1..]);
-    let things = |claim: &[Item]| claim.iter().filter(|item| matches!(item, Item::Noun(_))).count();
-    let is_whole = |claim: &[Item]| {
-        let told = |item: &Item| matches!(item, Item::Place { .. } | Item::Value(_));
-        things(claim) == 1 && claim.iter().any(told) && !claim.contains(&Item::Mark(Mark::And))
-    };
-    let other: Vec<Item> = match (one, other) {
-        ([rest @ .., Item::Place { .. }], [Item::Place { .. }]) if things(rest) == 1 => {
-            rest.iter().chain(other).cloned().collect()
-        }
-        _ if is_whole(one) && is_whole(other) => {
-            // "Is there an apple here and a book there": what asks is said once.
-            let asking = |item: &&Item| matches!(item, Item::Mark(Mark::Exists | Mark::Be));
-            one.iter().filter(asking).chain(other).cloned().collect()
-        }
-        _ => return None,
-    };
+    let (one, other) = in_both_places(sentence, items).or_else(|| of_two_things(items))?;
     let read = |claim: &[Item]| {
         let frame = Frame::of(sentence, lexicon, claim, referent).ok()?;
         let mut query = frame.read()?;
         let is_claim = matches!(query, Query::Holds { .. } | Query::Exists { .. });
         (is_claim && !frame.asks_more_than(&mut query)).then_some(query)
     };
-    Some(Query::Several(vec![read(one)?, read(&other)?]))
+    Some(Query::Several(vec![read(&one)?, read(&other)?]))
+}
+
+fn things(claim: &[Item]) -> usize {
+    claim.iter().filter(|item| matches!(item, Item::Noun(_))).count()
+}
+
+/// The items of each of two claims that a word joins.
+fn of_two_things(items: &[Item]) -> Option<(Vec<Item>, Vec<Item>)> {
+    let joint = items.iter().position(|item| *item == Item::Mark(Mark::And))?;
+    let (one, other) = (&items[..joint], &items[joint + 1..]);
+    let is_whole = |claim: &[Item]| {
+        let told = |item: &Item| matches!(item, Item::Place { .. } | Item::Value(_));
+        things(claim) == 1 && claim.iter().any(told) && !claim.contains(&Item::Mark(Mark::And))
+    };
+    // "Is there an apple here and a book there": what asks is said once.
+    let asking = |item: &&Item| matches!(item, Item::Mark(Mark::Exists | Mark::Be));
+    (is_whole(one) && is_whole(other))
+        .then(|| (one.to_vec(), one.iter().filter(asking).chain(other).cloned().collect()))
+}
+
+/// The same of one thing in two places, each with its own preposition.
+fn in_both_places(sentence: &Sentence<'_>, items: &[Item]) -> Option<(Vec<Item>, Vec<Item>)> {
+    const BETWEEN: [&str; 6] = ["and", "и", "а", "the", "a", "an"];
+    let at = items.iter().position(|item| matches!(item, Item::Place { .. }))?;
+    let Item::Place { rel, nouns, either: false } = &items[at] else { return None };
+    let [one, other] = &nouns[..] else { return None };
+    let between = sentence.keys.get(one.words.end..other.words.start)?;
+    let again = between.iter().any(|key| !BETWEEN.contains(&key.as_str()));
+    let rest = items.iter().enumerate().filter(|(n, _)| *n != at);
+    let is_alone = rest.clone().all(|(_, item)| matches!(item, Item::Noun(_) | Item::Mark(_)));
+    let claim = |noun: &Phrase| {
+        let mut claim = items.to_vec();
+        claim[at] = Item::Place { rel: *rel, nouns: vec![noun.clone()], either: false };
+        claim
+    };
+    (again && is_alone && things(items) == 1).then(|| (claim(one), claim(other)))
 }
 
 /// The items with a joint between two claims: "in the kitchen and a toilet in the bathroom" is no place of both, and «…, а радио
