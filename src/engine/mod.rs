@@ -46,7 +46,6 @@ mod english;
 mod error;
 mod events;
 mod export;
-mod facing;
 pub(crate) mod forms;
 mod furniture;
 mod given;
