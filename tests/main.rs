@@ -41,6 +41,7 @@ mod lifts;
 mod lost;
 mod map_editing;
 mod maps;
+mod meanings;
 mod odd_floors;
 mod odd_worlds;
 mod openings;

@@ -23,7 +23,7 @@ use crate::files::project;
 ///   0 +--------------------------+
 ///     0                         600
 /// ```
-const HOME: &str = r#"
+pub(crate) const HOME: &str = r#"
 format = 1
 [type]
 object = [
@@ -84,7 +84,7 @@ fn changed(from: &str, to: &str) -> String {
 }
 
 /// A rules directory with a text of its own and another beside it.
-fn rules_dir(text: &str, own: &str) -> tempfile::TempDir {
+pub(crate) fn rules_dir(text: &str, own: &str) -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("relations.dl"), text).unwrap();
     if !own.is_empty() {
@@ -452,10 +452,10 @@ fn a_map_is_doubted_by_the_thresholds_of_the_rules() {
     }
 }
 
-/// All sources of the program but the table of thresholds itself.
-fn code() -> String {
-    let mut text = String::new();
-    let mut folders = vec![project("src")];
+/// The sources under a folder but the table of thresholds itself, each with its place under `src`.
+pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
+    let (src, mut found) = (project("src"), Vec::new());
+    let mut folders = vec![project(folder)];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -464,18 +464,19 @@ fn code() -> String {
             } else if path.extension().is_some_and(|e| e == "rs")
                 && !path.ends_with("semantics/thresholds.rs")
             {
-                text.push_str(&std::fs::read_to_string(path).unwrap());
+                let place = path.strip_prefix(&src).unwrap().to_string_lossy().replace('\\', "/");
+                found.push((place, std::fs::read_to_string(&path).unwrap()));
             }
         }
     }
-    text
+    found
 }
 
 /// A number in the rule text that nothing reads promises a change that does not come; one that rules read and the text
 /// does not name never holds.
 #[test]
 fn every_threshold_is_read_and_told_of() {
-    let code = code();
+    let code: String = sources("src").into_iter().map(|(_, text)| text).collect();
     let guide = std::fs::read_to_string(project("docs/relations.md")).unwrap();
     let fields: BTreeSet<&str> = code
         .split('.')

@@ -236,9 +236,9 @@ impl Floor {
             let (t, offset) = lane.locate(entrance.at);
             let away = (t - segment.t[end]).abs();
             let fits = segment.nodes[end].is_none()
-                && entrance.inward.dot(&outward) < -0.7
-                && offset.abs() <= 0.6 * lane.width
-                && away <= 60.0;
+                && entrance.inward.dot(&-outward) >= self.shape.askew.to_radians().cos()
+                && offset.abs() <= self.shape.aside * lane.width
+                && away <= self.shape.ahead;
             let door = Self::door(entrance, segment.t[end], offset, true);
             fits.then_some((away + offset.abs(), at, door))
         };

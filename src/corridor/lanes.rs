@@ -66,6 +66,12 @@ pub struct Shape {
     pub bend: f64,
     /// An arm goes on between walls for more than this beyond its junction.
     pub arm: f64,
+    /// A door is straight ahead at the end of a corridor from which it is no farther,
+    pub ahead: f64,
+    /// no farther beside its middle than this share of its width,
+    pub aside: f64,
+    /// and turned off it by no more.
+    pub askew: f64,
 }
 
 impl Default for Shape {
@@ -79,6 +85,9 @@ impl Default for Shape {
             stub: 0.25,
             bend: 30.0,
             arm: 80.0,
+            ahead: 60.0,
+            aside: 0.6,
+            askew: 45.57,
         }
     }
 }

@@ -33,6 +33,8 @@ pub struct FoundScan {
     pub is_unique: bool,
     /// Where several poses fit, the move that tells most of them apart.
     pub telling: Option<Move>,
+    /// From which angle on it is told as a turn right round, degrees.
+    about: f64,
     event: Option<Event>,
 }
 
@@ -58,6 +60,7 @@ impl State {
             return Err(RequestError::NoScan { scan, count: log.scans.len() }.into());
         }
         let radius = self.world()?.robot.radius.get();
+        let about = self.relations()?.thresholds().turn_about;
         let mut found = Vec::new();
         for (scan, told) in (1..).zip(&log.scans) {
             let is_asked = only.is_none_or(|only| only == scan);
@@ -80,7 +83,8 @@ impl State {
             if is_asked {
                 let poses = fits.iter().map(|fit| self.found_pose(map, fit)).collect();
                 let telling = telling_move(&chart, fits, radius);
-                found.push(FoundScan { scan, line: told.line, poses, is_unique, telling, event });
+                let line = told.line;
+                found.push(FoundScan { scan, line, poses, is_unique, telling, about, event });
             }
         }
         Ok(found)
@@ -114,7 +118,7 @@ impl FoundScan {
     /// The move that would tell the poses apart, where several fit and one does: «повернуться на 90° налево».
     #[must_use]
     pub fn telling_in_words(&self, language: Language) -> Option<String> {
-        self.telling.map(|by| move_in_words(by, language))
+        self.telling.map(|by| move_in_words(by, self.about, language))
     }
 
     /// What was remarkable about the step to it, where anything was.

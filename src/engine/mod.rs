@@ -44,7 +44,6 @@ mod edit;
 mod english;
 mod error;
 mod export;
-mod facing;
 pub(crate) mod forms;
 mod furniture;
 mod given;

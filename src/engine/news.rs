@@ -182,14 +182,17 @@ impl State {
                 Language::English => format!(" (and {more} more)"),
             };
         }
+        let about = self.relations()?.thresholds().turn_about;
         let told = self.telling_move(found)?.map_or_else(
             || {
                 let none = ("ни один короткий ход этого не прояснит", "no short move would tell");
                 language.pick(none.0, none.1).to_owned()
             },
             |by| match language {
-                Language::Russian => format!("различить поможет {}", move_in_words(by, language)),
-                Language::English => format!("to tell, {}", move_in_words(by, language)),
+                Language::Russian => {
+                    format!("различить поможет {}", move_in_words(by, about, language))
+                }
+                Language::English => format!("to tell, {}", move_in_words(by, about, language)),
             },
         );
         Ok(format!("{text}; {told}"))
@@ -225,7 +228,7 @@ impl State {
         pose: crate::units::Pose,
         language: Language,
     ) -> Result<Option<String>, Error> {
-        let found = describe(self.world()?, self.relations()?, map, pose, None);
+        let found = describe(self.world()?, self.relations()?, map, pose, false);
         Ok(found.map(|found| found.position.say_in(language, Detail::Spot)))
     }
 }
@@ -234,14 +237,13 @@ fn with_stop(text: &str) -> String {
     format!("{};", text.trim_end_matches('.'))
 }
 
-/// «повернуться на 90° налево и проехать 2 м вперёд»
-pub(super) fn move_in_words(by: Move, language: Language) -> String {
+/// «повернуться на 90° налево и проехать 2 м вперёд»; `about` is the angle from which on a turn is one right round, degrees.
+pub(super) fn move_in_words(by: Move, about: f64, language: Language) -> String {
     let degrees = by.turn.to_degrees().abs().round();
     let mut steps = Vec::new();
     if degrees >= 1.0 {
         let left = by.turn > 0.0;
-        // The turn itself is told, not how people speak of one: the threshold «turn round» is of ways.
-        steps.push(match (degrees >= 175.0, left, language) {
+        steps.push(match (degrees >= about, left, language) {
             (true, _, Language::Russian) => "развернуться".to_owned(),
             (true, _, Language::English) => "turn round".to_owned(),
             (_, true, Language::Russian) => format!("повернуться на {degrees}° налево"),
@@ -261,4 +263,16 @@ pub(super) fn move_in_words(by: Move, language: Language) -> String {
         });
     }
     enumerate(&steps, language)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_right_round_is_told_from_the_threshold_on() {
+        let by = Move { turn: 160_f64.to_radians(), ahead: 0.0, tells: 1.0 };
+        assert_eq!(move_in_words(by, 175.0, Language::English), "turn 160° to the left");
+        assert_eq!(move_in_words(by, 160.0, Language::English), "turn round");
+    }
 }

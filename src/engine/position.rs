@@ -1,6 +1,5 @@
 //! Where a pose is, from the terms of geometry to a report in words (SPEC T4).
 
-use crate::geometry::FloorPlan;
 use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::report::read::{SaidMark, SaidOpening, SaidPosition, SaidSpot};
@@ -8,10 +7,9 @@ use crate::language::report::{
     Beside, Context, Facing, Mark, Named, OpeningKind, Position, Spot, ToldOpening,
 };
 use crate::map::{Entity, World};
-use crate::semantics::{self, Relations, Way, Whereabouts, whereabouts};
+use crate::semantics::{self, Faced, Relations, Way, Whereabouts, faced, whereabouts};
 use crate::units::{AreaId, DoorId, MapId, Pose, name_key};
 
-use super::facing::{Faced, faced};
 use super::lexicon::named;
 use super::located::nowhere_on;
 use super::reading::regions;
@@ -33,28 +31,21 @@ impl State {
     /// The pose lies in no Area.
     pub fn locate(&self, map: MapId, pose: Pose, facing: bool) -> Result<Whereabout, Error> {
         let world = self.world()?;
-        let found = describe(
-            world,
-            self.relations()?,
-            map,
-            pose,
-            facing.then(|| self.floor(map)).transpose()?,
-        );
-        match found {
+        match describe(world, self.relations()?, map, pose, facing) {
             Some(found) => Ok(found),
             None => Err(nowhere_on(world, self.floor(map)?, pose.at).into()),
         }
     }
 }
 
-/// Describes a pose; with its floor, also what the robot faces.
+/// Describes a pose, and where it is asked what the robot faces.
 #[must_use]
 pub(super) fn describe(
     world: &World,
     relations: &Relations,
     map: MapId,
     pose: Pose,
-    floor: Option<&FloorPlan>,
+    facing: bool,
 ) -> Option<Whereabout> {
     let terms = whereabouts(world, relations, map, &pose)?;
     let area = |id: AreaId| named(world, Entity::Area(id));
@@ -77,8 +68,8 @@ pub(super) fn describe(
     let telling = Telling { world, relations, map, area: terms.area, areas };
     position.context = telling.context(None);
     position.spot_context = telling.context(Some(&terms.spot));
-    let faced = floor.and_then(|floor| faced(world, relations, floor, terms.area, pose));
-    position.facing = faced.map(|faced| match faced {
+    let faced = facing.then(|| faced(world, relations, map, &[pose]));
+    position.facing = faced.into_iter().flatten().next().map(|faced| match faced {
         Faced::Door(way) => Facing::Door(doorway(world, relations, way)),
         Faced::Leaf(way) => Facing::Leaf(doorway(world, relations, way)),
         Faced::Object(replica) => Facing::Object(named(world, Entity::Replica(replica))),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::geometry::{Bounds, FloorPlan};
+use crate::geometry::Bounds;
 use crate::language::FormIndex;
 use crate::language::names::hints;
 use crate::language::report::read::{
@@ -10,10 +10,9 @@ use crate::language::report::read::{
 };
 use crate::language::report::{Beside, OpeningKind};
 use crate::map::{Entity, World};
-use crate::semantics::{Claim, Relations, Way, claim_bounds, claim_holds};
+use crate::semantics::{Claim, Faced, Relations, Way, claim_bounds, claim_holds, faced};
 use crate::units::{AreaId, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
 
-use super::facing::{Faced, faced};
 use super::lexicon::named;
 use super::{Error, RequestError, State};
 
@@ -81,7 +80,7 @@ impl State {
     pub fn region_contains(&self, region: &Region, pose: Pose) -> Result<bool, Error> {
         let (world, relations) = (self.world()?, self.relations()?);
         Ok(!region.held_at(world, relations, &[pose.at]).is_empty()
-            && region.has_heading(world, relations, self.floor(region.map)?, pose))
+            && region.has_heading(world, relations, &[pose]))
     }
 
     /// The points of a square grid over the region where some heading makes the report true, if any does; `step` in cm.
@@ -91,7 +90,6 @@ impl State {
     /// There is no map.
     pub fn region_points(&self, region: &Region, step: f64) -> Result<Vec<Point>, Error> {
         let (world, relations) = (self.world()?, self.relations()?);
-        let floor = self.floor(region.map)?;
         let Bounds { min, max } = region.bounds;
         let count = |length: f64| (length / step).floor().clamp(0.0, 2000.0) as u32;
         let mut points = Vec::new();
@@ -102,9 +100,8 @@ impl State {
             let of_row: Vec<Point> = of_row.collect();
             for at in region.held_at(world, relations, &of_row).into_iter().map(|n| of_row[n]) {
                 let turned = |k: u32| Pose { at, heading: Deg::of(f64::from(k) * 15.0) };
-                if region.facing.is_none()
-                    || (0..24).any(|k| region.has_heading(world, relations, floor, turned(k)))
-                {
+                let turned: Vec<Pose> = (0..24).map(turned).collect();
+                if region.has_heading(world, relations, &turned) {
                     points.push(at);
                 }
             }
@@ -119,17 +116,10 @@ impl Region {
         claim_holds(world, relations, (self.map, self.area), &self.claim, at)
     }
 
-    fn has_heading(
-        &self,
-        world: &World,
-        relations: &Relations,
-        floor: &FloorPlan,
-        pose: Pose,
-    ) -> bool {
+    /// Whether in some of the poses the robot faces what is said.
+    fn has_heading(&self, world: &World, relations: &Relations, poses: &[Pose]) -> bool {
         let Some(facing) = &self.facing else { return true };
-        let here = relations.measurements().area_at(self.map, pose.at).unwrap_or(self.area);
-        let Some(faced) = faced(world, relations, floor, here, pose) else { return false };
-        match (facing, faced) {
+        let is_so = |faced: Faced| match (facing, faced) {
             (SaidFacing::Door(said), Faced::Door(way)) => is_meant(said, way),
             (SaidFacing::Object(said), Faced::Object(thing)) => {
                 said.contains(&Entity::Replica(thing))
@@ -139,7 +129,8 @@ impl Region {
             (SaidFacing::OwnWall, Faced::Wall { own }) => own,
             (SaidFacing::OtherWall, Faced::Wall { own }) => !own,
             _ => false,
-        }
+        };
+        faced(world, relations, self.map, poses).into_iter().any(is_so)
     }
 }
 

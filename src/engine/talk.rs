@@ -480,9 +480,8 @@ impl Senses for RobotSenses<'_> {
 
     fn position(&self, language: Language, detail: Detail) -> Option<String> {
         let (map, pose) = self.engine.robot_pose()?;
-        let around = self.engine.around().ok()?;
-        let floor = (detail == Detail::Heading).then(|| around.floor(map)).transpose().ok()?;
-        let found = describe(self.world()?, self.relations()?, map, pose, floor)?;
+        let facing = detail == Detail::Heading;
+        let found = describe(self.world()?, self.relations()?, map, pose, facing)?;
         Some(found.position.say_in(language, detail))
     }
 

@@ -563,7 +563,7 @@ fn report_of(
     relations: &mut Followed,
 ) -> Report {
     let say = |relations: &Relations| {
-        describe(&belief.world, relations, belief.map, belief.pose, None).map(|w| w.position)
+        describe(&belief.world, relations, belief.map, belief.pose, false).map(|w| w.position)
     };
     let points = leg.route.as_ref().map(|r| r.points.clone()).unwrap_or_default();
     Report {

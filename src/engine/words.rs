@@ -46,6 +46,9 @@ fn corridor_shape(told: &Thresholds) -> Shape {
         stub: told.corridor_stub,
         bend: told.corridor_bend,
         arm: told.corridor_arm,
+        ahead: told.corridor_ahead,
+        aside: told.corridor_aside,
+        askew: told.corridor_askew,
     }
 }
 

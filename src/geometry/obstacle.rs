@@ -96,6 +96,15 @@ fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obsta
         .collect()
 }
 
+impl PlacedReplica {
+    /// What the open leaves of its own doors take, each from which to which height of the Map, in cm.
+    #[must_use]
+    pub fn open_leaves(&self, world: &World) -> Vec<(Polygon, (f64, f64))> {
+        let leaves = open_leaves(world, self).into_iter();
+        leaves.map(|(_, polygon, heights)| (polygon, heights)).collect()
+    }
+}
+
 /// The open leaves of a replica's own doors, each with its base and its height in the Map's frame.
 pub(super) fn open_leaves(
     world: &World,

@@ -60,7 +60,7 @@ mod world;
 mod zone;
 
 pub use check::plane;
-pub use check::{THICKEST_WALL, Tolerances, check, doubts, news};
+pub use check::{LeastSizes, THICKEST_WALL, Tolerances, check, doubts, news};
 pub use device::{is_dark, is_on, is_open, set_open, stands, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};

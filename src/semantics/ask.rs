@@ -166,12 +166,12 @@ impl Relations {
         let roofs = || {
             body.blocks.iter().filter(|b| b.solid_roof && b.top >= body.top - 0.5).map(|b| b.roof())
         };
-        // A back that stands up is no place to put things: then the largest roof serves.
+        // A back that stands up is no place to put things.
         let widest = body.blocks.iter().filter(|b| b.solid_roof).map(|b| b.roof());
         let widest = widest.max_by(|a, b| a.area.total_cmp(&b.area))?;
         let top: f64 = roofs().map(|f| f.area).sum();
-        let tops: Vec<&Footprint> =
-            if top >= widest.area * 0.5 { roofs().collect() } else { vec![widest] };
+        let is_top = top >= widest.area * self.thresholds().top_share;
+        let tops: Vec<&Footprint> = if is_top { roofs().collect() } else { vec![widest] };
         let area: f64 = tops.iter().map(|f| f.area).sum();
         let on_it = bodies.values().filter(|b| self.support_of(b.id) == Some(id));
         let covered: f64 = on_it

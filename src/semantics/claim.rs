@@ -40,7 +40,7 @@ pub fn claim_holds(
         return BTreeSet::new();
     };
     let within = |n: &usize| room.parts.iter().any(|(part, ..)| part.contains(at[*n]));
-    let spots: Vec<(MapId, Point)> = at.iter().map(|p| (map, *p)).collect();
+    let spots: Vec<_> = at.iter().map(|p| (map, *p, None)).collect();
     let around = Around { world, robot: None, spots: &spots };
     let symbols = relations.symbols();
     // The points of which a relation holds with one of the wanted second terms.

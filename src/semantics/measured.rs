@@ -120,6 +120,8 @@ measured! {
         "of what is in the robot's Area: how far before it and to its left the middle is, how far away it begins";
     #[asked] faced(x: Thing = "", of: symbol = "a Thing, door or Area", as: symbol = "thing, area, side", ahead: number = LENGTH, left: number = LENGTH, bearing: number = ANGLE, d: number = LENGTH) Told
         "x from the middle of a thing or from where one stands in an Area, for one who faces something; as side, for the thing's own front or the robot";
+    #[asked] gaze(p: Spot = "who looks", x: Any = "a Thing, Opening, or the Area of a wall", as: symbol = "thing, leaf, opening, wall", n: number = "which opening or wall", low: number = LENGTH, high: number = LENGTH, turn: number = ANGLE, d: number = LENGTH) Told
+        "what lies ahead of who looks from a point: from which to which height above the floor, how far it turns from the straight line, 0 where that meets it, and how far away it is";
     #[asked] spot(p: Spot = "робот, or the number of a point", r: Area = "") Told "the point is on the floor of an Area";
     #[asked] spot_side(p: Spot = "", o: Opening = "", n: number = "which opening", r: Area = "whose side", out: number = LENGTH, thick: number = LENGTH) Told
         "the point is alongside a side of an opening: how far out of it, and how thick the wall is";

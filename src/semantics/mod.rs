@@ -62,6 +62,7 @@ mod body;
 mod cargo;
 mod claim;
 mod english;
+mod facing;
 mod feed;
 mod grid;
 mod lifts;
@@ -83,6 +84,7 @@ pub use ask::Extent;
 pub use asked::{Around, Listed, OnDemand, Rows, length, on_demand};
 pub use cargo::{cargo, carried_to, shut_around};
 pub use claim::{Claim, claim_bounds, claim_holds};
+pub use facing::{Faced, faced};
 pub use lifts::{Lift, lifts, storey_name};
 pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,

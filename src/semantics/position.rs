@@ -67,7 +67,7 @@ pub fn whereabouts(
     pose: &Pose,
 ) -> Option<Whereabouts> {
     let here = relations.measurements().area_at(map, pose.at);
-    let held = Held { relations, at: pose.at, spots: &[(map, pose.at)], world };
+    let held = Held { relations, at: pose.at, spots: &[(map, pose.at, None)], world };
     let heading = pose.heading;
     if let Some((opening, side)) = held.doorway() {
         let area = here.unwrap_or(side);
@@ -85,7 +85,7 @@ struct Held<'a> {
     world: &'a World,
     relations: &'a Relations,
     at: Point,
-    spots: &'a [(MapId, Point)],
+    spots: &'a [(MapId, Point, Option<Deg>)],
 }
 
 impl Way {

@@ -189,12 +189,30 @@ thresholds! {
     level_equal = "level equal", Length, 100;
     /// Things that reach farther into one another sidewards cannot both stand there.
     overlap_depth = "overlap depth", Length, 100;
+    /// What hangs from the ceiling is this near to it.
+    ceiling_gap = "ceiling gap", Length, 1600;
+    /// A room less wide than this was written in metres,
+    least_room = "least room", Length, 1000;
+    /// and so was one less high,
+    least_ceiling = "least ceiling", Length, 1500;
+    /// a door less wide or high,
+    least_door = "least door", Length, 500;
+    /// and furniture smaller every way.
+    least_furniture = "least furniture", Length, 1000;
+    /// So was a robot's radius of less,
+    least_radius = "least radius", Length, 200;
+    /// its height,
+    least_height = "least height", Length, 250;
+    /// and its speed, in a second.
+    least_speed = "least speed", Length, 250;
     /// A doorway reaches so deep into each of its rooms: what stands there bars it.
     doorway_depth = "doorway depth", Length, 1000;
     /// What is nearer to a thing touches it: of no distance is spoken.
     touch_gap = "touch gap", Length, 100;
     /// Of a top with a smaller share free people say that it has no room.
     top_free = "top free", Share, 50;
+    /// The highest roofs of a thing are its top where they have this share of its largest roof; else that is.
+    top_share = "top share", Share, 500;
     /// Rooms lie one over the other where they share more of the smaller floor than this: walls of two storeys that do
     /// not quite meet share less.
     storey_share = "storey share", Share, 50;
@@ -220,7 +238,9 @@ thresholds! {
     robot_middle = "robot middle", Share, 400;
     /// It faces what is this near along its heading,
     robot_facing = "robot facing", Length, 25000;
-    /// and higher than this: one steps over the rest.
+    /// turns from that by no more,
+    robot_facing_turn = "robot facing turn", Angle, 0;
+    /// and is higher than this: one steps over the rest.
     robot_low = "robot low", Length, 1000;
     /// A thing of the next room that reaches no farther through the wall still stands behind it.
     robot_through = "robot through", Length, 500;
@@ -242,6 +262,10 @@ thresholds! {
     robot_same = "robot same", Length, 4000;
     /// What it met so near to where a lost thing stood is that thing.
     robot_lost = "robot lost", Length, 6000;
+    /// Something unknown that moved no farther between two looks stands there; what moved may go away of itself.
+    robot_still = "robot still", Length, 1500;
+    /// Who may be waiting for the robot to pass is left so much room.
+    robot_room = "robot room", Length, 15000;
     /// A way passes what stands this near to it,
     way_beside = "way beside", Length, 13000;
     /// and turns at what stands this near to its bend.
@@ -279,6 +303,12 @@ thresholds! {
     corridor_bend = "corridor bend", Angle, 3000;
     /// A branch goes on between walls for more than this beyond its junction.
     corridor_arm = "corridor arm", Length, 8000;
+    /// A door is straight ahead at the end of a corridor that is no farther from that end,
+    corridor_ahead = "corridor ahead", Length, 6000;
+    /// no farther beside its middle than this share of its width,
+    corridor_aside = "corridor aside", Share, 600;
+    /// and turned towards it by no more than this off.
+    corridor_askew = "corridor askew", Angle, 4557;
 
     /// Up to here one goes straight on,
     turn_straight = "turn straight", Angle, 2500;
@@ -286,6 +316,8 @@ thresholds! {
     turn_slight = "turn slight", Angle, 5500;
     /// and from here on one turns round.
     turn_round = "turn round", Angle, 15000;
+    /// A turn that is told in degrees is one right round from here on.
+    turn_about = "turn about", Angle, 17500;
 }
 
 /// What is wrong with one `limit` or `reach` of a rule text.

@@ -53,3 +53,39 @@ fn the_robots_place_is_asked_of_by_its_name() {
     let away = relations.why_not(&around, "SPOT_NEXT_TO", &["робот", "Последний"]).unwrap();
     assert!(matches!(away, WhyNot::Nearest(_)), "{away:?}");
 }
+
+/// What the robot faces is the first that counts of all that is ahead of it, and what is not faced is so for a reason.
+#[test]
+fn what_the_robot_faces_has_its_reason() {
+    let world = room(0.0, ROW);
+    let relations = derived(&world);
+    let map = *world.maps.keys().next().expect("one map");
+    let pose = |x, y, heading| Pose { at: Point::new(x, y), heading: Deg::of(heading) };
+    let facing = |pose| {
+        let around = Around::new(&world).with_robot(Some((map, pose)));
+        let names = ["FACES", "FACES_WALL", "FACES_OWN_WALL"];
+        let asked = |name: &str| {
+            let rows = relations.ask(&around, &format!(r#"?- {name}("робот", X)"#)).unwrap();
+            rows.into_iter().map(|row| format!("{name} {}", row[0])).collect::<Vec<_>>()
+        };
+        names.iter().flat_map(|name| asked(name)).collect::<Vec<_>>().join(", ")
+    };
+    assert_eq!(facing(pose(217.0, 320.0, 0.0)), "FACES Средний");
+    assert_eq!(facing(pose(217.0, 320.0, 180.0)), "FACES Первый");
+    assert_eq!(facing(pose(700.0, 320.0, 0.0)), "FACES_WALL Комната");
+    assert_eq!(facing(pose(800.0, 320.0, 0.0)), "FACES_WALL Комната, FACES_OWN_WALL Комната");
+    assert_eq!(facing(pose(400.0, 100.0, 0.0)), "", "the wall is too far off");
+
+    let around = Around::new(&world).with_robot(Some((map, pose(217.0, 320.0, 0.0))));
+    let why = relations.why(&around, "FACES", &["робот", "Средний"]).unwrap();
+    assert!(why.expect("it holds").steps.iter().any(|step| step.fact.name == "gaze"));
+    for (other, what) in [("Последний", "met_later"), ("В стороне", "Turn <= Off")]
+    {
+        let Ok(WhyNot::Nearest(rule)) = relations.why_not(&around, "FACES", &["робот", other])
+        else {
+            panic!("{other} has a reason")
+        };
+        let told = format!("{rule:?}") + &rule.to_string();
+        assert!(told.contains(what), "{other}: {told}");
+    }
+}

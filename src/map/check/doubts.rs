@@ -24,7 +24,7 @@ use super::plane::{
     Bounds, border_distance, bounds, contains, edges, intersection, middle, near_pairs,
     segment_distance, touch,
 };
-use super::{OVERLAP, Short, at};
+use super::{OVERLAP, Short, TOLERANCE, at};
 
 /// Within what one thing is taken to stand on another, to hang, to lean and to lie in it, in cm: as the rules say that tell
 /// relations, so that no thing of which they speak is doubted for it.
@@ -32,8 +32,10 @@ use super::{OVERLAP, Short, at};
 pub struct Tolerances {
     /// A thing may be so far above the floor.
     pub floor: f64,
-    /// So far it may be from the wall, and from the thing above, that it hangs from, and twice as far from the ceiling.
+    /// So far it may be from the wall, and from the thing above, that it hangs from,
     pub hanging: f64,
+    /// and so far from the ceiling.
+    pub ceiling: f64,
     /// It may sink so far into the thing that bears it, or be so far above it.
     pub support: f64,
     /// What leans on a thing comes so near to it.
@@ -44,6 +46,25 @@ pub struct Tolerances {
     pub overlap: f64,
     /// How deep a doorway reaches into each of its rooms.
     pub doorway: f64,
+    /// What is smaller was written in metres.
+    pub least: LeastSizes,
+}
+
+/// The least sizes that such things have, in cm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeastSizes {
+    /// How wide an Area is,
+    pub room: f64,
+    /// and how high.
+    pub ceiling: f64,
+    /// How wide and how high a door is.
+    pub door: f64,
+    /// The largest size of a piece of furniture.
+    pub furniture: f64,
+    /// Of the robot, as are its height and, in cm/s, its speed.
+    pub radius: f64,
+    pub height: f64,
+    pub speed: f64,
 }
 
 /// Of one sort of doubt so many are told, and the rest counted: a plan shifted against itself has them by thousands.
@@ -74,13 +95,16 @@ const OPERATOR: [&str; 2] = ["оператор", "operator"];
 ///
 /// ```
 /// use std::collections::BTreeSet;
-/// use orthoframe_map::{Tolerances, World, doubts};
+/// use orthoframe_map::{LeastSizes, Tolerances, World, doubts};
 ///
 /// # std::env::set_current_dir("../..").unwrap();
 /// let mut world = World::load("maps/rb2.toml").unwrap();
-/// let (floor, hanging, support, beside) = (8.0, 8.0, 2.0, 5.0);
-/// let near =
-///     Tolerances { floor, hanging, support, beside, inside: 5.0, overlap: 1.0, doorway: 10.0 };
+/// let least = LeastSizes {
+///     room: 10.0, ceiling: 15.0, door: 5.0, furniture: 10.0, radius: 2.0, height: 2.5, speed: 2.5,
+/// };
+/// let near = Tolerances {
+///     floor: 8.0, hanging: 8.0, ceiling: 16.0, support: 2.0, beside: 5.0, inside: 5.0, overlap: 1.0, doorway: 10.0, least,
+/// };
 /// assert!(doubts(&world, &near, &BTreeSet::new()).is_empty());
 /// world.robot.speed = 0.6;
 /// let told = doubts(&world, &near, &BTreeSet::new())[0].to_string();
@@ -212,7 +236,7 @@ impl Doubter<'_> {
 
     /// Rooms, doors, furniture and robots of sizes that no such thing has in centimetres, and has in metres.
     fn measures(&mut self) {
-        let world = self.world;
+        let (world, least) = (self.world, self.near.least);
         let mut told = BTreeSet::new();
         for area in world.areas.values() {
             let bodies = bodies_of(world, &area.items);
@@ -223,10 +247,11 @@ impl Doubter<'_> {
             let height = bodies.iter().map(|b| b.top - b.bottom).fold(0.0, f64::max);
             let what = || Bilingual::named(("помещение", "area"), &area.name);
             let spot = Spot::of(Record::Orthoframe(base));
-            if size.min() >= 10.0 && (height <= 0.0 || height >= 15.0) || !told.insert(base) {
+            let is_high = height <= 0.0 || height >= least.ceiling;
+            if size.min() >= least.room && is_high || !told.insert(base) {
                 continue;
             }
-            if size.min() < 10.0 {
+            if size.min() < least.room {
                 let size = [size.x, size.y, height];
                 self.metres(what(), &size, spot.field("base_vectors"));
             } else {
@@ -236,9 +261,9 @@ impl Doubter<'_> {
         for door in world.doors.values() {
             let what = Bilingual::named(("дверь", "door"), &door.name);
             let spot = Spot::of(Record::Door(door.id));
-            if door.width.get() < 5.0 {
+            if door.width.get() < least.door {
                 self.metres(what, &[door.width.get()], spot.field("width"));
-            } else if door.height.get() < 5.0 {
+            } else if door.height.get() < least.door {
                 self.metres(what, &[door.height.get()], spot.field("height"));
             }
         }
@@ -251,16 +276,16 @@ impl Doubter<'_> {
             let (low, high) = bounds(bodies.iter().flat_map(|b| b.polygon.iter().copied()));
             let top = bodies.iter().map(|b| b.top).fold(0.0, f64::max);
             let size = high - low;
-            if size.max().max(top) < 10.0 {
+            if size.max().max(top) < least.furniture {
                 let what = Bilingual::named(("объект", "object"), &object.name);
                 self.metres(what, &[size.x, size.y, top], Spot::of(Record::Object(object.id)));
             }
         }
         let robot = &world.robot;
         for (field, value, least) in [
-            ("radius", robot.radius.get(), 2.0),
-            ("height", robot.height.get(), 2.5),
-            ("speed", robot.speed, 2.5),
+            ("radius", robot.radius.get(), least.radius),
+            ("height", robot.height.get(), least.height),
+            ("speed", robot.speed, least.speed),
         ] {
             if value < least {
                 let what =
@@ -386,7 +411,7 @@ impl Doubter<'_> {
             for (no, thing) in things.iter().enumerate() {
                 let tall = thing.bodies.iter().filter(|b| {
                     b.bottom < robot.height.get().min(door.height.get())
-                        && b.top > robot.step.get() + 1.0
+                        && b.top > robot.step.get() + TOLERANCE
                 });
                 taken
                     .extend(tall.filter_map(|b| doorway.taken(b)).map(|(from, to)| (from, to, no)));
@@ -419,7 +444,7 @@ impl Doubter<'_> {
         for spot in self.world.places.values() {
             let is_over = |body: &Body| {
                 body.bottom < robot.height.get()
-                    && body.top > robot.step.get() + 1.0
+                    && body.top > robot.step.get() + TOLERANCE
                     && contains(&body.polygon, spot.at)
             };
             let mut here = things.get(&spot.area).into_iter().flatten();
@@ -638,7 +663,7 @@ fn is_fixed(
     let floors = rooms.iter().filter(is_here);
     let by_floor = floors.clone().any(|room| bottom - room.bottom <= near.floor);
     by_floor
-        || floors.clone().any(|room| room.top - top <= 2.0 * near.hanging)
+        || floors.clone().any(|room| room.top - top <= near.ceiling)
         || thing.bodies.iter().any(|body| {
             walls.iter().any(|&(a, b)| {
                 body.polygon.iter().any(|&p| segment_distance(p, (a, b)) <= near.hanging)

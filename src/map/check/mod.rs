@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::units::{AreaId, Bilingual, Cm, Frame, InOrder as _, MapId, OrFrId, Point, TypeId};
 
-pub use doubts::{Tolerances, doubts};
+pub use doubts::{LeastSizes, Tolerances, doubts};
 pub use group::THICKEST_WALL;
 pub use news::news;
 use scope::Scope;

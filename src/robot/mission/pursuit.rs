@@ -18,8 +18,6 @@ const MOST_FOR_WHO_MOVES: usize = 8;
 const LOOKS_OF_A_WAIT: usize = 8;
 /// So often in one mission somebody is asked to clear a way.
 const MOST_CALLS: usize = 3;
-/// Who may be waiting for the robot to pass is left so much room, cm.
-const ROOM: f64 = 150.0;
 
 impl Mission<'_> {
     /// Where unknown things alone bar the way it looks again after a while: they may have been people. What still bars it
@@ -53,8 +51,9 @@ impl Mission<'_> {
                         Err(ended) => return Ok(ended),
                     }
                     let before = std::mem::replace(&mut places, self.belief.unknown_places());
+                    let still = self.relations.relations().thresholds().robot_still;
                     let is_where_it_was =
-                        |at: &Point| before.iter().any(|one| (one - at).norm() <= ROOM / 10.0);
+                        |at: &Point| before.iter().any(|one| (one - at).norm() <= still);
                     let moves = !places.iter().all(is_where_it_was);
                     if looks < MOST_LOOKS || moves && looks < MOST_FOR_WHO_MOVES {
                         looks += 1;
@@ -121,7 +120,8 @@ impl Mission<'_> {
         let met = belief.unknown_places().into_iter();
         let met = met.min_by(|a, b| (a - here).norm().total_cmp(&(b - here).norm()));
         let met = met.unwrap_or(here);
-        let is_clear = |at: &Point| (met - at).norm() >= ROOM;
+        let room = self.relations.relations().thresholds().robot_room;
+        let is_clear = |at: &Point| (met - at).norm() >= room;
         let middles = floor.passframes(area).iter().map(|cell| cell.polygon.centroid());
         let far = |at: Point| {
             let (world, target) = (&belief.world, Target::Point(at));

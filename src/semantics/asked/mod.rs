@@ -8,19 +8,21 @@
 //! Lengths are tenths of a millimetre, angles hundredths of a degree, areas cm², volumes cm³, as integers.
 
 mod between;
+mod gaze;
 mod level;
 mod robot;
 mod spot;
 
 use crate::facts::{Computed, Value};
 use crate::map::{Entity, World};
-use crate::units::{AreaId, Cm, MapId, OpeningId, Point, Pose, ReplicaId, Source};
+use crate::units::{AreaId, Cm, Deg, MapId, OpeningId, Point, Pose, ReplicaId, Source};
 
 use super::measured::{MEASURED, Measured};
 use super::names::Subject;
 use super::relations::Relations;
 
 pub(crate) use between::way_between;
+pub(crate) use gaze::looks_from;
 pub(crate) use spot::ROBOT;
 
 /// What is known beside the relations when something is measured on asking.
@@ -29,8 +31,9 @@ pub struct Around<'w> {
     pub world: &'w World,
     /// Where the robot stands.
     pub robot: Option<(MapId, Pose)>,
-    /// Points that are asked of beside the robot's, by their places among these.
-    pub spots: &'w [(MapId, Point)],
+    /// Points that are asked of beside the robot's, by their places among these, and which way one looks from them where
+    /// that is asked.
+    pub spots: &'w [(MapId, Point, Option<Deg>)],
 }
 
 impl<'w> Around<'w> {
@@ -171,12 +174,13 @@ pub fn on_demand<'r, 'w>(
         OnDemand::new(DISTANCE, pairs, both, distances),
         OnDemand::new(SIZE, vec![(0b11, 1.0), (0b01, 9.0)], both, sizes),
     ];
-    let declared: [(&str, u32, Rows<Around<'w>>); 11] = [
+    let declared: [(&str, u32, Rows<Around<'w>>); 12] = [
         ("amid", 0b110, between::amid),
         ("before_wall", 0b10, between::before_wall),
         ("shelf", 0b1, level::shelves),
         ("view", 0, robot::view),
         ("about_robot", 0, robot::about),
+        ("gaze", 0, gaze::gaze),
         ("spot", 0, spot::spots),
         ("spot_side", 0, spot::sides),
         ("spot_opening", 0, spot::openings),

@@ -6,29 +6,31 @@ use crate::facts::Value;
 use crate::geometry::{OpenSide, Polygon, nearest_on_segment, outward_normal};
 use crate::map::World;
 use crate::measure::{hundredths, per_mille, tenths};
-use crate::units::{AreaId, MapId, Point, Vector};
+use crate::units::{AreaId, Deg, MapId, Point, Vector};
 
 use super::Asked;
 
 /// The robot, its own place, and whoever carries what it has itself, as the rules call them.
 pub(crate) const ROBOT: &str = "робот";
 
-/// A point that is asked of, and what it is called.
-struct Spot {
-    name: Value,
-    map: MapId,
-    at: Point,
+/// A point that is asked of, what it is called, and which way one looks from it.
+pub(super) struct Spot {
+    pub(super) name: Value,
+    pub(super) map: MapId,
+    pub(super) at: Point,
+    pub(super) heading: Option<Deg>,
 }
 
 impl Asked<'_, '_> {
     /// The points that are meant: all, or the one of that name.
-    fn spots(&self, known: Option<&Value>) -> Vec<Spot> {
-        let own = self.around.robot.map(|(map, pose)| (Value::from(ROBOT), (map, pose.at)));
+    pub(super) fn spots(&self, known: Option<&Value>) -> Vec<Spot> {
+        let own = self.around.robot;
+        let own = own.map(|(map, pose)| (Value::from(ROBOT), (map, pose.at, Some(pose.heading))));
         let asked = self.around.spots.iter().enumerate();
         let asked = asked.map(|(n, spot)| (Value::from(n.to_string().as_str()), *spot));
         let all = own.into_iter().chain(asked);
         let meant = all.filter(|(name, _)| known.is_none_or(|known| known == name));
-        meant.map(|(name, (map, at))| Spot { name, map, at }).collect()
+        meant.map(|(name, (map, at, heading))| Spot { name, map, at, heading }).collect()
     }
 
     /// The Areas in whose bases a point is, the lower ids first.
@@ -44,7 +46,7 @@ impl Asked<'_, '_> {
             .collect()
     }
 
-    fn area(&self, id: AreaId) -> Value {
+    pub(super) fn area(&self, id: AreaId) -> Value {
         Value::Symbol(self.relations.symbols().area(id).clone())
     }
 }
@@ -84,7 +86,7 @@ pub(super) fn sides(asked: &Asked<'_, '_>, known: Known<'_>, tell: Tell<'_>) -> 
 }
 
 /// Position along a side and out of it: (share of its length, cm to the outside).
-fn along_and_out(side: &OpenSide, p: Point) -> Option<(f64, f64)> {
+pub(super) fn along_and_out(side: &OpenSide, p: Point) -> Option<(f64, f64)> {
     let (a, b) = side.ends;
     let normal = outward_normal(a, b)?;
     let along = b - a;

@@ -6,7 +6,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
-use crate::map::{Profile, Tolerances};
+use crate::map::{LeastSizes, Profile, Tolerances};
 use crate::measure::Reach;
 use crate::measured::{MEASURED, Measured, Order};
 use crate::thresholds::{self, ThresholdFault, Thresholds};
@@ -172,6 +172,16 @@ impl RelationRules {
             inside: near.inside_slack,
             overlap: near.overlap_depth,
             doorway: near.doorway_depth,
+            ceiling: near.ceiling_gap,
+            least: LeastSizes {
+                room: near.least_room,
+                ceiling: near.least_ceiling,
+                door: near.least_door,
+                furniture: near.least_furniture,
+                radius: near.least_radius,
+                height: near.least_height,
+                speed: near.least_speed,
+            },
         }
     }
 
@@ -275,8 +285,9 @@ fn completed(texts: &[Source], program: Program) -> Program {
 }
 
 /// The sections of the standard text that an older one may lack: about walls, doors and middles, which needs nothing but
-/// what stands before it; and what is derived when asked.
-const SECTIONS: [&str; 2] = ["У стены, у двери, посередине", "Когда спрашивают"];
+/// what stands before it; what is derived when asked; and what the robot faces.
+const SECTIONS: [&str; 3] =
+    ["У стены, у двери, посередине", "Когда спрашивают", "К чему стоят лицом"];
 
 /// A section of the standard text, from its heading to the next.
 fn section(heading: &str) -> Option<&'static str> {
