@@ -90,7 +90,9 @@ impl InEnglish for StoreError {
             Self::UnknownFormat { .. } => {
                 "open it with the version of the program that wrote it, and export the map"
             }
-            Self::Locked { .. } => "close it, take another store, or open this one --read-only",
+            Self::Locked { .. } => {
+                "wait until it is done, take another store, or open this one --read-only"
+            }
             Self::JournalCorrupt { .. } | Self::CutShort { .. } => {
                 "check the disk; restore the store from a backup: ortho restore"
             }

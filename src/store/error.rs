@@ -68,7 +68,7 @@ pub enum StoreError {
     )]
     #[diagnostic(
         code(store::locked),
-        help("закройте её, выберите другое хранилище или откройте это только для чтения")
+        help("подождите её, выберите другое хранилище или откройте это только для чтения")
     )]
     Locked { dir: String, drives: bool },
 
