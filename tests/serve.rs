@@ -13,6 +13,8 @@ mod arguments;
 mod barred;
 #[path = "serve/described.rs"]
 mod described;
+#[path = "serve/in_turn.rs"]
+mod in_turn;
 mod judged;
 
 use judged::judged;

@@ -1,9 +1,8 @@
 //! The store and the rules that a command works on.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::engine::{Engine, Error, Rules};
-use crate::store::StoreError;
 
 use super::args::Common;
 use super::fault::Failure;
@@ -20,30 +19,26 @@ pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
     common.rules.clone().or_else(Rules::default_dir)
 }
 
-/// Opens a store that is there already, to be asked. Where another program has it open, a server that lives for days, it
-/// is read as it stands.
+/// Opens a store that is there already, to be asked.
 pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
-    let engine = match opened(common, common.read_only) {
-        Err(Error::Store(StoreError::Locked { dir })) => {
-            tracing::info!(dir, "another program has the store open: it is read only");
-            opened(common, true)?
-        }
-        opened => opened?,
-    };
-    seen(common, engine)
+    opened(common, Engine::open_to_ask)
 }
 
 /// Opens a store that is there already, and keeps other programs from writing it meanwhile.
 pub(super) fn open_held(common: &Common) -> Result<Engine, Failure> {
-    seen(common, opened(common, common.read_only)?)
+    opened(common, Engine::open_existing)
 }
 
-fn opened(common: &Common, is_read_only: bool) -> Result<Engine, Error> {
+fn opened(
+    common: &Common,
+    open: impl FnOnce(&Path, Option<&Path>) -> Result<Engine, Error>,
+) -> Result<Engine, Failure> {
     let (dir, rules) = (store_dir(common), rules_dir(common));
-    match is_read_only {
-        true => Engine::open_read_only(&dir, rules.as_deref()),
-        false => Engine::open_existing(&dir, rules.as_deref()),
-    }
+    let engine = match common.read_only {
+        true => Engine::open_read_only(&dir, rules.as_deref())?,
+        false => open(&dir, rules.as_deref())?,
+    };
+    seen(common, engine)
 }
 
 /// As it is to be seen: now, or as it stood.

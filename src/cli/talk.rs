@@ -1,7 +1,7 @@
 //! `ortho talk`: a dialogue on the terminal, or over lines from a pipe.
 //!
 //! What a line is, a question, an order or both, the [`Dialogue`] tells. `.rule` before a line shows the query behind it; an
-//! empty line, a word of leave or the end of input ends the dialogue.
+//! empty line, a word of leave or the end of input ends the dialogue. Between two lines other programs may write the store.
 
 use std::io::{BufRead, IsTerminal};
 
@@ -22,7 +22,7 @@ use super::teller::{RecordArgs, Teller};
 use super::{Answer, say};
 
 pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failure> {
-    let engine = open_held(common)?;
+    let mut engine = open_held(common)?;
     let mut dialogue = Dialogue::new(common.lang.language());
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();
@@ -31,6 +31,7 @@ pub(super) fn run(common: &Common, record: &RecordArgs) -> Result<Answer, Failur
     if !waiting.tasks.is_empty() && !common.json {
         say(&queue_in_words(&waiting, common.lang.language()))?;
     }
+    engine.put_down();
     // Of a pipe the next line is the next order, and no answer.
     let is_attended = std::io::stdin().is_terminal();
     let teller = Teller::of_dialogue(common, record.begin(&engine)?).attended(is_attended);
@@ -113,7 +114,10 @@ impl Talk {
         };
         let Self { engine, dialogue, teller } = self;
         teller.explains = shows;
-        let heard = dialogue.hear(engine, line, &mut |engine, event| teller.tell(engine, event))?;
+        engine.take_up()?;
+        let heard = dialogue.hear(engine, line, &mut |engine, event| teller.tell(engine, event));
+        engine.put_down();
+        let heard = heard?;
         teller.end()?;
         Ok(!heard.ended())
     }

@@ -50,6 +50,7 @@ mod given;
 mod goals;
 mod handed;
 mod history;
+mod in_turn;
 mod journey;
 pub mod json;
 mod known;
@@ -230,10 +231,22 @@ impl Engine {
     /// built in serve where it has none.
     ///
     /// # Errors
-    /// The store is held by another process or damaged, or the rules are faulty.
+    /// Another program keeps the store for longer than a call takes, it is damaged, or the rules are faulty.
     pub fn open(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
         let rules = Rules::read(rules)?;
         let (store, opened) = Store::open(dir)?;
+        let world = store.world()?;
+        Ok(Self::new(Some(store), opened, rules, world))
+    }
+
+    /// Opens a store that is there already, to be asked; other programs may write it meanwhile. What is to be mended is.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_to_ask(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        Self::must_be_there(dir)?;
+        let rules = Rules::read(rules)?;
+        let (store, opened) = Store::open_to_ask(dir)?;
         let world = store.world()?;
         Ok(Self::new(Some(store), opened, rules, world))
     }
@@ -254,10 +267,15 @@ impl Engine {
     /// # Errors
     /// There is no store, or as [`Engine::open`].
     pub fn open_existing(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
-        if !dir.is_dir() {
-            return Err(StoreError::Missing { dir: dir.display().to_string() }.into());
-        }
+        Self::must_be_there(dir)?;
         Self::open(dir, rules)
+    }
+
+    fn must_be_there(dir: &Path) -> Result<(), Error> {
+        match dir.is_dir() {
+            true => Ok(()),
+            false => Err(StoreError::Missing { dir: dir.display().to_string() }.into()),
+        }
     }
 
     /// An engine without a store, on a map that stays in memory.

@@ -3,7 +3,7 @@
 //! **Invariant.** The tasks that wait stand here in the order in which they are done, what was begun first; the store has
 //! those of them that mean the same alone, in the same order. None begins before somebody of this run of the program has said so.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Weak;
 use std::time::{Duration, Instant};
 
@@ -115,6 +115,8 @@ pub(super) struct Book {
     pub(super) talks: BTreeMap<u64, Dialogue>,
     planned: BTreeMap<u64, Task>,
     pub(super) queue: VecDeque<Task>,
+    /// The numbers of the tasks that the store had when it was looked last.
+    stored: BTreeSet<u32>,
     pub(super) running: Option<Running>,
     ended: VecDeque<Value>,
     lease: Option<Lease>,
@@ -127,6 +129,7 @@ impl Book {
     /// What an earlier run of the program left to be done.
     pub(super) fn kept(queue: Queue) -> Self {
         let mut book = Self { paused: queue.paused, ..Self::default() };
+        book.stands(&queue);
         for noted in queue.tasks {
             let id = book.next_id();
             book.queue.push_back(Task::kept(id, noted));
@@ -146,6 +149,32 @@ impl Book {
         Queue { tasks: running.into_iter().chain(waiting).collect(), paused: self.paused }
     }
 
+    /// This is what the store has.
+    pub(super) fn stands(&mut self, queue: &Queue) {
+        self.stored = queue.tasks.iter().map(|task| task.id).collect();
+    }
+
+    /// Takes over what another program made of the tasks that wait: theirs wait here, too, and what they dropped does not.
+    /// A pause holds, whoever asked for it. Whether anything changed.
+    pub(super) fn adopt(&mut self, queue: &Queue) -> bool {
+        let (waited, before) = (self.queue.len(), self.paused);
+        let there: BTreeSet<u32> = queue.tasks.iter().map(|task| task.id).collect();
+        let is_gone = |id: u32| self.stored.contains(&id) && !there.contains(&id);
+        self.queue.retain(|task| task.noted.as_ref().is_none_or(|noted| !is_gone(noted.id)));
+        let left = self.queue.len();
+        let here = self.noted().tasks;
+        let new = queue.tasks.iter().filter(|task| !self.stored.contains(&task.id));
+        let new: Vec<_> =
+            new.filter(|task| here.iter().all(|t| t.id != task.id)).cloned().collect();
+        for noted in new {
+            let id = self.next_id();
+            self.queue.push_back(Task::kept(id, noted));
+        }
+        self.stored = there;
+        self.paused = self.paused.or(queue.paused);
+        waited != left || left != self.queue.len() || before != self.paused
+    }
+
     pub(super) fn propose(&mut self, task: Task) {
         self.planned.insert(task.id, task);
         while self.planned.len() > REMEMBERED {
@@ -163,6 +192,11 @@ impl Book {
 
     /// Has a task wait: one that was begun before all others.
     pub(super) fn wait(&mut self, task: Task) {
+        // What stood in the store before it stood here may have been taken for another program's.
+        if let Some(noted) = &task.noted {
+            let is_it = |other: &Task| other.noted.as_ref().is_some_and(|o| o.id == noted.id);
+            self.queue.retain(|other| !is_it(other));
+        }
         match task.is_begun() {
             true => self.queue.push_front(task),
             false => self.queue.push_back(task),

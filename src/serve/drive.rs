@@ -43,6 +43,14 @@ pub(super) enum Wheels {
     Robot { address: Address, patience: Patience },
 }
 
+fn open(book: &Mutex<Book>) -> MutexGuard<'_, Book> {
+    book.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn said(error: &Error, state: &State, language: Language) -> String {
+    state.world().map_or_else(|_| error.to_string(), |world| error.say(world, language))
+}
+
 /// Why a task is not taken up.
 #[derive(Debug)]
 pub(super) enum Declined {
@@ -80,9 +88,7 @@ pub(super) struct Tasks {
     wheels: Wheels,
     /// The folder in which what is driven is recorded.
     records: Option<PathBuf>,
-    book: Mutex<Book>,
-    /// Held while the store is brought to what the book says.
-    ledger: Mutex<()>,
+    book: Arc<Mutex<Book>>,
     pub(super) wake: Condvar,
 }
 
@@ -98,9 +104,15 @@ impl Tasks {
         replay: Option<(Played, f64)>,
     ) -> Arc<Self> {
         let left = desk.state().waiting().unwrap_or_default();
-        let book = Mutex::new(Book::kept(left));
-        let (ledger, wake) = (Mutex::default(), Condvar::new());
-        let tasks = Arc::new(Self { desk, events, wheels, records, book, ledger, wake });
+        let (book, wake) = (Arc::new(Mutex::new(Book::kept(left))), Condvar::new());
+        let (of_desk, told) = (Arc::clone(&book), Arc::clone(&events));
+        desk.bequeath(move |queue| {
+            let mut book = open(&of_desk);
+            if book.adopt(queue) {
+                told.tell("queue", &views::waiting(&book.waiting()));
+            }
+        });
+        let tasks = Arc::new(Self { desk, events, wheels, records, book, wake });
         let driver = Arc::clone(&tasks);
         std::thread::spawn(move || {
             if let Some((played, pace)) = replay {
@@ -114,18 +126,19 @@ impl Tasks {
     }
 
     pub(super) fn book(&self) -> MutexGuard<'_, Book> {
-        self.book.lock().unwrap_or_else(PoisonError::into_inner)
+        open(&self.book)
     }
 
-    /// Has the store keep what the book says, and tells who listens.
+    /// Has the store keep what the book says when its turn comes, and tells who listens.
     pub(super) fn note(&self, by: &str) {
-        let failed = {
-            let _one_after_the_other = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
-            let (queue, by) = (self.book().noted(), by.to_owned());
-            match self.desk.ask_from_thread(move |engine| engine.put_queue(queue, &by)) {
-                Ok(noted) => noted.err().map(|error| error.to_string()),
-                Err(_gone) => Some("the engine has stopped".to_owned()),
-            }
+        let (book, by) = (Arc::clone(&self.book), by.to_owned());
+        let noted = self.desk.ask_from_thread(move |engine| {
+            let queue = open(&book).noted();
+            engine.put_queue(queue.clone(), &by).inspect(|()| open(&book).stands(&queue))
+        });
+        let failed = match noted {
+            Ok(noted) => noted.err().map(|error| error.to_string()),
+            Err(_gone) => Some("the engine has stopped".to_owned()),
         };
         if let Some(failure) = failed {
             tracing::error!(failure, "the queue is not kept");
@@ -333,8 +346,15 @@ impl Tasks {
     }
 
     fn drive(&self, mut task: Task) {
+        let driven = self.desk.set_out();
         self.note(&task.by.name);
         let state = self.desk.state();
+        if let Err(error) = driven {
+            let text_end = said(&error, &state, Language::of(&task.text));
+            let end = TaskEnd { state: "failed".to_owned(), text_end, ..TaskEnd::default() };
+            let view = task.view("running");
+            return self.ended(task, view, end, None);
+        }
         self.plan_now(&mut task, &state);
         let (view, stop) = {
             let book = self.book();
@@ -384,10 +404,7 @@ impl Tasks {
             }
             Err(error) => {
                 end.state = "failed".to_owned();
-                end.text_end = match state.world() {
-                    Ok(world) => error.say(world, Language::of(&task.text)),
-                    Err(_) => error.to_string(),
-                };
+                end.text_end = said(&error, &state, Language::of(&task.text));
                 None
             }
         };

@@ -39,6 +39,8 @@ impl Tasks {
     ) -> Result<Value, Declined> {
         self.lease(session)?;
         let Some(mut task) = self.book().take_planned(id) else { return Err(Declined::Unknown) };
+        // A person may have thought it over for long.
+        let _ = self.desk.fresh_from_thread();
         let state = self.desk.state();
         let is_same_state = task.state.upgrade().is_some_and(|then| Arc::ptr_eq(&then, &state));
         let before = task.before.take().expect("a plan that waits for a word was heard here");

@@ -133,7 +133,7 @@ fn no_box() -> Fault {
 /// The state as it was at a revision: the map alone.
 pub(super) async fn then(house: &House, revision: u64) -> Result<Arc<State>, Fault> {
     let world =
-        house.desk.ask(move |engine| engine.store()?.world_as_of(revision).map_err(Error::from));
+        house.desk.look(move |engine| engine.store()?.world_as_of(revision).map_err(Error::from));
     let world = world.await??;
     let world = world.ok_or_else(|| Error::from(RequestError::BeforeTheMap))?;
     let rules = house.rules.clone();
@@ -247,7 +247,7 @@ pub(super) async fn history(Of(house): Of<Arc<House>>) -> Answer {
 }
 
 pub(super) async fn revisions(house: &House) -> Result<Value, Fault> {
-    let all = house.desk.ask(|engine| engine.revisions()).await??;
+    let all = house.desk.look(|engine| engine.revisions()).await??;
     Ok(views::revisions(&all))
 }
 
@@ -257,7 +257,7 @@ pub(super) async fn diff(Of(house): Of<Arc<House>>, Query(between): Query<Betwee
 }
 
 pub(super) async fn changed(house: &House, from: u64, to: Option<u64>) -> Result<Value, Fault> {
-    let found = house.desk.ask(move |engine| {
+    let found = house.desk.look(move |engine| {
         let to = to.unwrap_or_else(|| engine.revision());
         let all = engine.diff(When::Revision(from), When::Revision(to))?;
         Ok::<_, Error>(views::diff(from, to, &all, Language::Russian))
@@ -271,7 +271,7 @@ pub(super) async fn proposals(Of(house): Of<Arc<House>>) -> Answer {
 }
 
 pub(super) async fn proposed(house: &House) -> Result<Value, Fault> {
-    let found = house.desk.ask(|engine| {
+    let found = house.desk.look(|engine| {
         let all = engine.proposals(std::time::SystemTime::now().into())?;
         views::proposals(engine, &all)
     });

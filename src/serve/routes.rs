@@ -274,10 +274,16 @@ fn enter(house: &House, token: &str) -> Response {
     }
 }
 
-/// Lets pass who has a session.
+/// Lets pass who has a session, when it is known what other programs wrote.
 async fn known(Of(house): Of<Arc<House>>, mut request: Request, next: Next) -> Response {
     match house.gate.session(request.headers()) {
         Ok(session) => {
+            // A stop waits for nothing.
+            if !["/api/stop", "/api/pause"].contains(&request.uri().path())
+                && let Err(gone) = house.desk.fresh().await
+            {
+                return Fault::from(gone).into_response();
+            }
             request.extensions_mut().insert(session);
             next.run(request).await
         }

@@ -12,7 +12,8 @@ use super::error::{Result, StoreError, doing};
 use super::frame::{FILE_HEADER, format_stated};
 use super::journal::{numbered, snapshot_dir, snapshot_files};
 use super::keep::Store;
-use super::open::{Place, SledShelf, check_format, lock, write_format};
+use super::lock::{PATIENCE, lock};
+use super::open::{Place, SledShelf, check_format, write_format};
 use super::past::Past;
 use super::reader::replica_index;
 use super::schema::key_of;
@@ -84,7 +85,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
         );
     }
     check_snapshots(&*disk, dir, &mut report)?;
-    let lock = lock(dir);
+    let lock = lock(dir, PATIENCE);
     let mut shelf = SledShelf::new(dir);
     let had_trees = shelf.exists();
     let looked = match &lock {
@@ -361,6 +362,6 @@ impl Store {
     /// # Errors
     /// [`StoreError::ReadOnly`], [`StoreError::Io`].
     pub fn checkpoint(&mut self) -> Result<()> {
-        self.vault.checkpoint()
+        self.vault.checkpoint_with(&mut SledShelf::new(&self.dir))
     }
 }

@@ -42,7 +42,7 @@ impl Store {
             disk: self.vault.disk(),
             dir: self.dir.join("derived"),
             revision: self.revision(),
-            is_writable: self.vault.check_writable().is_ok(),
+            is_writable: self.vault.read_only().is_none(),
         }
     }
 }

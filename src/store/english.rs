@@ -21,7 +21,12 @@ impl InEnglish for StoreError {
             Self::UnknownFormat { dir, found, known } => format!(
                 "the store “{dir}” is written in the format “{found}”, and this program knows format {known}"
             ),
-            Self::Locked { dir } => format!("another program has the store “{dir}” open"),
+            Self::Locked { dir, drives: true } => {
+                format!("the store “{dir}” is taken: another program drives the robot")
+            }
+            Self::Locked { dir, drives: false } => {
+                format!("another program has the store “{dir}” open")
+            }
             Self::JournalCorrupt { path, offset } => format!(
                 "the journal “{path}” is damaged: the frame at {offset} is broken, though whole ones follow"
             ),
@@ -85,7 +90,9 @@ impl InEnglish for StoreError {
             Self::UnknownFormat { .. } => {
                 "open it with the version of the program that wrote it, and export the map"
             }
-            Self::Locked { .. } => "close it, take another store, or open this one --read-only",
+            Self::Locked { .. } => {
+                "wait until it is done, take another store, or open this one --read-only"
+            }
             Self::JournalCorrupt { .. } | Self::CutShort { .. } => {
                 "check the disk; restore the store from a backup: ortho restore"
             }

@@ -61,13 +61,16 @@ pub enum StoreError {
     )]
     UnknownFormat { dir: String, found: String, known: u32 },
 
-    /// Another process has it open.
-    #[error("хранилище «{dir}» уже открыто другой программой")]
+    /// Another process writes it, and went on longer than is waited; or has the robot drive.
+    #[error(
+        "хранилище «{dir}» {}",
+        if *drives { "занято: другая программа ведёт робота" } else { "уже открыто другой программой" }
+    )]
     #[diagnostic(
         code(store::locked),
-        help("закройте её, выберите другое хранилище или откройте это только для чтения")
+        help("подождите её, выберите другое хранилище или откройте это только для чтения")
     )]
-    Locked { dir: String },
+    Locked { dir: String, drives: bool },
 
     /// A broken frame stands before good ones: not a torn tail.
     #[error("журнал «{path}» повреждён: кадр на месте {offset} испорчен, хотя за ним есть целые")]

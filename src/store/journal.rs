@@ -62,9 +62,16 @@ pub(super) struct Log {
 
 impl Log {
     pub(super) fn read(disk: &dyn Disk, dir: &Path) -> Result<Self> {
+        Self::read_from(disk, dir, 0)
+    }
+
+    /// The same from the file on in which a transaction stands, or would.
+    pub(super) fn read_from(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Self> {
         let mut log = Self::default();
         let mut torn_files = Vec::new();
-        for (first, path) in numbered_files(disk, &journal_dir(dir), "journal")? {
+        let files = numbered_files(disk, &journal_dir(dir), "journal")?;
+        let from = files.iter().rposition(|(first, _)| *first <= lsn).unwrap_or(0);
+        for (first, path) in files.into_iter().skip(from) {
             let bytes = disk.read(&path).map_err(StoreError::io(doing::READ, &path))?;
             let index = log.files.len();
             let corrupt = |offset: usize| StoreError::JournalCorrupt {
@@ -186,4 +193,13 @@ pub(super) fn begin_journal(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Jou
     written.map_err(StoreError::io(doing::WRITE, &path))?;
     disk.sync_dir(&dir).map_err(StoreError::io(doing::WRITE_DIR, &dir))?;
     Ok(Journal { file, path, length: head.len() as u64 })
+}
+
+/// Sees to it that a file outlives a power cut, with its name. A frame that a killed program wrote but did not sync, and a
+/// file whose making failed at the last, can be read now and yet vanish: what is built upon must be on the disk first.
+pub(super) fn keep_journal(disk: &dyn Disk, path: &Path) -> Result<()> {
+    let synced = disk.appender(path).and_then(|mut file| file.sync());
+    synced.map_err(StoreError::io(doing::WRITE, path))?;
+    let dir = path.parent().unwrap_or(path);
+    disk.sync_dir(dir).map_err(StoreError::io(doing::WRITE_DIR, dir))
 }

@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::map::{Replica, World};
 use crate::units::{AreaId, Bilingual, Timestamp};
@@ -17,7 +18,8 @@ use super::edits::{
 };
 use super::error::{Result, StoreError, doing};
 use super::ids::{self, Known};
-use super::open::{Lock, Place, SledShelf, check_format, lock, write_format};
+use super::lock::{Lock, PATIENCE, lock};
+use super::open::{Place, SledShelf, check_format, write_format};
 use super::reader::{Reader, history_key, replica_index};
 use super::sheet::Sheet;
 use super::tables::{self as t, Record, Table, key_of_record};
@@ -30,7 +32,7 @@ pub struct Store {
     pub(super) vault: Vault,
     pub(super) dir: PathBuf,
     revision: u64,
-    _lock: Option<Lock>,
+    pub(super) lock: Option<Lock>,
 }
 
 impl std::fmt::Debug for Store {
@@ -43,18 +45,37 @@ impl std::fmt::Debug for Store {
 }
 
 impl Store {
-    /// Opens the store in a directory, or makes a new one there.
+    /// Opens the store in a directory, or makes a new one there. It is this program's alone until it is closed, or
+    /// [put down](Store::put_down).
     ///
     /// # Errors
-    /// [`StoreError::Locked`] when another program has it open, [`StoreError::UnknownFormat`] and
-    /// [`StoreError::NotAStore`] when the directory is something else, [`StoreError::BothCorrupt`] when it is
-    /// beyond repair; nothing is changed then.
+    /// [`StoreError::Locked`] when another program has it, and keeps it for longer than a call takes;
+    /// [`StoreError::UnknownFormat`] and [`StoreError::NotAStore`] when the directory is something else,
+    /// [`StoreError::BothCorrupt`] when it is beyond repair; nothing is changed then.
     pub fn open(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
-        let dir = dir.as_ref();
+        Self::open_within(dir.as_ref(), PATIENCE)
+    }
+
+    /// Opens a store to be asked: what is to be mended is mended, and other programs may write. Where one does at this
+    /// moment, the store is read as it stands.
+    ///
+    /// # Errors
+    /// As [`Store::open`].
+    pub fn open_to_ask(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
+        match Self::open_within(dir.as_ref(), Duration::ZERO) {
+            Err(StoreError::Locked { .. }) => Self::open_read_only(dir),
+            opened => opened.map(|(mut store, report)| {
+                store.put_down();
+                (store, report)
+            }),
+        }
+    }
+
+    fn open_within(dir: &Path, patience: Duration) -> Result<(Self, OpenReport)> {
         let disk: Arc<dyn Disk> = Arc::new(RealDisk);
         let place = check_format(&*disk, dir)?;
         disk.create_dir(dir).map_err(StoreError::io(doing::MAKE_DIR, dir))?;
-        let lock = lock(dir)?;
+        let lock = lock(dir, patience)?;
         let mut marked = Ok(());
         if place != Place::Store {
             marked = write_format(&*disk, dir);
@@ -88,18 +109,24 @@ impl Store {
     }
 
     pub(crate) fn over(vault: Vault, dir: &Path, lock: Option<Lock>) -> Result<Self> {
-        let mut store = Self { vault, dir: dir.to_owned(), revision: 0, _lock: lock };
-        let last = store.vault.trees().last(Table::Revisions.code(), &[], &[0xFF; 4])?;
+        let mut store = Self { vault, dir: dir.to_owned(), revision: 0, lock };
+        store.count_revisions()?;
+        Ok(store)
+    }
+
+    /// Finds out which revision is the last.
+    pub(super) fn count_revisions(&mut self) -> Result<()> {
+        let last = self.vault.trees().last(Table::Revisions.code(), &[], &[0xFF; 4])?;
         if let Some((key, _)) = last {
             let key = Key::from_bytes(&key);
-            let record: t::Revisions = store.reader().record(&key)?.ok_or_else(|| {
+            let record: t::Revisions = self.reader().record(&key)?.ok_or_else(|| {
                 StoreError::BadRecord {
                     table: Table::Revisions.name(), key: "последняя".into()
                 }
             })?;
-            store.revision = u64::from(record.revision);
+            self.revision = u64::from(record.revision);
         }
-        Ok(store)
+        Ok(())
     }
 
     /// The number of the last change of the map; 0 before the first import.

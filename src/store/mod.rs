@@ -24,7 +24,7 @@
 //! # Invariants
 //!
 //! A transaction is one checksummed journal frame, on the disk before it is acknowledged; readers read memory,
-//! each at its revision; sled is an index that follows on a thread of its own and that snapshot and journal can
+//! each at its revision, and take over what other programs acknowledged (`share`); sled is an index that follows on a thread of its own and that snapshot and journal can
 //! rebuild, and only `store/trees.rs` names it. What is past lies in runs on the disk (`past`), each in two files, and is read
 //! when it is asked for, its checksum tested. Ids are never given twice and nothing is overwritten without
 //! trace. Observations, the robot's pose, and what it opened, switched or carried never change the map. What the
@@ -50,6 +50,7 @@ mod head;
 mod ids;
 mod journal;
 mod keep;
+mod lock;
 mod memory;
 mod observe;
 mod open;
@@ -60,6 +61,7 @@ mod reader;
 mod robot;
 mod run;
 mod schema;
+mod share;
 mod sheet;
 pub mod shipping;
 mod sides;
@@ -92,6 +94,7 @@ pub use queue::{Queue, QueuedTask};
 pub use reader::Reader;
 pub use robot::{FoundAt, RobotMemory, SeenObstacle};
 pub use schema::{Column, Origin};
+pub use share::{Meanwhile, last_transaction};
 pub use sheet::Sheet;
 pub use tables::{Record, Table};
 pub use vault::OpenReport;

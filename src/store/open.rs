@@ -1,9 +1,9 @@
-//! The directory of a store: its FORMAT file, its lock, sled's corner of it.
+//! The directory of a store: its FORMAT file, sled's corner of it.
 //!
 //! ```text
 //! store/FORMAT      "orthoframe store, format 1", twice: one flipped bit is then no other format
 //!       head        which transaction was acknowledged last, and what the store held after it
-//!       lock        held while a program has the store open for writing
+//!       lock        held while a program writes; it says so where it drives the robot meanwhile
 //!       journal/    00000000000000000001.journal ...
 //!       snapshots/  00000000000000004711.snapshot ...
 //!       past/       00000000000000004711.run and .twin ...: what is past, see `past`
@@ -12,7 +12,6 @@
 //!       aside/      broken parts, kept for whoever wants to look
 //! ```
 
-use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -26,33 +25,6 @@ use super::vault::Shelf;
 
 const FORMAT_FILE: &str = "FORMAT";
 const FORMAT_LINE: &str = "orthoframe store, format ";
-
-/// The store is this program's alone as long as this lives.
-pub(crate) struct Lock(File);
-
-impl Drop for Lock {
-    fn drop(&mut self) {
-        // Closing is not enough: a child that another thread is about to start shares the file until it runs. What
-        // cannot be unlocked is unlocked by the end of both.
-        let _ = self.0.unlock();
-    }
-}
-
-/// Takes the store for this program alone.
-pub(crate) fn lock(dir: &Path) -> Result<Lock> {
-    let path = dir.join("lock");
-    let file = OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(&path)
-        .map_err(StoreError::io(doing::OPEN, &path))?;
-    match file.try_lock() {
-        Ok(()) => Ok(Lock(file)),
-        Err(TryLockError::WouldBlock) => Err(StoreError::Locked { dir: dir.display().to_string() }),
-        Err(TryLockError::Error(error)) => Err(StoreError::io(doing::LOCK, &path)(error)),
-    }
-}
 
 /// What a directory is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -131,3 +131,63 @@ fn every_call_of_an_assistant_is_in_the_history_at_its_time() {
     assert!(last.lines().count() == 3 && last.contains("– дан ответ"), "{last}");
     assert!(!place.run(&["history"]).is(0).out.contains("ask"));
 }
+
+/// What other programs write between two calls is known to the next, and no plan outlives it.
+#[test]
+fn an_assistant_and_the_command_line_write_in_turn() {
+    let place = Place::with_rb2();
+    let mut client = Client::of(&place, "Маша");
+    let planned = client.call("plan", &json!({ "text": "Принеси лекарство" }));
+    let id = planned["task"]["task"].clone();
+    assert!(id.is_u64(), "{planned}");
+    place.run(&["edit", "rename", "Лекарство", "Таблетки"]).is(0);
+    let expired = client.call("run", &json!({ "id": id }));
+    assert_eq!(expired["code"], "serve::expired", "{expired}");
+    let told = client.call("ask", &json!({ "text": "Где Таблетки?" }));
+    assert!(told["text"].as_str().is_some_and(|text| text.contains("Комнат")), "{told}");
+    let edit = json!([{ "rename": "Таблетки", "to": "Пилюли" }]);
+    let edited = client.call("propose_edit", &json!({ "edit": { "edit": edit }, "reason": "так" }));
+    assert_eq!(edited["revision"], 3, "{edited}");
+    let seen = client.call("observe", &json!({ "thing": "Пилюли", "absent": true }));
+    assert_eq!(seen["outcome"], "noted", "{seen}");
+    place.run(&["edit", "rename", "Пилюли", "Лекарство"]).is(0);
+    let history = client.call("history", &json!({}));
+    assert_eq!(history["revisions"].as_array().map(Vec::len), Some(4), "{history}");
+    let planned = client.call("plan", &json!({ "text": "Поезжай к Точке-К" }));
+    let done = client.call("run", &json!({ "id": planned["task"]["task"] }));
+    assert_eq!(done["state"], "done", "{done}");
+    // Killed on its way or not, it leaves a store that opens.
+    client.server.kill().expect("it is killed");
+    client.server.wait().expect("it ends");
+    place.run(&["fsck"]).is(0);
+    assert_eq!(place.store().expect("a store").0, 4);
+}
+
+/// A dialogue has the store for the length of a line.
+#[test]
+fn a_dialogue_and_the_command_line_write_in_turn() {
+    let place = Place::with_rb2();
+    let mut command = place.command(&["talk"]);
+    let mut talk = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("starts");
+    let mut told = BufReader::new(talk.stdout.take().expect("it is piped"));
+    let mut said = |line: &str| {
+        writeln!(talk.stdin.as_mut().expect("it is piped"), "{line}").expect("it listens");
+        let mut answer = String::new();
+        told.read_line(&mut answer).expect("it speaks");
+        answer
+    };
+    assert!(said("Где Лекарство?").contains("Комнат"));
+    place.run(&["edit", "rename", "Лекарство", "Таблетки"]).is(0);
+    let answer = said("Где Таблетки?");
+    assert!(answer.contains("Комнат"), "{answer}");
+    // Another program's drive leaves it its questions.
+    let (mut held, _) = orthoframe_store::Store::open(place.path("ortho-store")).unwrap();
+    held.set_out().unwrap();
+    assert!(said("Где Таблетки?").contains("Комнат"));
+    let answer = said("Поезжай к Точке-К");
+    assert!(answer.contains("ведёт робота"), "{answer}");
+    drop(held);
+    assert!(said("Поезжай к Точке-К").len() > 3);
+    drop(talk.stdin.take());
+    assert!(talk.wait().expect("it ends").success());
+}

@@ -1,6 +1,7 @@
 //! The store as its callers see it: import, history, durability, refusals.
 
 mod history;
+mod in_turn;
 mod losses;
 mod past;
 mod readers;

@@ -1,5 +1,8 @@
 //! The engine between threads, and what goes wrong as exceptions.
 //!
+//! Between two calls other programs may write the store; a call that asks takes over what they wrote, and one that writes
+//! has the store until it is done. While the robot is under way, the store stays this program's.
+//!
 //! **Invariant.** One thread at a time has the engine, and no Python runs while it does; who reads has the [`State`] as
 //! it stood, and holds nobody up.
 
@@ -58,23 +61,56 @@ pub(crate) struct Told {
 }
 
 impl Desk {
-    pub(crate) fn new(engine: Engine, language: Language, user: String) -> Self {
+    pub(crate) fn new(mut engine: Engine, language: Language, user: String) -> Self {
         let is_under_way = AtomicBool::new(false);
+        engine.put_down();
         Self { engine: Mutex::new(Some(engine)), language, user, is_under_way }
     }
 
-    /// Has the engine to oneself.
+    /// Has the engine to oneself, and the store.
     pub(crate) fn write<T>(
         &self,
         work: impl FnOnce(&mut Engine) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
+        self.alone(|engine| {
+            engine.take_up()?;
+            let done = work(engine);
+            self.rest(engine);
+            done
+        })
+    }
+
+    /// Has the engine to oneself, to ask it.
+    pub(crate) fn look<T>(
+        &self,
+        work: impl FnOnce(&mut Engine) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        self.alone(|engine| {
+            engine.catch_up()?;
+            work(engine)
+        })
+    }
+
+    fn alone<T>(&self, work: impl FnOnce(&mut Engine) -> Result<T, Failure>) -> Result<T, Failure> {
         let mut engine = self.engine.lock().map_err(|_poison| Failure::Broken)?;
         work(engine.as_mut().ok_or(Failure::Closed)?)
     }
 
+    /// The robot sets out: what it does will be noted.
+    pub(crate) fn sets_out(&self) -> Result<(), Failure> {
+        self.alone(|engine| Ok(engine.set_out()?))
+    }
+
+    /// Lets other programs write, where the robot is not under way.
+    fn rest(&self, engine: &mut Engine) {
+        if !self.is_under_way.load(Ordering::Acquire) {
+            engine.put_down();
+        }
+    }
+
     /// What is known now.
     pub(crate) fn state(&self) -> Result<Arc<State>, Failure> {
-        self.write(|engine| {
+        self.look(|engine| {
             engine.pass_time(SystemTime::now().into());
             Ok(engine.state()?)
         })
@@ -93,7 +129,11 @@ impl Desk {
     pub(crate) fn take_robot(self: &Arc<Self>) -> Result<Robot, Failure> {
         match self.is_under_way.swap(true, Ordering::AcqRel) {
             true => Err(Failure::Busy),
-            false => Ok(Robot(Arc::clone(self))),
+            false => {
+                let robot = Robot(Arc::clone(self));
+                self.alone(|engine| Ok(engine.take_up()?))?;
+                Ok(robot)
+            }
         }
     }
 
@@ -120,7 +160,7 @@ impl Desk {
     /// A failure in words, with things called as the map calls them.
     pub(crate) fn tell(&self, failure: &Failure) -> Told {
         let state = match failure {
-            Failure::Engine(_) => self.write(|engine| Ok(engine.state()?)).ok(),
+            Failure::Engine(_) => self.alone(|engine| Ok(engine.state()?)).ok(),
             _ => None,
         };
         let nothing = World::empty();
@@ -136,6 +176,12 @@ pub(crate) struct Robot(Arc<Desk>);
 impl Drop for Robot {
     fn drop(&mut self) {
         self.0.is_under_way.store(false, Ordering::Release);
+        // A broken engine, or one that was closed, has nothing to put down.
+        let _ = self.0.alone(|engine| {
+            engine.come_back();
+            engine.put_down();
+            Ok(())
+        });
     }
 }
 

@@ -101,7 +101,7 @@ impl Engine {
         })
     }
 
-    /// Closes the store, for others to open. What is asked afterwards is an error.
+    /// Closes the store. What is asked afterwards is an error.
     fn close(&self, py: Python<'_>) {
         py.detach(|| self.desk.close());
     }
@@ -147,7 +147,7 @@ impl Engine {
     /// The number of the last change of the map; 0 for a map in memory.
     #[getter]
     fn revision(&self, py: Python<'_>) -> PyResult<u64> {
-        self.desk.free(py, || self.desk.write(|engine| Ok(engine.revision())))
+        self.desk.free(py, || self.desk.look(|engine| Ok(engine.revision())))
     }
 
     /// Every name of the map, in both languages.
@@ -380,7 +380,7 @@ impl Engine {
     /// Things that are believed to stand elsewhere than the map says.
     fn proposals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
-            self.desk.write(|engine| {
+            self.desk.look(|engine| {
                 let all = engine.proposals(SystemTime::now().into())?;
                 let all = all.iter().map(|one| json::believed(engine, one));
                 Ok(Value::Array(all.collect::<Result<_, _>>()?))
@@ -437,7 +437,7 @@ impl Engine {
     /// All revisions, the oldest first.
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
-            self.desk.write(|engine| {
+            self.desk.look(|engine| {
                 let all = engine.revisions()?;
                 Ok(all.iter().map(json::revision).collect())
             })
@@ -453,7 +453,7 @@ impl Engine {
         end: Option<u64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.desk.answer(py, || {
-            self.desk.write(|engine| {
+            self.desk.look(|engine| {
                 let end = end.unwrap_or_else(|| engine.revision());
                 let all = engine.diff(When::Revision(start), When::Revision(end))?;
                 Ok(Value::Array(json::differences(&all, self.desk.language)))
@@ -488,7 +488,7 @@ impl Engine {
     fn as_of(&self, py: Python<'_>, revision: u64) -> PyResult<Self> {
         let rules = self.rules.clone().or_else(Rules::default_dir);
         let then = self.desk.free(py, || {
-            let world = self.desk.write(|engine| {
+            let world = self.desk.look(|engine| {
                 Ok(engine.store()?.world_as_of(revision).map_err(orthoframe::Error::from)?)
             })?;
             let world = world.ok_or_else(|| Failure::Value("there was no map yet".into()))?;
@@ -552,7 +552,7 @@ impl Engine {
     }
 
     fn __repr__(&self) -> String {
-        match self.desk.write(|engine| Ok(engine.world()?.domain.name.clone())) {
+        match self.desk.look(|engine| Ok(engine.world()?.domain.name.clone())) {
             Ok(name) => format!("<orthoframe.Engine {name:?}>"),
             Err(_) => "<orthoframe.Engine>".to_owned(),
         }

@@ -50,6 +50,7 @@ impl Task {
         with_poses: bool,
     ) -> Result<Self, Failure> {
         let robot = desk.take_robot()?;
+        desk.sets_out()?;
         let state = desk.state()?;
         let (tell, events) = channel();
         let ended = Arc::new((Mutex::new(None), Condvar::new()));

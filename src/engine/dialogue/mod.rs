@@ -38,6 +38,7 @@ use crate::language::question::{
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
+use crate::store::StoreError;
 use crate::units::Stop;
 
 use super::narration::nothing_to_stop;
@@ -167,7 +168,13 @@ impl Dialogue {
     ) -> Result<Heard, Error> {
         engine.pass_time(std::time::SystemTime::now().into());
         let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
-        hearing.hear(text.trim())?;
+        match hearing.hear(text.trim()) {
+            // Not for ever: the dialogue goes on.
+            Err(error @ Error::Store(StoreError::Locked { .. })) => {
+                hearing.refuse(error, Language::of(text))?;
+            }
+            heard => heard?,
+        }
         Ok(hearing.heard)
     }
 
@@ -477,8 +484,26 @@ impl Hearing<'_, '_> {
         }
     }
 
-    /// A task that cannot be done is an answer within a dialogue, not its end.
+    /// A task that cannot be done is an answer within a dialogue, not its end. The robot does not set out where what it
+    /// does could not be noted.
     fn carry_out(
+        &mut self,
+        line: &str,
+        commands: &[Command<Entity>],
+        given: &Given,
+        language: Language,
+    ) -> Result<(), Error> {
+        if self.dialogue.keeps {
+            self.engine.set_out()?;
+        }
+        let done = self.carry_out_alone(line, commands, given, language);
+        if self.dialogue.keeps {
+            self.engine.come_back();
+        }
+        done
+    }
+
+    fn carry_out_alone(
         &mut self,
         line: &str,
         commands: &[Command<Entity>],

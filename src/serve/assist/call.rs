@@ -80,6 +80,10 @@ impl Call<'_> {
     pub(super) async fn run(&self, row: &Row, given: Map<String, Value>) -> Answer {
         arguments::check(row.name, &row.takes(), &given)?;
         let given = Value::Object(given);
+        // A stop waits for nothing.
+        if row.name != "stop" {
+            self.house().desk.fresh().await?;
+        }
         match row.name {
             "ask" => self.ask(taken(given)).await,
             "query" => self.query(taken(given)).await,

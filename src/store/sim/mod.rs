@@ -21,6 +21,7 @@ use crate::trees::{HISTORY, State, Trees, Visit, digests};
 use crate::vault::{Change, OpenReport, Shelf, Vault};
 
 mod failing;
+mod in_turn;
 
 /// splitmix64: the same seed, the same run.
 #[derive(Clone)]

@@ -16,6 +16,7 @@
 
 mod recover;
 mod runs;
+mod share;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,9 +27,10 @@ use super::error::{Result, StoreError, doing};
 use super::frame::{Digests, Op, encode_frame};
 use super::head::{Head, Known, Mark, read_head};
 use super::journal::{
-    Journal, Log, begin_journal, journal_dir, numbered, numbered_files, snapshot_dir,
+    Journal, Log, begin_journal, journal_dir, keep_journal, numbered, numbered_files, snapshot_dir,
     snapshot_files,
 };
+use super::lock::is_driven;
 use super::memory::MemoryTrees;
 use super::past::{Layered, Past, is_past};
 use super::snapshot::write_snapshot;
@@ -36,7 +38,10 @@ use super::snapshot::write_snapshot;
 use super::trees::{Records, State, Trees};
 use crate::units::Bilingual;
 
+pub(crate) use share::Found as Meanwhile;
+
 use recover::{Brought, Files, Found, Recovered, find, journal_fault, recover};
+use share::Left;
 
 /// What opening a store found and mended.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -106,10 +111,12 @@ pub(crate) struct Vault {
     past: Arc<Past>,
     /// Files of runs that are not in use any more, each with the transaction since when: older snapshots may need them.
     retired: Vec<(u64, u64)>,
-    /// sled, following memory; none in a store that is only read.
+    /// sled, following memory; none in a store that is only read, or that was put down: see `share`.
     behind: Option<Behind>,
     state: State,
     journal: Option<Journal>,
+    /// Where it ended, while other programs may write.
+    left: Option<Left>,
     /// None in a store that is only read, or where the file cannot be written.
     head: Option<Head>,
     read_only: Option<ReadOnly>,
@@ -162,11 +169,8 @@ impl Vault {
             begin_journal(&*disk, dir, 1)?;
             log = Log::read(&*disk, dir)?;
         }
-        // A frame that a killed program wrote but did not sync can be read now and yet vanish with the power:
-        // what is built upon must be on the disk first.
         if let Some((_, path, _)) = log.files.last() {
-            let synced = disk.appender(path).and_then(|mut file| file.sync());
-            synced.map_err(StoreError::io(doing::WRITE, path))?;
+            keep_journal(&*disk, path)?;
         }
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
         let mut report = OpenReport::default();
@@ -193,6 +197,7 @@ impl Vault {
             behind: Some(behind),
             state,
             journal: None,
+            left: None,
             head,
             read_only: None,
             checkpoint_at: CHECKPOINT_BYTES,
@@ -284,6 +289,7 @@ impl Vault {
             behind: None,
             state: brought.state,
             journal: None,
+            left: None,
             head: None,
             read_only: Some(ReadOnly {
                 reason: ("так его открыли", "so it was opened").into(),
@@ -367,7 +373,6 @@ impl Vault {
         Arc::clone(&self.disk)
     }
 
-    #[cfg(test)]
     pub(crate) fn lsn(&self) -> u64 {
         self.state.lsn
     }
@@ -377,9 +382,16 @@ impl Vault {
     }
 
     /// # Errors
-    /// [`StoreError::ReadOnly`].
+    /// [`StoreError::ReadOnly`]; [`StoreError::Locked`] while others may write.
     pub(crate) fn check_writable(&self) -> Result<()> {
-        self.read_only.as_ref().map_or(Ok(()), |why| Err(why.error()))
+        match &self.read_only {
+            Some(why) => Err(why.error()),
+            None if self.is_put_down() => Err(StoreError::Locked {
+                dir: self.dir.display().to_string(),
+                drives: is_driven(&self.dir),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// One transaction: on the disk when this returns.
@@ -394,7 +406,10 @@ impl Vault {
             }
         }
         self.write(changes)?;
-        self.checkpoint_if_due();
+        // Where sled is closed, that is done when the vault is put down.
+        if self.behind.is_some() {
+            self.checkpoint_if_due();
+        }
         Ok(())
     }
 
@@ -410,10 +425,10 @@ impl Vault {
         if let Some(Err(error)) = self.head.as_ref().map(|head| head.note(&Mark::of(&self.state))) {
             tracing::warn!(%error, "head is not written");
         }
-        if let Some(behind) = &self.behind {
-            behind.apply(ops, &self.state)?;
+        match &self.behind {
+            Some(behind) => behind.apply(ops, &self.state),
+            None => self.memory.apply(ops, &self.state),
         }
-        Ok(())
     }
 
     fn digests_after(&self, changes: &[Change]) -> Digests {

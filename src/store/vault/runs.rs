@@ -1,4 +1,4 @@
-//! What is young becomes past: runs written, taken up by a transaction, made one, mended and removed.
+//! What is young becomes past: runs written, taken in by a transaction, made one, mended and removed.
 //!
 //! **Invariant**: the files of a run are whole before a transaction names it, and are there as long as a snapshot may.
 
@@ -46,7 +46,7 @@ impl Vault {
                 op: Op { tree, key, value: None },
                 old: Some(value),
             });
-            self.take_up(place, place, run, gone.collect())?;
+            self.take_in(place, place, run, gone.collect())?;
         }
         if let Some((first, last)) = self.past.alike(all) {
             let runs = self.past.runs();
@@ -61,13 +61,13 @@ impl Vault {
                 let old = self.memory.get(RUNS, &key)?;
                 gone.push(Change { op: Op { tree: RUNS, key, value: None }, old });
             }
-            self.take_up(first, last, run, gone)?;
+            self.take_in(first, last, run, gone)?;
         }
         Ok(())
     }
 
     /// Notes a run in the place of those from `first` to `place`, with other changes, in one transaction.
-    fn take_up(
+    fn take_in(
         &mut self,
         first: u64,
         place: u64,
