@@ -154,6 +154,8 @@ pub(crate) fn rehearse(
 ) -> Result<Rehearsed, Error> {
     let mut engine = Engine::beside(Arc::clone(state));
     let mut dialogue = before.apart().keeping_nothing();
+    // Who asks what it would come to may leave while it is planned.
+    dialogue.stopped_by(state.stop.clone());
     let (mut told, mut events) = (Vec::new(), TaskEvents::default());
     let (mut outlook, mut is_first) = (Outlook::default(), true);
     let heard = hear(&mut dialogue, &mut engine, line, &mut |_, event| match event {

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use crate::draw::{SeenDrawing, SeenSegment, SeenSign, TreeNode, seen_svg, tree_svg};
 use crate::language::Language;
-use crate::units::{Deg, FileFault, InOrder as _, Point, Pose, Vector, is_input, read_file};
+use crate::units::{
+    Deg, FileFault, InOrder as _, Lengths, Point, Pose, Vector, is_input, read_file,
+};
 use crate::vectors::picture::Picture;
 use crate::vectors::read::{LONGEST, Log, LogError, Scan, read_log, unpacked};
 use crate::vectors::scan::Extractor;
@@ -14,7 +16,7 @@ use crate::vectors::{
     difference, survey,
 };
 
-use super::{Error, RequestError, decimal};
+use super::{Error, RequestError};
 
 /// Segments are equal, things moved, parts are parts with this confidence.
 const CONFIDENCE: f64 = 0.999;
@@ -379,7 +381,7 @@ fn branch(node: &Branch<2>, language: Language) -> TreeNode {
         let line = format!("… {} {rest}", language.pick("и ещё", "and"));
         below.push(TreeNode { lines: vec![line], ..TreeNode::default() });
     }
-    let place = |v: &Vector| format!("({:.0}, {:.0})", v.x, v.y);
+    let place = |v: &Vector| Lengths::said().point(v.x, v.y, 0);
     let framed = |name: String, v: &Vector| vec![name, place(v)];
     let lines = match &node.node {
         Node::Robot => vec![language.pick("Робот", "Robot").to_owned()],
@@ -393,7 +395,7 @@ fn branch(node: &Branch<2>, language: Language) -> TreeNode {
             framed(name, &frame.translation.vector)
         }
         Node::Segment(k, s) => {
-            let length = decimal(s.length(), language.pick("см", "cm"), language);
+            let length = Lengths::said().told(s.length(), 1, language);
             vec![format!("{} {k}", language.pick("отрезок", "segment")), length]
         }
     };

@@ -2,7 +2,7 @@
 
 use super::report::Why;
 use super::{ImportError, ReadError, Treatment};
-use crate::units::{Bilingual, InEnglish, Language};
+use crate::units::{Bilingual, InEnglish, Language, Lengths};
 
 fn en(words: &Bilingual) -> &str {
     words.say(Language::English)
@@ -101,11 +101,17 @@ impl InEnglish for ImportError {
     }
 }
 
+/// A length in cm.
+fn told(cm: u32) -> String {
+    Lengths::said().told(f64::from(cm), 0, Language::English)
+}
+
 impl InEnglish for Why {
     fn english(&self) -> String {
         match self {
             Self::NoOutline { least } => {
-                format!("the outline has no floor: its area is less than {least} cm²")
+                let least = Lengths::said().told_area(f64::from(*least), 0, Language::English);
+                format!("the outline has no floor: its area is less than {least}")
             }
             Self::OutlineCrosses => {
                 "the outline crossed itself; the largest part is kept".to_owned()
@@ -114,7 +120,7 @@ impl InEnglish for Why {
                 format!("overlapped “{other}”, which keeps the common floor")
             }
             Self::RoomTwice { other } => format!("repeats “{other}”"),
-            Self::RoomCut => "cut by overlapping; parts narrower than 20 cm are dropped".to_owned(),
+            Self::RoomCut => format!("cut by overlapping; parts narrower than {} are dropped", told(20)),
             Self::RoomParted { parts } => {
                 format!("cut by overlapping into {parts}; each part became a room")
             }
@@ -132,9 +138,11 @@ impl InEnglish for Why {
             Self::OtherRoom { room } => {
                 format!("is not at “{room}”, which it names; its rooms are found by place")
             }
-            Self::TooNarrow { least } => format!("narrower than {least} cm"),
+            Self::TooNarrow { least } => format!("narrower than {}", told(*least)),
             Self::Narrowed { from, to } => format!(
-                "narrowed from {from} to {to} cm: the wall is shorter, or the opening is taken"
+                "narrowed from {} to {}: the wall is shorter, or the opening is taken",
+                told(*from),
+                told(*to)
             ),
             Self::NoWall => {
                 "does not fit into a wall: another opening is there, or it is too short or far"
@@ -171,7 +179,8 @@ impl InEnglish for Why {
             Self::EmptyLevel => "the storey has no room".to_owned(),
             Self::NotCarried { kind } => format!("records of the kind “{kind}” are not carried over"),
             Self::LooseBoxes { off, of } => format!(
-                "the boxes are not exact: {off} of {of} things have their bottom more than 2 cm off what they stand on; the profile “detected” is taken (another: --profile surveyed)"
+                "the boxes are not exact: {off} of {of} things have their bottom more than {} off what they stand on; the profile “detected” is taken (another: --profile surveyed)",
+                told(2)
             ),
             Self::Other { text } => en(text).to_owned(),
         }

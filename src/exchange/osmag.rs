@@ -17,7 +17,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use crate::geometry::convex_hull;
 use crate::map::Properties;
 use crate::map::plane::{bounds, doubled_area};
-use crate::units::{Bilingual, Cm, Point, Source, Vector, bilingual};
+use crate::units::{Bilingual, Cm, Lengths, Point, Source, Vector, bilingual};
 
 use super::assemble::ring::{self, LEAST_AREA, Ring};
 use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey, zero_of};
@@ -296,12 +296,12 @@ impl<'x> Reader<'x> {
                 ),
                 None => match strip(&line, &others) {
                     Some(outline) => {
-                        let width = strip_width(&line).round();
+                        let [ru, en] = Lengths::said().both(strip_width(&line), 0);
                         (
                             outline,
                             bilingual!(
-                                "контур – линия: взята полоса вдоль неё, {width} см",
-                                "the outline is a line: a strip along it is taken, {width} cm"
+                                "контур – линия: взята полоса вдоль неё, {ru}",
+                                "the outline is a line: a strip along it is taken, {en}"
                             ),
                         )
                     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, MapErrors, Profile, World};
-use crate::units::{Deg, Frame, Point, Source, bilingual};
+use crate::units::{Deg, Frame, Lengths, Point, Source, bilingual};
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
@@ -330,9 +330,11 @@ pub fn read_grid(
     options: &Options,
 ) -> Result<Imported, ImportError> {
     if !(0.1..=1000.0).contains(&cell) {
+        let both = |cm| Lengths::said().both(cm, 2);
+        let [[ru, en], [least_ru, least_en], [most_ru, most_en]] = [cell, 0.1, 1000.0].map(both);
         let what = bilingual!(
-            "{cell} см на клетку: нужно от 0,1 до 1000",
-            "{cell} cm a cell: from 0.1 to 1000 is wanted"
+            "{ru} на клетку: нужно от {least_ru} до {most_ru}",
+            "{en} a cell: from {least_en} to {most_en} is wanted"
         );
         return Err(ReadError::NoBuilding { format: ros::FORMAT, what }.into());
     }

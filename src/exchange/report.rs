@@ -10,7 +10,7 @@ use miette::Diagnostic;
 use serde::Serialize;
 use thiserror::Error;
 
-use crate::units::{Bilingual, InEnglish, Language};
+use crate::units::{Bilingual, InEnglish, Language, Lengths};
 
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -89,12 +89,17 @@ impl What {
     }
 }
 
+/// A length in cm.
+fn told(cm: u32) -> String {
+    Lengths::said().told(f64::from(cm), 0, Language::Russian)
+}
+
 /// Why a record was mended or left out. Numbers are rounded for people; lengths in cm, areas in m².
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error, Diagnostic)]
 #[non_exhaustive]
 pub enum Why {
     /// Fewer than three different corners, or less floor than a robot's foot.
-    #[error("контур вырожден: площадь меньше {least} см²")]
+    #[error("контур вырожден: площадь меньше {}", Lengths::said().told_area(f64::from(*least), 0, Language::Russian))]
     #[diagnostic(code(import::no_outline))]
     NoOutline { least: u32 },
     /// Rings that cross themselves: the largest simple part is kept.
@@ -110,7 +115,7 @@ pub enum Why {
     #[diagnostic(code(import::room_twice))]
     RoomTwice { other: String },
     /// Subtraction cut pieces off a room that are too narrow to be floor.
-    #[error("разрезано наложением; части уже 20 см отброшены")]
+    #[error("разрезано наложением; части уже {} отброшены", told(20))]
     #[diagnostic(code(import::room_cut))]
     RoomCut,
     /// Subtraction cut a room apart.
@@ -150,11 +155,11 @@ pub enum Why {
     #[diagnostic(code(import::other_room))]
     OtherRoom { room: String },
     /// Narrower than nothing can pass.
-    #[error("ширина меньше {least} см")]
+    #[error("ширина меньше {}", told(*least))]
     #[diagnostic(code(import::too_narrow))]
     TooNarrow { least: u32 },
     /// The wall is shorter than the opening.
-    #[error("ширина уменьшена с {from} до {to} см: стена короче или проём занят")]
+    #[error("ширина уменьшена с {} до {}: стена короче или проём занят", told(*from), told(*to))]
     #[diagnostic(code(import::narrowed))]
     Narrowed { from: u32, to: u32 },
     /// No free stretch of wall.
@@ -219,8 +224,9 @@ pub enum Why {
     NotCarried { kind: String },
     /// Boxes that a person's measuring would not have given.
     #[error(
-        "коробки неточны: у вещей {off} из {of} низ дальше 2 см от того, на чём они стоят; взят профиль «detected» \
-         (другой: --profile surveyed)"
+        "коробки неточны: у вещей {off} из {of} низ дальше {} от того, на чём они стоят; взят профиль «detected» \
+         (другой: --profile surveyed)",
+        told(2)
     )]
     #[diagnostic(code(import::loose_boxes))]
     LooseBoxes { off: usize, of: usize },

@@ -10,7 +10,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::{AreaId, DoorId, Gather as _, InOrder as _, ZoneId};
+use crate::units::{AreaId, Cm, DoorId, Gather as _, InOrder as _, ZoneId};
 
 use super::blocker::Blocker;
 use super::cells::{CellKey, Piece};
@@ -524,24 +524,19 @@ impl Barrier {
                     || format!("проход между «{}» и «{}»", area(&areas[0]), area(&areas[1])),
                     |d| format!("проём «{}»", door(d)),
                 );
-                format!("{what} шириной {} см, роботу нужно {} см", tenth(*width), tenth(*needed))
+                format!("{what} шириной {}, роботу нужно {}", tenth(*width), tenth(*needed))
             }
             Self::Low { door: id, height, needed } => {
-                format!(
-                    "{} высотой {} см, робот высотой {} см",
-                    door(id),
-                    tenth(*height),
-                    tenth(*needed)
-                )
+                format!("{} высотой {}, робот высотой {}", door(id), tenth(*height), tenth(*needed))
             }
             Self::Step { areas, rise } => format!(
-                "ступень {} см между «{}» и «{}»",
+                "ступень {} между «{}» и «{}»",
                 tenth(rise.abs()),
                 area(&areas[0]),
                 area(&areas[1])
             ),
             Self::Gap { width, needed, between, .. } => format!(
-                "промежуток {} см, роботу нужно {} см ({})",
+                "промежуток {}, роботу нужно {} ({})",
                 tenth(*width),
                 tenth(*needed),
                 list(between)
@@ -588,9 +583,9 @@ impl Blocker {
     }
 }
 
-fn tenth(cm: f64) -> f64 {
+fn tenth(cm: f64) -> Cm {
     // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
-    (cm * 10.0 + 1e-6).floor() / 10.0
+    Cm::new((cm * 10.0 + 1e-6).floor() / 10.0).unwrap_or(Cm::ZERO)
 }
 
 /// The distinct things among blockers, each with its part that is in the way: of several the lowest.

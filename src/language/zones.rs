@@ -5,7 +5,7 @@ use super::report::Named;
 use super::words::russian;
 use super::words::{Case, Gender, Language, Number};
 use crate::map::{Entity, World, ZoneKind};
-use crate::units::{Timestamp, ZoneId};
+use crate::units::{Lengths, Timestamp, ZoneId};
 
 /// «Зона-1 закрыта до 2026-11-26 18:00 UTC: мокрый пол», "Zone 1 is closed until 2026-11-26 18:00 UTC: the floor is wet"; of
 /// a zone that is not in force yet, since when it will be.
@@ -25,11 +25,12 @@ pub fn zone_in_words(world: &World, id: ZoneId, language: Language) -> String {
         (ZoneKind::KeepOut, false) => format!("the robot may not enter {}", name.english()),
         (ZoneKind::Slow { speed }, true) => {
             let place = russian::where_at(name.phrase());
-            format!("{place} можно ехать не быстрее {} см/с", number(speed, true))
+            let speed = Lengths::said().told_speed(speed, 1, language);
+            format!("{place} можно ехать не быстрее {speed}")
         }
         (ZoneKind::Slow { speed }, false) => {
-            let speed = number(speed, false);
-            format!("in {} the robot may drive no faster than {speed} cm/s", name.english())
+            let speed = Lengths::said().told_speed(speed, 1, language);
+            format!("in {} the robot may drive no faster than {speed}", name.english())
         }
         (ZoneKind::OneWay { heading }, true) => {
             let heading = number(heading.get(), true);

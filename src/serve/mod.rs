@@ -223,6 +223,8 @@ mod tests {
     use std::sync::mpsc;
 
     use super::*;
+    use crate::engine::Dialogue;
+    use crate::units::Language;
 
     #[test]
     fn what_nobody_waits_for_any_more_ends() {
@@ -245,5 +247,48 @@ mod tests {
         });
         // Without an end this would wait for ever.
         has_ended.recv().expect("it ends");
+    }
+
+    /// As many orders, one behind the other, as one line may hold.
+    fn long_day() -> String {
+        let places = ["Стол-1", "Обеденный стол"].into_iter().cycle().take(6);
+        let orders = places.map(|place| format!("отнеси все книги на {place}"));
+        orders.collect::<Vec<_>>().join(", потом ")
+    }
+
+    /// A client that leaves at any moment of what would take long: how much was planned tells that it ended, not when.
+    #[test]
+    fn a_plan_that_nobody_waits_for_any_more_is_not_planned_to_its_end() {
+        let world = crate::map::World::load("maps/rb2.toml").expect("a map");
+        let engine = Engine::in_memory(world, None).expect("an engine");
+        let state = engine.state().expect("a state");
+        let planned = |text: &str| {
+            let heard = state.rehearse(&Dialogue::new(Language::Russian), text).expect("a map");
+            heard.plan.expect("a plan")["events"].clone()
+        };
+        let short = planned("Поезжай к Точке-К");
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build();
+        let runtime = runtime.expect("a runtime");
+        for moment in [0, 1, 3, 10, 30, 80] {
+            let (ended, has_ended) = mpsc::channel();
+            let state = Arc::clone(&state);
+            let plan = asked(move |stop| {
+                let state = Arc::new(state.heeding(stop));
+                let heard = state.rehearse(&Dialogue::new(Language::Russian), &long_day())?;
+                let _ = ended.send(heard);
+                Ok(())
+            });
+            let left = runtime.block_on(async {
+                tokio::time::timeout(Duration::from_millis(moment), plan).await
+            });
+            assert!(left.is_err(), "it is planned within {moment} ms");
+            let heard = has_ended.recv().expect("it ends");
+            let outcome = match &heard.plan {
+                Some(plan) => &plan["outcome"],
+                None => &heard.replies.last().expect("a reply")["outcome"],
+            };
+            assert_eq!(outcome, "stopped", "left after {moment} ms");
+            assert_eq!(planned("Поезжай к Точке-К"), short);
+        }
     }
 }

@@ -29,6 +29,14 @@ impl Lengths {
         SAID.get().copied().unwrap_or_default()
     }
 
+    /// So many more places tell the same of a length.
+    fn finer(self) -> usize {
+        match self {
+            Self::Cm => 0,
+            Self::M => 2,
+        }
+    }
+
     /// How many centimetres it is.
     fn cm(self) -> f64 {
         match self {
@@ -52,34 +60,44 @@ impl Lengths {
     /// A length in cm, to so many places of a centimetre, without its unit.
     #[must_use]
     pub fn number(self, cm: f64, places: usize) -> String {
-        let finer = match self {
-            Self::Cm => 0,
-            Self::M => 2,
-        };
-        format!("{:.1$}", self.of(cm), places + finer)
+        format!("{:.1$}", self.of(cm), places + self.finer())
     }
 
     /// The same without zeros that end it.
     #[must_use]
     pub fn short(self, cm: f64, places: usize) -> String {
-        let number = self.number(cm, places);
-        match number.split_once('.') {
-            Some(_) => number.trim_end_matches('0').trim_end_matches('.').to_owned(),
-            None => number,
-        }
+        without_zeros(self.number(cm, places))
     }
 
     /// The same with the decimal mark of a language.
     #[must_use]
     pub fn in_language(self, cm: f64, places: usize, language: Language) -> String {
-        let number = self.short(cm, places);
-        language.pick(number.replace('.', ","), number)
+        marked(self.short(cm, places), language)
     }
 
     /// The same with its unit, as a sentence tells it.
     #[must_use]
     pub fn told(self, cm: f64, places: usize, language: Language) -> String {
         format!("{} {}", self.in_language(cm, places, language), self.word(language))
+    }
+
+    /// The same in Russian and in English.
+    #[must_use]
+    pub fn both(self, cm: f64, places: usize) -> [String; 2] {
+        [Language::Russian, Language::English].map(|language| self.told(cm, places, language))
+    }
+
+    /// An area in cm², as a sentence tells it.
+    #[must_use]
+    pub fn told_area(self, square_cm: f64, places: usize, language: Language) -> String {
+        let area = format!("{:.1$}", square_cm / self.cm().powi(2), places + 2 * self.finer());
+        format!("{} {}²", marked(without_zeros(area), language), self.word(language))
+    }
+
+    /// A speed in cm/s, as a sentence tells it.
+    #[must_use]
+    pub fn told_speed(self, cm_a_second: f64, places: usize, language: Language) -> String {
+        format!("{}/{}", self.told(cm_a_second, places, language), language.pick("с", "s"))
     }
 
     /// A point in cm, to so many places of a centimetre.
@@ -97,6 +115,18 @@ impl Lengths {
     }
 }
 
+fn without_zeros(number: String) -> String {
+    match number.split_once('.') {
+        Some(_) => number.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        None => number,
+    }
+}
+
+/// With the decimal mark of a language.
+fn marked(number: String, language: Language) -> String {
+    language.pick(number.replace('.', ","), number)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,6 +141,11 @@ mod tests {
         assert_eq!(told(300.0, 1), ["300 cm", "3 m"]);
         assert_eq!(Lengths::M.told(-7.5, 1, Language::Russian), "-0,075 м");
         assert_eq!(Lengths::M.point(225.0, 380.0, 0), "(2.25, 3.80)");
+        assert_eq!(Lengths::M.both(35.0, 0), ["0,35 м", "0.35 m"]);
+        let areas = [Lengths::Cm, Lengths::M].map(|u| u.told_area(400.0, 0, Language::English));
+        assert_eq!(areas, ["400 cm²", "0.04 m²"]);
+        let speeds = [Lengths::Cm, Lengths::M].map(|u| u.told_speed(25.5, 1, Language::Russian));
+        assert_eq!(speeds, ["25,5 см/с", "0,255 м/с"]);
         for unit in [Lengths::Cm, Lengths::M] {
             assert!((unit.meant(unit.of(333.25)) - 333.25).abs() < 1e-9);
         }

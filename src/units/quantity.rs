@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Bilingual, Language};
+use super::{Bilingual, Language, Lengths};
 
 /// Why a number from outside is no length or no angle.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -16,7 +16,7 @@ pub enum QuantityError {
     #[error("число должно быть конечным, а не {0}")]
     NotFinite(f64),
     /// Beyond [`Cm::LIMIT`], where hundredths of a millimetre would be lost in an `f64` sum.
-    #[error("длина {0} см больше предела ±{limit} см", limit = Cm::LIMIT)]
+    #[error("длина {} больше предела ±{}", cm(*.0, Language::Russian), cm(Cm::LIMIT, Language::Russian))]
     TooLarge(f64),
 }
 
@@ -25,7 +25,9 @@ impl From<QuantityError> for Bilingual {
         let english = match error {
             QuantityError::NotFinite(value) => format!("a number must be finite, not {value}"),
             QuantityError::TooLarge(value) => {
-                format!("a length of {value} cm is beyond the limit of ±{} cm", Cm::LIMIT)
+                let (value, limit) =
+                    (cm(value, Language::English), cm(Cm::LIMIT, Language::English));
+                format!("a length of {value} is beyond the limit of ±{limit}")
             }
         };
         Self::new(error.to_string(), english)
@@ -120,11 +122,16 @@ impl Div<f64> for Cm {
 }
 
 impl Cm {
-    /// The length with its unit as a language writes it.
+    /// The length as faults tell it: in the unit of this run, the number as files write it.
     #[must_use]
     pub fn say(self, language: Language) -> String {
-        format!("{} {}", round_for_people(self.0), language.pick("см", "cm"))
+        cm(self.0, language)
     }
+}
+
+fn cm(value: f64, language: Language) -> String {
+    let unit = Lengths::said();
+    format!("{} {}", unit.short(round_for_people(value), 2), unit.word(language))
 }
 
 impl fmt::Display for Cm {

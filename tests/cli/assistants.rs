@@ -2,10 +2,12 @@
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Child, ChildStdout, Stdio};
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use super::Place;
+use crate::generated_worlds::Dice;
 
 /// A client that speaks the protocol line by line.
 struct Client {
@@ -190,4 +192,38 @@ fn a_dialogue_and_the_command_line_write_in_turn() {
     assert!(said("Поезжай к Точке-К").len() > 3);
     drop(talk.stdin.take());
     assert!(talk.wait().expect("it ends").success());
+}
+
+/// Whoever takes a plan back at any moment is not answered, and the next who asks for one has it as if nothing had been.
+#[test]
+fn a_plan_taken_back_at_any_moment_leaves_no_trace() {
+    let place = Place::with_rb2();
+    let mut client = Client::of(&place, "Маша");
+    let steps = |planned: &Value| {
+        let plan = &planned["task"]["plan"];
+        (plan["outcome"].clone(), plan["events"].clone(), planned["text"].clone())
+    };
+    let short = json!({ "text": "Поезжай к Точке-К" });
+    let expected = steps(&client.call("plan", &short));
+    assert_eq!(expected.0, "done");
+    // As many orders, one behind the other, as one line may hold.
+    let places = ["Стол-1", "Обеденный стол"].into_iter().cycle().take(6);
+    let long: Vec<String> = places.map(|place| format!("отнеси все книги на {place}")).collect();
+    let long = json!({ "text": long.join(", потом ") });
+    let began = Instant::now();
+    assert_eq!(steps(&client.call("plan", &long)).0, "done");
+    let lasts = usize::try_from(began.elapsed().as_micros()).expect("no age");
+    let mut dice = Dice::new(7);
+    const ROUNDS: usize = 12;
+    for round in 0..ROUNDS {
+        let id = client.ask("tools/call", &json!({ "name": "plan", "arguments": long }));
+        std::thread::sleep(Duration::from_micros(dice.below(lasts / 2) as u64));
+        client.tell("notifications/cancelled", &json!({ "requestId": id }));
+        assert_eq!(steps(&client.call("plan", &short)), expected, "round {round}");
+    }
+    let calls = client.call("history", &json!({ "calls": true }))["calls"].clone();
+    let calls = calls.as_array().expect("a list");
+    let cancelled = calls.iter().filter(|call| call["outcome"] == "cancelled").count();
+    assert!((1..=ROUNDS).contains(&cancelled), "{cancelled} of {ROUNDS}");
+    client.leave();
 }

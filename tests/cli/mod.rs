@@ -7,6 +7,7 @@ mod drives;
 mod faults;
 mod language_server;
 mod languages;
+mod lengths;
 mod limits;
 mod locate;
 mod map;

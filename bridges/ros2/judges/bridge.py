@@ -11,6 +11,7 @@ import uuid
 from pathlib import Path
 
 try:
+    import numpy
     import peer
 except ImportError as missing:
     print(missing)
@@ -51,8 +52,20 @@ def until(what, seconds, said):
     raise AssertionError(said)
 
 
-def a_mission_drives_by_nav2(more=(), action="follow_path"):
-    robot = peer.Robot(DOMAIN, START, offset=(0.3, -0.2, 0.4))
+SPREAD = {(0, 0): 0.02, (1, 1): 0.03, (0, 1): 0.01, (5, 5): 0.0009, (1, 5): 0.001}
+
+
+def spread_after(end, draws=40_000):
+    """The covariance of where a robot comes to that set out from somewhere within SPREAD, by trying: what it holds to have gone it has gone, turned by as much as its heading was wrong."""
+    rows = numpy.array(peer.rows_of(SPREAD)).reshape(6, 6)[numpy.ix_((0, 1, 5), (0, 1, 5))]
+    off = numpy.random.default_rng(1).multivariate_normal((0, 0, 0), rows, draws)
+    dx, dy = end[0] - START[0], end[1] - START[1]
+    sin, cos = numpy.sin(off[:, 2]), numpy.cos(off[:, 2])
+    return numpy.cov([off[:, 0] + cos * dx - sin * dy, off[:, 1] + sin * dx + cos * dy, off[:, 2]])
+
+
+def a_mission_drives_by_nav2(more=(), action="follow_path", spread=None):
+    robot = peer.Robot(DOMAIN, START, offset=(0.3, -0.2, 0.4), spread=spread)
     looker = peer.Node(DOMAIN)
     paths = looker.reader("rt/orthoframe/path", peer.Path, peer.LATCHED)
     poses = looker.reader("rt/orthoframe/pose", peer.PoseWithCovarianceStamped)
@@ -65,7 +78,16 @@ def a_mission_drives_by_nav2(more=(), action="follow_path"):
         heard = paths.take(100)
         assert len(heard) >= 3 and all(len(path.poses) >= 2 for path in heard), heard
         places = poses.take(1000)
-        assert places and places[-1].header.frame_id == "map" and abs(places[-1].pose.covariance[0] - 0.0225) < 1e-9
+        assert places and all(place.header.frame_id == "map" for place in places)
+        for place in places:
+            told = numpy.array(place.pose.covariance).reshape(6, 6)
+            assert not told[2:5].any() and not told[:, 2:5].any(), told
+            told = told[numpy.ix_((0, 1, 5), (0, 1, 5))]
+            if spread:
+                at = place.pose.pose.position
+                assert numpy.allclose(told, spread_after((at.x, at.y)), rtol=0.05, atol=0.0015), (at, told)
+            else:
+                assert told[0, 0] >= 1e6 and told[1, 1] >= 1e6 and told[2, 2] > 3, told
         return len(robot.driven)
     finally:
         robot.close()
@@ -162,7 +184,7 @@ os.environ["ORTHO_LANG"] = "ru"
 ortho("import", "maps/rb2.toml")
 count = a_mission_drives_by_nav2()
 print(f"follow_path: {count} goals")
-count = a_mission_drives_by_nav2(("--poses",), "navigate_to_pose")
+count = a_mission_drives_by_nav2(("--poses",), "navigate_to_pose", SPREAD)
 print(f"navigate_to_pose: {count} goals")
 a_stop_reaches_the_robot()
 print(a_peer_that_is_lost_ends_the_mission(lambda robot: setattr(robot, "is_silent", True), "odom"))

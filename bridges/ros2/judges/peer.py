@@ -284,6 +284,15 @@ def turn(yaw):
     return Quaternion(0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
 
 
+def rows_of(spread):
+    """Six by six, row by row, of variances and covariances of x, y and the turn about z."""
+    rows = [0.0] * 36
+    for (one, other), value in spread.items():
+        for at in (6 * one + other, 6 * other + one):
+            rows[at] = value
+    return rows
+
+
 def yaw(q):
     return 2 * math.atan2(q.z, q.w)
 
@@ -315,11 +324,16 @@ class Node:
 class Robot(Node):
     """Drives where it is told at a steady pace; says where it is. Offset: how its odometry stands on the map."""
 
-    def __init__(self, domain, at, speed=0.5, offset=(0.0, 0.0, 0.0), ranges=None):
+    def __init__(self, domain, at, speed=0.5, offset=(0.0, 0.0, 0.0), ranges=None, spread=None):
         super().__init__(domain)
         self.at, self.speed, self.offset, self.ranges = list(at), speed, offset, ranges
         self.tf, self.odom = self.writer("rt/tf", TFMessage), self.writer("rt/odom", Odometry, SENSED)
         self.scan = self.writer("rt/scan", LaserScan, SENSED)
+        if spread:
+            # As AMCL says it: once, and for who comes later.
+            self.localised = self.writer("rt/amcl_pose", PoseWithCovarianceStamped, LATCHED)
+            pose = Pose(Point(at[0], at[1], 0.0), turn(at[2]))
+            self.localised.write(PoseWithCovarianceStamped(Header(now(), "map"), PoseWithCovariance(pose, rows_of(spread))))
         self.actions = {}
         for action, goal, result in (("follow_path", FollowPathGoal, FollowPathResult), ("navigate_to_pose", NavigateGoal, NavigateResult)):
             base = f"{action}/_action"

@@ -4,6 +4,7 @@
 //! questions and takes orders for all, shows the map, and has `ortho` carry the orders out with itself as the vehicle.
 //! It speaks with `ortho` by its documented outputs alone, and shares no code with it.
 
+mod certainty;
 mod frames;
 mod house;
 mod messages;

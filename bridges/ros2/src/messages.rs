@@ -7,6 +7,8 @@ use ros2_client::Message;
 use ros2_client::builtin_interfaces::{Duration, Time};
 use serde::{Deserialize, Serialize};
 
+use crate::frames::Place;
+
 macro_rules! messages {
     ($($(#[$about:meta])* $name:ident { $($field:ident: $kind:ty),* $(,)? })*) => {
         $(
@@ -77,6 +79,15 @@ impl Quaternion {
     pub(crate) fn yaw(&self) -> f64 {
         let Self { x, y, z, w } = self;
         (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+    }
+}
+
+impl Pose {
+    /// Where it is on the plane; none where a number is none.
+    pub(crate) fn place(&self) -> Option<Place> {
+        let Self { position: Point { x, y, .. }, orientation } = self;
+        let place = Place { x: *x, y: *y, yaw: orientation.yaw() };
+        [place.x, place.y, place.yaw].iter().all(|number| number.is_finite()).then_some(place)
     }
 }
 

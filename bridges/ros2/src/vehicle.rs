@@ -15,9 +15,10 @@ use ros2_client::action::{ActionClient, GoalId, GoalStatusEnum};
 use ros2_client::{Message, Node, Publisher, RmwRequestId, Subscription};
 use serde_json::{Value, json};
 
+use crate::certainty::{Found, Spread};
 use crate::frames::{Frames, Place};
 use crate::messages::{
-    Covariance, FollowPathGoal, LaserScan, NavigateGoal, Nothing, Odometry, Path, PoseStamped,
+    FollowPathGoal, LaserScan, NavigateGoal, Nothing, Odometry, Path, PoseStamped,
     PoseWithCovariance, PoseWithCovarianceStamped, TransformArray, header, pose,
 };
 use crate::ros::{Fault, Kept, Ros};
@@ -55,6 +56,7 @@ pub(crate) struct Vehicle {
     tf: Subscription<TransformArray>,
     tf_static: Subscription<TransformArray>,
     odometry: Subscription<Odometry>,
+    localised: Subscription<PoseWithCovarianceStamped>,
     scans: Subscription<LaserScan>,
     path: Publisher<Path>,
     pose: Publisher<PoseWithCovarianceStamped>,
@@ -62,6 +64,9 @@ pub(crate) struct Vehicle {
     /// How often it was told where the robot stands.
     told: u64,
     moved: Option<(Instant, Place)>,
+    /// How sure the wheels are, where they tell it; and where it was found last.
+    wheels_spread: Option<Spread>,
+    found: Option<Found>,
     scan: Option<LaserScan>,
     begun: Instant,
     orders: Receiver<Value>,
@@ -98,6 +103,12 @@ impl Vehicle {
             tf: ros.subscribe("/tf", tf, Kept::Said)?,
             tf_static: ros.subscribe("/tf_static", tf, Kept::Latched)?,
             odometry: ros.subscribe("/odom", ("nav_msgs", "Odometry"), Kept::Newest)?,
+            // AMCL says it when it was corrected, and keeps it for who comes later.
+            localised: ros.subscribe(
+                "/amcl_pose",
+                ("geometry_msgs", "PoseWithCovarianceStamped"),
+                Kept::Latched,
+            )?,
             scans: ros.subscribe("/scan", ("sensor_msgs", "LaserScan"), Kept::Newest)?,
             path: ros.publish("/orthoframe/path", ("nav_msgs", "Path"), Kept::Latched)?,
             pose: ros.publish(
@@ -110,6 +121,8 @@ impl Vehicle {
             frames: Frames::default(),
             told: 0,
             moved: None,
+            wheels_spread: None,
+            found: None,
             scan: None,
             begun: Instant::now(),
             orders,
@@ -145,11 +158,17 @@ impl Vehicle {
             self.frames.hear(&told.transforms, true);
         }
         while let Ok(Some((told, _))) = self.odometry.take() {
-            let at = &told.pose.pose;
-            let place = Place { x: at.position.x, y: at.position.y, yaw: at.orientation.yaw() };
-            if [place.x, place.y, place.yaw].iter().all(|number| number.is_finite()) {
+            if let Some(place) = told.pose.pose.place() {
                 self.moved = Some((Instant::now(), place));
+                self.wheels_spread = Spread::of(&told.pose.covariance);
                 self.told += u64::from(self.robot.by_odometry);
+            }
+        }
+        while let Ok(Some((told, _))) = self.localised.take() {
+            let is_of_map = told.header.frame_id.trim_start_matches('/') == self.robot.map_frame;
+            let (place, spread) = (told.pose.pose.place(), Spread::of(&told.pose.covariance));
+            if let (true, Some(place), Some(spread)) = (is_of_map, place, spread) {
+                self.found = Some(Found::new(place, spread, self.wheels_spread));
             }
         }
         while let Ok(Some((told, _))) = self.scans.take() {
@@ -401,17 +420,16 @@ impl Vehicle {
         }
     }
 
-    /// Where the mission has the robot. How sure that is only who localises it knows: the variances are those within which
-    /// a mission believes it (15 cm, 10°).
+    /// Where the mission has the robot, and how sure that is by who says so: the localisation, or the wheels.
     fn tell_pose(&self, place: Place) {
-        let mut rows = [[0.0; 6]; 6];
-        rows[0][0] = 0.15_f64.powi(2);
-        rows[1][1] = 0.15_f64.powi(2);
-        rows[5][5] = 10_f64.to_radians().powi(2);
+        let spread = match self.robot.by_odometry {
+            true => self.wheels_spread,
+            false => self.found.map(|found| found.now(place, self.wheels_spread)),
+        };
         let frame =
             if self.robot.by_odometry { &self.robot.odom_frame } else { &self.robot.map_frame };
         let pose = pose(place.x * 100.0, place.y * 100.0, place.yaw.to_degrees());
-        let pose = PoseWithCovariance { pose, covariance: Covariance { rows } };
+        let pose = PoseWithCovariance { pose, covariance: Spread::told(spread) };
         // Who only looks on may be gone.
         let _ = self.pose.publish(PoseWithCovarianceStamped { header: header(frame), pose });
     }

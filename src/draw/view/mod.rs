@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{Bounds, Polygon, Scene};
 use crate::map::{DoorStatus, World};
-use crate::units::{InOrder as _, Language, Point, Pose, Vector};
+use crate::units::{InOrder as _, Language, Lengths, Point, Pose, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
@@ -156,12 +156,15 @@ impl ViewDrawing<'_> {
             _ => &area.name,
         });
         let whole = |v: f64| v.round() as i64;
-        let (x, y) = (whole(self.pose.at.x), whole(self.pose.at.y));
-        let (turn, height) = (whole(self.pose.heading.get()), whole(self.height));
-        let field = whole(self.field);
+        let lengths = Lengths::said();
+        let [x, y] = [self.pose.at.x, self.pose.at.y]
+            .map(|at| lengths.in_language(at.round() + 0.0, 0, self.language));
+        let unit = lengths.word(self.language);
+        let height = lengths.told(self.height.round() + 0.0, 0, self.language);
+        let (turn, field) = (whole(self.pose.heading.get()), whole(self.field));
         self.language.pick(
-            format!("Вид. {name}: ({x}; {y}) см, курс {turn}°, глаз на высоте {height} см, угол обзора {field}°"),
-            format!("View. {name}: ({x}, {y}) cm, heading {turn}°, eye {height} cm above zero, angle of view {field}°"),
+            format!("Вид. {name}: ({x}; {y}) {unit}, курс {turn}°, глаз на высоте {height}, угол обзора {field}°"),
+            format!("View. {name}: ({x}, {y}) {unit}, heading {turn}°, eye {height} above zero, angle of view {field}°"),
         )
     }
 

@@ -7,7 +7,7 @@ use crate::language::command::Misheard;
 use crate::language::question::{Doubt, Noun};
 use crate::language::{Case, Language, word_ranges};
 use crate::map::Entity;
-use crate::units::{ReplicaId, Stop, name_key};
+use crate::units::{ReplicaId, name_key};
 
 use super::super::lexicon::named;
 use super::{Hearing, Outcome};
@@ -82,7 +82,8 @@ impl Hearing<'_, '_> {
                 continue;
             }
             let mut robot = self.engine.simulator(None)?;
-            let task = self.engine.carry_out_with(&commands, &mut robot, &mut |_| {}, &Stop::new());
+            let stop = &self.dialogue.stop;
+            let task = self.engine.carry_out_with(&commands, &mut robot, &mut |_| {}, stop);
             let is_done = task.is_ok_and(|task| task.ending.is_done());
             return Ok(is_done.then_some(order));
         }

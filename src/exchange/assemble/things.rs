@@ -9,7 +9,9 @@ use crate::map::plane::{bounds, doubled_area, edges, meeting};
 use crate::map::{BaseVector, Forms, Object, Place, Properties, Replica, TypeKind};
 use crate::report::{What, Why};
 use crate::synonyms::{Meaning, Vocabulary};
-use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, bilingual, capitalized};
+use crate::units::{
+    Frame, Lengths, ObjectId, PlaceId, Point, ReplicaId, Vector, bilingual, capitalized,
+};
 use crate::{Kind, Level, Spot, Thing};
 
 use super::build::{Maker, Storey};
@@ -215,10 +217,10 @@ impl Maker<'_> {
         if share(room, &made.bases(&moved)) < LEAST_SHARE {
             return None;
         }
+        let [ru, en] = Lengths::said().both(shift.norm(), 0);
         let text = bilingual!(
-            "стояло в стене; сдвинуто в помещение на {:.0} см",
-            "stood in the wall; moved into the room by {:.0} cm",
-            shift.norm()
+            "стояло в стене; сдвинуто в помещение на {ru}",
+            "stood in the wall; moved into the room by {en}"
         );
         self.report.mended(What::Thing, &thing.source, Why::Other { text });
         Some((room, moved))

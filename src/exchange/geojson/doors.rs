@@ -2,7 +2,7 @@
 
 use crate::geometry::nearest_on_segment;
 use crate::map::{DoorKind, DoorStatus};
-use crate::units::{Bilingual, Cm, Point};
+use crate::units::{Bilingual, Cm, Language, Lengths, Point, bilingual};
 use crate::{Opening, OpeningKind, ReadError, outline};
 
 use super::classify::Class;
@@ -48,11 +48,11 @@ impl Reader {
                         let opening = opening(feature, class, jambs, self.tongue.name(feature));
                         self.survey.levels[level].openings.push(opening);
                     }
-                    Err((russian, english)) => self.remark(
+                    Err(why) => self.remark(
                         &feature.id,
                         Bilingual::new(
-                            format!("дверь пропущена: {russian}"),
-                            format!("the door is left out: {english}"),
+                            format!("дверь пропущена: {}", why.say(Language::Russian)),
+                            format!("the door is left out: {}", why.say(Language::English)),
                         ),
                     ),
                 }
@@ -66,13 +66,17 @@ impl Reader {
         feature: &Feature,
         level: usize,
         bounds: &[(Point, Point)],
-    ) -> Result<[Point; 2], (&'static str, &'static str)> {
+    ) -> Result<[Point; 2], Bilingual> {
         let sound = |jambs: [Point; 2]| {
             let fit = jambs.iter().all(|p| Cm::new(p.x).is_ok() && Cm::new(p.y).is_ok());
             if !fit {
-                Err(("координаты – не числа плана", "its coordinates are no numbers of a plan"))
+                Err(bilingual!(
+                    "координаты – не числа плана",
+                    "its coordinates are no numbers of a plan"
+                ))
             } else if (jambs[1] - jambs[0]).norm() < NARROWEST {
-                Err(("она уже 20 см", "it is narrower than 20 cm"))
+                let [ru, en] = Lengths::said().both(NARROWEST, 0);
+                Err(bilingual!("она уже {ru}", "it is narrower than {en}"))
             } else {
                 Ok(jambs)
             }
@@ -80,31 +84,32 @@ impl Reader {
         match &feature.shape {
             Some(Shape::Lines(lines)) => {
                 let ends = lines.first().and_then(|l| l.first().copied().zip(l.last().copied()));
-                let (a, b) = ends.ok_or(("у линии нет точек", "the line has no points"))?;
+                let (a, b) =
+                    ends.ok_or_else(|| bilingual!("у линии нет точек", "the line has no points"))?;
                 sound([self.ground.place(a), self.ground.place(b)])
             }
             Some(Shape::Polygons(polygons)) => {
-                let ring = polygons
-                    .first()
-                    .and_then(|p| p.first())
-                    .ok_or(("у контура нет точек", "the outline has no points"))?;
+                let ring = polygons.first().and_then(|p| p.first()).ok_or_else(|| {
+                    bilingual!("у контура нет точек", "the outline has no points")
+                })?;
                 let ring = outline::ring(self.points(ring))
-                    .ok_or(("контур вырожден", "the outline has no area"))?;
+                    .ok_or_else(|| bilingual!("контур вырожден", "the outline has no area"))?;
                 sound(
                     outline::long_axis(&ring)
-                        .ok_or(("контур вырожден", "the outline has no area"))?,
+                        .ok_or_else(|| bilingual!("контур вырожден", "the outline has no area"))?,
                 )
             }
             Some(Shape::Points(points)) => {
-                let at = self
-                    .ground
-                    .place(*points.first().ok_or(("у неё нет места", "it has no place"))?);
-                sound(
-                    self.in_wall(feature, at, level, bounds)
-                        .ok_or(("рядом нет стены помещения", "no wall of a room is near"))?,
-                )
+                let at = self.ground.place(
+                    *points
+                        .first()
+                        .ok_or_else(|| bilingual!("у неё нет места", "it has no place"))?,
+                );
+                sound(self.in_wall(feature, at, level, bounds).ok_or_else(|| {
+                    bilingual!("рядом нет стены помещения", "no wall of a room is near")
+                })?)
             }
-            None => Err(("у неё нет места", "it has no place")),
+            None => Err(bilingual!("у неё нет места", "it has no place")),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Level;
-use crate::units::{Bilingual, Cm, InOrder as _, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Lengths, bilingual};
 
 use super::classify::Class;
 use super::feature::{Feature, leading_number};
@@ -133,10 +133,11 @@ impl Levels {
     /// What was assumed of the elevations.
     pub(super) fn assumed(&self) -> Option<Bilingual> {
         let bare = self.list.len() > 1 && self.list.iter().any(|s| s.elevation.is_none());
+        let [ru, en] = Lengths::said().both(STOREY, 0);
         bare.then(|| {
             bilingual!(
-                "высоты этажей не указаны, принято по {STOREY} см на этаж",
-                "heights of storeys are not given, {STOREY} cm a storey are taken"
+                "высоты этажей не указаны, принято по {ru} на этаж",
+                "heights of storeys are not given, {en} a storey are taken"
             )
         })
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::units::{Bilingual, Cm, InOrder as _, Point, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Language, Lengths, Point, bilingual};
 use crate::{Count, Level, ReadError, Remark, Survey, Told, Treatment, What, outline, shafts};
 
 use super::classes::{self, Becomes};
@@ -216,14 +216,16 @@ impl<'a> Reader<'a> {
             let origin = self.place_of(first).origin.coords;
             if origin.xy().amax() > FAR || z.abs() > FAR {
                 shift = origin.map(f64::floor);
+                let lengths = Lengths::said();
+                let by = [shift.x, shift.y, shift.z].map(|by| lengths.short(by, 0)).join(", ");
+                let [ru, en] = [Language::Russian, Language::English].map(|l| lengths.word(l));
                 let text = bilingual!(
-                    "план сдвинут к началу координат: {}, {}, {} см",
-                    "the plan is moved to the origin: {}, {}, {} cm",
-                    shift.x,
-                    shift.y,
-                    shift.z
+                    "план сдвинут к началу координат: {by} {ru}",
+                    "the plan is moved to the origin: {by} {en}"
                 );
-                self.survey.frame = text.to_string();
+                // What stands in the map is the same whoever reads it in.
+                let [x, y, z] = [shift.x, shift.y, shift.z];
+                self.survey.frame = format!("план сдвинут к началу координат: {x}, {y}, {z} см");
                 self.remark("", text);
             }
         }

@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
-use crate::units::{Bilingual, Cm, Deg, InOrder as _, Point};
+use crate::units::{Bilingual, Cm, Deg, InOrder as _, Lengths, Point, bilingual};
 use crate::{Kind, Part, Thing, Treatment, What, outline};
 
 use super::body::{Body, area, hull, rings, together};
@@ -56,7 +56,7 @@ struct Look {
     /// Of the lowest part, above the thing's origin.
     bottom: f64,
     /// What is not as in the file.
-    doubt: Option<(&'static str, &'static str)>,
+    doubt: Option<Bilingual>,
 }
 
 impl Reader<'_> {
@@ -259,20 +259,25 @@ fn frame(place: &Place) -> crate::units::Frame {
 fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
     let (bodies, from) = shapes.of_product(thing.at(6), &place.unturned(), Else::Box);
     let mut doubt = match from {
-        Source::Body if bodies.is_empty() => Some((
+        Source::Body if bodies.is_empty() => Some(bilingual!(
             "тела, которое читается, нет: взят обычный для слова размер или метка",
             "there is no body that can be read: the size usual for the word is taken, or a mark",
         )),
-        Source::Body if bodies.iter().any(|b| b.is_round) => Some((
+        Source::Body if bodies.iter().any(|b| b.is_round) => Some(bilingual!(
             "тело с кривыми гранями: взят выпуклый контур",
             "a body with curved faces: its convex outline is taken",
         )),
         Source::Body => None,
-        Source::Box => Some(("тела нет: взята его коробка", "there is no body: its box is taken")),
-        Source::Footprint => Some((
-            "тела нет: взят контур на плане, высота принята 75 см",
-            "there is no body: its outline on the plan is taken, and a height of 75 cm",
-        )),
+        Source::Box => {
+            Some(bilingual!("тела нет: взята его коробка", "there is no body: its box is taken"))
+        }
+        Source::Footprint => {
+            let [ru, en] = Lengths::said().both(USUAL_HEIGHT, 0);
+            Some(bilingual!(
+                "тела нет: взят контур на плане, высота принята {ru}",
+                "there is no body: its outline on the plan is taken, and a height of {en}"
+            ))
+        }
     };
     let mut solids = solids(&bodies, shapes);
     if from == Source::Footprint {
@@ -293,7 +298,7 @@ fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
         }
     }
     if parts.is_empty() && !bodies.is_empty() {
-        doubt = Some((
+        doubt = Some(bilingual!(
             "тело вырождено: взят обычный для слова размер или метка",
             "the body has no volume: the size usual for the word is taken, or a mark",
         ));

@@ -18,7 +18,7 @@ use std::collections::HashMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Permeability, Properties};
-use crate::units::{Bilingual, Cm, Deg, Language, Point, Source, Vector, bilingual};
+use crate::units::{Bilingual, Cm, Deg, Language, Lengths, Point, Source, Vector, bilingual};
 
 use super::{
     Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
@@ -114,11 +114,12 @@ impl Reader {
         let mut fits = Vec::with_capacity(levels.len());
         for (name, level) in levels {
             let scale = document::scale(level).unwrap_or_else(|| {
+                let [ru, en] = Lengths::said().both(PIXEL * METRE, 0);
                 self.remark(
                     name,
-                    (
-                        "на этаже нет измерений: принято 5 см на точку рисунка",
-                        "the storey has no measurements: 5 cm a point of the drawing are taken",
+                    bilingual!(
+                        "на этаже нет измерений: принято {ru} на точку рисунка",
+                        "the storey has no measurements: {en} a point of the drawing are taken"
                     ),
                 );
                 PIXEL
@@ -271,10 +272,11 @@ impl Reader {
         for (gaps, sort, (russian, english)) in told {
             for (i, (a, b)) in gaps.iter().enumerate() {
                 let middle = nalgebra::center(a, b);
-                let (width, x, y) = ((b - a).norm(), middle.x / METRE, middle.y / METRE);
+                let ([ru, en], x, y) =
+                    (Lengths::said().both((b - a).norm(), 0), middle.x / METRE, middle.y / METRE);
                 let text = Bilingual::new(
-                    format!("{russian}; {width:.0} см у ({x:.2}; {y:.2}) м"),
-                    format!("{english}; {width:.0} cm at ({x:.2}; {y:.2}) m"),
+                    format!("{russian}; {ru} у ({x:.2}; {y:.2}) м"),
+                    format!("{english}; {en} at ({x:.2}; {y:.2}) m"),
                 );
                 self.survey.notes.push(Remark { source: format!("{level}/{sort}/{i}"), text });
             }

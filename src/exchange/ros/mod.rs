@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::{Level, ReadError, Remark, Survey, input};
-use crate::units::{Bilingual, Deg, Frame, Source, bilingual};
+use crate::units::{Bilingual, Deg, Frame, Lengths, Source, bilingual};
 use grid::Grid;
 
 pub(super) const FORMAT: &str = "ROS map_server";
@@ -78,14 +78,14 @@ pub fn read(path: &Path) -> Result<Survey, ReadError> {
 pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, ReadError> {
     let picture = image::read(picture)?;
     let grid = Grid::of(sheet, &picture);
+    let [ru, en] = Lengths::said().both(sheet.resolution, 2);
     let mut remarks = vec![Remark {
         source: String::new(),
         text: bilingual!(
-            "сетка {} × {}, {} см на клетку; помещения и проходы найдены по узким местам: проверьте их",
-            "a grid of {} × {}, {} cm a cell; rooms and passages are found by narrow places: check them",
+            "сетка {} × {}, {ru} на клетку; помещения и проходы найдены по узким местам: проверьте их",
+            "a grid of {} × {}, {en} a cell; rooms and passages are found by narrow places: check them",
             grid.width,
-            grid.height,
-            sheet.resolution
+            grid.height
         ),
     }];
     let mut level =

@@ -3,7 +3,7 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::units::{Bilingual, InEnglish, Language, Pose};
+use crate::units::{Bilingual, InEnglish, Language, Lengths, Pose};
 
 /// Why a vehicle is of no more use. What it had done and told before stays known.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
@@ -41,8 +41,9 @@ pub enum Failure {
     Version { theirs: u32, ours: u32 },
     /// It says that it is where it was not sent.
     #[error(
-        "робот сообщил, что он в {}: это в {off:.0} см от пути, по которому он послан",
-        at(pose)
+        "робот сообщил, что он в {}: это в {} от пути, по которому он послан",
+        at(pose),
+        Lengths::said().told(*off, 0, Language::Russian)
     )]
     #[diagnostic(
         code(vehicle::off_the_way),
@@ -90,7 +91,8 @@ pub enum Failure {
 
 /// «(120; 85)», a point of the Map in cm.
 fn at(pose: &Pose) -> String {
-    format!("({:.0}; {:.0})", pose.at.x, pose.at.y)
+    let [x, y] = [pose.at.x, pose.at.y].map(|at| Lengths::said().number(at, 0));
+    format!("({x}; {y})")
 }
 
 impl InEnglish for Failure {
@@ -115,8 +117,9 @@ impl InEnglish for Failure {
                 )
             }
             Self::OffTheWay { pose, off } => format!(
-                "the robot says that it is at {}: {off:.0} cm off the way on which it was sent",
-                at(pose)
+                "the robot says that it is at {}: {} off the way on which it was sent",
+                at(pose),
+                Lengths::said().told(*off, 0, Language::English)
             ),
             Self::WrongHeading { pose, off } => format!(
                 "the robot says that it is at {}: it faces {off:.0}° away from where it was told to",

@@ -97,7 +97,7 @@ impl ServerHandler for Assistant {
             tokio::select! {
                 told = call.run(row, given) => told,
                 // What acts ends by itself, when the robot stands.
-                () = context.ct.cancelled(), if row.reads() => Err(call::refuse(
+                () = context.ct.cancelled(), if row.may_be_left() => Err(call::refuse(
                     "assist::cancelled",
                     "Вызов отозван.",
                     "The call was cancelled.",

@@ -18,8 +18,13 @@ pub(super) struct Row {
 }
 
 impl Row {
-    pub(super) fn reads(&self) -> bool {
+    fn reads(&self) -> bool {
         self.effect == Effect::Reads
+    }
+
+    /// Whether it may be left at any moment, and nothing of it stays.
+    pub(super) fn may_be_left(&self) -> bool {
+        matches!(self.effect, Effect::Reads | Effect::Plans)
     }
 
     /// The schema of its arguments.
@@ -32,7 +37,9 @@ impl Row {
 #[derive(Clone, Copy, PartialEq)]
 enum Effect {
     Reads,
-    /// Adds to what is known, or proposes.
+    /// Proposes what is done at another word.
+    Plans,
+    /// Adds to what is known.
     Adds,
     Acts,
 }
@@ -205,7 +212,7 @@ const ROWS: &[Row] = &[
         title: "Plan a task",
         about: "Plans what the robot would do for an order in plain English or Russian, e.g. \"Bring the medicine\". Gives the plan's id, its steps, the proof that none is shorter, and what it assumes. Moves nothing.",
         needs: Role::Drive,
-        effect: Effect::Adds,
+        effect: Effect::Plans,
         takes: || {
             of(&json!({ "text": text("The order"), "lang": { "enum": ["en", "ru"] } }), &["text"])
         },

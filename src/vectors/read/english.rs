@@ -2,7 +2,7 @@
 
 use super::fault::{LogError, LogFault};
 use crate::scan::SensorError;
-use orthoframe_units::{English, EnglishGroup, InEnglish};
+use orthoframe_units::{English, EnglishGroup, InEnglish, Language, Lengths};
 
 impl InEnglish for LogFault {
     fn english(&self) -> String {
@@ -86,7 +86,8 @@ impl InEnglish for SensorError {
                 format!("{count} beams, each {step} rad on from {first} rad, are no field of view")
             }
             Self::Reach { nearest, farthest } => {
-                format!("a range from {nearest} to {farthest} cm cannot be")
+                let told = |cm| Lengths::said().told(cm, 2, Language::English);
+                format!("a range from {} to {} cannot be", told(*nearest), told(*farthest))
             }
             Self::Noise(value) => format!("an error of {value} cannot be"),
         }

@@ -4,12 +4,18 @@ use miette::Diagnostic;
 use nalgebra::Vector2;
 use thiserror::Error;
 
+use orthoframe_units::{Language, Lengths};
+
 /// No sensor of this kind reaches farther, in cm: beyond it sums of squares lose what noise tells.
 const FARTHEST: f64 = 100_000.0;
 /// Beams of one turn that are still told apart.
 const MOST_BEAMS: usize = 1 << 16;
 /// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
 const OBLIQUE: f64 = 0.175;
+
+fn told(cm: f64) -> String {
+    Lengths::said().told(cm, 2, Language::Russian)
+}
 
 /// What a sensor cannot be.
 #[derive(Debug, Clone, Copy, PartialEq, Error, Diagnostic)]
@@ -23,7 +29,7 @@ pub enum SensorError {
     )]
     Field { first: f64, step: f64, count: usize },
     /// Nearest and farthest range make no interval.
-    #[error("дальность от {nearest} до {farthest} см невозможна")]
+    #[error("дальность от {} до {} невозможна", told(*nearest), told(*farthest))]
     #[diagnostic(code(vectors::sensor_reach), help("0 ≤ ближняя < дальняя ≤ 100 000 см"))]
     Reach { nearest: f64, farthest: f64 },
     /// A deviation is no positive number.
