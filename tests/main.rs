@@ -13,6 +13,7 @@ mod corridor_floors;
 mod corridor_lattice;
 mod counted_before;
 mod datalog_files;
+mod denials;
 mod dialogue;
 mod doors;
 mod doubts;

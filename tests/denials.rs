@@ -1,0 +1,253 @@
+//! A denial is so where what it denies is not, however it is said: orders under conditions rest on it.
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_language::Language;
+use orthoframe_language::command::is_order;
+use orthoframe_language::question::conditional;
+
+use crate::talk::engine;
+
+/// Whether what a line says is so; none where it is not understood.
+fn is_so(engine: &Engine, line: &str) -> Option<bool> {
+    engine.ask(line, &mut Memory::default()).expect("there is a map").ok()?.is_so()
+}
+
+/// How a claim is said, and how it is denied.
+struct Claim {
+    said: String,
+    denied: Vec<String>,
+}
+
+/// What there is, in a room and on a thing: its kind in the nominative and genitive of several, and the places.
+fn claims(language: Language) -> Vec<Claim> {
+    let mut claims = Vec::new();
+    match language {
+        Language::Russian => {
+            let kinds = [
+                ("стулья", "стульев", "красные", "красных"),
+                ("столы", "столов", "чёрные", "чёрных"),
+                ("книги", "книг", "красные", "красных"),
+                ("чашки", "чашек", "белые", "белых"),
+                ("кровати", "кроватей", "белые", "белых"),
+                ("телевизоры", "телевизоров", "чёрные", "чёрных"),
+            ];
+            for place in ["в Комнате-В", "в Комнате-Z", "в Коридоре", "на Столе-1"]
+            {
+                for (are, of, like, of_like) in kinds {
+                    for (are, of) in [
+                        (are.to_owned(), of.to_owned()),
+                        (format!("{like} {are}"), format!("{of_like} {of}")),
+                    ] {
+                        claims.push(Claim {
+                            said: format!("Есть ли {place} {are}?"),
+                            denied: vec![
+                                format!("{place} нет {of}?"),
+                                format!("{of} нет {place}?"),
+                                format!("{place} нету {of}?"),
+                            ],
+                        });
+                    }
+                }
+                claims.push(Claim {
+                    said: format!("Есть ли что-нибудь {place}?"),
+                    denied: vec![format!("{place} ничего нет?"), format!("{place} нет ничего?")],
+                });
+            }
+            for (thing, states) in [
+                ("Телевизор-1", ["включён", "выключен"]),
+                ("Холодильник-1", ["открыт", "закрыт"]),
+                ("Дверь-ВZ", ["открыта", "закрыта"]),
+            ] {
+                claims.extend(states.map(|state| Claim {
+                    said: format!("{thing} {state}?"),
+                    denied: vec![
+                        format!("{thing} не {state}?"),
+                        format!("Правда ли, что {thing} не {state}?"),
+                    ],
+                }));
+            }
+        }
+        Language::English => {
+            for place in ["in Room V", "in Room Z", "in the corridor", "on Table 1"] {
+                for kinds in ["chairs", "tables", "books", "cups", "red books", "white cups"] {
+                    claims.push(Claim {
+                        said: format!("Are there {kinds} {place}?"),
+                        denied: vec![
+                            format!("Are there no {kinds} {place}?"),
+                            format!("Are there not any {kinds} {place}?"),
+                            format!("Is it true that there are no {kinds} {place}?"),
+                        ],
+                    });
+                }
+                claims.push(Claim {
+                    said: format!("Is there anything {place}?"),
+                    denied: vec![
+                        format!("Is there nothing {place}?"),
+                        format!("Is nothing {place}?"),
+                        format!("Is it true that there is nothing {place}?"),
+                    ],
+                });
+            }
+            for (thing, states) in [
+                ("Television 1", ["on", "off"]),
+                ("Refrigerator 1", ["open", "closed"]),
+                ("Door VZ", ["open", "closed"]),
+                ("Medicine", ["on Bedside table 2", "in Room V"]),
+            ] {
+                claims.extend(states.map(|state| Claim {
+                    said: format!("Is {thing} {state}?"),
+                    denied: vec![
+                        format!("Is {thing} not {state}?"),
+                        format!("Is it true that {thing} is not {state}?"),
+                    ],
+                }));
+            }
+        }
+    }
+    claims
+}
+
+#[test]
+fn a_denial_is_so_where_what_it_denies_is_not() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    for language in [Language::Russian, Language::English] {
+        let (mut asked, mut understood, mut so) = (0, 0, 0);
+        for claim in claims(language) {
+            let Some(said) = is_so(&engine, &claim.said) else { continue };
+            so += usize::from(said);
+            for denied in &claim.denied {
+                asked += 1;
+                if let Some(told) = is_so(&engine, denied) {
+                    understood += 1;
+                    assert_eq!(told, !said, "{} {denied}", claim.said);
+                }
+            }
+        }
+        assert!(asked > 60 && so > 8, "{asked} {so}");
+        assert!(understood * 10 >= asked * 8, "{understood} of {asked} in {language:?}");
+    }
+}
+
+#[test]
+fn an_order_is_done_where_its_denied_condition_is_so() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let holds = |line: &str| {
+        let question = conditional(line).unwrap_or_else(|| panic!("{line}")).question;
+        is_so(&engine, &question)
+    };
+    for (there, empty) in [("in Room V", false), ("in the corridor", true)] {
+        for line in [
+            format!("If there are no chairs {there}, go to Room V"),
+            format!("If there aren't any chairs {there}, go to Room V"),
+            format!("Go to Room V if there is no chair {there}"),
+        ] {
+            assert_eq!(holds(&line), Some(empty), "{line}");
+        }
+    }
+    for (there, empty) in [("в Комнате-В", false), ("в Коридоре", true)] {
+        for line in [
+            format!("Если {there} нет стульев, поезжай в Комнату-В"),
+            format!("Если стульев {there} нет, поезжай в Комнату-В"),
+            format!("Поезжай в Комнату-В, если {there} нет стульев"),
+        ] {
+            assert_eq!(holds(&line), Some(empty), "{line}");
+        }
+    }
+}
+
+/// Each of two claims that a word joins counts, and has its own thing or place.
+#[test]
+fn two_claims_are_so_where_both_are() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let mut understood = 0;
+    let mut check = |one: &str, other: &str, both: String| {
+        let told = is_so(&engine, &both);
+        let each = is_so(&engine, one).zip(is_so(&engine, other));
+        if let (Some(told), Some((one, other))) = (told, each) {
+            understood += 1;
+            assert_eq!(told, one && other, "{both}");
+        }
+    };
+    let things = ["Television 1", "Refrigerator 1", "Stove 1", "Floor lamp 1"];
+    for one in things {
+        for other in things.into_iter().filter(|other| *other != one) {
+            for (is, are) in [("on", "off"), ("off", "off"), ("closed", "off"), ("on", "closed")] {
+                check(
+                    &format!("Is {one} {is}?"),
+                    &format!("Is {other} {are}?"),
+                    format!("Is {one} {is} and {other} {are}?"),
+                );
+            }
+        }
+    }
+    let places = ["in Room V", "in Room Z", "in the corridor"];
+    for kinds in ["chairs", "books", "tables"] {
+        for one in places {
+            for other in places.into_iter().filter(|other| *other != one) {
+                let there = |place: &str| format!("Are there {kinds} {place}?");
+                let both = format!("Are there {kinds} {one} and {other}?");
+                check(&there(one), &there(other), both);
+                let both = format!("Is there a chair {one} and a book {other}?");
+                let of = |a: &str, place: &str| format!("Is there a {a} {place}?");
+                check(&of("chair", one), &of("book", other), both);
+            }
+        }
+    }
+    let things = [("Телевизор-1", "выключен", "включён"), ("Холодильник-1", "закрыт", "открыт")];
+    for [(one, is, not), (other, so, no)] in [things, [things[1], things[0]]] {
+        for a in [is, not] {
+            for b in [so, no] {
+                for joint in [" и", ", а"] {
+                    check(
+                        &format!("{one} {a}?"),
+                        &format!("{other} {b}?"),
+                        format!("{one} {a}{joint} {other} {b}?"),
+                    );
+                }
+            }
+        }
+    }
+    assert!(understood > 40, "{understood}");
+}
+
+/// A Russian verb in the past orders behind «чтобы» alone: «Ты закрыл дверь?» is no order.
+#[test]
+fn what_was_done_is_no_order() {
+    let verbs = [
+        "включил",
+        "выключил",
+        "открыл",
+        "закрыл",
+        "запер",
+        "принёс",
+        "привёз",
+        "взял",
+        "положил",
+        "поставил",
+        "отнёс",
+        "нашёл",
+        "подал",
+        "достал",
+        "поехал",
+        "подъехал",
+        "принесла",
+    ];
+    for verb in verbs {
+        for line in [
+            "Ты VERB его?",
+            "Ты VERB его",
+            "VERB его",
+            "Ну что, ты VERB его?",
+            "Робот, ты VERB его?",
+        ] {
+            let line = line.replace("VERB", verb);
+            assert!(!is_order(&line), "{line}");
+        }
+        for line in ["Хочу, чтобы ты VERB его", "Надо, чтобы ты VERB его", "Чтобы ты VERB его"]
+        {
+            let line = line.replace("VERB", verb);
+            assert!(is_order(&line), "{line}");
+        }
+    }
+}
