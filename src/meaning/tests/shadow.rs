@@ -181,10 +181,8 @@ fn agree(old: &Old, new: &Answer) -> bool {
     let Ok(found) = &new.found else { return false };
     match found {
         Found::Things(all) => set(&old.symbols) == set(all),
-        // Whether there is none the old way tells by whether there is one.
-        Found::Truth(yes) if matches!(new.reading.form, Form::None(_)) => {
-            old.said == if *yes { Said::No } else { Said::Yes }
-        }
+        // Whether there is none is told by yes and no in each language's own way.
+        Found::Truth(yes) if matches!(new.reading.form, Form::None(_)) => old.is_so() == Some(*yes),
         // That there is such a one the old way may tell by naming it.
         Found::Truth(true) if old.said == Said::Found => true,
         Found::Truth(false) if old.said == Said::Nothing => true,
