@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
 use orthoframe::engine::Memory;
-use orthoframe_language::question::{Answer, Thing};
+use orthoframe_language::question::{Answer, Said, Thing};
 use orthoframe_language::{Case, NounPhrase, Number, WordHints, english, russian};
 use orthoframe_map::{Entity, Replica, World};
 use orthoframe_units::ReplicaId;
@@ -387,4 +387,46 @@ fn what_they_all_are_is_not_whether_they_are_all() {
         }
     }
     assert!(told > 8, "{told}");
+}
+
+/// Where one room is called as its kind is, another of the kind is told by what stands in it, and "a bedroom" is any.
+#[test]
+fn a_room_that_is_called_as_its_kind_is_not_the_only_one() {
+    let Some(engine) = engine(FLAT) else { return };
+    let world = engine.world().expect("there is a map");
+    let kind = |id| world.types.object.entries[&id].name_en.as_str();
+    let kind_of = |thing: &Replica| world.objects[&thing.object].object_type.map(kind);
+    let bedrooms: Vec<_> = world
+        .areas
+        .values()
+        .filter(|area| {
+            area.area_type.is_some_and(|id| world.types.area.entries[&id].name_en == "bedroom")
+        })
+        .collect();
+    assert_eq!(bedrooms.len(), 2);
+    let books = |area| {
+        world.replicas_in(area).filter(|thing| kind_of(thing) == Some("book")).count() as f64
+    };
+    let number = |question: &str| {
+        let answer = engine.ask(question, &mut Memory::default()).expect("there is a map").ok()?;
+        answer.number.or(matches!(answer.said, Said::Nothing).then_some(0.0))
+    };
+    let mut told = 0;
+    for (room, other) in [(0, 1), (1, 0)] {
+        let stands = |n: usize, kind: &str| {
+            world.replicas_in(bedrooms[n].id).any(|thing| kind_of(thing) == Some(kind))
+        };
+        let kinds: BTreeSet<&str> =
+            world.replicas_in(bedrooms[room].id).filter_map(kind_of).collect();
+        for kind in kinds.into_iter().filter(|kind| !stands(other, kind) && *kind != "book") {
+            let question = format!("How many books are in the bedroom with the {kind}?");
+            if let Some(number) = number(&question) {
+                told += 1;
+                assert_eq!(number, books(bedrooms[room].id), "{question}");
+            }
+        }
+    }
+    assert!(told > 4, "{told}");
+    let all: f64 = bedrooms.iter().map(|area| books(area.id)).sum();
+    assert_eq!(number("How many books are in a bedroom?"), Some(all));
 }

@@ -228,6 +228,15 @@ impl Noun {
         Self { head: Head { things: Some(things), ..Head::default() }, ..Self::default() }
     }
 
+    /// The same of its kind, where a word is a name and a kind's as well: «Спальня» is called so, and not the only one.
+    pub(super) fn of_kind(&self) -> Option<Self> {
+        let names_a_kind = !self.head.named.is_empty() && !self.head.kinds.is_empty();
+        names_a_kind.then(|| {
+            let head = Head { named: Vec::new(), ..self.head.clone() };
+            Self { head, ..self.clone() }
+        })
+    }
+
     /// Whether its number says that several are meant, or none.
     pub(super) fn counts_several(&self) -> bool {
         self.best.is_none() && self.count.is_some_and(|n| n != 1)

@@ -52,6 +52,19 @@ impl Knowledge<'_> {
     /// # Errors
     /// An anchor that may be several things, or none.
     pub(in crate::question) fn find(&self, noun: &Noun, loose: bool) -> Result<Vec<Thing>, Doubt> {
+        // "A bedroom" is any, «спальня с компьютером» and «вторая спальня» are those that they are said to be.
+        let Some(of_kind) = noun.of_kind() else { return self.fitting(noun, loose) };
+        if noun.indefinite {
+            return self.fitting(&of_kind, loose);
+        }
+        match self.fitting(noun, loose) {
+            Ok(found) if found.is_empty() => self.fitting(&of_kind, loose),
+            Err(Doubt::TooFew { .. }) => self.fitting(&of_kind, loose),
+            found => found,
+        }
+    }
+
+    fn fitting(&self, noun: &Noun, loose: bool) -> Result<Vec<Thing>, Doubt> {
         if self.is_walls(noun) {
             // The map has walls, but no list of them: «нет стен» would be untrue.
             return Err(Doubt::NotUnderstood { words: noun.text.clone() });

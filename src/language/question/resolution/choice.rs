@@ -89,7 +89,10 @@ impl Resolver<'_, '_> {
                 }
             })
         });
-        Ok(found)
+        match (found.is_empty(), noun.of_kind()) {
+            (true, Some(of_kind)) => self.bearing(&of_kind, within, at),
+            _ => Ok(found),
+        }
     }
 
     /// «комнату 2»: what is named with a number behind it is the one whose name ends so, and no other.
