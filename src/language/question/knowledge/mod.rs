@@ -1,5 +1,6 @@
 //! What a description finds on the map: kinds, values and relations looked up, and things measured when that is asked.
 
+mod best;
 mod facing;
 mod find;
 mod levels;
