@@ -1,11 +1,11 @@
 //! A judge of plans that shares no code with the planner, nor with the reading of rules: it reads PDDL or a rule file, and
 //! the plan's text, by itself, and carries the plan out on sets of words, by the rules as they are given: conditions with
-//! `or` and quantifiers, effects that hang on conditions, what is derived.
+//! `or` and quantifiers, effects that hang on conditions, what is derived, actions that last, wishes.
 //!
 //! A plan must work in three ways: step by step, where every action of a step can be carried out before the step and
 //! none takes what another needs or brings; one action after the other as they are written; and with each step written
-//! backwards; and all must end alike. What it does not know it does not judge, and says so: numbers but as costs, actions
-//! that last, preferences, what other files say. An object whose type is stated nowhere is of every type that a parameter
+//! backwards; and all must end alike. An action that lasts goes from its start over what it asks throughout to its end before
+//! another begins. What it does not know it does not judge, and says so: numbers but as costs, what other files say. An object whose type is stated nowhere is of every type that a parameter
 //! has of which some rule says what a fact says of the object.
 
 use std::borrow::Cow;
@@ -43,11 +43,38 @@ struct Effect {
     atom: Atom,
 }
 
+/// What is asked at a moment, and comes about at it.
+#[derive(Debug, Clone)]
+struct Moment {
+    precondition: Condition,
+    effects: Vec<Effect>,
+}
+
+impl Moment {
+    const fn none() -> Self {
+        Self { precondition: Condition::All(Vec::new()), effects: Vec::new() }
+    }
+}
+
 #[derive(Debug, Clone)]
 struct Action {
     parameters: Typed,
-    precondition: Condition,
-    effects: Vec<Effect>,
+    /// All of an action that does not last.
+    start: Moment,
+    /// Asked when its start has come about, and when its end comes.
+    throughout: Condition,
+    end: Moment,
+}
+
+impl Action {
+    fn new(parameters: Typed) -> Self {
+        let (start, end) = (Moment::none(), Moment::none());
+        Self { parameters, start, throughout: Condition::All(Vec::new()), end }
+    }
+
+    fn moments(&self) -> [&Moment; 2] {
+        [&self.start, &self.end]
+    }
 }
 
 /// A domain with its problem, as given.
@@ -61,6 +88,8 @@ struct Given {
     derived: Vec<(Typed, Atom, Condition)>,
     init: State,
     goal: Vec<Condition>,
+    /// By names.
+    wishes: Vec<(String, Condition)>,
     /// Equal for names that are the same.
     key: fn(&str) -> String,
 }
@@ -74,6 +103,7 @@ impl Given {
             derived: Vec::new(),
             init: State::new(),
             goal: Vec::new(),
+            wishes: Vec::new(),
             key,
         }
     }
@@ -114,11 +144,14 @@ impl Given {
             }
         };
         for action in self.actions.values() {
-            action.precondition.each_atom(&action.parameters, &mut note);
-            for effect in &action.effects {
-                let bound = both(&action.parameters, &effect.variables);
-                effect.condition.each_atom(&bound, &mut note);
-                note(&effect.atom, &bound);
+            action.throughout.each_atom(&action.parameters, &mut note);
+            for moment in action.moments() {
+                moment.precondition.each_atom(&action.parameters, &mut note);
+                for effect in &moment.effects {
+                    let bound = both(&action.parameters, &effect.variables);
+                    effect.condition.each_atom(&bound, &mut note);
+                    note(&effect.atom, &bound);
+                }
             }
         }
         for (variables, atom, condition) in &self.derived {
@@ -127,7 +160,8 @@ impl Given {
         }
         let mut named: Vec<Atom> = self.init.iter().cloned().collect();
         let mut keep = |atom: &Atom, _: &Typed| named.push(atom.clone());
-        self.goal.iter().for_each(|goal| goal.each_atom(&Vec::new(), &mut keep));
+        let wishes = self.wishes.iter().map(|(_, wish)| wish);
+        self.goal.iter().chain(wishes).for_each(|goal| goal.each_atom(&Vec::new(), &mut keep));
         for atom in named {
             for (at, object) in atom[1..].iter().enumerate() {
                 if !declared.contains(object) && !object.starts_with('?') {
@@ -285,6 +319,7 @@ struct Done<'g> {
 }
 
 /// What a line comes to in a state.
+#[derive(Default)]
 struct Change {
     holding: State,
     lacking: State,
@@ -295,21 +330,33 @@ struct Change {
 impl Done<'_> {
     /// None where it cannot be carried out.
     fn change(&self, given: &Given, state: &State) -> Option<Change> {
+        let mut change = Change::default();
+        let met = |condition: &Condition, full: &State| given.holds(condition, full, &self.binding);
         let full = given.with_derived(state);
-        if !given.holds(&self.action.precondition, &full, &self.binding) {
+        if !met(&self.action.start.precondition, &full) {
             return None;
         }
-        let mut change = Change {
-            holding: State::new(),
-            lacking: State::new(),
-            adds: State::new(),
-            deletes: State::new(),
-        };
-        let Change { holding, lacking, adds, deletes } = &mut change;
-        self.action.precondition.literals(&self.binding, holding, lacking);
-        for effect in &self.action.effects {
+        self.pass(&self.action.start, given, &full, &mut change);
+        let mut meanwhile = state.clone();
+        change.carry_out(&mut meanwhile);
+        let full = given.with_derived(&meanwhile);
+        if !met(&self.action.throughout, &full) || !met(&self.action.end.precondition, &full) {
+            return None;
+        }
+        let mut end = Change::default();
+        self.action.throughout.literals(&self.binding, &mut end.holding, &mut end.lacking);
+        self.pass(&self.action.end, given, &full, &mut end);
+        change.go_on(end);
+        Some(change)
+    }
+
+    /// What a moment asks and brings about.
+    fn pass(&self, moment: &Moment, given: &Given, full: &State, change: &mut Change) {
+        let Change { holding, lacking, adds, deletes } = change;
+        moment.precondition.literals(&self.binding, holding, lacking);
+        for effect in &moment.effects {
             for binding in given.choices(&effect.variables, &self.binding) {
-                if given.holds(&effect.condition, &full, &binding) {
+                if given.holds(&effect.condition, full, &binding) {
                     effect.condition.literals(&binding, holding, lacking);
                     let atom = ground(&effect.atom, &binding);
                     if effect.adds {
@@ -320,7 +367,6 @@ impl Done<'_> {
                 }
             }
         }
-        Some(change)
     }
 }
 
@@ -329,6 +375,16 @@ impl Change {
     fn carry_out(&self, state: &mut State) {
         state.retain(|fact| !self.deletes.contains(fact));
         state.extend(self.adds.iter().cloned());
+    }
+
+    /// What comes behind may ask for what this one has brought about.
+    fn go_on(&mut self, end: Self) {
+        self.holding.extend(end.holding.difference(&self.adds).cloned());
+        let gone = self.deletes.difference(&self.adds).cloned().collect();
+        self.lacking.extend(end.lacking.difference(&gone).cloned());
+        self.adds.retain(|fact| !end.deletes.contains(fact));
+        self.adds.extend(end.adds);
+        self.deletes.extend(end.deletes);
     }
 
     fn spoils(&self, other: &Self) -> bool {
@@ -400,20 +456,37 @@ pub(crate) enum Verdict {
 
 /// Whether the plan works.
 pub(crate) fn judge(texts: &Texts, plan: &str) -> Verdict {
+    match end(texts, plan) {
+        Ok(_) => Verdict::Works,
+        Err(verdict) => verdict,
+    }
+}
+
+/// The names of the wishes that a plan which works leaves open.
+///
+/// # Errors
+/// It does not work, or nobody can say.
+#[cfg_attr(not(test), expect(dead_code, reason = "not asked for where times are measured"))]
+pub(crate) fn left_open(texts: &Texts, plan: &str) -> Result<Vec<String>, Verdict> {
+    let (given, state) = end(texts, plan)?;
+    let full = given.with_derived(&state);
+    let open = given.wishes.iter().filter(|(_, wish)| !given.holds(wish, &full, &Binding::new()));
+    Ok(open.map(|(name, _)| name.clone()).collect())
+}
+
+fn end(texts: &Texts, plan: &str) -> Result<(Given, State), Verdict> {
     let given = match texts {
         Texts::Pddl { domain, problem } => pddl::read(domain, problem),
         Texts::Rules(text) => rules::read(text),
     };
-    match given {
-        Ok(mut given) => {
-            given.find_types();
-            carried_out(&given, plan).map_or_else(Verdict::Fails, |()| Verdict::Works)
-        }
-        Err(why) => Verdict::Unread(why),
-    }
+    let mut given = given.map_err(Verdict::Unread)?;
+    given.find_types();
+    let state = carried_out(&given, plan).map_err(Verdict::Fails)?;
+    Ok((given, state))
 }
 
-fn carried_out(given: &Given, plan: &str) -> Result<(), String> {
+/// The state at the end.
+fn carried_out(given: &Given, plan: &str) -> Result<State, String> {
     let steps = lines(given, plan)?;
     let is_reached = |state: &State| {
         let full = given.with_derived(state);
@@ -454,5 +527,5 @@ fn carried_out(given: &Given, plan: &str) -> Result<(), String> {
             return Err("another end in turn".to_owned());
         }
     }
-    Ok(())
+    Ok(state)
 }

@@ -9,9 +9,9 @@ mod judge;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use judge::{Texts, Verdict, judge};
+use judge::{Texts, Verdict, judge, left_open};
 use orthoframe_graphplan::{Limits, Outcome, solve, solve_any, solve_anytime};
-use orthoframe_strips::{PlanText, Scenario};
+use orthoframe_strips::{PlanText, Scenario, ground};
 use orthoframe_units::Source;
 
 fn root() -> PathBuf {
@@ -180,6 +180,84 @@ fn the_judge_knows_conditions_as_they_are_given() {
         // One takes the key that the other may need.
         assert!(fails("0: (climb a)\n0: (climb b)\n1: (press)\n1: (climb a)\n"));
     }
-    let lasting = pddl("(define (domain d) (:durative-action a))");
-    assert!(matches!(judge(&lasting, ""), Verdict::Unread(_)));
+    let bounded = pddl("(define (domain d) (:constraints (always (key))))");
+    assert!(matches!(judge(&bounded, ""), Verdict::Unread(_)));
+}
+
+/// A kettle that is one's own while it boils, in PDDL and in rule files of either language.
+const KETTLE: &str = "(define (domain d) (:predicates (free ?k) (lit) (hot ?k) (served ?g) (poor ?g))
+ (:durative-action boil :parameters (?k) :duration (= ?duration 3)
+  :condition (and (at start (free ?k)) (over all (lit)) (at end (not (free ?k))))
+  :effect (and (at start (not (free ?k))) (at end (free ?k)) (at end (hot ?k))))
+ (:durative-action serve :parameters (?k ?g) :duration (= ?duration 1)
+  :condition (and (at start (hot ?k)) (over all (free ?k)) (at end (poor ?g)))
+  :effect (and (at start (not (hot ?k))) (at start (poor ?g)) (at end (served ?g)) (at end (not (poor ?g)))))
+ (:action darken :parameters () :effect (not (lit))))";
+const TEA: &str = "(define (problem x) (:domain d) (:objects k a b) (:init (free k) (lit))
+ (:goal (and (served a) (preference other (served b)) (and (preference dark (not (lit)))))))";
+const KETTLES: [&str; 2] = [
+    "Действие: boil (Параметры: ?k) (Длительность: 3) (Предусловие: free(?k)) (Всё-время: lit())
+     (Под-конец: НЕ free(?k)) (Начало-: free(?k)) (Эффект+: free(?k) hot(?k))
+     Действие: serve (Параметры: ?k ?g) (Длительность: 1) (Предусловие: hot(?k)) (Всё-время: free(?k))
+     (Под-конец: poor(?g)) (Начало-: hot(?k)) (Начало+: poor(?g)) (Эффект+: served(?g)) (Эффект-: poor(?g))
+     Действие: darken (Эффект-: lit())
+     Объекты: k a b Исходная позиция: free(k) lit() Цель: served(a)
+     Желательно: other 2.5 served(b) dark НЕ lit()",
+    "Action: boil (Parameters: ?k) (Duration: 3) (Precondition: free(?k)) (Throughout: lit())
+     (At-end: NOT free(?k)) (Start-: free(?k)) (Effect+: free(?k) hot(?k))
+     Action: serve (Parameters: ?k ?g) (Duration: 1) (Precondition: hot(?k)) (Throughout: free(?k))
+     (At-end: poor(?g)) (Start-: hot(?k)) (Start+: poor(?g)) (Effect+: served(?g)) (Effect-: poor(?g))
+     Action: darken (Effect-: lit())
+     Objects: k a b Initial: free(k) lit() Goal: served(a)
+     Preferably: other 2.5 served(b) dark NOT lit()",
+];
+
+#[test]
+fn the_judge_knows_what_lasts_and_what_is_wished_for() {
+    let pddl = Texts::Pddl { domain: KETTLE.to_owned(), problem: TEA.to_owned() };
+    for texts in KETTLES.map(|text| Texts::Rules(text.to_owned())).into_iter().chain([pddl]) {
+        let open = |plan: &str| match left_open(&texts, plan) {
+            Ok(open) => open.join(", "),
+            Err(Verdict::Fails(why)) => why,
+            Err(other) => panic!("{other:?}"),
+        };
+        let one = "0: (boil k)\n1: (serve k a)\n";
+        assert_eq!(open(one), "other, dark");
+        assert_eq!(open(&format!("{one}2: (boil k)\n3: (serve k b)\n4: (darken)\n")), "");
+        // The light is on throughout; the kettle is hot once; and it is the cook's own while it boils.
+        assert!(open("0: (darken)\n1: (boil k)\n").starts_with("cannot be carried out: 1"));
+        assert!(open(&format!("{one}2: (serve k b)\n")).starts_with("cannot be carried out: 2"));
+        assert!(open("0: (boil k)\n0: (darken)\n").starts_with("not in one step"));
+        assert!(open("0: (boil k)\n1: (boil k)\n1: (serve k a)\n").starts_with("not in one step"));
+    }
+}
+
+/// Plans of what lasts, by those who plan; and as many wishes are left open as any way of carrying on leaves.
+#[test]
+fn plans_of_what_lasts_stand_before_the_judge() {
+    let scenario = Scenario::parse_pddl(&Source::new("kettle", KETTLE), &Source::new("tea", TEA))
+        .unwrap_or_else(|faults| panic!("{faults}"));
+    let rules = KETTLES.map(|text| {
+        let read = Scenario::parse(&Source::new("kettle", text));
+        (read.unwrap_or_else(|faults| panic!("{faults}")), Texts::Rules(text.to_owned()))
+    });
+    let pddl = Texts::Pddl { domain: KETTLE.to_owned(), problem: TEA.to_owned() };
+    for (scenario, texts) in rules.into_iter().chain([(scenario, pddl)]) {
+        for (kept, open) in [(0, "other, dark"), (1, "dark"), (2, "other"), (3, "")] {
+            let problem = scenario.problem.with_preferences(|wish| kept & (1 << wish) != 0);
+            let task = ground(&scenario.domain, &problem).unwrap_or_else(|f| panic!("{f}"));
+            for outcome in [solve(&task, &Limits::default()), solve_any(&task, &Limits::default())]
+            {
+                let plan = outcome.plan().expect("there is tea");
+                let (mut task, mut steps) = (task.clone(), plan.steps.clone());
+                task.choose_disjunct(&mut steps);
+                let plan = PlanText::write(&task, &steps);
+                assert_eq!(
+                    left_open(&texts, &plan).map(|open| open.join(", ")),
+                    Ok(open.to_owned()),
+                    "{plan}"
+                );
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! PDDL as the judge reads it: words and brackets.
 
-use super::{Action, Atom, Condition, Effect, Given, Typed};
+use super::{Action, Atom, Condition, Effect, Given, Moment, Typed};
 
 /// A word or a list in brackets.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -137,6 +137,44 @@ fn effects(form: &Form, around: &Effect, into: &mut Vec<Effect>) -> Read<()> {
     Ok(())
 }
 
+/// An effect whatever is so, of which the fact is left out.
+fn plain() -> Effect {
+    let condition = Condition::All(Vec::new());
+    Effect { variables: Vec::new(), condition, adds: true, atom: Vec::new() }
+}
+
+/// Parts of a condition, or of an effect, each with its time.
+fn timed(form: &Form, is_asked: bool, action: &mut Action) -> Read<()> {
+    let list = form.list()?;
+    if list.is_empty() || form.head() == "and" {
+        return list.iter().skip(1).try_for_each(|part| timed(part, is_asked, action));
+    }
+    let [time, moment, what] = list else { return Err(format!("no time: {form:?}")) };
+    let ask = |place: &mut Condition| -> Read<()> {
+        *place = Condition::All(vec![place.clone(), condition(what)?]);
+        Ok(())
+    };
+    match (time.word()?, moment.word()?, is_asked) {
+        ("at", "start", true) => ask(&mut action.start.precondition),
+        ("over", "all", true) => ask(&mut action.throughout),
+        ("at", "end", true) => ask(&mut action.end.precondition),
+        ("at", "start", false) => effects(what, &plain(), &mut action.start.effects),
+        ("at", "end", false) => effects(what, &plain(), &mut action.end.effects),
+        _ => Err(format!("not for this judge: {form:?}")),
+    }
+}
+
+fn goal(form: &Form, given: &mut Given) -> Read<()> {
+    match (form.head(), form.list()?) {
+        ("and", parts) => parts[1..].iter().try_for_each(|part| goal(part, given))?,
+        ("preference", [_, name, wish]) => {
+            given.wishes.push((name.word()?.to_owned(), condition(wish)?));
+        }
+        _ => given.goal.push(condition(form)?),
+    }
+    Ok(())
+}
+
 fn section<'f>(forms: &'f [Form], name: &str) -> &'f [Form] {
     let found = forms.iter().find(|form| form.head() == name);
     found.and_then(|form| form.list().ok()).map_or(&[], |list| &list[1..])
@@ -157,7 +195,7 @@ pub(super) fn read(domain: &str, problem: &str) -> Read<Given> {
     }
     for form in &domain {
         match form.head() {
-            ":action" => {
+            ":action" | ":durative-action" => {
                 let list = form.list()?;
                 let part = |name: &str| {
                     let at = list.iter().position(|part| *part == Form::Word(name.to_owned()))?;
@@ -165,13 +203,17 @@ pub(super) fn read(domain: &str, problem: &str) -> Read<Given> {
                 };
                 let parameters =
                     part(":parameters").map_or(Ok(Vec::new()), |f| typed(f.list()?))?;
-                let all = Condition::All(Vec::new());
-                let precondition = part(":precondition").map_or(Ok(all.clone()), condition)?;
-                let plain =
-                    Effect { variables: Vec::new(), condition: all, adds: true, atom: Vec::new() };
-                let mut found = Vec::new();
-                part(":effect").map_or(Ok(()), |f| effects(f, &plain, &mut found))?;
-                let action = Action { parameters, precondition, effects: found };
+                let mut action = Action::new(parameters);
+                if form.head() == ":action" {
+                    let Moment { precondition, effects: found } = &mut action.start;
+                    if let Some(asked) = part(":precondition") {
+                        *precondition = condition(asked)?;
+                    }
+                    part(":effect").map_or(Ok(()), |f| effects(f, &plain(), found))?;
+                } else {
+                    part(":condition").map_or(Ok(()), |f| timed(f, true, &mut action))?;
+                    part(":effect").map_or(Ok(()), |f| timed(f, false, &mut action))?;
+                }
                 given.actions.insert(list[1].word()?.to_owned(), action);
             }
             ":derived" => {
@@ -182,7 +224,7 @@ pub(super) fn read(domain: &str, problem: &str) -> Read<Given> {
                 let atom = std::iter::once(head[0].word()?.to_owned()).chain(names).collect();
                 given.derived.push((variables, atom, condition(body)?));
             }
-            ":durative-action" | ":constraints" => {
+            ":constraints" => {
                 return Err(format!("not for this judge: {}", form.head()));
             }
             _ => {}
@@ -191,6 +233,6 @@ pub(super) fn read(domain: &str, problem: &str) -> Read<Given> {
     let facts =
         section(&problem, ":init").iter().filter(|form| !matches!(form.head(), "=" | "not"));
     given.init = facts.map(atom).collect::<Read<_>>()?;
-    given.goal = section(&problem, ":goal").iter().map(condition).collect::<Read<_>>()?;
+    section(&problem, ":goal").iter().try_for_each(|form| goal(form, &mut given))?;
     Ok(given)
 }

@@ -17,7 +17,13 @@ enum Section {
     Precondition,
     Adds,
     Deletes,
+    Throughout,
+    AtEnd,
+    StartAdds,
+    StartDeletes,
+    /// A number: what an action costs, or how long it lasts.
     Cost,
+    Wishes,
     Facts,
     Goal,
     Types,
@@ -30,7 +36,7 @@ enum Section {
     Unread,
 }
 
-const HEADINGS: [(&str, Section); 45] = [
+const HEADINGS: [(&str, Section); 53] = [
     ("действие", Section::Action),
     ("action", Section::Action),
     ("параметры", Section::Parameters),
@@ -72,10 +78,18 @@ const HEADINGS: [(&str, Section); 45] = [
     ("map", Section::Map),
     ("включить", Section::Unread),
     ("include", Section::Unread),
-    ("желательно", Section::Unread),
-    ("preferably", Section::Unread),
-    ("длительность", Section::Unread),
-    ("duration", Section::Unread),
+    ("желательно", Section::Wishes),
+    ("preferably", Section::Wishes),
+    ("длительность", Section::Cost),
+    ("duration", Section::Cost),
+    ("все-время", Section::Throughout),
+    ("throughout", Section::Throughout),
+    ("под-конец", Section::AtEnd),
+    ("at-end", Section::AtEnd),
+    ("начало+", Section::StartAdds),
+    ("start+", Section::StartAdds),
+    ("начало-", Section::StartDeletes),
+    ("start-", Section::StartDeletes),
 ];
 
 type Read<T> = Result<T, String>;
@@ -209,29 +223,49 @@ impl Reader {
         match section {
             Section::Action => {
                 let name = self.name()?;
-                let (parameters, effects) = (Vec::new(), Vec::new());
-                let one = Action { parameters, precondition: all(), effects };
-                self.given.actions.insert(name.clone(), one);
+                self.given.actions.insert(name.clone(), Action::new(Vec::new()));
                 *action = Some(name);
             }
             Section::Parameters => {
                 let parameters = self.variables()?;
                 self.part(action)?.parameters.extend(parameters);
             }
-            Section::Precondition => {
+            Section::Precondition | Section::Throughout | Section::AtEnd => {
                 let more = Condition::All(self.conditions()?);
-                let precondition = &mut self.part(action)?.precondition;
-                *precondition = Condition::All(vec![precondition.clone(), more]);
+                let action = self.part(action)?;
+                let place = match section {
+                    Section::Throughout => &mut action.throughout,
+                    Section::AtEnd => &mut action.end.precondition,
+                    _ => &mut action.start.precondition,
+                };
+                *place = Condition::All(vec![place.clone(), more]);
             }
-            Section::Adds | Section::Deletes => {
+            Section::Adds | Section::Deletes | Section::StartAdds | Section::StartDeletes => {
                 let (variables, atom) = (Vec::new(), Vec::new());
-                let adds = section == Section::Adds;
+                let adds = matches!(section, Section::Adds | Section::StartAdds);
                 let plain = Effect { variables, condition: all(), adds, atom };
                 let mut effects = Vec::new();
                 self.effects(&plain, &mut effects)?;
-                self.part(action)?.effects.extend(effects);
+                let action = self.part(action)?;
+                // An action that does not last ends as it starts.
+                match section {
+                    Section::Adds | Section::Deletes => action.end.effects.extend(effects),
+                    _ => action.start.effects.extend(effects),
+                }
             }
             Section::Cost => self.next += 1,
+            Section::Wishes => {
+                while self.word(0).is_some() && self.heading(0).is_none() {
+                    let name = self.name()?;
+                    // What failing it costs.
+                    let is_number =
+                        |word: &str| word.starts_with(|sign: char| sign.is_ascii_digit());
+                    self.next += usize::from(self.word(0).is_some_and(is_number));
+                    let wish = self.condition()?;
+                    self.given.wishes.push((name, wish));
+                    self.skip(',');
+                }
+            }
             Section::Facts => {
                 for fact in self.conditions()? {
                     let Condition::Holds(atom) = fact else { return self.wanted("a plain fact") };
