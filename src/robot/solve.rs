@@ -527,7 +527,7 @@ pub(super) fn told(
         plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
     });
     let reason = match refused.is_empty() {
-        true => explain(domain, problem, &task, &outcome, limits)?,
+        true => explain(domain, problem, &task, &outcome, wanted, limits)?,
         false => Some(Reason::NoWay(refused)),
     };
     let phrases = Arc::clone(domain.phrases());
@@ -550,8 +550,12 @@ fn explain(
     problem: &Problem,
     task: &Task,
     outcome: &Outcome,
+    wanted: Wanted,
     limits: &Limits,
 ) -> Result<Option<Reason>, RuleFaults> {
+    // The paper's algorithm explains itself.
+    let is_plain = wanted == Wanted::Plain;
+    let solve = if is_plain { graphplan::solve_plainly } else { graphplan::solve };
     let fact = |id: FactId| Said::from(task.fact(id));
     Ok(Some(match outcome {
         Outcome::Plan(_) => return Ok(None),
@@ -560,10 +564,14 @@ fn explain(
             let mut obstacles = explain_unreachable(domain, problem, goals)?;
             for (obstacle, &goal) in obstacles.iter_mut().zip(facts) {
                 if obstacle.is_met_singly {
-                    obstacle.clash = clash(task, goal, limits, MOST_ACTIONS_BETWEEN);
+                    obstacle.clash = clash(task, goal, solve, limits, MOST_ACTIONS_BETWEEN);
                 }
             }
-            keep_what_helps(domain, problem, &mut obstacles, limits);
+            // Whether it helps only other planners can try in a moment: untried it is not told.
+            match is_plain {
+                true => obstacles.iter_mut().for_each(|obstacle| obstacle.help.clear()),
+                false => keep_what_helps(domain, problem, &mut obstacles, limits),
+            }
             Reason::Unreachable(obstacles)
         }
         Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
@@ -587,18 +595,24 @@ const MOST_ACTIONS_BETWEEN: usize = 3;
 const MOST_GIVERS: usize = 8;
 
 /// Of the actions that would give a fact, or what they need, one two of whose needs exclude each other.
-fn clash(task: &Task, goal: FactId, limits: &Limits, between: usize) -> Option<Clash> {
+fn clash(
+    task: &Task,
+    goal: FactId,
+    solve: fn(&Task, &Limits) -> Outcome,
+    limits: &Limits,
+    between: usize,
+) -> Option<Clash> {
     let givers = task.operators.iter().filter(|operator| operator.add_effects.contains(&goal));
     givers.take(MOST_GIVERS).find_map(|giver| {
         let needs = Task { goal: giver.preconditions.clone(), ..task.clone() };
-        match graphplan::solve(&needs, limits) {
+        match solve(&needs, limits) {
             Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
                 let &(a, b) = pairs.first()?;
                 let needs = (Said::from(task.fact(a)), Said::from(task.fact(b)));
                 Some(Clash { action: Said::from(giver), needs })
             }
             Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } if between > 0 => {
-                facts.iter().find_map(|&fact| clash(task, fact, limits, between - 1))
+                facts.iter().find_map(|&fact| clash(task, fact, solve, limits, between - 1))
             }
             _ => None,
         }
