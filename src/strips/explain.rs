@@ -3,7 +3,7 @@
 //! What is lacking is found by [`super::lack`]; here it is told: from the goal backward, action by action, to what
 //! nobody stated and no action brings about; what else would do as well; and which other ways turn in a circle.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashSet, VecDeque};
 use std::fmt;
 
 use super::attain::Attainable;
@@ -58,8 +58,17 @@ pub struct Missing {
     pub now: Vec<Said>,
     /// Whether some action of the rules could give such a fact.
     pub has_action: bool,
-    /// An action that would give it, if what is named before in the chain held.
-    pub circle: Option<Said>,
+    /// The way back to what is named before in the chain; none where there is no such way.
+    pub circle: Vec<Turn>,
+}
+
+/// A step of a way that turns in a circle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Turn {
+    /// It would give what stands before.
+    pub action: Said,
+    /// The fact that it takes and the next step would give; none where that is named already.
+    pub takes: Option<Said>,
 }
 
 impl Obstacle {
@@ -166,14 +175,8 @@ impl Missing {
 
     fn end_in_words(&self, wording: &Wording<'_>, is_circle: bool) -> String {
         let language = wording.language;
-        if let (Some(action), false) = (&self.circle, is_circle) {
-            let action = wording.kind_of_action(action);
-            return language.pick(
-                format!("; это даёт {action}, но для этого нужно то, что уже названо: круг замкнут"),
-                format!(
-                    "; this ({action}) would bring it about, and takes what was named before: it turns in a circle"
-                ),
-            );
+        if !self.circle.is_empty() && !is_circle {
+            return self.circle.iter().map(|turn| turn.in_words(wording)).collect();
         }
         let text = match (is_circle, self.has_action) {
             (true, _) => language.pick(
@@ -190,6 +193,28 @@ impl Missing {
             ),
         };
         text.to_owned()
+    }
+}
+
+impl Turn {
+    fn in_words(&self, wording: &Wording<'_>) -> String {
+        let (language, action) = (wording.language, wording.kind_of_action(&self.action));
+        let gives = language.pick(
+            format!("; это даёт {action}"),
+            format!("; this ({action}) would bring it about"),
+        );
+        let takes = self.takes.as_ref().map(|fact| wording.fact(fact));
+        let takes = match takes {
+            Some(fact) => language
+                .pick(format!(", но для этого нужно {fact}"), format!(", and takes that {fact}")),
+            None => language
+                .pick(
+                    ", но для этого нужно то, что уже названо: круг замкнут",
+                    ", and takes what was named before: it turns in a circle",
+                )
+                .to_owned(),
+        };
+        gives + &takes
     }
 }
 
@@ -253,6 +278,8 @@ pub fn explain_unreachable<'a>(
     Ok(goals.into_iter().map(obstacle).collect())
 }
 
+/// A longer circle is not followed by who reads of it.
+const MOST_TURNS: usize = 4;
 /// Alternatives beyond these are not read.
 const MOST_ALTERNATIVES: usize = 3;
 
@@ -283,22 +310,50 @@ impl Chain {
         Self { links }
     }
 
-    /// What is missing, link by link; of the last also the action that would give it, did it not take what stands before.
+    /// What is missing, link by link; of the last also how it would come about, did that not take what stands before.
     fn missing(&self, lacks: &Lacks<'_>) -> Vec<Missing> {
         let mut missing: Vec<Missing> =
             self.links.iter().map(|&(way, fact)| told(lacks, way, fact)).collect();
-        if let (Some(last), Some(&(_, fact))) = (missing.last_mut(), self.links.last()) {
-            let before = |needed: &usize| {
-                *needed == 0 || self.links.iter().any(|(_, link)| link == needed && *link != fact)
-            };
-            let turns = |way: &usize| lacks.ways[*way].missing.iter().any(before);
-            // Of any object there is no saying which way leads to it.
-            let is_closed = lacks.facts[fact].args.iter().all(Option::is_some);
-            let is_stated = is_closed && lacks.best(fact) == Some(By::Statement);
-            let circle = lacks.ways_to(fact).filter(|_| is_stated).find(turns);
-            last.circle = circle.map(|way| lacks.action_of(way));
+        if let Some(last) = missing.last_mut() {
+            last.circle = self.circle(lacks);
         }
         missing
+    }
+
+    /// The shortest way from the last fact back to one of the chain, through facts each of which is all that an action
+    /// lacks.
+    fn circle(&self, lacks: &Lacks<'_>) -> Vec<Turn> {
+        let Some(&(_, last)) = self.links.last() else { return Vec::new() };
+        // Of any object there is no saying which way leads to it.
+        let is_closed = |fact: usize| lacks.facts[fact].args.iter().all(Option::is_some);
+        if !is_closed(last) || lacks.best(last) != Some(By::Statement) {
+            return Vec::new();
+        }
+        let is_named = |fact: &usize| *fact == 0 || self.links.iter().any(|(_, link)| link == fact);
+        let (mut open, mut seen) = (VecDeque::from([(last, Vec::new())]), HashSet::from([last]));
+        while let Some((fact, turns)) = open.pop_front() {
+            let with = |way: usize, takes: Option<usize>| {
+                let takes = takes.map(|fact| lacks.shown(&lacks.facts[fact]));
+                let mut turns: Vec<Turn> = turns.clone();
+                turns.push(Turn { action: lacks.action_of(way), takes });
+                turns
+            };
+            if let Some(way) =
+                lacks.ways_to(fact).find(|&w| lacks.ways[w].missing.iter().any(is_named))
+            {
+                return with(way, None);
+            }
+            for way in lacks.ways_to(fact).filter(|_| turns.len() + 1 < MOST_TURNS) {
+                if let [takes] = lacks.ways[way].missing[..]
+                    && is_closed(takes)
+                    && !lacks.is_moving(takes)
+                    && seen.insert(takes)
+                {
+                    open.push_back((takes, with(way, Some(takes))));
+                }
+            }
+        }
+        Vec::new()
     }
 
     /// Each set of statements that would do, the cheapest first.
@@ -366,7 +421,7 @@ fn told(lacks: &Lacks<'_>, way: usize, fact: usize) -> Missing {
         action: lacks.action_of(way),
         now: lacks.said_of_the_same(wanted),
         has_action: lacks.is_given_by_an_action(wanted),
-        circle: None,
+        circle: Vec::new(),
     }
 }
 

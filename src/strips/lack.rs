@@ -140,6 +140,12 @@ impl<'a> Lacks<'a> {
             .is_some_and(|(label, _)| label.ways.iter().any(|&way| self.ways[way].gives == other))
     }
 
+    /// Whether it is one of those of which another gives way to it, as where the robot is: from where else it came says nothing.
+    pub(super) fn is_moving(&self, fact: usize) -> bool {
+        let wanted = &self.facts[fact];
+        !wanted.negated && self.moving[wanted.predicate.index()]
+    }
+
     pub(super) fn ways_to(&self, fact: usize) -> impl Iterator<Item = usize> {
         (0..self.ways.len()).filter(move |&way| self.ways[way].gives == fact)
     }

@@ -71,7 +71,7 @@ pub use domain::{
 pub use draft::GOAL_STEP;
 pub use english::EnglishFaults;
 pub use error::{Place, RuleError};
-pub use explain::{Clash, Missing, Obstacle, explain_unreachable};
+pub use explain::{Clash, Missing, Obstacle, Turn, explain_unreachable};
 pub use fault::{RuleFault, RuleFaults};
 pub use ground::{ground, ground_while};
 pub use load::{MAX_FILE_BYTES, Scenario};
