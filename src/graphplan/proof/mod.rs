@@ -1,5 +1,6 @@
 //! The fewest parallel steps, proven quickly: the planning graph with levels kept once, backward extraction with
-//! no-goods generalised by explanation, a satisfiability solver and a proof by induction taking turns.
+//! no-goods generalised by explanation, a satisfiability solver, a proof by induction and a look at all states taking
+//! turns.
 //!
 //! The textbook's algorithm stands above, in [`crate::graph`], [`crate::mutex`] and [`crate::extract`]; this folder
 //! answers the same question, and its tests hold it against that and against breadth-first search.
@@ -21,6 +22,7 @@ mod rivals;
 mod sat;
 mod serial;
 mod solver;
+mod states;
 mod symmetry;
 mod transition;
 
@@ -35,6 +37,7 @@ use graph::PlanningGraph;
 use induction::{Induction, Proof};
 use replan::Inherited;
 use sat::{Encoding, Verdict};
+use states::{Progress, States};
 
 /// Finds a plan with the fewest parallel steps, or proves that there is none.
 ///
@@ -120,6 +123,10 @@ const CHOICES_A_LEVEL: u64 = 128;
 const EFFORT_A_LEVEL: u64 = 1 << 14;
 const INDUCTION_SHARE: u64 = 4;
 const EFFORT_A_CHOICE: u64 = 4;
+
+/// So much is spent before states are looked at, and then such a part of what search and solver spent.
+const EFFORT_BEFORE_STATES: u64 = 1 << 22;
+const STATES_SHARE: u64 = 4;
 
 /// Choices that the search may take for a level before the solver has its turn, after it decided the last level
 /// with so many: much more while they are few, later no more than twice as many.
@@ -335,6 +342,9 @@ struct Extractor<'a> {
     refuted: usize,
     /// The third way, once the graph has leveled off, and the plan that it came to.
     induction: Option<Induction<'a>>,
+    /// The fourth way, once it has its turn, if there is one.
+    states: Option<Option<States<'a>>>,
+    /// A plan, of whatever length.
     known: Option<Plan>,
     /// Whether forward search was asked for any plan.
     has_sought: bool,
@@ -357,6 +367,7 @@ impl<'a> Extractor<'a> {
             spent: 0,
             refuted: 0,
             induction: None,
+            states: None,
             known: None,
             has_sought: false,
             at_least: 0,
@@ -365,14 +376,16 @@ impl<'a> Extractor<'a> {
 
     fn bytes(&self) -> usize {
         let induction = self.induction.as_ref().map_or(0, Induction::bytes);
-        self.search.bytes() + self.encoding.bytes() + induction
+        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::bytes);
+        self.search.bytes() + self.encoding.bytes() + induction + states
     }
 
     /// What was spent so far, in variables set by the solver and what takes as long.
     fn effort(&self, graph: &PlanningGraph) -> u64 {
         let induction = self.induction.as_ref().map_or(0, Induction::effort);
         let choices = self.search.choices() * EFFORT_A_CHOICE;
-        graph.effort() + choices + self.encoding.effort() + induction
+        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::effort);
+        graph.effort() + choices + self.encoding.effort() + induction + states
     }
 
     fn note(&self, graph: &PlanningGraph) {
@@ -420,6 +433,9 @@ impl<'a> Extractor<'a> {
                 return Ok(Extraction::Plan(plan));
             }
             if let Some(extraction) = self.induce(graph)? {
+                return Ok(extraction);
+            }
+            if let Some(extraction) = self.look_at_states(graph)? {
                 return Ok(extraction);
             }
             // Long before a share could overflow, some limit or the answer ends the turns.
@@ -494,6 +510,38 @@ impl<'a> Extractor<'a> {
         Ok(match self.known_at(graph) {
             Some(plan) => Some(Extraction::Plan(plan)),
             None => (graph.top() <= refuted).then_some(Extraction::None),
+        })
+    }
+    /// Where there are few states, up to exchanges of what is alike, looking at them all is the shortest proof. Once the
+    /// graph has leveled off and much was spent in vain, this gets a share of the effort.
+    fn look_at_states(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        if graph.leveled_off_at().is_none() {
+            return Ok(None);
+        }
+        let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
+        if effort < EFFORT_BEFORE_STATES {
+            return Ok(None);
+        }
+        let (task, encoding) = (self.task, &self.encoding);
+        let states = self.states.get_or_insert_with(|| {
+            let groups = match encoding.is_serial() {
+                true => vec![0; task.operators.len()],
+                false => fewest::groups(task, graph),
+            };
+            States::of(task, &groups)
+        });
+        let Some(states) = states else { return Ok(None) };
+        if !states.is_given_up() && states.at_least() <= graph.top() {
+            match states.go_on(effort / STATES_SHARE, self.limits)? {
+                Progress::Plan(plan) => self.known = Some(plan),
+                Progress::Never => return Ok(Some(Extraction::Never(task.goal.clone()))),
+                Progress::Open => {}
+            }
+        }
+        let at_least = states.at_least();
+        Ok(match self.known_at(graph) {
+            Some(plan) => Some(Extraction::Plan(plan)),
+            None => (graph.top() < at_least).then_some(Extraction::None),
         })
     }
 }
