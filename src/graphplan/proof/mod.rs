@@ -32,6 +32,7 @@ use crate::portfolio::{any, parallel};
 use crate::strips::{FactId, Task};
 use crate::tried::telling;
 use crate::{Attempt, Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, Way, with_stack};
+use errands::Errands;
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
 use induction::{Induction, Proof};
@@ -350,6 +351,8 @@ struct Extractor<'a> {
     has_sought: bool,
     /// Fewer steps than these are refuted.
     at_least: usize,
+    /// No walk that the goal asks for has fewer.
+    walked: usize,
 }
 
 /// Forward search gets this part of the memory for it.
@@ -371,6 +374,7 @@ impl<'a> Extractor<'a> {
             known: None,
             has_sought: false,
             at_least: 0,
+            walked: 0,
         }
     }
 
@@ -393,23 +397,37 @@ impl<'a> Extractor<'a> {
         self.limits.note(Attempt::new(Way::Proof, levels, nodes, self.effort(graph)));
     }
 
-    /// The fewest steps are no more than those of a plan found soon.
+    /// The fewest steps are no more than those of a plan found soon, and no fewer than those of the walk that the goal
+    /// asks for, if it does.
     fn seek(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
         let is_time = self.turn.seek.is_some_and(|effort| self.effort(graph) >= effort);
-        if !is_time || std::mem::replace(&mut self.has_sought, true) || self.known.is_some() {
+        if !is_time || std::mem::replace(&mut self.has_sought, true) {
             return Ok(());
         }
         let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
         let limits = Limits { memory_bytes, ..self.limits.clone() };
-        match any::search(self.task, &limits, any::Effort::Least) {
-            Ok(any::Found::Plan(plan)) => {
-                self.limits.tell_of(&plan);
-                self.known = Some(plan);
-            }
+        let mut found = Ok(None);
+        if let Some(errands) = Errands::of(self.task) {
+            self.walked = errands.at_least;
+            found = any::in_order(self.task, &errands.stages, &limits);
+        }
+        if matches!(found, Ok(None)) && self.known.is_none() {
+            found = any::search(self.task, &limits, any::Effort::Least).map(any::Found::plan);
+        }
+        match found {
+            Ok(Some(plan)) => self.offer(plan),
             Err(limit @ (Limit::Time | Limit::Stopped)) => return Err(limit),
-            Ok(any::Found::Exhausted | any::Found::Open) | Err(_) => {}
+            Ok(None) | Err(_) => {}
         }
         Ok(())
+    }
+
+    /// Keeps a plan if it has fewer steps than the one that is known.
+    fn offer(&mut self, plan: Plan) {
+        if self.known.as_ref().is_none_or(|known| plan.steps.len() < known.steps.len()) {
+            self.limits.tell_of(&plan);
+            self.known = Some(plan);
+        }
     }
 
     /// The plan that is known, once every shorter one is refuted.
@@ -429,6 +447,9 @@ impl<'a> Extractor<'a> {
         let mut round = 0;
         loop {
             self.seek(graph)?;
+            if graph.top() < self.walked {
+                return Ok(Extraction::None);
+            }
             if let Some(plan) = self.known_at(graph) {
                 return Ok(Extraction::Plan(plan));
             }
