@@ -36,7 +36,8 @@
 //! - *Proofs.* Every stored no-good was derived by the search; the solver's refutations are never stored, and
 //!   the proof of "no plan" rests on this. Past level-off a third way looks for that proof: induction over the
 //!   number of steps (`graphplan/proof/induction`) asks a solver of its own about one step at a time and keeps its
-//!   own sets; it gets a share of the effort of the other two until it comes to a plan. What is inherited from
+//!   own sets; it gets a share of the effort of the other two until it comes to a plan. A fourth looks at all states up
+//!   to exchanges of what is alike (`graphplan/proof/states`), as long as these are few. What is inherited from
 //!   planning before a withdrawal is true of the new task, but the proof of "no plan" uses it only after
 //!   checking that it is closed.
 //! - *Effort* is counted in choices, conflicts and variables set, never in seconds, so equal tasks give equal

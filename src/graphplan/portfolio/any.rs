@@ -30,6 +30,15 @@ pub(crate) enum Found {
     Open,
 }
 
+impl Found {
+    pub(crate) fn plan(self) -> Option<Plan> {
+        match self {
+            Self::Plan(plan) => Some(plan),
+            Self::Exhausted | Self::Open => None,
+        }
+    }
+}
+
 /// How long to go on where hill climbing is stuck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effort {

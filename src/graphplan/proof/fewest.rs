@@ -143,7 +143,7 @@ fn added(solver: &mut Solver, a: &Sums, b: &Sums, most: u64) -> Sums {
 
 /// For each operator its group; no two of a group are ever carried out in one step. Facts that exclude each other
 /// make a group of all operators that use one of them up.
-fn groups(task: &Task, graph: &PlanningGraph) -> Vec<usize> {
+pub(super) fn groups(task: &Task, graph: &PlanningGraph) -> Vec<usize> {
     let mut takers: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
     for id in task.operator_ids() {
         let operator = task.operator(id);

@@ -1,5 +1,6 @@
 //! The fewest parallel steps, proven quickly: the planning graph with levels kept once, backward extraction with
-//! no-goods generalised by explanation, a satisfiability solver and a proof by induction taking turns.
+//! no-goods generalised by explanation, a satisfiability solver, a proof by induction and a look at all states taking
+//! turns.
 //!
 //! The textbook's algorithm stands above, in [`crate::graph`], [`crate::mutex`] and [`crate::extract`]; this folder
 //! answers the same question, and its tests hold it against that and against breadth-first search.
@@ -21,6 +22,7 @@ mod rivals;
 mod sat;
 mod serial;
 mod solver;
+mod states;
 mod symmetry;
 mod transition;
 
@@ -30,11 +32,13 @@ use crate::portfolio::{any, parallel};
 use crate::strips::{FactId, Task};
 use crate::tried::telling;
 use crate::{Attempt, Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, Way, with_stack};
+use errands::Errands;
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
 use induction::{Induction, Proof};
 use replan::Inherited;
 use sat::{Encoding, Verdict};
+use states::{Progress, States};
 
 /// Finds a plan with the fewest parallel steps, or proves that there is none.
 ///
@@ -120,6 +124,10 @@ const CHOICES_A_LEVEL: u64 = 128;
 const EFFORT_A_LEVEL: u64 = 1 << 14;
 const INDUCTION_SHARE: u64 = 4;
 const EFFORT_A_CHOICE: u64 = 4;
+
+/// So much is spent before states are looked at, and then such a part of what search and solver spent.
+const EFFORT_BEFORE_STATES: u64 = 1 << 22;
+const STATES_SHARE: u64 = 4;
 
 /// Choices that the search may take for a level before the solver has its turn, after it decided the last level
 /// with so many: much more while they are few, later no more than twice as many.
@@ -335,11 +343,16 @@ struct Extractor<'a> {
     refuted: usize,
     /// The third way, once the graph has leveled off, and the plan that it came to.
     induction: Option<Induction<'a>>,
+    /// The fourth way, once it has its turn, if there is one.
+    states: Option<Option<States<'a>>>,
+    /// A plan, of whatever length.
     known: Option<Plan>,
     /// Whether forward search was asked for any plan.
     has_sought: bool,
     /// Fewer steps than these are refuted.
     at_least: usize,
+    /// No walk that the goal asks for has fewer.
+    walked: usize,
 }
 
 /// Forward search gets this part of the memory for it.
@@ -357,22 +370,26 @@ impl<'a> Extractor<'a> {
             spent: 0,
             refuted: 0,
             induction: None,
+            states: None,
             known: None,
             has_sought: false,
             at_least: 0,
+            walked: 0,
         }
     }
 
     fn bytes(&self) -> usize {
         let induction = self.induction.as_ref().map_or(0, Induction::bytes);
-        self.search.bytes() + self.encoding.bytes() + induction
+        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::bytes);
+        self.search.bytes() + self.encoding.bytes() + induction + states
     }
 
     /// What was spent so far, in variables set by the solver and what takes as long.
     fn effort(&self, graph: &PlanningGraph) -> u64 {
         let induction = self.induction.as_ref().map_or(0, Induction::effort);
         let choices = self.search.choices() * EFFORT_A_CHOICE;
-        graph.effort() + choices + self.encoding.effort() + induction
+        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::effort);
+        graph.effort() + choices + self.encoding.effort() + induction + states
     }
 
     fn note(&self, graph: &PlanningGraph) {
@@ -380,23 +397,37 @@ impl<'a> Extractor<'a> {
         self.limits.note(Attempt::new(Way::Proof, levels, nodes, self.effort(graph)));
     }
 
-    /// The fewest steps are no more than those of a plan found soon.
+    /// The fewest steps are no more than those of a plan found soon, and no fewer than those of the walk that the goal
+    /// asks for, if it does.
     fn seek(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
         let is_time = self.turn.seek.is_some_and(|effort| self.effort(graph) >= effort);
-        if !is_time || std::mem::replace(&mut self.has_sought, true) || self.known.is_some() {
+        if !is_time || std::mem::replace(&mut self.has_sought, true) {
             return Ok(());
         }
         let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
         let limits = Limits { memory_bytes, ..self.limits.clone() };
-        match any::search(self.task, &limits, any::Effort::Least) {
-            Ok(any::Found::Plan(plan)) => {
-                self.limits.tell_of(&plan);
-                self.known = Some(plan);
-            }
+        let mut found = Ok(None);
+        if let Some(errands) = Errands::of(self.task) {
+            self.walked = errands.at_least;
+            found = any::in_order(self.task, &errands.stages, &limits);
+        }
+        if matches!(found, Ok(None)) && self.known.is_none() {
+            found = any::search(self.task, &limits, any::Effort::Least).map(any::Found::plan);
+        }
+        match found {
+            Ok(Some(plan)) => self.offer(plan),
             Err(limit @ (Limit::Time | Limit::Stopped)) => return Err(limit),
-            Ok(any::Found::Exhausted | any::Found::Open) | Err(_) => {}
+            Ok(None) | Err(_) => {}
         }
         Ok(())
+    }
+
+    /// Keeps a plan if it has fewer steps than the one that is known.
+    fn offer(&mut self, plan: Plan) {
+        if self.known.as_ref().is_none_or(|known| plan.steps.len() < known.steps.len()) {
+            self.limits.tell_of(&plan);
+            self.known = Some(plan);
+        }
     }
 
     /// The plan that is known, once every shorter one is refuted.
@@ -416,10 +447,16 @@ impl<'a> Extractor<'a> {
         let mut round = 0;
         loop {
             self.seek(graph)?;
+            if graph.top() < self.walked {
+                return Ok(Extraction::None);
+            }
             if let Some(plan) = self.known_at(graph) {
                 return Ok(Extraction::Plan(plan));
             }
             if let Some(extraction) = self.induce(graph)? {
+                return Ok(extraction);
+            }
+            if let Some(extraction) = self.look_at_states(graph)? {
                 return Ok(extraction);
             }
             // Long before a share could overflow, some limit or the answer ends the turns.
@@ -494,6 +531,38 @@ impl<'a> Extractor<'a> {
         Ok(match self.known_at(graph) {
             Some(plan) => Some(Extraction::Plan(plan)),
             None => (graph.top() <= refuted).then_some(Extraction::None),
+        })
+    }
+    /// Where there are few states, up to exchanges of what is alike, looking at them all is the shortest proof. Once the
+    /// graph has leveled off and much was spent in vain, this gets a share of the effort.
+    fn look_at_states(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        if graph.leveled_off_at().is_none() {
+            return Ok(None);
+        }
+        let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
+        if effort < EFFORT_BEFORE_STATES {
+            return Ok(None);
+        }
+        let (task, encoding) = (self.task, &self.encoding);
+        let states = self.states.get_or_insert_with(|| {
+            let groups = match encoding.is_serial() {
+                true => vec![0; task.operators.len()],
+                false => fewest::groups(task, graph),
+            };
+            States::of(task, &groups)
+        });
+        let Some(states) = states else { return Ok(None) };
+        if !states.is_given_up() && states.at_least() <= graph.top() {
+            match states.go_on(effort / STATES_SHARE, self.limits)? {
+                Progress::Plan(plan) => self.known = Some(plan),
+                Progress::Never => return Ok(Some(Extraction::Never(task.goal.clone()))),
+                Progress::Open => {}
+            }
+        }
+        let at_least = states.at_least();
+        Ok(match self.known_at(graph) {
+            Some(plan) => Some(Extraction::Plan(plan)),
+            None => (graph.top() < at_least).then_some(Extraction::None),
         })
     }
 }

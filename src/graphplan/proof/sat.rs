@@ -182,6 +182,11 @@ impl<'a> Encoding<'a> {
         &mut self.solver
     }
 
+    /// Whether each step is known to carry out one operator.
+    pub(crate) fn is_serial(&self) -> bool {
+        self.serial.is_some()
+    }
+
     /// Conflicts met so far.
     pub(crate) fn conflicts(&self) -> u64 {
         self.solver.conflicts()

@@ -171,7 +171,7 @@ impl Errands {
         let enabling = bridges.enabling_steps((task, groups), &places, (&needed, &busy));
         let walked = (loaded + assigned).max(walk(&distance, &spanned)).max(crossed);
         let at_least = actions + walked + enabling;
-        let order = order(&distance, &errands);
+        let order = order(&distance, &errands, walked);
         let stages = stages((task, &places), &rest, (&points, &errands, &order), &things);
         Some(Self { at_least, stages })
     }

@@ -112,8 +112,13 @@ pub(super) fn walk(distance: &[Vec<usize>], points: &[usize]) -> usize {
 }
 
 /// An order of the errands in which the walk is short: up to a dozen the shortest (R. Bellman, 1962, M. Held, R. Karp,
-/// 1962), beyond that the nearest first, mended by moving one errand or turning a piece around, whatever wins most.
-pub(super) fn order(distance: &[Vec<usize>], errands: &[Errand]) -> Vec<usize> {
+/// 1962), beyond that the nearest first, mended and then stirred up and mended again, until it is as short as any can be
+/// or much was tried.
+pub(super) fn order(
+    distance: &[Vec<usize>],
+    errands: &[Errand],
+    shortest_possible: usize,
+) -> Vec<usize> {
     const EXACT: usize = 12;
     let count = errands.len();
     let way = |from: usize, errand: usize| distance[from][errands[errand].from];
@@ -154,7 +159,62 @@ pub(super) fn order(distance: &[Vec<usize>], errands: &[Errand]) -> Vec<usize> {
         at = errands[errand].to;
         order.push(errand);
     }
+    mend(distance, errands, &mut order);
+    stir(distance, errands, &mut order, shortest_possible);
+    order
+}
+
+fn length(distance: &[Vec<usize>], errands: &[Errand], order: &[usize]) -> usize {
+    let mut at = 0;
+    let walked = order.iter().map(|&one| {
+        let Errand { from, to, .. } = errands[one];
+        distance[std::mem::replace(&mut at, to)][from] + distance[from][to]
+    });
+    walked.sum()
+}
+
+/// Two pieces of an order that follow one another change places, here and there in turn, and the order is mended again;
+/// it is kept where it got no longer (O. Martin, S. Otto, E. Felten, 1991).
+fn stir(
+    distance: &[Vec<usize>],
+    errands: &[Errand],
+    order: &mut Vec<usize>,
+    shortest_possible: usize,
+) {
+    /// Changes of the order that are judged.
+    const MOST_WORK: usize = 1 << 23;
+    const LONGEST_PIECE: usize = 8;
+    let count = order.len();
+    let mut least = length(distance, errands, order);
+    let mut work = 0;
+    // Numbers that look drawn by lot, the same each time (D. Knuth).
+    let mut drawn = 1_u64;
+    let mut below = |bound: usize| {
+        drawn = drawn.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (drawn >> 33) as usize % bound
+    };
+    while least > shortest_possible && work < MOST_WORK {
+        let longest = LONGEST_PIECE.min(count / 2);
+        let (one, other) = (1 + below(longest), 1 + below(longest));
+        let at = below(count + 1 - one - other);
+        let mut stirred = order.clone();
+        stirred[at..at + one + other].rotate_left(one);
+        work += mend(distance, errands, &mut stirred) * count * count;
+        let own = length(distance, errands, &stirred);
+        if own <= least {
+            (least, *order) = (own, stirred);
+        }
+    }
+}
+
+/// Makes an order shorter by moving one errand or turning a piece around, whatever wins most, and tells how often all of
+/// these were judged.
+fn mend(distance: &[Vec<usize>], errands: &[Errand], order: &mut Vec<usize>) -> usize {
+    let count = order.len();
+    let way = |from: usize, errand: usize| distance[from][errands[errand].from];
+    let mut rounds = 0;
     loop {
+        rounds += 1;
         // What comes to lie next to what is all that changes: with the ways summed up forward and backward, each change
         // is judged at once.
         let come = |before: Option<usize>, at: usize| match order.get(at) {
@@ -196,7 +256,7 @@ pub(super) fn order(distance: &[Vec<usize>], errands: &[Errand]) -> Vec<usize> {
                 let one = order.remove(from);
                 order.insert(to, one);
             }
-            None => return order,
+            None => return rounds,
         }
     }
 }
@@ -216,11 +276,8 @@ mod tests {
             let errands: Vec<Errand> = (0..count)
                 .map(|one| Errand { goal: FactId(0), from: one + 1, to: (7 * one) % count + 1 })
                 .collect();
-            let length = |order: &[usize]| {
-                let ends = [0].into_iter().chain(order.iter().map(|&one| errands[one].to));
-                ends.zip(order).map(|(at, &one)| distance[at][errands[one].from]).sum::<usize>()
-            };
-            let found = order(&distance, &errands);
+            let length = |order: &[usize]| length(&distance, &errands, order);
+            let found = order(&distance, &errands, 0);
             let mut all = found.clone();
             all.sort_unstable();
             assert!(all.into_iter().eq(0..count), "seed {seed}");
