@@ -154,7 +154,7 @@ fn things_that_are_of_a_kind_are_counted_as_the_kind() {
 /// "Which rooms have lamps? Turn off the lamps in them", «Выключи их»: in each of the rooms.
 #[test]
 fn they_are_all_that_were_told() {
-    let Some(mut engine) = engine(FLAT) else { return };
+    let Some(engine) = engine(FLAT) else { return };
     let lamps = symbols(&engine, "Which lamps are there?").expect("a plain question");
     for (question, order) in [
         ("Which rooms have lamps?", "Turn off the lamps in them"),
