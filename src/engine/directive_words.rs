@@ -382,7 +382,7 @@ impl Words<'_> {
                 "{} {} {}",
                 pick("проехать через", "go through"),
                 accusative(door),
-                self.into_room(into)
+                self.through_to(into)
             ),
             Primitive::SetDoor { door, status } => {
                 let (ru, en) = opened(*status);
@@ -465,7 +465,7 @@ impl Words<'_> {
     }
 
     /// «на Кухню», "into the kitchen"
-    fn into_room(&self, room: &str) -> String {
+    fn through_to(&self, room: &str) -> String {
         match (self.language, self.world.find(room).first()) {
             (Language::Russian, Some(&entity)) => named(self.world, entity).whither(),
             _ => self.at(Preposition::V, "into", room),
