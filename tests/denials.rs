@@ -251,3 +251,32 @@ fn what_was_done_is_no_order() {
         }
     }
 }
+
+/// "Bring me the phone that is not in the kitchen": the only one elsewhere, or it is asked back of those that are; never one
+/// that is there.
+#[test]
+fn a_denial_within_a_description_tells_of_the_thing() {
+    let Some(engine) = engine("../shared/data/procthor/house_7.json") else { return };
+    let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+    let mut told = 0;
+    for thing in world.replicas.values().filter(|thing| world.has_trait(thing.id, "portable")) {
+        let kind = world.objects[&thing.object].object_type;
+        let Some(called) = world.types.object.get(kind) else { continue };
+        let alike =
+            world.replicas.values().filter(|r| world.objects[&r.object].object_type == kind);
+        for area in world.areas.values() {
+            let outside = |id| relations.area_of(id) != Some(area.id);
+            let others: Vec<_> = alike.clone().map(|r| r.id).filter(|id| outside(*id)).collect();
+            let (kind, room) = (called.name_en.to_lowercase(), &area.name_en);
+            for clause in ["that is not in", "which is not in", "that isn't in"] {
+                let order = format!("Bring me the {kind} {clause} {room}");
+                let Ok(commands) = engine.understand(&order) else { continue };
+                let said = format!("{commands:?}");
+                let [only] = others[..] else { panic!("{order}: {said}") };
+                assert!(said.contains(&format!("Replica({only:?})")), "{order}: {said}");
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 20, "{told}");
+}

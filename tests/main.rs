@@ -37,6 +37,7 @@ mod guides;
 mod hostile;
 mod ifc;
 mod imports;
+mod joined;
 mod judged;
 mod lifts;
 mod lost;

@@ -9,7 +9,6 @@ use crate::engine::{
     Drawing, Engine, Lens, Method, RequestError, Sighted, State, TaskAnswer, directive_in_words,
     face_in_words, no_way_in_words,
 };
-use crate::language::Language;
 use crate::robot::Directive;
 use crate::units::{MapId, Point, write_file};
 
@@ -382,11 +381,7 @@ fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<Vec<S
         }
     }
     let world = engine.world()?;
-    // As the paper prints them; in English, where its Russian names tell nothing, in words.
-    let told = |directive: &Directive| match common.lang {
-        Lang::Ru => directive.to_string(),
-        Lang::En => directive_in_words(world, directive, Language::English),
-    };
+    let told = |directive: &Directive| directive_in_words(world, directive, common.lang.language());
     let directives: Vec<_> =
         answer.reports.iter().map(|r| (r.number, told(&r.directive))).collect();
     let last = answer.reports.last().map(|report| report.map);

@@ -8,7 +8,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::engine::{
-    Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_told, json,
+    Engine, Event, Outcome, Progress, Recording, Reply, TaskEvents, directive_in_words, json,
 };
 use crate::language::question::{Aside, aside};
 use crate::robot::Answer;
@@ -155,7 +155,7 @@ impl Teller {
                         self.bar.set_position(0);
                     }
                     Progress::Started { directive, .. } => {
-                        self.bar.set_message(directive_told(world, directive, *language));
+                        self.bar.set_message(directive_in_words(world, directive, *language));
                         self.bar.tick();
                     }
                     Progress::Finished(_) => self.bar.inc(1),

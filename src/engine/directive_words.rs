@@ -84,7 +84,7 @@ fn named_door(world: &World, name: &str, language: Language) -> String {
 }
 
 /// What a directive asks for, as one tells a person: «открыть Дверь-КY», "open Door KY". An action that asks nothing of
-/// the vehicle is told by its name.
+/// the vehicle is told by the words of its name, and what it is done with.
 #[must_use]
 pub(crate) fn directive_in_words(
     world: &World,
@@ -104,7 +104,7 @@ pub(crate) fn directive_in_words(
     let told: Vec<String> =
         directive.primitives().iter().map(|primitive| words.primitive(primitive, opened)).collect();
     match told.is_empty() {
-        true => directive.to_string(),
+        true => words.action(&directive.action, &directive.args),
         false => told.join(language.pick(" и ", " and ")),
     }
 }
@@ -382,7 +382,7 @@ impl Words<'_> {
                 "{} {} {}",
                 pick("проехать через", "go through"),
                 accusative(door),
-                self.at(Preposition::V, "into", into)
+                self.through_to(into)
             ),
             Primitive::SetDoor { door, status } => {
                 let (ru, en) = opened(*status);
@@ -451,6 +451,24 @@ impl Words<'_> {
                 Language::Russian => format!("позвать {}", self.person(person, Case::Accusative)),
                 Language::English => format!("call {}", self.person(person, Case::Accusative)),
             },
+        }
+    }
+
+    /// «Вымыть_посуду_(Тарелка-1)» as «вымыть посуду: Тарелка-1».
+    fn action(&self, action: &str, args: &[std::sync::Arc<str>]) -> String {
+        let name = action.split('_').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+        let args: Vec<String> = args.iter().map(|arg| self.name(arg, Case::Nominative)).collect();
+        match args.is_empty() {
+            true => name.to_lowercase(),
+            false => format!("{}: {}", name.to_lowercase(), args.join(", ")),
+        }
+    }
+
+    /// «на Кухню», "into the kitchen"
+    fn through_to(&self, room: &str) -> String {
+        match (self.language, self.world.find(room).first()) {
+            (Language::Russian, Some(&entity)) => named(self.world, entity).whither(),
+            _ => self.at(Preposition::V, "into", room),
         }
     }
 

@@ -11,6 +11,7 @@ use crate::robot::{Directive, Solved};
 use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
 
+use super::assumed::assumptions_in_russian;
 use super::directive_words::{actions_in_words, directive_in_words, name_in};
 use super::surprises::{barred_in_words, surprise_in_words};
 use super::task::{Progress, TaskAnswer, TaskEnding};
@@ -29,11 +30,16 @@ pub(crate) fn plan_in_words(solved: &Solved, wording: &Wording<'_>) -> String {
     let steps = solved.outcome.plan().map_or_else(Vec::new, |plan| {
         plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
     });
-    plan_of(solved, &steps, wording)
+    plan_of(solved, &steps, &solved.assumptions_with(wording), wording)
 }
 
-/// A plan, its directives given in words.
-fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> String {
+/// A plan, its directives and what it rests on given in words.
+fn plan_of(
+    solved: &Solved,
+    steps: &[Vec<String>],
+    assumed: &[String],
+    wording: &Wording<'_>,
+) -> String {
     let pick = |russian, english| wording.language.pick(russian, english);
     // What was given up before it began knows no plan, and one of no steps would be an answer.
     let is_found = match solved.outcome {
@@ -106,7 +112,7 @@ fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> Str
     }
     if !solved.assumptions.is_empty() {
         let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
-        let told = solved.assumptions_with(wording).join("\n     ");
+        let told = assumed.join("\n     ");
         text.push_str(&format!("\n{head}\n     {told}"));
     }
     text
@@ -134,15 +140,6 @@ pub(crate) fn decimal(value: f64, unit: &str, language: Language) -> String {
     if language == Language::Russian { text.replacen('.', ",", 1) } else { text }
 }
 
-/// A directive as the paper prints it; in English, where its Russian names tell nothing, in words.
-#[must_use]
-pub(crate) fn directive_told(world: &World, directive: &Directive, language: Language) -> String {
-    match language {
-        Language::Russian => directive.to_string(),
-        Language::English => directive_in_words(world, directive, language),
-    }
-}
-
 impl Progress<'_> {
     /// What happens on the way, a line each; nothing for what is only begun.
     #[must_use]
@@ -152,12 +149,16 @@ impl Progress<'_> {
                 if planned.solved.outcome.plan().is_none() || planned.steps.is_empty() {
                     return Vec::new();
                 }
-                let told = |directive: &Directive| directive_told(world, directive, language);
+                let told = |directive: &Directive| directive_in_words(world, directive, language);
                 let steps: Vec<Vec<String>> =
                     planned.steps.iter().map(|step| step.iter().map(told).collect()).collect();
                 let name = |name: &str| name_in(world, name, language);
                 let wording = planned.solved.wording(language, &name);
-                vec![format!("{}\n", plan_of(&planned.solved, &steps, &wording))]
+                let assumed = match language {
+                    Language::Russian => assumptions_in_russian(world, &planned.solved),
+                    Language::English => planned.solved.assumptions_with(&wording),
+                };
+                vec![format!("{}\n", plan_of(&planned.solved, &steps, &assumed, &wording))]
             }
             Self::Started { .. } | Self::Sent { .. } | Self::Moved(_) | Self::Scanned(_) => Vec::new(),
             Self::Finished(report) => {
@@ -168,7 +169,7 @@ impl Progress<'_> {
                 let mut lines = vec![format!(
                     "{:>4} {} – {way}{time}",
                     format!("{}.", report.number),
-                    directive_told(world, &report.directive, language)
+                    directive_in_words(world, &report.directive, language)
                 )];
                 let primitives = actions_in_words(world, &report.directive, language);
                 lines.extend(primitives.into_iter().map(|sentence| format!("     {sentence}")));
@@ -187,7 +188,7 @@ impl Progress<'_> {
             Self::Surprised { directive, surprise } => {
                 let what = surprise_in_words(world, surprise, language);
                 vec![
-                    format!("   ! {}: {what}", directive_told(world, directive, language)),
+                    format!("   ! {}: {what}", directive_in_words(world, directive, language)),
                     language.pick("     Новый план.", "     Planning anew.").to_owned(),
                 ]
             }

@@ -2,7 +2,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Filter, Head, Memory, Noun, Query};
+use super::{Best, Filter, Head, Memory, Noun, Query, Thing};
 use crate::words::word_keys;
 
 /// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
@@ -61,7 +61,7 @@ pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
 }
 
 /// «На сколько?», "By how much?": the difference of what was compared.
-pub(super) fn by_how_much(key: &str, last: &Query) -> Option<Query> {
+pub(super) fn by_how_much(key: &str, last: &Query, told: &[Thing]) -> Option<Query> {
     const BY: [&str; 12] = [
         "на сколько",
         "а на сколько",
@@ -88,6 +88,19 @@ pub(super) fn by_how_much(key: &str, last: &Query) -> Option<Query> {
             let (what, than) = (what.clone(), than.clone());
             let (extreme, to) = (*extreme, to.clone());
             return Some(Query::Larger { what, than, extreme, to, by: true });
+        }
+        // "Which of the two is bigger? By how much?": the one that was told, than the other.
+        Query::Find(Noun {
+            head: Head { things: Some(pair), .. },
+            best: Some(Best { extreme, anchor: None }),
+            ..
+        }) => {
+            let [what] = told else { return None };
+            let [than] = pair.iter().filter(|thing| *thing != what).collect::<Vec<_>>()[..] else {
+                return None;
+            };
+            let (what, than) = (Noun::of(vec![*what]), Noun::of(vec![*than]));
+            return Some(Query::Larger { what, than, extreme: *extreme, to: None, by: true });
         }
         _ => return None,
     }

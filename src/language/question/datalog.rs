@@ -200,7 +200,7 @@ impl Rule<'_, '_> {
                 let terms = [what, near, than].map(|n| self.noun(n));
                 (terms.join(", "), pick("расстояния сравниваются", "distances are compared"))
             }
-            Query::Together { of, .. } | Query::Differ { of, .. } => {
+            Query::Together { of, .. } | Query::Differ { of, .. } | Query::SameSize { of, .. } => {
                 let terms: Vec<String> = of.iter().map(|n| self.noun(n)).collect();
                 (terms.join(", "), pick("по местам и значениям", "by places and values"))
             }

@@ -10,14 +10,34 @@ use super::{
     several,
 };
 use crate::map::Entity;
-use crate::words::Language;
+use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 impl Asker<'_> {
+    /// «На сколько?»: by how much what was told is more than the other, whichever was named first.
+    fn by_how_much(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        let mut query = by_how_much(key, last, &memory.last)?;
+        if let (Query::WhichMore { .. }, Query::Larger { what, than, .. }) = (last, &mut query) {
+            let found = self.knowledge(memory.language, memory).find(than, false);
+            if found.is_ok_and(|found| found == memory.last) {
+                std::mem::swap(what, than);
+            }
+        }
+        Some(query)
+    }
+
     /// «А чайник?» after a question about something else: the same question about the kettle.
     pub(super) fn continued(&self, text: &str, memory: &Memory) -> Option<Query> {
         let waiting = memory.pending.as_ref().map(|pending| &pending.query);
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
+        if asks_anew(&key) {
+            return Some(last.clone());
+        }
+        // "No, I meant the bed": the same is asked of that.
+        if let Some(meant) = corrected(text) {
+            let and = Language::of(text).pick("а", "and");
+            return self.continued(&format!("{and} {meant}"), memory);
+        }
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
@@ -36,7 +56,9 @@ impl Asker<'_> {
         if let Some(query) = where_such(&sentence, last) {
             return Some(query);
         }
-        if let Some(query) = self.of_the_way(text, last).or_else(|| by_how_much(&key, last)) {
+        if let Some(query) =
+            self.of_the_way(text, last).or_else(|| self.by_how_much(&key, last, memory))
+        {
             return Some(query);
         }
         if let Some(query) = self.of_the_rest(text, memory) {
@@ -444,4 +466,38 @@ fn keys_compare(keys: &[String]) -> bool {
 fn is_place(place: &Restriction) -> bool {
     let other = [Rel::Has, Rel::Bears, Rel::Of, Rel::From, Rel::Opens, Rel::Through, Rel::To];
     !other.contains(&place.rel)
+}
+
+/// «А теперь?», "And now?": the last question, of the map as it has become.
+fn asks_anew(key: &str) -> bool {
+    const NOW: [&str; 8] = [
+        "а теперь",
+        "а сейчас",
+        "и теперь",
+        "теперь",
+        "and now",
+        "now",
+        "how about now",
+        "what about now",
+    ];
+    NOW.contains(&key.trim_end_matches(['?', ' ']))
+}
+
+/// What was meant in place of what was heard: "No, I meant the bed", «Нет, я имел в виду кровать».
+fn corrected(text: &str) -> Option<&str> {
+    const MEANT: [&str; 8] = [
+        "i meant",
+        "i mean",
+        "i was asking about",
+        "i asked about",
+        "я имел в виду",
+        "я имела в виду",
+        "я про",
+        "я о",
+    ];
+    const NO: [&str; 3] = ["no", "нет", "sorry"];
+    let keys = word_keys(text);
+    let denied = usize::from(keys.first().is_some_and(|key| NO.contains(&key.as_str())));
+    let meant = MEANT.iter().find_map(|meant| phrase_at(&keys, denied, meant))?;
+    word_ranges(text).get(denied + meant).map(|word| &text[word.start..])
 }

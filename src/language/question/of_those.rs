@@ -15,7 +15,9 @@ impl Asker<'_> {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let items = sentence.items();
-        let (mut extreme, mut which, mut of) = (None, false, None);
+        // "Which is" is one small word, as in "the book which is on the table".
+        let mut which = sentence.keys.first().is_some_and(|key| key == "which");
+        let (mut extreme, mut of) = (None, None);
         for item in &items {
             match item {
                 // "Which of the two is taller?"
@@ -48,6 +50,8 @@ impl Asker<'_> {
             things.len() > 1 && things.iter().any(fits)
         };
         let mut named = vec![memory.last.clone()];
+        // "Is the bed bigger than the sofa? Which is bigger?"
+        named.extend(memory.exchanges.first().map(|exchange| exchange.compared().to_vec()));
         if of.is_some() {
             named.extend(knowledge.last_pair());
             named.extend(knowledge.last_places());

@@ -145,6 +145,16 @@ impl Knowledge<'_> {
         })
     }
 
+    /// The places of which "in them" and "on them" speak: all that were told and may be so, where there are several.
+    pub(super) fn places_meant(&self, pronoun: Pronoun, rel: Rel) -> Option<Vec<Thing>> {
+        let mut meant = match pronoun {
+            Pronoun::They => self.referent(pronoun, Some(rel)),
+            _ => Vec::new(),
+        };
+        meant.retain(|thing| self.may_be_anchor(rel, *thing));
+        (meant.len() > 1).then_some(meant)
+    }
+
     pub(super) fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
         let fits = |gender: Gender| match pronoun {
             Pronoun::He => gender == Gender::Masculine,
@@ -221,8 +231,17 @@ impl Knowledge<'_> {
         let [Claim::Value(filter)] = &claims[..] else { return };
         let words = word_keys(&subject.text);
         let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
-        let Some([only]) = subject.head.things.as_deref() else { return };
         let lacks = |thing: Thing| self.own_value(thing, filter.value).is_none();
+        // "Which rooms have TVs? Are they on?": no room is on.
+        let rooms = subject.head.things.as_deref().unwrap_or_default();
+        if pronoun == Pronoun::They
+            && rooms.iter().all(|room| room.area().is_some() && lacks(*room))
+            && let Some(had) = self.had_by_rooms().filter(|had| !had.iter().any(|t| lacks(*t)))
+        {
+            subject.head.things = Some(had);
+            return;
+        }
+        let Some([only]) = subject.head.things.as_deref() else { return };
         let [latest, before @ ..] = &self.memory.exchanges[..] else { return };
         if !lacks(*only) {
             return;

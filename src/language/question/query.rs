@@ -181,6 +181,11 @@ pub enum Query {
         of: Vec<Noun>,
         alike: bool,
     },
+    /// Have all the same size, or height.
+    SameSize {
+        dimension: Dimension,
+        of: Vec<Noun>,
+    },
     /// How much of it is free.
     Free(Noun),
     /// Where one can sit, lie, put something.
@@ -360,7 +365,9 @@ impl Query {
             | Self::Serving { of: noun, .. }
             | Self::Purpose(noun)
             | Self::Describe(noun) => noun.each(act),
-            Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
+            Self::Exists { what, .. }
+            | Self::Differ { of: what, .. }
+            | Self::SameSize { of: what, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
             }
             Self::Together { of, place, .. } => {
@@ -463,7 +470,7 @@ impl Query {
             Self::WhichMore { .. } => "which_more",
             Self::Larger { .. } => "larger",
             Self::MoreOf { .. } => "more_of",
-            Self::Same { .. } | Self::SameAll { .. } => "same",
+            Self::Same { .. } | Self::SameAll { .. } | Self::SameSize { .. } => "same",
             Self::Together { .. } => "together",
             Self::Differ { .. } => "differ",
             Self::Free(_) => "free",

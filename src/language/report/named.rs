@@ -87,6 +87,12 @@ impl Named {
         }
     }
 
+    /// The way into a room, in Russian: «в Комнату-Z», «на Кухню».
+    #[must_use]
+    pub fn whither(&self) -> String {
+        russian::whither(&self.russian)
+    }
+
     /// The name within a sentence: in a case, or with its article.
     #[must_use]
     pub fn form(&self, case: Case, language: Language) -> String {

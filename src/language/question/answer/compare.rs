@@ -5,7 +5,7 @@
 use super::Draft;
 use crate::question::knowledge::{HowFar, Knowledge};
 use crate::question::lexicon::lower_first;
-use crate::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
+use crate::question::query::{Closeness, Dimension, Extreme, Head, Noun, Sized, Thing};
 use crate::question::values::Property;
 use crate::question::{Doubt, Said};
 use crate::units::InOrder as _;
@@ -392,8 +392,12 @@ impl Knowledge<'_> {
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let both =
             format!("{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
+        // No one length tells by how much bodies differ.
+        if by && self.is_volume(a, extreme) {
+            return Ok(Draft::new(Said::Found, both).with(vec![a]).about(&[b]));
+        }
         // «На сколько выше?»: the difference, and what it is the difference of.
-        if by && yes && !self.is_volume(a, extreme) {
+        if by && yes {
             let apart = match (extreme, a.area()) {
                 (Extreme::Biggest | Extreme::Smallest, Some(_)) => {
                     area((x - y).abs(), self.language)
@@ -519,14 +523,48 @@ impl Knowledge<'_> {
     pub(super) fn same_all(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
         let found = self.definite(of)?;
         let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
-        let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();
+        let mut keyed = Vec::new();
         for &thing in &found {
             let Some((_, value, text)) = own(thing) else {
                 let text = self.no_property(property, thing);
                 return Ok(Draft::new(Said::Unknown, text).with(found));
             };
-            let key = value
-                .map_or(text.to_lowercase(), |v| self.lexicon().values.entry(v).russian.clone());
+            keyed.push((
+                thing,
+                match value {
+                    Some(v) => self.lexicon().values.entry(v).russian.clone(),
+                    None => text.to_lowercase(),
+                },
+            ));
+        }
+        let words = |first: Thing| match own(first) {
+            Some((_, Some(value), _)) => self.value_of(property, value, first),
+            Some((_, None, text)) => text.to_lowercase(),
+            None => String::new(),
+        };
+        Ok(self.by_groups(keyed, words))
+    }
+
+    /// «Кровати одного размера?», "Are the chairs the same height?"
+    pub(super) fn same_size(&self, dimension: Dimension, of: &[Noun]) -> Result<Draft, Doubt> {
+        let found = self.all_meant(of)?;
+        if let ([only], [_]) = (of, &found[..]) {
+            return Err(Doubt::NoReferent { word: only.text.clone() });
+        }
+        let keyed: Option<Vec<(Thing, String)>> =
+            found.iter().map(|t| Some((*t, self.size_in_words(dimension, *t)?))).collect();
+        let Some(keyed) = keyed else {
+            let words = of.iter().map(|noun| noun.text.as_str()).collect::<Vec<_>>().join(", ");
+            return Err(Doubt::NotUnderstood { words });
+        };
+        Ok(self.by_groups(keyed, |first| self.size_in_words(dimension, first).unwrap_or_default()))
+    }
+
+    /// Whether things that are alike by a key are all of one group; each group with the words of its first.
+    fn by_groups(&self, keyed: Vec<(Thing, String)>, words: impl Fn(Thing) -> String) -> Draft {
+        let found = keyed.iter().map(|(thing, _)| *thing).collect();
+        let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();
+        for (thing, key) in keyed {
             match groups.iter_mut().find(|(other, _)| *other == key) {
                 Some((_, things)) => things.push(thing),
                 None => groups.push((key, vec![thing])),
@@ -534,18 +572,12 @@ impl Knowledge<'_> {
         }
         let yes = groups.len() == 1;
         let each = |(_, things): &(String, Vec<Thing>)| {
-            let first = things[0];
-            let words = match own(first) {
-                Some((_, Some(value), _)) => self.value_of(property, value, first),
-                Some((_, None, text)) => text.to_lowercase(),
-                None => String::new(),
-            };
-            format!("{} – {words}", self.list(things))
+            format!("{} – {}", self.list(things), words(things[0]))
         };
         let parts: Vec<String> = groups.iter().map(each).collect();
         let head = if yes { self.pick("да", "yes") } else { self.pick("нет", "no") };
         let said = if yes { Said::Yes } else { Said::No };
-        Ok(Draft::new(said, format!("{head}: {}", parts.join("; "))).with(found))
+        Draft::new(said, format!("{head}: {}", parts.join("; "))).with(found)
     }
 
     pub(super) fn same(&self, property: &Property, of: &[Noun; 2]) -> Result<Draft, Doubt> {

@@ -140,6 +140,7 @@ impl Knowledge<'_> {
             Query::SameAll { property, of } => self.same_all(property, of)?,
             Query::Together { of, rel, place } => self.together(of, *rel, place)?,
             Query::Differ { of, alike } => self.differ(of, *alike)?,
+            Query::SameSize { dimension, of } => self.same_size(*dimension, of)?,
             Query::Free(noun) => self.free(noun)?,
             Query::Place { use_for, what, within, whether } => {
                 let draft = self.usable(*use_for, what.as_ref(), within)?;

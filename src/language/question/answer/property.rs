@@ -269,6 +269,14 @@ impl Knowledge<'_> {
         }
     }
 
+    /// The values of a thing without the id that a foreign file gave it, which is nothing to tell.
+    pub(super) fn told_values(&self, thing: Thing) -> Vec<(Property, Option<ValueId>, String)> {
+        let is_id = |text: &str| text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
+        let mut values = self.values(thing);
+        values.retain(|(_, _, text)| !is_id(text));
+        values
+    }
+
     pub(super) fn describe(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let thing = self.one(noun)?;
         let name = self.name(thing);
@@ -285,13 +293,9 @@ impl Knowledge<'_> {
         parts.retain(|part| !part.is_empty());
         parts.push(self.where_one(thing, &mut facts));
         let values: Vec<String> = self
-            .values(thing)
+            .told_values(thing)
             .iter()
-            // The id that a foreign file gave is nothing to tell.
-            .filter(|(_, value, text)| {
-                let id = text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
-                value.is_some() && !id
-            })
+            .filter(|(_, value, _)| value.is_some())
             // The colour of its floor is none of the room.
             .filter(|(property, _, _)| {
                 !matches!(property, Property::Other(name) if is_of_surface(name))
@@ -352,8 +356,9 @@ impl Knowledge<'_> {
     }
 
     /// The text of a property: a name of the map, «нет», or what the map writes.
-    fn value_told(&self, text: &str) -> String {
+    pub(super) fn value_told(&self, text: &str) -> String {
         match (&*name_key(text), &self.world.find(text)[..]) {
+            ("да" | "yes" | "true", _) => self.pick("да", "yes").to_owned(),
             ("нет" | "no" | "false", _) => self.pick("нет", "no").to_owned(),
             (_, [named]) => self.name(Thing::Entity(*named)),
             _ => text.to_owned(),

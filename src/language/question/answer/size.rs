@@ -26,6 +26,23 @@ impl Knowledge<'_> {
         Some(format!("{sizes} {}", lengths.word(language)))
     }
 
+    /// One measure of a thing in words; none where it has none.
+    pub(super) fn size_in_words(&self, dimension: Dimension, thing: Thing) -> Option<String> {
+        let extent = match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
+            Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
+            _ => return None,
+        };
+        Some(match dimension {
+            Dimension::All => self.sizes(thing)?,
+            Dimension::Height => length(extent.height, self.language),
+            Dimension::Width => length(extent.width, self.language),
+            Dimension::Length => length(extent.depth, self.language),
+            Dimension::Area => area(extent.base, self.language),
+            Dimension::Elevation => return None,
+        })
+    }
+
     pub(super) fn size(&self, dimension: Dimension, of: &Noun) -> Result<Draft, Doubt> {
         const SHOWN: usize = 20;
         let found = self.definite(of)?;

@@ -8,10 +8,11 @@ use crate::question::lexicon::Extension;
 use crate::question::query::{Noun, Rel, Thing};
 use crate::question::values::Property;
 use crate::question::{Doubt, Said};
+use crate::units::name_key;
 
 impl Knowledge<'_> {
     /// All things that several descriptions mean, each once.
-    fn all_meant(&self, of: &[Noun]) -> Result<Vec<Thing>, Doubt> {
+    pub(super) fn all_meant(&self, of: &[Noun]) -> Result<Vec<Thing>, Doubt> {
         let mut found: Vec<Thing> = Vec::new();
         for noun in of {
             for thing in self.definite(noun)? {
@@ -111,8 +112,10 @@ impl Knowledge<'_> {
         let mut told: Vec<(String, String)> = Vec::new();
         let kind = self.kind_name(thing).map(|kind| kind.to_lowercase());
         told.extend(kind.map(|kind| (self.pick("вид", "kind").to_owned(), kind)));
-        for (property, value, text) in self.values(thing) {
+        for (property, value, text) in self.told_values(thing) {
             let said = match value {
+                // A yes or no is no value of the lexicon's.
+                _ if is_flag(&text) => self.value_told(&text),
                 Some(value) if property == Property::Material => {
                     self.value_of(&property, value, thing)
                 }
@@ -121,7 +124,7 @@ impl Knowledge<'_> {
                     self.lexicon().values.entry(value).russian.clone()
                 }
                 Some(value) => self.value(value, thing),
-                None => text.to_lowercase(),
+                None => self.value_told(&text).to_lowercase(),
             };
             told.push((property.noun(self.language), said));
         }
@@ -133,4 +136,9 @@ impl Knowledge<'_> {
         }
         told
     }
+}
+
+/// Whether a value only says that something is so or is not.
+fn is_flag(text: &str) -> bool {
+    matches!(&*name_key(text), "да" | "нет" | "yes" | "no" | "true" | "false")
 }

@@ -498,6 +498,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             | Q::Together { .. }
             | Q::Same { .. }
             | Q::SameAll { .. }
+            | Q::SameSize { .. }
             | Q::Sees(_)
     );
     // "Why is it smaller?" asks of more than the last answer.
@@ -575,6 +576,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::HowBig(_) => matches!(
             query,
             Q::Size { .. }
+                | Q::SameSize { .. }
                 | Q::Larger { .. }
                 | Q::WhichMore { .. }
                 | Q::Free(_)
@@ -636,7 +638,11 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
                 || told.inward
                 || matches!(
                     query,
-                    Q::Same { .. } | Q::SameAll { .. } | Q::Together { .. } | Q::Holds { .. }
+                    Q::Same { .. }
+                        | Q::SameAll { .. }
+                        | Q::SameSize { .. }
+                        | Q::Together { .. }
+                        | Q::Holds { .. }
                 )
         }
         Mark::Kinds => matches!(query, Q::Kinds { .. }),

@@ -104,6 +104,11 @@ impl Frame<'_, '_> {
                 let what = vec![Noun { plural: true, ..self.with_rest(rooms, &[]) }];
                 return Some(Query::Exists { what, either: false, denial: self.negated.into() });
             }
+            // "Does the bedroom have a window and the kitchen a fridge?" says nothing of a kitchen in the bedroom.
+            let rooms = subjects.iter().filter(|s| self.is_area(&s.noun)).count();
+            if rooms > 0 && rooms < subjects.len() {
+                return None;
+            }
             if !self.is_building(&owner.noun) {
                 let rel = if self.is_area(&owner.noun) { Rel::In } else { Rel::On };
                 within.push(Restriction { rel, anchors: vec![owner.noun.clone()], negated: false });

@@ -22,10 +22,11 @@ pub(super) fn clauses_of(
         let Item::Mark(mark) = item else { return false };
         !matches!(mark, Mark::Exists | Mark::Be | Mark::A | Mark::The | Mark::And)
     };
-    if items.iter().any(asks) {
-        return None;
-    }
-    let (one, other) = in_both_places(sentence, items).or_else(|| of_two_things(items))?;
+    let claims = match items.iter().any(asks) {
+        true => with_one_verb(items, whole),
+        false => in_both_places(sentence, items).or_else(|| of_two_things(items)),
+    };
+    let (one, other) = claims?;
     let read = |claim: &[Item]| {
         let frame = Frame::of(sentence, lexicon, claim, referent).ok()?;
         let mut query = frame.read()?;
@@ -71,6 +72,27 @@ fn in_both_places(sentence: &Sentence<'_>, items: &[Item]) -> Option<(Vec<Item>,
     (again && is_alone && things(items) == 1).then(|| (claim(one), claim(other)))
 }
 
+/// "Does the kitchen have a fridge and the bathroom a toilet?": the verb of the first claim is that of the second as well.
+fn with_one_verb(items: &[Item], whole: &Frame<'_, '_>) -> Option<(Vec<Item>, Vec<Item>)> {
+    let joint = items.iter().position(|item| *item == Item::Mark(Mark::And))?;
+    let (one, other) = (&items[..joint], &items[joint + 1..]);
+    let pair = |claim: &[Item]| {
+        let nouns = claim.iter().filter(|item| matches!(item, Item::Noun(_)));
+        let [owner, had] = <[&Item; 2]>::try_from(nouns.collect::<Vec<_>>()).ok()?;
+        let is_room = |item: &Item| matches!(item, Item::Noun(p) if whole.is_area(&p.noun));
+        (is_room(owner) && !is_room(had)).then(|| [owner.clone(), had.clone()])
+    };
+    let small =
+        |item: &Item| matches!(item, Item::Noun(_) | Item::Mark(Mark::A | Mark::The | Mark::And));
+    let is_had = one.contains(&Item::Mark(Mark::Have)) && other.iter().all(small);
+    let mut nouns = pair(other).filter(|_| is_had && pair(one).is_some())?.into_iter();
+    let put = |item: &Item| match item {
+        Item::Noun(_) => nouns.next().expect("both claims have two nouns"),
+        item => item.clone(),
+    };
+    Some((one.to_vec(), one.iter().map(put).collect()))
+}
+
 /// The items with a joint between two claims: "in the kitchen and a toilet in the bathroom" is no place of both, and «…, а радио
 /// включено» begins anew behind its comma.
 fn parted(sentence: &Sentence<'_>, items: &[Item], whole: &Frame<'_, '_>) -> Vec<Item> {
@@ -88,19 +110,28 @@ fn parted(sentence: &Sentence<'_>, items: &[Item], whole: &Frame<'_, '_>) -> Vec
                 all.extend([Item::Mark(Mark::And), Item::Noun(thing.clone())]);
                 continue;
             }
-            Item::Noun(phrase) if goes_on => {
-                let start = phrase.words.start;
-                let is_later = all.iter().any(|item| matches!(item, Item::Noun(_)));
-                // «а» stands between the comma and the noun.
-                let anew = sentence.comma_between(start, start)
-                    || start > 1 && sentence.comma_between(start - 1, start - 1);
-                if is_later && anew && all.last() != Some(&Item::Mark(Mark::And)) {
-                    all.push(Item::Mark(Mark::And));
-                }
+            Item::Noun(phrase) if goes_on && begins_anew(sentence, &all, phrase.words.start, 1) => {
+                all.push(Item::Mark(Mark::And));
+            }
+            // «Есть ли в спальне кровать, а на кухне холодильник?»: the preposition stands before the room.
+            Item::Place { nouns, .. }
+                if matches!(items.get(at + 1), Some(Item::Noun(_)))
+                    && begins_anew(sentence, &all, nouns[0].words.start, 2) =>
+            {
+                all.push(Item::Mark(Mark::And));
             }
             _ => {}
         }
         all.push(item.clone());
     }
     all
+}
+
+/// Whether a claim begins behind another one with a comma, and at most so many words between it and what it names first: «а».
+fn begins_anew(sentence: &Sentence<'_>, before: &[Item], start: usize, words: usize) -> bool {
+    let is_later = before.iter().any(|item| matches!(item, Item::Noun(_)));
+    let from = start.saturating_sub(words).max(1);
+    is_later
+        && before.last() != Some(&Item::Mark(Mark::And))
+        && (from..=start).any(|n| sentence.comma_between(n, n))
 }

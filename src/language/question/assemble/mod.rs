@@ -215,12 +215,9 @@ struct Spot {
 
 impl Spot {
     fn restrictions(&self) -> Vec<Restriction> {
-        if matches!(self.rel, Rel::Between | Rel::ToTheEye(_)) {
-            return vec![Restriction {
-                rel: self.rel,
-                anchors: self.nouns.clone(),
-                negated: self.negated,
-            }];
+        // "With a sink and a window" has both; "without a sink and a window" has neither.
+        if matches!(self.rel, Rel::Has | Rel::Bears) && !self.either && !self.negated {
+            return self.each().collect();
         }
         // «в спальне и коридоре»: in either of them.
         vec![Restriction { rel: self.rel, anchors: self.nouns.clone(), negated: self.negated }]

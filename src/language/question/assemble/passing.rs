@@ -41,7 +41,11 @@ impl Frame<'_, '_> {
         });
         let told = goes || self.has(Mark::HowGet);
         let asks = match counted.filter(|_| counts) {
-            Some(rooms) if self.is_rooms(&rooms.noun) && (between.is_some() || told) => {
+            // Rooms that are "connected to the kitchen" are on no way.
+            Some(rooms)
+                if self.is_rooms(&rooms.noun)
+                    && (between.is_some() || self.has(Mark::Move) || self.has(Mark::HowGet)) =>
+            {
                 Passing::Rooms
             }
             Some(doors) if self.is_doors(&doors.noun) && told => Passing::Doors,

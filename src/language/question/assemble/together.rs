@@ -114,6 +114,13 @@ impl Frame<'_, '_> {
         of.extend(self.spots.iter().flat_map(|s| s.nouns.iter().cloned()));
         let several = |noun: &Noun| noun.plural || noun.all || noun.head.things.is_some();
         let enough = of.len() == 2 || (of.len() == 1 && several(&of[0]));
-        enough.then_some(Query::Differ { of, alike })
+        let dimension = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::HowBig(dimension) => Some(*dimension),
+            _ => None,
+        });
+        enough.then_some(match dimension.filter(|_| same) {
+            Some(dimension) => Query::SameSize { dimension, of },
+            None => Query::Differ { of, alike },
+        })
     }
 }

@@ -387,12 +387,7 @@ impl Frame<'_, '_> {
         }
         // «С какими комнатами соединена Комната-В?», «С чем граничит Комната-В?», «Куда можно выйти из Комнаты-В?»
         if self.asks() || asks_where || self.has(Mark::As) {
-            let room =
-                self.nouns.iter().rev().find(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
-            let anchor = room.map(|s| s.noun.clone()).or_else(|| {
-                self.spots.iter().find(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone())
-            })?;
-            let mut rooms = self.rooms_near(anchor);
+            let mut rooms = self.rooms_near(self.joined_room()?);
             // «Из каких комнат можно попасть в коридор?», "Which rooms lead to the corridor?"
             let whither = self.spots.iter().any(|s| {
                 self.is_area(&s.nouns[0]) && matches!(s.rel, Rel::To | Rel::In | Rel::On | Rel::At)
@@ -466,6 +461,14 @@ impl Frame<'_, '_> {
         let place = Restriction { rel: Rel::NextTo, anchors: vec![to], negated: false };
         let claims = vec![Claim::Related(place)];
         Some(Query::Holds { subject: from, claims, denial: self.negated.into() })
+    }
+
+    /// The room to which others are joined.
+    pub(super) fn joined_room(&self) -> Option<Noun> {
+        let room = |s: &&Subject| self.is_area(&s.noun) && !self.is_rooms(&s.noun);
+        let room = self.nouns.iter().rev().find(room).map(|s| &s.noun);
+        let place = || self.spots.iter().map(|s| &s.nouns[0]).find(|noun| self.is_area(noun));
+        room.or_else(place).cloned()
     }
 
     pub(super) fn rooms_near(&self, anchor: Noun) -> Noun {

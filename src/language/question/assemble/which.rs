@@ -49,8 +49,44 @@ impl Frame<'_, '_> {
             noun.head.anything = true;
             return (!self.spots.is_empty()).then(|| Query::Count(self.with_rest(noun, &[])));
         };
+        // "How many rooms are connected to the kitchen?"
+        if self.has(Mark::Lead)
+            && self.is_rooms(&counted.noun)
+            && counted.noun.head.things.is_none()
+            && !self.negated
+            && let Some(anchor) = self.joined_room()
+        {
+            return Some(Query::Count(self.rooms_near(anchor)));
+        }
         let mut noun = counted.noun.clone();
         noun.plural = true;
+        // "How many of the things on the counter are knives?": of the former those that are the latter too.
+        let general =
+            |noun: &Noun| noun.head.anything || self.is_kind(noun, |e| *e == Extension::Things);
+        if let Some(of) = of.filter(|s| told.is_none() && s.at < counted.at && !s.negated)
+            && let [whole] = &of.nouns[..]
+            && !self.is_area(whole)
+            && self.nouns.len() == 1
+        {
+            if !general(whole) {
+                noun.also.push(whole.head.clone());
+            }
+            noun.filters.extend(whole.filters.iter().cloned());
+            noun.restrictions.extend(whole.restrictions.iter().cloned());
+            return Some(Query::Count(self.with_rest(noun, &[of.at])));
+        }
+        // "How many things in the kitchen are chairs?"
+        if let [things, sort] = &self.nouns[..]
+            && things.at == counted.at
+            && general(&things.noun)
+            && !self.is_area(&sort.noun)
+            && self.place_of(Mark::Be).is_some_and(|be| things.at < be && be < sort.at)
+        {
+            let mut noun = Noun { plural: true, ..sort.noun.clone() };
+            noun.filters.extend(things.noun.filters.iter().cloned());
+            noun.restrictions.extend(things.noun.restrictions.iter().cloned());
+            return Some(Query::Count(self.with_rest(noun, &[])));
+        }
         if let Some(kinds_first) = Some(&mut noun.head).filter(|h| !h.kinds.is_empty()) {
             kinds_first.named.clear();
         }

@@ -235,6 +235,23 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// A comma before what follows.
+    fn comma<'a>(&self, input: Tokens<'a>) -> Parsed<'a, ()> {
+        match input.0.first().map(|token| token.from as usize) {
+            Some(next) if self.comma_between(next, next) => Ok((input, ())),
+            _ => fail(input),
+        }
+    }
+
+    /// Whether the first noun among tokens is that of a room.
+    pub(super) fn begins_with_area(&self, tokens: &[Token]) -> bool {
+        let noun = tokens.iter().find_map(|token| match token.kind {
+            Tok::Noun(n) => Some(n as usize),
+            _ => None,
+        });
+        noun.is_some_and(|n| self.nouns[n].is_area)
+    }
+
     /// A preposition with one noun or several.
     fn place<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let (rest, mark) = self.mark(input, |m| matches!(m, Mark::Link(_)))?;
@@ -252,8 +269,29 @@ impl<'t> Sentence<'t> {
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
-        let more = pair(pair(joint, again), |i| self.governed_alike(i, rel, &first));
-        let (rest, more) = many0(more).parse(rest)?;
+        let next = |i| self.governed_alike(i, rel, &first);
+        // "In the hall, the kitchen and the bathroom"; "nearer to the hall, the kitchen or the bathroom" compares the latter.
+        let rooms = matches!(rel, Rel::In | Rel::On) && self.begins_with_area(&input.0[1..]);
+        let listed = |i: Tokens<'a>| {
+            let (rest, again) = again(self.comma(i)?.0)?;
+            match rooms && self.begins_with_area(rest.0) {
+                true => next(rest).map(|(rest, noun)| (rest, ((Mark::And, again), noun))),
+                false => fail(i),
+            }
+        };
+        let joined = |i| many0(pair(pair(joint, again), next)).parse(i);
+        let list = many1(listed).parse(rest).and_then(|(after, listed)| {
+            let (after, joined) = joined(after)?;
+            Ok((after, listed.into_iter().chain(joined).collect::<Vec<_>>()))
+        });
+        let ends = |list: &[((Mark, Option<Mark>), Phrase)]| match list {
+            [.., before, last] => before.0.0 == Mark::And && last.0.0 == Mark::And,
+            _ => false,
+        };
+        let (rest, more) = match list {
+            Ok((after, list)) if ends(&list) => (after, list),
+            _ => joined(rest)?,
+        };
         let either = more.iter().any(|((joint, _), _)| *joint == Mark::Or);
         let nouns = std::iter::once(first).chain(more.into_iter().map(|(_, noun)| noun)).collect();
         Ok((rest, Item::Place { rel, nouns, either }))

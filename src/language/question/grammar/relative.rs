@@ -2,9 +2,6 @@
 //!
 //! Invariant: a clause that is not read to its end leaves the noun and the tokens as they were.
 
-use nom::Parser;
-use nom::multi::many0;
-
 use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
 use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction};
@@ -120,11 +117,13 @@ impl Sentence<'_> {
         if let [Token { kind: Tok::Value(value), .. }, after @ ..] = rest.0 {
             return Some((Tokens(after), Vec::new(), vec![Filter::new(*value, negated)]));
         }
-        let place = |i| self.place(i);
-        let (rest, places) = many0(place).parse(rest).ok()?;
         let mut restrictions: Vec<Restriction> = Vec::new();
-        for place in places {
+        // "The bowl that is in the kitchen on the bed": no place narrows a room.
+        let mut in_room = false;
+        while let Some((after, place)) = self.place(rest).ok().filter(|_| !in_room) {
             let Item::Place { rel, nouns, .. } = place else { return None };
+            in_room = self.begins_with_area(&rest.0[1..]);
+            rest = after;
             if nouns.iter().any(|n| n.person.is_some() || n.pronoun.is_some()) {
                 return None;
             }

@@ -69,6 +69,18 @@ impl<'t> Sentence<'t> {
         // "Which is the tallest?" asks; "the book which is on the table" tells.
         let mark = match mark {
             Some((_, Mark::Filler)) if at == 0 && keys[0] == "which" => Some((1, Mark::Which)),
+            // "The book that is not on the table": a denied place is told by a clause.
+            Some((2, Mark::Filler | Mark::Corrects))
+                if at > 0
+                    && keys.get(2).is_some_and(|key| key == "not")
+                    && matches!(vocabulary::longest(&keys[3..]), Some((_, Mark::Link(_)))) =>
+            {
+                match keys[0].as_str() {
+                    "that" => Some((1, Mark::The)),
+                    "which" => Some((1, Mark::Which)),
+                    _ => mark,
+                }
+            }
             // "… any idea where it is?"
             Some((2, Mark::Filler)) if at > 0 && keys == ["it", "is"] => {
                 Some((1, Mark::Pronoun(Pronoun::Any)))

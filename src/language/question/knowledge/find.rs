@@ -54,7 +54,7 @@ impl Knowledge<'_> {
     pub(in crate::question) fn find(&self, noun: &Noun, loose: bool) -> Result<Vec<Thing>, Doubt> {
         // "A bedroom" is any, «спальня с компьютером» and «вторая спальня» are those that they are said to be.
         let Some(of_kind) = noun.of_kind() else { return self.fitting(noun, loose) };
-        if noun.indefinite {
+        if noun.indefinite || noun.rank.is_some() && noun.best.is_none() {
             return self.fitting(&of_kind, loose);
         }
         match self.fitting(noun, loose) {
@@ -272,6 +272,10 @@ impl Knowledge<'_> {
                 let known = self.in_focus(&found);
                 Ok(found.into_iter().filter(|t| Some(*t) != known).collect())
             }
+            // «вторая спальня»: the one that the map calls «Спальня-2».
+            (None, Some(rank)) if self.room_called(&found, rank).is_some() => {
+                Ok(self.room_called(&found, rank).into_iter().collect())
+            }
             // «второй стул»: nothing says in which order.
             (None, Some(rank)) => Err(match (found.len() as u64) < rank {
                 true if !found.is_empty() => Doubt::TooFew { found },
@@ -279,6 +283,23 @@ impl Knowledge<'_> {
                 false => self.ambiguous(noun, &found),
             }),
             (None, None) => Ok(found),
+        }
+    }
+
+    /// Of rooms that are called alike but for a number, the one with this number; what has none is the first.
+    fn room_called(&self, found: &[Thing], rank: u64) -> Option<Thing> {
+        let parted = |thing: &Thing| {
+            let name = &self.world.areas[&thing.area()?].name;
+            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+            let number = name[stem.len()..].parse().unwrap_or(1);
+            Some((stem.trim_end_matches(['-', ' ']).to_owned(), number))
+        };
+        let rooms: Vec<(String, u64)> = found.iter().map(parted).collect::<Option<_>>()?;
+        let alike = rooms.len() > 1 && rooms.iter().all(|(stem, _)| *stem == rooms[0].0);
+        let mut called = rooms.iter().zip(found).filter(|((_, number), _)| *number == rank);
+        match (called.next().filter(|_| alike), called.next()) {
+            (Some((_, room)), None) => Some(*room),
+            _ => None,
         }
     }
 

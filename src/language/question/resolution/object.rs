@@ -106,8 +106,11 @@ impl Resolver<'_, '_> {
             if let Some(pronoun) = spot.phrase.pronoun {
                 let spoken = more.place == self.knowledge.memory.last_thing();
                 let meant = || self.knowledge.borne_by_pronoun(pronoun).filter(|_| spoken);
-                if let Some(place) = meant().or(more.place) {
-                    anchor.head = Head { things: Some(vec![place]), ..Head::default() };
+                let all = || self.knowledge.places_meant(pronoun, spot.rel).filter(|_| spoken);
+                let places = all().or_else(|| meant().or(more.place).map(|place| vec![place]));
+                if let Some(places) = places {
+                    anchor =
+                        Noun { text: anchor.text, plural: places.len() > 1, ..Noun::of(places) };
                 }
             }
             // «дверь на улицу»: the way out is the door itself.

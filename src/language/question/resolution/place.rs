@@ -63,7 +63,14 @@ impl Resolver<'_, '_> {
             let Item::Place { rel, nouns, .. } = item else { continue };
             let Some(phrase) = nouns.first() else { continue };
             let rel = &self.having(*rel, phrase);
-            if phrase.person.is_some() || phrase.pronoun.is_some() && *rel != Rel::From {
+            // "The lamps in them": in each of the rooms that were told.
+            let in_each = |pronoun| {
+                let sort = sort(clause_at(self.bytes(&phrase.words).start));
+                matches!(sort, Sort::Switch | Sort::Door)
+                    && self.knowledge.places_meant(pronoun, *rel).is_some()
+            };
+            let idle = phrase.pronoun.is_some_and(|p| *rel != Rel::From && !in_each(p));
+            if phrase.person.is_some() || idle {
                 continue;
             }
             let last = nouns.last().map_or(phrase.words.end, |p| p.words.end);

@@ -410,6 +410,16 @@ impl Asker<'_> {
         {
             return vec![*only];
         }
+        // «В каких комнатах есть лампы? – … – Выключи их»: no rooms, but what they have; and of several exchanges the latest
+        // in which there are several such things.
+        if pronouns.contains(&Pronoun::They) && !free && !last.iter().any(fits) {
+            let of = |all: Vec<Thing>| -> Vec<Thing> { all.into_iter().filter(fits).collect() };
+            let told = memory.exchanges.iter().map(|e| of(e.things().copied().collect()));
+            let all = knowledge.had_by_rooms().into_iter().map(of).chain(told);
+            if let Some(several) = all.into_iter().find(|all| all.len() > 1) {
+                return several;
+            }
+        }
         if last.iter().any(fits) || free && pronouns.is_empty() {
             return last;
         }

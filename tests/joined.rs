@@ -1,0 +1,218 @@
+//! What one sentence joins, held against what its parts come to by themselves: two things that a room has, two claims with
+//! one verb, several rooms, several things that are of a kind; and that an answer keeps to its language.
+
+use std::collections::BTreeSet;
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_language::Language;
+use orthoframe_language::question::{Answer, Said};
+
+use crate::files::{long, project};
+use crate::talk::engine;
+
+const HOUSE: &str = "../shared/data/procthor/house_5.json";
+const FLAT: &str = "../shared/data/virtualhome/TestScene3_graph.json";
+
+fn ask(engine: &Engine, line: &str) -> Option<Answer> {
+    engine.ask(line, &mut Memory::default()).expect("there is a map").ok()
+}
+
+fn symbols(engine: &Engine, line: &str) -> Option<BTreeSet<String>> {
+    Some(ask(engine, line)?.symbols.into_iter().collect())
+}
+
+/// The English names of rooms and of the kinds of things, each as it is in a sentence.
+fn rooms_and_kinds(engine: &Engine) -> (Vec<String>, Vec<String>) {
+    let world = engine.world().unwrap();
+    let rooms = world.areas.values().map(|area| area.name_en.clone()).collect();
+    let kinds: BTreeSet<String> = world
+        .replicas
+        .values()
+        .filter_map(|replica| {
+            let kind = world.objects[&replica.object].object_type;
+            Some(world.types.object.get(kind)?.name_en.to_lowercase())
+        })
+        .collect();
+    (rooms, kinds.into_iter().step_by(if long() { 1 } else { 3 }).collect())
+}
+
+/// "Which rooms have a sink and a window?": those that have both.
+#[test]
+fn a_room_with_two_things_has_both() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (_, kinds) = rooms_and_kinds(&engine);
+        let of = |kind: &str| symbols(&engine, &format!("Which rooms have a {kind}?"));
+        for pair in kinds.windows(2) {
+            let [one, other] = pair else { continue };
+            let (Some(first), Some(second)) = (of(one), of(other)) else { continue };
+            let both: BTreeSet<String> = first.intersection(&second).cloned().collect();
+            for line in [
+                format!("Which rooms have a {one} and a {other}?"),
+                format!("Which rooms are there with a {one} and a {other}?"),
+            ] {
+                let Some(found) = ask(&engine, &line) else { continue };
+                let symbols: BTreeSet<String> = found.symbols.into_iter().collect();
+                assert_eq!(symbols, both, "{line}: {}", found.text);
+                told += 1;
+            }
+            let line = format!("Is there a room with a {one} and a {other}?");
+            let Some(found) = ask(&engine, &line) else { continue };
+            assert_eq!(found.said == Said::Yes, !both.is_empty(), "{line}: {}", found.text);
+            told += 1;
+        }
+    }
+    assert!(told > 20, "{told}");
+}
+
+/// "Does the bedroom have a window and the kitchen a fridge?": each room by itself, or not understood.
+#[test]
+fn the_verb_of_one_claim_is_that_of_the_next() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        let has = |room: &str, kind: &str| {
+            ask(&engine, &format!("Does {room} have a {kind}?")).map(|a| a.said)
+        };
+        for (n, pair) in kinds.windows(2).enumerate() {
+            let (one, other) = (&rooms[n % rooms.len()], &rooms[(n + 1) % rooms.len()]);
+            let (Some(first), Some(second)) = (has(one, &pair[0]), has(other, &pair[1])) else {
+                continue;
+            };
+            let line = format!("Does {one} have a {} and {other} a {}?", pair[0], pair[1]);
+            let Some(both) = ask(&engine, &line) else { continue };
+            let alone = |line: String| ask(&engine, &line).map(|a| a.text).unwrap_or_default();
+            let texts = [
+                alone(format!("Does {one} have a {}?", pair[0])),
+                alone(format!("Does {other} have a {}?", pair[1])),
+            ];
+            assert_eq!(both.text, texts.join(" "), "{line} {first:?} {second:?}");
+            told += 1;
+        }
+    }
+    assert!(told > 5, "{told}");
+}
+
+/// "Are there lamps in the bathroom, the kitchen and the hall?": whether there are in any of them.
+#[test]
+fn several_rooms_are_told_in_a_list() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        let [one, two, three, ..] = &rooms[..] else { continue };
+        for kind in &kinds {
+            let within = |room: &str| symbols(&engine, &format!("Which {kind} is in {room}?"));
+            let each = [one, two, three].map(|room| within(room));
+            let [Some(a), Some(b), Some(c)] = each else { continue };
+            let all: BTreeSet<String> = a.into_iter().chain(b).chain(c).collect();
+            let line = format!("Which {kind} is in {one}, {two} and {three}?");
+            let Some(found) = ask(&engine, &line) else { continue };
+            let symbols: BTreeSet<String> = found.symbols.into_iter().collect();
+            assert_eq!(symbols, all, "{line}: {}", found.text);
+            told += 1;
+        }
+    }
+    assert!(told > 5, "{told}");
+}
+
+/// "How many of the things on the counter are knives?": as many as there are knives on the counter.
+#[test]
+fn things_that_are_of_a_kind_are_counted_as_the_kind() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        for (n, kind) in kinds.iter().enumerate() {
+            let kinds = orthoframe_language::english::plural(kind);
+            let room = &rooms[n % rooms.len()];
+            let plain = ask(&engine, &format!("How many {kinds} are in {room}?"));
+            let Some(plain) = plain.and_then(|answer| answer.number) else { continue };
+            for line in [
+                format!("How many of the things in {room} are {kinds}?"),
+                format!("How many things in {room} are {kinds}?"),
+            ] {
+                let Some(found) = ask(&engine, &line) else { continue };
+                assert_eq!(found.number, Some(plain), "{line}: {}", found.text);
+                told += 1;
+            }
+        }
+        for room in &rooms {
+            let plain = symbols(&engine, &format!("Which rooms are connected to {room}?"));
+            let counted = ask(&engine, &format!("How many rooms are connected to {room}?"));
+            let (Some(plain), Some(counted)) = (plain, counted) else { continue };
+            assert_eq!(counted.number, Some(plain.len() as f64), "{room}: {}", counted.text);
+            told += 1;
+        }
+    }
+    assert!(told > 20, "{told}");
+}
+
+/// "Which rooms have lamps? Turn off the lamps in them", «Выключи их»: in each of the rooms.
+#[test]
+fn they_are_all_that_were_told() {
+    let Some(engine) = engine(FLAT) else { return };
+    let lamps = symbols(&engine, "Which lamps are there?").expect("a plain question");
+    for (question, order) in [
+        ("Which rooms have lamps?", "Turn off the lamps in them"),
+        ("Which rooms have lamps?", "Switch them off"),
+        ("В каких комнатах есть лампы?", "Выключи их"),
+        ("В каких комнатах есть лампы?", "Включи лампы в них"),
+    ] {
+        let mut memory = Memory::default();
+        engine.ask(question, &mut memory).expect("there is a map").expect("a plain question");
+        let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
+        assert_eq!(commands.len(), lamps.len(), "{question} {order}: {commands:?}");
+    }
+}
+
+/// Names of the map, and what stands in quotes or was said, may be in any language; nothing else.
+#[test]
+fn an_answer_keeps_to_its_language() {
+    let mut told = 0;
+    for case in std::fs::read_dir(project("tests/golden/talk")).unwrap() {
+        let case = case.unwrap().path();
+        let map = std::fs::read_to_string(case.join("map.txt")).unwrap();
+        let questions = std::fs::read_to_string(case.join("questions.txt")).unwrap();
+        let Some(engine) = engine(map.trim()) else { continue };
+        let names = names(&engine);
+        let mut memory = Memory::default();
+        for line in questions.lines().map(str::trim).filter(|l| !l.starts_with('#')) {
+            let line = line.trim_start_matches(['+', ' ']);
+            let Ok(answer) = engine.ask(line, &mut memory).expect("there is a map") else {
+                continue;
+            };
+            if answer.language == Language::English {
+                let foreign = foreign(&answer.text, &names, line);
+                assert_eq!(foreign, None, "{line}: {}", answer.text);
+                told += 1;
+            }
+        }
+    }
+    for line in ["Are the beds the same size?", "What do Bed 1 and Bed 2 have in common?"] {
+        let Some(engine) = engine(FLAT) else { return };
+        let answer = ask(&engine, line).expect("both beds have a size");
+        assert_eq!(foreign(&answer.text, &[], line), None, "{line}: {}", answer.text);
+    }
+    assert!(told > 200, "{told}");
+}
+
+fn names(engine: &Engine) -> Vec<String> {
+    let world = engine.world().unwrap();
+    let of_things = world.replicas.values().flat_map(|r| [r.name.clone(), r.name_en.clone()]);
+    let of_rooms = world.areas.values().flat_map(|a| [a.name.clone(), a.name_en.clone()]);
+    let of_doors = world.doors.values().flat_map(|d| [d.name.clone(), d.name_en.clone()]);
+    of_things.chain(of_rooms).chain(of_doors).collect()
+}
+
+/// The first Cyrillic word of a text that neither a name nor the question has.
+fn foreign(text: &str, names: &[String], question: &str) -> Option<String> {
+    let is_cyrillic = |c: char| ('а'..='я').contains(&c) || ('А'..='Я').contains(&c);
+    let words = text.split(|c: char| !c.is_alphanumeric());
+    let mut cyrillic = words.filter(|word| word.chars().any(is_cyrillic));
+    let known = |word: &str| question.contains(word) || names.iter().any(|n| n.contains(word));
+    cyrillic.find(|word| !known(word)).map(str::to_owned)
+}
