@@ -63,7 +63,7 @@ pub enum Answer {
 pub struct Options {
     /// Share of the returns that must lie on lines.
     pub least: f64,
-    /// How much worse than the best another place fits and is still looked at.
+    /// How much worse than the best another place fits and is still possible.
     pub margin: f64,
     /// The laser's noise, in cm.
     pub sigma: f64,
@@ -107,10 +107,6 @@ const SHORT: f64 = 0.4;
 const STRAY: f64 = 0.3;
 /// How far off a wall may be drawn, in cm and as a share of the range, where a beam's likelihood is asked for.
 const WALLS: (f64, f64) = (15.0, 0.01);
-/// By so much the logarithm of the likelihood of one scan, as over [`JUDGED`] beams, must exceed that of every other place: of
-/// 306 scans of three logs a wrong place led the right one by 7.4 at most.
-const LEADS: f64 = 8.0;
-const JUDGED: f64 = 40.0;
 /// Of a scan with fewer returns nothing can be said.
 pub(crate) const LEAST_RETURNS: usize = 25;
 
@@ -125,11 +121,6 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    /// The logarithm of the likelihood, as over [`JUDGED`] beams.
-    fn evidence(&self) -> f64 {
-        self.evidence / self.count.max(1.0) * JUDGED
-    }
-
     pub(crate) fn fit(&self, pose: Isometry2<f64>, covariance: Matrix3<f64>) -> Fit {
         let share = |n: f64| n / self.count.max(1.0);
         let [explained, through, likeness] =
@@ -194,22 +185,25 @@ impl<'c> Localiser<'c> {
                 continue;
             };
             let sums = self.sums(sensor, ranges, &refined.pose);
-            let evidence = sums.evidence();
+            let evidence = sums.evidence / sums.count.max(1.0);
             let fit = sums.fit(refined.pose, refined.covariance);
             match judged.iter_mut().find(|(_, known)| is_near(&known.pose, &fit.pose, APART)) {
-                Some(known) if known.0 < evidence => *known = (evidence, fit),
+                Some(known) if known.1.rank() < fit.rank() => *known = (evidence, fit),
                 Some(_) => {}
                 None => judged.push((evidence, fit)),
             }
         }
+        let first = judged.iter().map(|(_, fit)| fit.rank()).fold(-1.0, f64::max);
         judged.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let Some((likeliest, best)) = judged.first() else { return Answer::Unknown };
+        // The likeliest is told first; the only one it is where none fits nearly as well by what is explained either: on a plan
+        // that is not exact a wrong place may be the likeliest by far.
+        let mut fits: Vec<Fit> = judged.into_iter().map(|(_, fit)| fit).collect();
+        let Some(likeliest) = fits.first().map(|fit| fit.pose) else { return Answer::Unknown };
+        fits.retain(|fit| fit.pose == likeliest || fit.rank() >= first - margin);
+        let best = &fits[0];
         if best.explained < least || best.worth() < least - margin {
             return Answer::Unknown;
         }
-        let bound = likeliest - LEADS;
-        judged.retain(|(evidence, _)| *evidence >= bound);
-        let mut fits: Vec<Fit> = judged.into_iter().map(|(_, fit)| fit).collect();
         // What could slide along a corridor may be anywhere in it.
         if is_loose && fits.len() == 1 {
             return Answer::Unknown;
