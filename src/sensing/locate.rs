@@ -117,6 +117,7 @@ pub(crate) struct Sums {
     explained: f64,
     through: f64,
     likeness: f64,
+    evidence: f64,
 }
 
 impl Sums {
@@ -176,25 +177,33 @@ impl<'c> Localiser<'c> {
         let rough: Vec<Option<Fit>> = found.into_iter().map(roughly).collect();
         let mut is_loose = rough.iter().any(Option::is_none);
         let best = rough.iter().flatten().map(Fit::rank).fold(-1.0, f64::max);
-        let mut fits: Vec<Fit> = Vec::new();
+        let mut judged: Vec<(f64, Fit)> = Vec::new();
         for fit in rough.iter().flatten().filter(|fit| fit.rank() >= best - 1.5 * margin) {
-            let Some(fit) = self.fit(sensor, ranges, &returns, fit.pose, WIDE) else {
+            let refined = refine(self.chart, &returns, self.options.sigma, fit.pose, WIDE);
+            let Some(refined) = refined else {
                 is_loose = true;
                 continue;
             };
-            match fits.iter_mut().find(|known| is_near(&known.pose, &fit.pose, APART)) {
-                Some(known) if known.rank() < fit.rank() => *known = fit,
+            let sums = self.sums(sensor, ranges, &refined.pose);
+            let evidence = sums.evidence / sums.count.max(1.0);
+            let fit = sums.fit(refined.pose, refined.covariance);
+            match judged.iter_mut().find(|(_, known)| is_near(&known.pose, &fit.pose, APART)) {
+                Some(known) if known.1.rank() < fit.rank() => *known = (evidence, fit),
                 Some(_) => {}
-                None => fits.push(fit),
+                None => judged.push((evidence, fit)),
             }
         }
-        fits.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
-        let Some(best) = fits.first() else { return Answer::Unknown };
+        let first = judged.iter().map(|(_, fit)| fit.rank()).fold(-1.0, f64::max);
+        judged.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        // The likeliest is told first; the only one it is where none fits nearly as well by what is explained either: on a plan
+        // that is not exact a wrong place may be the likeliest by far.
+        let mut fits: Vec<Fit> = judged.into_iter().map(|(_, fit)| fit).collect();
+        let Some(likeliest) = fits.first().map(|fit| fit.pose) else { return Answer::Unknown };
+        fits.retain(|fit| fit.pose == likeliest || fit.rank() >= first - margin);
+        let best = &fits[0];
         if best.explained < least || best.worth() < least - margin {
             return Answer::Unknown;
         }
-        let bound = best.rank() - margin;
-        fits.retain(|fit| fit.rank() >= bound);
         // What could slide along a corridor may be anywhere in it.
         if is_loose && fits.len() == 1 {
             return Answer::Unknown;
@@ -271,14 +280,19 @@ impl<'c> Localiser<'c> {
         pose: Isometry2<f64>,
         covariance: Matrix3<f64>,
     ) -> Fit {
+        self.sums(sensor, ranges, &pose).fit(pose, covariance)
+    }
+
+    /// What the scan says for a pose.
+    fn sums(&self, sensor: &Sensor, ranges: &[f64], pose: &Isometry2<f64>) -> Sums {
         let every = (sensor.count() / VERIFIED).max(1);
         let mut sums = Sums::default();
         for (range, direction) in ranges.iter().zip(sensor.directions()).step_by(every) {
             if sensor.returned(*range) && *range <= self.options.farthest {
-                self.weigh(&mut sums, &pose, direction * *range);
+                self.weigh(&mut sums, pose, direction * *range);
             }
         }
-        sums.fit(pose, covariance)
+        sums
     }
 
     /// Adds what a return says for a pose.
@@ -286,20 +300,25 @@ impl<'c> Localiser<'c> {
         let range = at.norm();
         let slack = slack(range);
         let (expected, _) = self.chart.cast(pose, at.y.atan2(at.x), range + 4.0 * slack);
-        let mut off = (range - expected).abs();
-        if off > slack && range > expected {
-            // Past a corner by a hair is not through it.
-            let end = pose * nalgebra::Point2::from(at);
-            let nearest = self.chart.nearest(end).map(|(_, foot)| (foot - end).norm());
-            off = nearest.unwrap_or(f64::INFINITY);
-            sums.through += f64::from(u8::from(off > slack));
-        }
+        let end = pose * nalgebra::Point2::from(at);
+        let nearest =
+            self.chart.nearest(end).map_or(f64::INFINITY, |(_, foot)| (foot - end).norm());
+        let ahead = expected - range;
+        // Past a corner by a hair is not through it.
+        let off = if ahead < -slack { nearest } else { ahead.abs() };
+        let is_through = ahead < -slack && off > slack;
+        sums.through += f64::from(u8::from(is_through));
         sums.count += 1.0;
+        let sigma = NEAR.1.mul_add(range, NEAR.0);
+        let like = |off: f64| (-0.5 * (off / sigma).powi(2)).exp();
         if off <= slack {
             sums.explained += 1.0;
-            let deviations = off / NEAR.1.mul_add(range, NEAR.0);
-            sums.likeness += (-0.5 * deviations * deviations).exp();
+            sums.likeness += like(off);
         }
+        // A wall that is grazed ends beams far before and behind of where it is met, and all of them near it.
+        let hit = HIT * like(ahead.abs().min(nearest)) / (sigma * TAU.sqrt());
+        let other = if is_through { STRAY } else { SHORT + STRAY };
+        sums.evidence += hit.mul_add(self.options.farthest, other).ln();
     }
 
     /// The logarithm of a return's likelihood for a pose, over that of a range that may be any.

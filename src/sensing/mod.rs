@@ -11,8 +11,8 @@
 //!
 //! - *Nothing is passed over.* The search (`search`) goes through all poses of the raster by branch and bound: what it
 //!   leaves out cannot fit better than what it keeps. A search that was cut off answers [`Answer::Unknown`].
-//! - *What the chart lacks at one place it may lack at another.* By one scan a place is told from the best only by
-//!   more than the best itself leaves unexplained; along a way the likelihood of all beams decides.
+//! - *What the chart lacks at one place it may lack at another.* The search keeps every place that is worse than the
+//!   best by no more than the best itself leaves unexplained; among those the likelihood of all beams decides, of one scan as along a way.
 //! - *Seen through a wall counts against.* A beam that is shorter than the Map has it may have met what the Map lacks; one
 //!   that is longer has gone through what the Map has.
 

@@ -78,6 +78,35 @@ fn what_is_unique_is_right() {
     assert!(unique >= 25 && unique + several <= 40, "{unique} {several}");
 }
 
+/// What the chart lacks ends beams at places of no account: the rest of the scan tells the place all the same, and no other is
+/// told for certain.
+#[test]
+fn what_is_unique_is_right_though_the_chart_lacks_things() {
+    let (mut unique, mut count) = (0, 0);
+    for seed in 20..26 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let seen = hall(&mut random);
+        // The walls, and of the boxes all but three.
+        let known = seen.lines().iter().take(seen.lines().len() - 12).copied().collect();
+        let chart = Chart::new(known);
+        let localiser = Localiser::new(&chart, Options::default());
+        for _ in 0..5 {
+            let pose = somewhere(&mut random);
+            let ranges = scan(&seen, &sensor(), &pose, &mut random);
+            // From within a box nothing is seen but what the chart may lack.
+            if ranges.iter().all(|range| *range < 250.0) {
+                continue;
+            }
+            count += 1;
+            if let Answer::Unique(fit) = localiser.locate(&sensor(), &ranges) {
+                assert!(is_right(&fit.pose, &pose), "seed {seed}: {} for {pose}", fit.pose);
+                unique += 1;
+            }
+        }
+    }
+    assert!(2 * unique >= count, "{unique} of {count}");
+}
+
 #[test]
 fn a_building_that_repeats_itself_is_told_as_several_places() {
     let mut random = fastrand::Rng::with_seed(7);

@@ -44,10 +44,11 @@ fn main() {
     let (chart, rooms, asked) = match what.as_str() {
         "halves" => {
             let even = log.scans.iter().step_by(2).map(|scan| (log.sensor(scan), scan));
-            (Chart::of_scans(even), None, log.scans.iter().skip(1).step_by(2).collect())
+            let rooms = Plan::beside(Path::new(&path)).map(|plan| plan.rooms);
+            (Chart::of_scans(even), rooms, log.scans.iter().skip(1).step_by(2).collect())
         }
         "plan" | "likeliest" => {
-            let Plan { chart, rooms } = Plan::beside(Path::new(&path));
+            let Plan { chart, rooms } = Plan::beside(Path::new(&path)).expect("a plan was drawn");
             (chart, Some(rooms), log.scans.iter().collect::<Vec<_>>())
         }
         _ => panic!("halves, plan or likeliest"),

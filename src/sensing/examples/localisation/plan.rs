@@ -127,14 +127,14 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// The plan of the building whose log it is, by the log's name.
-    pub(crate) fn beside(log: &Path) -> Self {
+    /// The plan of the building whose log it is, by the log's name; none where nobody drew one.
+    pub(crate) fn beside(log: &Path) -> Option<Self> {
         let plans = log.parent().expect("a folder").join("plans");
-        if log.to_string_lossy().contains("079") {
-            Self::read(&plans, "Freiburg79", &|at| by_rows(&PICKS_79, at))
-        } else {
-            Self::read(&plans, "Freiburg101", &|at| by_rows(&PICKS_101, at))
-        }
+        let drawn: [(&str, &str, &[&[Pick]]); 2] =
+            [("079", "Freiburg79", &PICKS_79), ("101", "Freiburg101", &PICKS_101)];
+        let of = |(number, ..): &&(&str, _, _)| log.to_string_lossy().contains(number);
+        let (_, name, picks) = drawn.iter().find(of)?;
+        Some(Self::read(&plans, name, &|at| by_rows(picks, at)))
     }
 
     fn read(plans: &Path, name: &str, laid: &dyn Fn(Point2<f64>) -> Point2<f64>) -> Self {
