@@ -15,7 +15,7 @@ mod ways;
 #[test]
 fn no_way_ends_at_a_wrong_place_with_confidence() {
     let Some(path) = shared("lidar/freiburg-079-corrected.log.gz") else { return };
-    let chart = plan::Plan::beside(&path).chart;
+    let chart = plan::Plan::beside(&path).expect("its plan was drawn").chart;
     let log = read_log(&read_source(&path).expect("the log can be read")).log;
     let posed: Vec<&Scan> = log.scans.iter().filter(|scan| scan.pose.is_some()).collect();
     let localiser = Localiser::new(&chart, Options::default());
