@@ -131,6 +131,7 @@ thresholds! {
     support_gap_up = "support gap up", Length, 600;
     support_gap_down = "support gap down", Length, 600, "sink";
     support_share = "support share", Share, 500;
+    support_cover = "support cover", Share, 900;
     overlap_share = "overlap share", Share, 200;
     inside_slack = "inside slack", Length, 500, "escape";
     inside_held = "inside held", Share, 500;

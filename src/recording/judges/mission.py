@@ -151,7 +151,7 @@ def a_killed_mission_is_readable_up_to_the_cut():
     assert len(drawn) >= 20, len(drawn)
     assert any(topic == "/words" for topic, _ in found) and any(topic == "/directives" for topic, _ in found)
     told = run("replay", path)
-    assert "обрывается" in told.stderr and "Движение" in told.stdout, (told.stdout, told.stderr)
+    assert "обрывается" in told.stderr and "подъехать" in told.stdout, (told.stdout, told.stderr)
     print(f"killed: {len(found)} messages, {len(drawn)} poses")
 
 
