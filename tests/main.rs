@@ -44,6 +44,7 @@ mod lost;
 mod map_editing;
 mod maps;
 mod meanings;
+mod mission_plans;
 mod odd_floors;
 mod odd_worlds;
 mod openings;

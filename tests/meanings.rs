@@ -23,6 +23,7 @@ tray = { name = "Поднос", type = "Коробка", items = [{ id = "A", or
 broom = { name = "Метла", items = [{ id = "A", orthoframe = "stick" }] }
 rack = { name = "Стеллаж", type = "Шкаф", items = [{ id = "A", orthoframe = "board" }, { id = "B", orthoframe = "board", at = [0, 0, 1] }, { id = "C", orthoframe = "post", at = [0, 0, 2] }] }
 armchair = { name = "Кресло", type = "Стол", items = [{ id = "A", orthoframe = "seat" }, { id = "B", orthoframe = "back", at = [0, 35, 45] }] }
+plank = { name = "Доска", type = "Коробка", items = [{ id = "A", orthoframe = "board" }] }
 crate = { name = "Ящик", type = "Шкаф", items = [{ id = "A", orthoframe = "hollow" }] }
 [door.ab]"#)
         .replace("small = {", r#"plate = { name = "Пластина", rect = [30, 20], height = 2 }
@@ -54,7 +55,15 @@ small = {"#)
   { name = "Коробка-4", object = "box", at = [150, 300, 3] },
   { name = "Метла-2", object = "broom", at = [155, 300, 2] },
   { name = "Коробка-1""#);
-    parsed(&text)
+    // A board over most of a tray whose edge is beyond that of its table.
+    let bedroom = "name = \"Спальня\"\n";
+    let board = r#"replicas = [
+  { name = "Стол-4", object = "table", at = [300, 200] },
+  { name = "Поднос-3", object = "tray", at = [325, 250, 75] },
+  { name = "Доска-1", object = "plank", at = [300, 236, 77] },
+]
+"#;
+    parsed(&text.replace(bedroom, &format!("{bedroom}{board}")))
 }
 
 /// ```text
