@@ -42,16 +42,42 @@ impl Asker<'_> {
             let mistyped = match Language::of(key) {
                 Language::Russian => !words::is_russian_word(key),
                 // No dictionary of English is at hand: only where a noun must stand.
-                Language::English => at > 0 && precedes_noun(&keys[at - 1]),
+                Language::English => {
+                    at > 0 && precedes_noun(&keys[at - 1]) && !words::everyday::is_in_list(key)
+                }
             };
             // "Are there any left?" has no lift in it.
             let mistyped = mistyped && !vocabulary::is_in_a_phrase(key);
-            if let Some(word) = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped) {
+            let word = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped);
+            if let Some(word) = word.filter(|word| is_slip(key, &word.to_lowercase())) {
                 mended.replace_range(words[at].clone(), &word);
                 any = true;
             }
         }
         any.then_some(mended)
+    }
+}
+
+/// Whether fingers slip so from what was meant. A letter for another in English is so only where its key is beside the
+/// other's: "cable" and "plate" are words, and no table and no place.
+fn is_slip(typed: &str, meant: &str) -> bool {
+    const KEYS: [&str; 3] = ["qwertyuiop", "asdfghjkl", "zxcvbnm"];
+    let differ: Vec<(char, char)> =
+        typed.chars().zip(meant.chars()).filter(|(typed, meant)| typed != meant).collect();
+    let [(typed_key, meant_key)] = differ[..] else { return true };
+    if typed.chars().count() != meant.chars().count() || Language::of(typed) == Language::Russian {
+        return true;
+    }
+    let place = |key: char| {
+        KEYS.iter()
+            .enumerate()
+            .find_map(|(row, keys)| Some((row, keys.chars().position(|k| k == key)?)))
+    };
+    match (place(typed_key), place(meant_key)) {
+        (Some((row, at)), Some((other_row, other_at))) => {
+            row.abs_diff(other_row) <= 1 && at.abs_diff(other_at) <= 1
+        }
+        _ => false,
     }
 }
 
@@ -72,4 +98,24 @@ fn precedes_noun(key: &str) -> bool {
     WHOSE.contains(&key)
         || key == "many"
         || matches!(mark, Some(Mark::The | Mark::A | Mark::All | Mark::Which | Mark::HowMany))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_slip;
+
+    #[test]
+    fn a_word_beside_another_on_no_keyboard_is_no_slip() {
+        for (typed, meant) in
+            [("kichen", "kitchen"), ("tabel", "table"), ("bool", "book"), ("lampp", "lamp")]
+        {
+            assert!(is_slip(typed, meant), "{typed}");
+        }
+        for (typed, meant) in
+            [("cable", "table"), ("plate", "place"), ("boot", "book"), ("fork", "work")]
+        {
+            assert!(!is_slip(typed, meant), "{typed}");
+        }
+        assert!(is_slip("столк", "столб"));
+    }
 }
