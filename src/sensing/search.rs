@@ -9,6 +9,7 @@
 //! that they are summed together in a register. Since the cells of level `k` are `2^k` apart and the rasters finer than
 //! that, each raster is kept as several, by the phase in which a return meets it.
 
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use nalgebra::{Isometry2, Point2, Vector2};
@@ -30,7 +31,7 @@ const SWEEP: usize = 3;
 /// By so many cells returns may be off in them, the nearer ones and the farther.
 const REACHES: [usize; 2] = [2, 4];
 /// Those of half a strip, as bits.
-const HALF: u64 = (1 << (STRIP / 2)) - 1;
+const HALF: u32 = (1 << (STRIP / 2)) - 1;
 /// Strips that are looked at before the search gives up.
 const MOST_STRIPS: usize = 1_000_000;
 /// A long line that is seen turns from its course by what its ends err and so many degrees.
@@ -243,16 +244,17 @@ impl Pyramid {
         let mut open = self.coarsest(turned, least);
         let mut found: Vec<Isometry2<f64>> = Vec::new();
         let mut best = 0;
-        while let Some(strip) = open.pop() {
+        while let Some((bound, strip)) = open.pop() {
             let needed = least.max(asked.needed(best));
-            if strip.bound < needed {
+            if bound < needed {
                 break;
             }
             let is_known = |pose: &Isometry2<f64>| found.iter().any(|f| is_near(f, pose, apart));
-            if strip.level == 0 {
-                let pose = self.pose(strip.turn, strip.column, strip.row);
+            let (turn, left_column, low_row) = strip.place();
+            let Some(level) = usize::from(strip.level).checked_sub(1) else {
+                let pose = self.pose(turn, left_column, low_row);
                 if !is_known(&pose) {
-                    best = best.max(strip.bound);
+                    best = best.max(bound);
                     if asked.needed(best) < least {
                         return Some((best, found));
                     }
@@ -262,15 +264,14 @@ impl Pyramid {
                     }
                 }
                 continue;
-            }
-            let level = strip.level - 1;
-            let marks = turned.at(level, strip.turn);
+            };
+            let marks = turned.at(level, turn);
             for (side, row) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                 // Half of its cells make one strip of the level below.
                 if (strip.passed >> (side * STRIP / 2)) & HALF == 0 {
                     continue;
                 }
-                let (column, row) = (2 * strip.column + side * STRIP, 2 * strip.row + row);
+                let (column, row) = (2 * left_column + side * STRIP, 2 * low_row + row);
                 if column >= self.width.div_ceil(1 << level)
                     || row >= self.height.div_ceil(1 << level)
                 {
@@ -278,7 +279,7 @@ impl Pyramid {
                 }
                 *left = left.checked_sub(1)?;
                 if level > 0 {
-                    open.extend(self.strip(level, marks, (strip.turn, column, row), needed));
+                    open.extend(self.strip(level, marks, (turn, column, row), needed));
                     continue;
                 }
                 let sums = self.levels[0].sums(marks, column as i32, row as i32, needed);
@@ -287,8 +288,8 @@ impl Pyramid {
                     if bound < needed || column >= self.width {
                         continue;
                     }
-                    if !is_known(&self.pose(strip.turn, column, row)) {
-                        open.push(Strip { bound, level, turn: strip.turn, column, row, passed: 1 });
+                    if !is_known(&self.pose(turn, column, row)) {
+                        open.push(bound, Strip::new(level, (turn, column, row), 1));
                     }
                 }
             }
@@ -297,8 +298,8 @@ impl Pyramid {
     }
 
     /// The coarsest strips of which at least one cell comes to `needed`.
-    fn coarsest(&self, turned: &mut Turned<'_>, needed: u16) -> BinaryHeap<Strip> {
-        let mut open = BinaryHeap::new();
+    fn coarsest(&self, turned: &mut Turned<'_>, needed: u16) -> Open {
+        let mut open = Open::default();
         let top = LEVELS - 1;
         for first in (0..TURNS).step_by(SWEEP) {
             let (marks, beyond) = self.swept(turned.marks, first + SWEEP / 2);
@@ -328,13 +329,13 @@ impl Pyramid {
         marks: &[Offset],
         (turn, column, row): (usize, usize, usize),
         needed: u16,
-    ) -> Option<Strip> {
+    ) -> Option<(u16, Strip)> {
         let sums = self.levels[level].sums(marks, column as i32, row as i32, needed)?;
         let left = self.width.div_ceil(1 << level) - column;
         let inside = || sums.iter().enumerate().take(left).filter(|(_, sum)| **sum >= needed);
         let passed = inside().fold(0, |passed, (k, _)| passed | (1 << k));
         let bound = inside().map(|(_, sum)| *sum).max()?;
-        Some(Strip { bound, level, turn, column, row, passed })
+        Some((bound, Strip::new(level, (turn, column, row), passed)))
     }
 
     fn pose(&self, turn: usize, column: usize, row: usize) -> Isometry2<f64> {
@@ -358,38 +359,62 @@ pub(crate) fn is_near(a: &Isometry2<f64>, b: &Isometry2<f64>, apart: f64) -> boo
         && a.rotation.angle_to(&b.rotation).abs() <= 20_f64.to_radians()
 }
 
-/// Cells from one on, at a turn, by the most that any pose in them can explain; on the finest level a single one.
-#[derive(Debug, Clone, Copy)]
+/// Cells from one on, at a turn; on the finest level a single one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Strip {
-    bound: u16,
-    level: usize,
-    turn: usize,
-    column: usize,
-    row: usize,
+    level: u8,
+    turn: u16,
+    column: u32,
+    row: u32,
     /// Which of its cells come to what is needed.
-    passed: u64,
+    passed: u32,
 }
 
-impl Ord for Strip {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let place = |strip: &Self| (strip.level, strip.turn, strip.column, strip.row);
-        self.bound.cmp(&other.bound).then_with(|| place(other).cmp(&place(self)))
+impl Strip {
+    fn new(level: usize, (turn, column, row): (usize, usize, usize), passed: u32) -> Self {
+        let [column, row] = [column, row].map(|n| n as u32);
+        Self { level: level as u8, turn: turn as u16, column, row, passed }
+    }
+
+    /// Its turn, its first column and its row.
+    fn place(&self) -> (usize, usize, usize) {
+        (usize::from(self.turn), self.column as usize, self.row as usize)
     }
 }
 
-impl PartialOrd for Strip {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
+/// Strips that are still to be opened, by the most that any pose in them can explain: few are ever compared, since most end
+/// below what is needed and are never taken out.
+#[derive(Default)]
+struct Open {
+    by_bound: Vec<BinaryHeap<Reverse<Strip>>>,
 }
 
-impl PartialEq for Strip {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
+impl Open {
+    fn push(&mut self, bound: u16, strip: Strip) {
+        let bound = usize::from(bound);
+        if bound >= self.by_bound.len() {
+            self.by_bound.resize_with(bound + 1, BinaryHeap::new);
+        }
+        self.by_bound[bound].push(Reverse(strip));
+    }
+
+    fn extend(&mut self, strip: Option<(u16, Strip)>) {
+        if let Some((bound, strip)) = strip {
+            self.push(bound, strip);
+        }
+    }
+
+    /// The one that promises most, with what that is; of several that of the finest level, the least turn and place.
+    fn pop(&mut self) -> Option<(u16, Strip)> {
+        loop {
+            let bound = self.by_bound.len().checked_sub(1)?;
+            if let Some(Reverse(strip)) = self.by_bound[bound].pop() {
+                return Some((bound as u16, strip));
+            }
+            self.by_bound.pop();
+        }
     }
 }
-
-impl Eq for Strip {}
 
 #[cfg(test)]
 mod tests {
