@@ -12,7 +12,8 @@
 //! - *Nothing is passed over.* The search (`search`) goes through all poses of the raster by branch and bound: what it
 //!   leaves out cannot fit better than what it keeps. A search that was cut off answers [`Answer::Unknown`].
 //! - *What the chart lacks at one place it may lack at another.* The search keeps every place that is worse than the
-//!   best by no more than the best itself leaves unexplained; among those the likelihood of all beams decides, of one scan as along a way.
+//!   best by no more than the best itself leaves unexplained. Along a way the likelihood of all beams decides among them;
+//!   of one scan it puts them in order, and one is told alone only where it leads by the share explained as well.
 //! - *Seen through a wall counts against.* A beam that is shorter than the Map has it may have met what the Map lacks; one
 //!   that is longer has gone through what the Map has.
 
