@@ -62,6 +62,7 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 
 mod action;
+mod allowed;
 mod bits;
 mod cheapest;
 mod extract;

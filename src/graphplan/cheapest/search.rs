@@ -9,6 +9,7 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
+use crate::allowed::Allowed;
 use crate::bits;
 use crate::portfolio::relaxed::{State, carry_out, holds};
 use crate::proof::cuts::Cuts;
@@ -38,42 +39,27 @@ pub(super) struct Search<'a> {
     task: &'a Task,
     goal: &'a [FactId],
     cuts: Cuts,
-    needed_by: Vec<Vec<OperatorId>>,
-    without_needs: Vec<OperatorId>,
-    missing: Vec<u32>,
+    allowed: Allowed,
     nodes: Vec<Node>,
     states: Vec<State>,
     numbers: HashMap<State, u32>,
     /// Least in all first, of these what has least ahead; with the cost at which it was met.
     open: BinaryHeap<Reverse<(u64, u64, u32, u64)>>,
     bytes: usize,
-    looked_at: u64,
 }
 
 impl<'a> Search<'a> {
     pub(super) fn new(task: &'a Task, start: State, goal: &'a [FactId]) -> Self {
-        let mut needed_by = vec![Vec::new(); task.facts.len()];
-        let mut without_needs = Vec::new();
-        for id in task.operator_ids() {
-            let needs = &task.operator(id).preconditions;
-            needs.iter().for_each(|fact| needed_by[fact.index()].push(id));
-            if needs.is_empty() {
-                without_needs.push(id);
-            }
-        }
         let mut search = Self {
             task,
             goal,
             cuts: Cuts::towards(task, goal),
-            needed_by,
-            without_needs,
-            missing: task.operators.iter().map(|o| o.preconditions.len() as u32).collect(),
+            allowed: Allowed::new(task),
             nodes: Vec::new(),
             states: Vec::new(),
             numbers: HashMap::new(),
             open: BinaryHeap::new(),
             bytes: 0,
-            looked_at: 0,
         };
         search.meet(start, Node { cost: 0, ahead: 0, is_judged: false, from: None });
         search
@@ -81,7 +67,7 @@ impl<'a> Search<'a> {
 
     /// What was looked at so far, in facts and operators.
     pub(super) fn effort(&self) -> u64 {
-        self.cuts.effort + self.looked_at
+        self.cuts.effort + self.allowed.looked_at
     }
 
     fn meet(&mut self, state: State, node: Node) {
@@ -152,7 +138,7 @@ impl<'a> Search<'a> {
             let node = &self.nodes[number as usize];
             (node.cost, node.ahead)
         };
-        for id in self.applicable(state) {
+        for id in self.allowed.by(state) {
             let operator = self.task.operator(id);
             // What only takes away is of no use.
             if operator.add_effects.iter().all(|&fact| holds(state, fact)) {
@@ -178,25 +164,6 @@ impl<'a> Search<'a> {
                 }
             }
         }
-    }
-
-    fn applicable(&mut self, state: &State) -> Vec<OperatorId> {
-        let mut applicable = self.without_needs.clone();
-        let mut touched = Vec::new();
-        for fact in bits::members(state) {
-            for &id in &self.needed_by[fact] {
-                let missing = &mut self.missing[id.index()];
-                *missing -= 1;
-                touched.push(id);
-                if *missing == 0 {
-                    applicable.push(id);
-                }
-            }
-        }
-        self.looked_at += touched.len() as u64;
-        touched.iter().for_each(|id| self.missing[id.index()] += 1);
-        applicable.sort_unstable();
-        applicable
     }
 
     fn path(&self, to: u32) -> Vec<OperatorId> {

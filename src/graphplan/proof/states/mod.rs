@@ -83,7 +83,7 @@ impl<'a> States<'a> {
 
     /// What was spent, in what takes as long as for the solver to set a variable.
     pub(crate) fn effort(&self) -> u64 {
-        self.steps.effort + self.alike.effort + self.ahead.effort
+        self.steps.effort() + self.alike.effort + self.ahead.effort
     }
 
     /// Whether nothing more is to be had of it.

@@ -6,6 +6,7 @@
 //! else wants, and that interferes with nothing else that could be done now. Put into the first step of a plan it leaves
 //! the rest of the plan as it is, but that the operator itself is done with.
 
+use crate::allowed::Allowed;
 use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
 
@@ -17,16 +18,13 @@ const MOST_WAYS: usize = 1 << 9;
 
 pub(super) struct Steps<'a> {
     task: &'a Task,
-    needed_by: Vec<Vec<OperatorId>>,
-    without_needs: Vec<OperatorId>,
-    /// How many facts each operator lacks, while a state is looked at.
-    missing: Vec<u32>,
+    allowed: Allowed,
     /// For each operator those that it interferes with.
     rivals: Vec<Box<[u64]>>,
     /// Operators whose effects last and that use up only what they alone want.
     last: Vec<bool>,
-    /// What was looked at so far.
-    pub(super) effort: u64,
+    /// What states after steps took so far.
+    carried_out: u64,
 }
 
 /// A state after a step, and the operators carried out in it.
@@ -40,15 +38,11 @@ impl<'a> Steps<'a> {
             return None;
         }
         let mut needed_by = vec![Vec::new(); task.facts.len()];
-        let mut without_needs = Vec::new();
         let mut is_taken = vec![false; task.facts.len()];
         for id in task.operator_ids() {
             let operator = task.operator(id);
             operator.preconditions.iter().for_each(|fact| needed_by[fact.index()].push(id));
             operator.takes().for_each(|fact| is_taken[fact.index()] = true);
-            if operator.preconditions.is_empty() {
-                without_needs.push(id);
-            }
         }
         let mut rivals = vec![vec![0; bits::words(count)].into_boxed_slice(); count];
         for (a, one) in task.operators.iter().enumerate() {
@@ -69,8 +63,12 @@ impl<'a> Steps<'a> {
                 && operator.del_effects.iter().all(is_own)
         };
         let last = task.operator_ids().map(lasts).collect();
-        let missing = task.operators.iter().map(|o| o.preconditions.len() as u32).collect();
-        Some(Self { task, needed_by, without_needs, missing, rivals, last, effort: 0 })
+        Some(Self { task, allowed: Allowed::new(task), rivals, last, carried_out: 0 })
+    }
+
+    /// What was looked at so far.
+    pub(super) fn effort(&self) -> u64 {
+        self.allowed.looked_at + self.carried_out
     }
 
     /// All states that one step leads to, some twice; none where there are too many.
@@ -87,7 +85,7 @@ impl<'a> Steps<'a> {
             found.push(self.carried_out(state, &chosen));
         }
         let fits = self.add_sets(state, &open, &mut chosen, &mut found);
-        self.effort += (found.len() * (8 + 2 * state.len())) as u64;
+        self.carried_out += (found.len() * (8 + 2 * state.len())) as u64;
         fits.then_some(found)
     }
 
@@ -127,24 +125,10 @@ impl<'a> Steps<'a> {
 
     /// What can be carried out and brings something new.
     fn applicable(&mut self, state: &[u64]) -> Vec<OperatorId> {
-        let mut applicable = self.without_needs.clone();
-        let mut touched = Vec::new();
-        for fact in bits::members(state) {
-            for &id in &self.needed_by[fact] {
-                let missing = &mut self.missing[id.index()];
-                *missing -= 1;
-                touched.push(id);
-                if *missing == 0 {
-                    applicable.push(id);
-                }
-            }
-        }
-        touched.iter().for_each(|id| self.missing[id.index()] += 1);
-        self.effort += touched.len() as u64;
+        let mut applicable = self.allowed.by(state);
         applicable.retain(|&id| {
             self.task.operator(id).add_effects.iter().any(|fact| !bits::has(state, fact.index()))
         });
-        applicable.sort_unstable();
         applicable
     }
 }
