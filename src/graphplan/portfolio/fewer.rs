@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
 use super::parallel::{follows, has_less, in_parallel, needful};
-use super::relaxed::{Relaxed, State, carry_out, initial, needed_by};
+use super::relaxed::{Estimate, Relaxed, State, carry_out, initial, needed_by};
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
 use crate::units::Gather as _;
@@ -162,11 +162,12 @@ impl Stretches<'_> {
         let most_cost = self.cost(known);
         self.relaxed.aim_at(goal);
         let Some(first) = self.relaxed.estimate(start) else { return Ok(None) };
-        let mut nodes = vec![Node { from: None, actions: 0, cost: 0, helpful: first.helpful }];
+        let distance = first.distance;
+        let mut nodes = vec![Node { from: None, actions: 0, cost: 0, estimate: Some(first) }];
         let mut states = vec![start.clone()];
         let mut seen: HashMap<State, u32> = HashMap::from([(start.clone(), 0)]);
-        let mut open = BinaryHeap::from([Reverse((first.distance, first.distance, 0_u32))]);
-        if first.distance == 0 {
+        let mut open = BinaryHeap::from([Reverse((distance, distance, 0_u32))]);
+        if distance == 0 {
             return Ok((!known.is_empty()).then(Vec::new));
         }
         while let Some(Reverse((_, _, number))) = open.pop() {
@@ -178,8 +179,8 @@ impl Stretches<'_> {
             if actions as usize >= known.len() {
                 continue;
             }
-            let helpful = std::mem::take(&mut nodes[number as usize].helpful);
-            for id in helpful {
+            let Some(estimate) = nodes[number as usize].estimate.take() else { continue };
+            for id in self.relaxed.helpful(&states[number as usize], &estimate) {
                 let cost = cost + u64::from(self.task.operator(id).cost);
                 if cost > most_cost {
                     continue;
@@ -194,15 +195,15 @@ impl Stretches<'_> {
                 let next = nodes.len() as u32;
                 let from = Some((number, id));
                 if estimate.distance == 0 {
-                    nodes.push(Node { from, actions, cost, helpful: Vec::new() });
+                    nodes.push(Node { from, actions, cost, estimate: None });
                     return Ok(Some(path(&nodes, next)));
                 }
                 if actions as usize + 1 >= known.len() {
                     continue;
                 }
-                nodes.push(Node { from, actions, cost, helpful: estimate.helpful });
-                states.push(state);
                 open.push(Reverse((actions + estimate.distance, estimate.distance, next)));
+                nodes.push(Node { from, actions, cost, estimate: Some(estimate) });
+                states.push(state);
             }
             if nodes.len() >= most_states {
                 return Ok(None);
@@ -238,7 +239,8 @@ struct Node {
     from: Option<(u32, OperatorId)>,
     actions: u32,
     cost: u64,
-    helpful: Vec<OperatorId>,
+    /// Until its turn has come.
+    estimate: Option<Estimate>,
 }
 
 fn path(nodes: &[Node], to: u32) -> Vec<OperatorId> {

@@ -3,6 +3,8 @@
 
 pub(crate) mod any;
 mod anytime;
+mod applicable;
+mod best_first;
 mod fewer;
 mod landmarks;
 mod novelty;

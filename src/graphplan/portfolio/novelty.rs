@@ -9,6 +9,7 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
+use super::applicable::Applicable;
 use super::landmarks::{Attained, Landmarks};
 use super::relaxed::{Relaxed, State, carry_out, holds, initial};
 use crate::bits;
@@ -92,7 +93,7 @@ impl Width<'_> {
         self.add(initial, attained, None, relaxed);
         let mut operators = Vec::new();
         while let Some(Reverse((_, _, number))) = self.queue.pop() {
-            self.applicable.of(self.task, &self.nodes[number as usize].state, &mut operators);
+            self.applicable.of(&self.nodes[number as usize].state, &mut operators);
             for &id in &operators {
                 let next = self.after(number, id);
                 if self.seen.contains(&next) {
@@ -240,42 +241,6 @@ fn widen(known: &mut [u64], state: &State) -> bool {
         *known |= word;
     }
     new
-}
-
-/// Finds what a state allows: each operator waits at the one of its needs that the fewest share.
-struct Applicable {
-    waiting: Vec<Vec<OperatorId>>,
-    always: Vec<OperatorId>,
-}
-
-impl Applicable {
-    fn new(task: &Task) -> Self {
-        let mut sharing = vec![0_u32; task.facts.len()];
-        for operator in &task.operators {
-            operator.preconditions.iter().for_each(|fact| sharing[fact.index()] += 1);
-        }
-        let mut waiting = vec![Vec::new(); task.facts.len()];
-        let mut always = Vec::new();
-        for id in task.operator_ids() {
-            let needs = &task.operator(id).preconditions;
-            match needs.iter().min_by_key(|fact| sharing[fact.index()]) {
-                Some(rarest) => waiting[rarest.index()].push(id),
-                None => always.push(id),
-            }
-        }
-        Self { waiting, always }
-    }
-
-    fn of(&self, task: &Task, state: &State, found: &mut Vec<OperatorId>) {
-        found.clear();
-        found.extend(&self.always);
-        for fact in bits::members(state) {
-            let possible = |id: &&OperatorId| {
-                task.operator(**id).preconditions.iter().all(|&need| holds(state, need))
-            };
-            found.extend(self.waiting[fact].iter().filter(possible));
-        }
-    }
 }
 
 #[cfg(test)]

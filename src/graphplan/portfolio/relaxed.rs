@@ -3,7 +3,7 @@
 //! A relaxed plan is read off layers of facts that only grow. Its length estimates the distance, and operators that
 //! bring a fact of its first layer are worth trying first.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::bits;
 use crate::strips::{FactId, Operator, OperatorId, Task};
@@ -44,8 +44,8 @@ pub(crate) fn holds(state: &State, fact: FactId) -> bool {
 /// How far a state seems from the goal, and what to try.
 pub(crate) struct Estimate {
     pub(crate) distance: u32,
-    /// Applicable operators that bring a first fact of the relaxed plan, those of the relaxed plan first.
-    pub(crate) helpful: Vec<OperatorId>,
+    /// Facts that its first operators bring.
+    first: BTreeSet<FactId>,
     /// The relaxed plan, in the order of its layers.
     pub(crate) relaxed_plan: Vec<OperatorId>,
 }
@@ -53,11 +53,14 @@ pub(crate) struct Estimate {
 /// The problem without delete effects.
 pub(crate) struct Relaxed<'a> {
     task: &'a Task,
-    /// Operators by a fact that they need, those of fact `f` from `starts[f]` to `starts[f + 1]`.
+    /// The numbers of the operators that bring anything; the others are left out of all that follows.
+    operators: Vec<u32>,
+    /// Places in that row by a fact that the operators there need, those of fact `f` from `starts[f]` to `starts[f + 1]`.
     needed_by: Vec<u32>,
     starts: Vec<u32>,
+    /// The numbers of all operators that add a fact.
     pub(crate) added_by: Vec<Vec<u32>>,
-    /// What operator `o` adds, from `adds_from[o]` to `adds_from[o + 1]`.
+    /// What the operator at place `o` brings, from `adds_from[o]` to `adds_from[o + 1]`.
     adds: Vec<FactId>,
     adds_from: Vec<u32>,
     without_needs: Vec<u32>,
@@ -70,8 +73,6 @@ pub(crate) struct Relaxed<'a> {
     /// The layer at which a fact appears, or what it takes with all that leads to it, and the operator that brings it.
     layer: Vec<u32>,
     bringer: Vec<u32>,
-    /// Operators that can be carried out in the state looked at last, ascending.
-    pub(crate) applicable: Vec<OperatorId>,
     /// What was looked at so far, in facts and operators.
     pub(crate) effort: u64,
     /// Whether what brings a fact is chosen by all that leads to it rather than by its layer, and for that what an
@@ -92,30 +93,22 @@ impl<'a> Relaxed<'a> {
         for (number, operator) in task.operators.iter().enumerate() {
             operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(number as u32));
         }
-        let mut adds_from = vec![0];
-        let mut adds = Vec::new();
-        for operator in &task.operators {
-            adds.extend(&operator.add_effects);
-            adds_from.push(adds.len() as u32);
-        }
-        let needs: Vec<u32> =
-            task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
         let mut relaxed = Self {
             task,
+            operators: Vec::new(),
             needed_by: Vec::new(),
             starts: Vec::new(),
             added_by,
-            adds,
-            adds_from,
+            adds: Vec::new(),
+            adds_from: Vec::new(),
             without_needs: Vec::new(),
-            allowed: vec![true; needs.len()],
-            missing: needs.clone(),
-            needs,
+            allowed: vec![true; task.operators.len()],
+            missing: Vec::new(),
+            needs: Vec::new(),
             goal: Vec::new(),
             is_goal: vec![false; task.facts.len()],
             layer: vec![NOT_YET; task.facts.len()],
             bringer: vec![NOT_YET; task.facts.len()],
-            applicable: Vec::new(),
             effort: 0,
             by_sum: false,
             takes: Vec::new(),
@@ -132,40 +125,88 @@ impl<'a> Relaxed<'a> {
         self.index();
     }
 
-    /// Which operators of those allowed need which facts.
+    /// What the operators allowed bring, and need for it.
     fn index(&mut self) {
         let task = self.task;
-        let operators = || {
-            let all = task.operators.iter().enumerate();
-            all.filter(|(number, _)| self.allowed[*number])
-        };
-        self.without_needs = operators()
-            .filter(|(_, operator)| operator.preconditions.is_empty())
-            .map(|(number, _)| number as u32)
-            .collect();
+        let serving = self.serving();
+        self.operators.clear();
+        self.adds.clear();
+        self.adds_from.clear();
+        for (number, fact) in serving {
+            if self.operators.last() != Some(&number) {
+                self.operators.push(number);
+                self.adds_from.push(self.adds.len() as u32);
+            }
+            self.adds.push(fact);
+        }
+        self.adds_from.push(self.adds.len() as u32);
+        let needs = |number: u32| &task.operators[number as usize].preconditions;
+        self.needs = self.operators.iter().map(|&number| needs(number).len() as u32).collect();
+        self.missing.clone_from(&self.needs);
+        let places = || (0..self.operators.len() as u32).zip(&self.operators);
+        self.without_needs =
+            places().filter(|(_, number)| needs(**number).is_empty()).map(|(at, _)| at).collect();
         self.starts.clear();
         self.starts.resize(task.facts.len() + 1, 0);
-        for fact in operators().flat_map(|(_, operator)| &operator.preconditions) {
+        for fact in self.operators.iter().flat_map(|&number| needs(number)) {
             self.starts[fact.index() + 1] += 1;
         }
         (0..task.facts.len()).for_each(|fact| self.starts[fact + 1] += self.starts[fact]);
         let mut next = self.starts.clone();
         self.needed_by.clear();
         self.needed_by.resize(self.starts[task.facts.len()] as usize, 0);
-        for (number, operator) in operators() {
-            for fact in &operator.preconditions {
-                self.needed_by[next[fact.index()] as usize] = number as u32;
+        for (at, &number) in places() {
+            for fact in needs(number) {
+                self.needed_by[next[fact.index()] as usize] = at;
                 next[fact.index()] += 1;
             }
         }
         self.effort += task.operators.len() as u64 / 4;
     }
 
+    /// Operators with what they bring, ascending: an operator brings nothing that another brings which needs some of the
+    /// same facts and no others, for the other comes no later.
+    fn serving(&self) -> Vec<(u32, FactId)> {
+        let task = self.task;
+        let needs = |number: u32| &task.operators[number as usize].preconditions;
+        let mut serving: Vec<(u32, FactId)> = Vec::new();
+        // Those that serve, by the one of their needs that the fewest share.
+        let mut by_need: HashMap<FactId, Vec<u32>> = HashMap::new();
+        let mut sharing = vec![0_u32; task.facts.len()];
+        for fact in task.fact_ids() {
+            let mut bringers: Vec<u32> = self.added_by[fact.index()].clone();
+            let may = |number: &u32| {
+                self.allowed[*number as usize] && needs(*number).binary_search(&fact).is_err()
+            };
+            bringers.retain(may);
+            bringers.sort_by_key(|&number| needs(number).len());
+            let all = || bringers.iter().flat_map(|&number| needs(number));
+            all().for_each(|need| sharing[need.index()] += 1);
+            by_need.clear();
+            for &number in &bringers {
+                let own = needs(number);
+                let less =
+                    |&other: &u32| needs(other).iter().all(|need| own.binary_search(need).is_ok());
+                if own.iter().filter_map(|need| by_need.get(need)).flatten().any(less) {
+                    continue;
+                }
+                serving.push((number, fact));
+                match own.iter().min_by_key(|need| sharing[need.index()]) {
+                    Some(&need) => by_need.entry(need).or_default().push(number),
+                    // There is nothing less.
+                    None => break,
+                }
+            }
+            all().for_each(|need| sharing[need.index()] = 0);
+        }
+        serving.sort_unstable();
+        serving
+    }
+
     /// As [`Self::new`], but relaxed plans are shorter and take longer to find: what brings a fact is what takes the
     /// fewest actions with all that leads to it (E. Keyder, H. Geffner, 2008).
     pub(crate) fn by_sum(task: &'a Task) -> Self {
-        let takes = vec![0; task.operators.len()];
-        Self { by_sum: true, takes, buckets: vec![Vec::new(); MOST_TAKEN], ..Self::new(task) }
+        Self { by_sum: true, buckets: vec![Vec::new(); MOST_TAKEN], ..Self::new(task) }
     }
 
     /// From now on distances are those to these facts.
@@ -215,18 +256,15 @@ impl<'a> Relaxed<'a> {
             self.layer[fact] = 0;
             queue.push(fact as u32);
         }
-        self.applicable.clear();
         for at in 0..self.without_needs.len() {
-            self.applicable.push(OperatorId(self.without_needs[at]));
             self.apply(self.without_needs[at], 1, &mut open, &mut queue);
         }
         let mut next = 0;
         while let Some(&fact) = queue.get(next) {
             next += 1;
             let layer = self.layer[fact as usize];
-            // What the state itself allows is wanted whole, even if the goal holds.
             let is_far = within.map_or(open == 0, |within| layer >= within);
-            if is_far && layer > 0 {
+            if is_far {
                 break;
             }
             let users = self.starts[fact as usize]..self.starts[fact as usize + 1];
@@ -235,14 +273,10 @@ impl<'a> Relaxed<'a> {
                 let number = self.needed_by[at as usize];
                 self.missing[number as usize] -= 1;
                 if self.missing[number as usize] == 0 {
-                    if layer == 0 {
-                        self.applicable.push(OperatorId(number));
-                    }
                     self.apply(number, layer + 1, &mut open, &mut queue);
                 }
             }
         }
-        self.applicable.sort_unstable();
         // Wiping the slate takes little for each fact and operator.
         self.effort += (self.layer.len() + self.missing.len()) as u64 / 16 + queue.len() as u64;
         open == 0
@@ -252,8 +286,8 @@ impl<'a> Relaxed<'a> {
     fn spread_by_sum(&mut self, state: &State) -> bool {
         self.layer.fill(NOT_YET);
         self.missing.copy_from_slice(&self.needs);
-        self.takes.fill(1);
-        self.applicable.clear();
+        self.takes.clear();
+        self.takes.resize(self.needs.len(), 1);
         let mut open = self.goal.len();
         let (mut at, mut last, mut looked_at) = (0, 0, 0);
         for fact in bits::members(state) {
@@ -261,11 +295,9 @@ impl<'a> Relaxed<'a> {
             self.buckets[0].push(fact as u32);
         }
         for n in 0..self.without_needs.len() {
-            self.applicable.push(OperatorId(self.without_needs[n]));
             last = last.max(self.brought(self.without_needs[n]));
         }
-        // What the state itself allows is wanted whole, even if the goal holds.
-        while at <= last && (open > 0 || at == 0) {
+        while at <= last && open > 0 {
             let Some(fact) = self.buckets[at].pop() else {
                 at += 1;
                 continue;
@@ -281,40 +313,35 @@ impl<'a> Relaxed<'a> {
                 self.missing[number as usize] -= 1;
                 self.takes[number as usize] += at as u32;
                 if self.missing[number as usize] == 0 {
-                    if at == 0 {
-                        self.applicable.push(OperatorId(number));
-                    }
                     last = last.max(self.brought(number));
                 }
             }
         }
         self.buckets[at..=last].iter_mut().for_each(Vec::clear);
-        self.applicable.sort_unstable();
         self.effort += (self.layer.len() + 2 * self.missing.len()) as u64 / 16 + 2 * looked_at;
         open == 0
     }
 
     /// What an operator brings waits for its turn, which is told.
-    fn brought(&mut self, number: u32) -> usize {
-        let takes = self.takes[number as usize].min(MOST_TAKEN as u32 - 1);
-        let own = self.adds_from[number as usize]..self.adds_from[number as usize + 1];
+    fn brought(&mut self, at: u32) -> usize {
+        let takes = self.takes[at as usize].min(MOST_TAKEN as u32 - 1);
+        let own = self.adds_from[at as usize]..self.adds_from[at as usize + 1];
         for added in &self.adds[own.start as usize..own.end as usize] {
             if self.layer[added.index()] > takes {
                 self.layer[added.index()] = takes;
-                self.bringer[added.index()] = number;
+                self.bringer[added.index()] = self.operators[at as usize];
                 self.buckets[takes as usize].push(added.0);
             }
         }
         takes as usize
     }
 
-    fn apply(&mut self, number: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
-        let own =
-            self.adds_from[number as usize] as usize..self.adds_from[number as usize + 1] as usize;
+    fn apply(&mut self, at: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
+        let own = self.adds_from[at as usize] as usize..self.adds_from[at as usize + 1] as usize;
         for added in &self.adds[own] {
             if self.layer[added.index()] == NOT_YET {
                 self.layer[added.index()] = layer;
-                self.bringer[added.index()] = number;
+                self.bringer[added.index()] = self.operators[at as usize];
                 queue.push(added.0);
                 *open -= usize::from(self.is_goal[added.index()]);
             }
@@ -341,22 +368,69 @@ impl<'a> Relaxed<'a> {
                 }
             }
         }
+        Estimate {
+            distance: chosen.len() as u32,
+            first,
+            relaxed_plan: chosen.into_iter().map(|(_, number)| OperatorId(number)).collect(),
+        }
+    }
+
+    /// Operators that a state allows and that bring a first fact of its relaxed plan, whatever that chose for it; those
+    /// of the relaxed plan first.
+    pub(crate) fn helpful(&self, state: &State, of: &Estimate) -> Vec<OperatorId> {
+        let planned: HashSet<OperatorId> = of.relaxed_plan.iter().copied().collect();
         let applicable = |number: &u32| {
             let needs = &self.task.operators[*number as usize].preconditions;
             self.allowed[*number as usize] && needs.iter().all(|&fact| holds(state, fact))
         };
-        // Whatever brings a fact of the first layer helps, not only what the relaxed plan chose for it.
-        let mut operators: Vec<u32> = first
-            .iter()
-            .flat_map(|fact| self.added_by[fact.index()].iter().copied())
-            .filter(applicable)
-            .collect();
-        operators.sort_unstable_by_key(|number| (!chosen.contains(&(1, *number)), *number));
+        let bringers = of.first.iter().flat_map(|fact| self.added_by[fact.index()].iter().copied());
+        let mut operators: Vec<OperatorId> = bringers.filter(applicable).map(OperatorId).collect();
+        operators.sort_unstable_by_key(|id| (!planned.contains(id), *id));
         operators.dedup();
-        Estimate {
-            distance: chosen.len() as u32,
-            helpful: operators.into_iter().map(OperatorId).collect(),
-            relaxed_plan: chosen.into_iter().map(|(_, number)| OperatorId(number)).collect(),
+        operators
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::random_task;
+
+    /// What each fact takes with all that leads to it, by all operators, until nothing changes.
+    fn sums(task: &Task, allowed: impl Fn(usize) -> bool) -> Vec<u32> {
+        let mut sums = vec![NOT_YET; task.facts.len()];
+        task.init.iter().for_each(|fact| sums[fact.index()] = 0);
+        loop {
+            let before = sums.clone();
+            for (_, operator) in task.operators.iter().enumerate().filter(|(n, _)| allowed(*n)) {
+                let mut needs = operator.preconditions.iter().map(|need| sums[need.index()]);
+                let Some(sum) = needs.try_fold(1_u32, u32::checked_add) else { continue };
+                for added in &operator.add_effects {
+                    sums[added.index()] = sums[added.index()].min(sum);
+                }
+            }
+            if sums == before {
+                return sums;
+            }
         }
+    }
+
+    #[test]
+    fn operators_left_out_bring_nothing_sooner() {
+        let mut left_out = 0;
+        for seed in 1..=1000 {
+            let task = random_task(seed);
+            let mut relaxed = Relaxed::by_sum(&task);
+            left_out += task.operators.len() - relaxed.operators.len();
+            // One goal that is out of reach, so that nothing ends before all is seen.
+            relaxed.goal.push(FactId(0));
+            relaxed.spread_by_sum(&initial(&task));
+            assert_eq!(relaxed.layer, sums(&task, |_| true), "seed {seed}");
+            let some = |operator: usize| !operator.is_multiple_of(3);
+            relaxed.restrict(some);
+            relaxed.spread_by_sum(&initial(&task));
+            assert_eq!(relaxed.layer, sums(&task, some), "seed {seed}");
+        }
+        assert!(left_out > 1000, "{left_out}");
     }
 }

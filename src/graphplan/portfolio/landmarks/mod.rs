@@ -6,11 +6,15 @@
 //! need comes before it, and of two goals that one whose attainment would undo the other. A tower built on the wrong
 //! base therefore counts for nothing, where a relaxed plan would praise it.
 
-use std::collections::{BTreeMap, VecDeque};
+mod disjunctions;
+mod sets;
 
+use std::collections::BTreeMap;
+
+use self::sets::{Sets, Ways, common};
 use super::relaxed::{State, holds};
 use crate::bits::{has, members, put, unite, words};
-use crate::strips::{FactId, Operator, Task};
+use crate::strips::{FactId, Task};
 use crate::units::Gather as _;
 
 /// More facts than these make the sets too large.
@@ -23,6 +27,8 @@ pub(crate) type Attained = Box<[u64]>;
 
 pub(crate) struct Landmarks {
     facts: Vec<FactId>,
+    /// Landmarks of several facts each, one of which must hold at some time; their numbers go on from those of `facts`.
+    disjunctions: Vec<Box<[FactId]>>,
     is_goal: Vec<bool>,
     /// Which landmarks must have been attained before one counts.
     before: Vec<Vec<u32>>,
@@ -79,12 +85,20 @@ impl Landmarks {
         let goals: Vec<u32> = task.goal.iter().filter_map(|goal| number[goal.index()]).collect();
         let mut is_goal = vec![false; facts.len()];
         goals.iter().for_each(|&goal| is_goal[goal as usize] = true);
-        let mut landmarks =
-            Self { facts, is_goal, before, needs, needs_again, in_order: Vec::new() };
+        let mut landmarks = Self {
+            facts,
+            disjunctions: Vec::new(),
+            is_goal,
+            before,
+            needs,
+            needs_again,
+            in_order: Vec::new(),
+        };
         let undoing = landmarks.order(&ways, &goals);
         landmarks.order_needs(task, &ways, |fact| sets.of_fact[fact.index()].as_deref());
         landmarks.in_order =
             in_order(&goals, &undoing).map(|goal| landmarks.facts[goal as usize]).collect();
+        disjunctions::add(&mut landmarks, task, &sets, state);
         Some(landmarks)
     }
 
@@ -179,11 +193,23 @@ impl Landmarks {
         false
     }
 
+    /// The fact of a landmark, or those of which one must hold.
+    fn alternatives(&self, landmark: usize) -> &[FactId] {
+        match landmark.checked_sub(self.facts.len()) {
+            None => std::slice::from_ref(&self.facts[landmark]),
+            Some(further) => &self.disjunctions[further],
+        }
+    }
+
+    fn held(&self, landmark: usize, state: &State) -> bool {
+        self.alternatives(landmark).iter().any(|&fact| holds(state, fact))
+    }
+
     /// What counts as attained at first.
     pub(crate) fn initially(&self, state: &State) -> Attained {
-        let mut attained = vec![0; words(self.facts.len())].into_boxed_slice();
-        for (n, &fact) in self.facts.iter().enumerate() {
-            if holds(state, fact) && self.before[n].is_empty() {
+        let mut attained = vec![0; words(self.before.len())].into_boxed_slice();
+        for n in 0..self.before.len() {
+            if self.held(n, state) && self.before[n].is_empty() {
                 put(&mut attained, n);
             }
         }
@@ -193,9 +219,9 @@ impl Landmarks {
     /// What counts as attained once a state is come to.
     pub(crate) fn advance(&self, attained: &Attained, state: &State) -> Attained {
         let mut next = attained.clone();
-        for (n, &fact) in self.facts.iter().enumerate() {
+        for n in 0..self.before.len() {
             let counts = !has(attained, n)
-                && holds(state, fact)
+                && self.held(n, state)
                 && self.before[n].iter().all(|&before| has(attained, before as usize));
             if counts {
                 put(&mut next, n);
@@ -208,10 +234,10 @@ impl Landmarks {
     /// those lost that are needed once more.
     pub(crate) fn next(&self, attained: &Attained, state: &State) -> Box<[u64]> {
         let mut next = vec![0; state.len()].into_boxed_slice();
-        for (n, &fact) in self.facts.iter().enumerate() {
+        for n in 0..self.before.len() {
             let open = || self.before[n].iter().all(|&before| has(attained, before as usize));
-            if !holds(state, fact) && !has(attained, n) && open() {
-                put(&mut next, fact.index());
+            if !self.held(n, state) && !has(attained, n) && open() {
+                self.alternatives(n).iter().for_each(|fact| put(&mut next, fact.index()));
             }
         }
         next
@@ -221,8 +247,8 @@ impl Landmarks {
     pub(crate) fn ahead(&self, attained: &Attained, state: &State) -> u32 {
         let mut ahead = vec![0; attained.len()].into_boxed_slice();
         let mut open: Vec<u32> = Vec::new();
-        for (n, &fact) in self.facts.iter().enumerate() {
-            if !has(attained, n) || self.is_goal[n] && !holds(state, fact) {
+        for n in 0..self.before.len() {
+            if !has(attained, n) || self.is_goal[n] && !self.held(n, state) {
                 put(&mut ahead, n);
                 open.push(n as u32);
             }
@@ -230,7 +256,7 @@ impl Landmarks {
         let mut count = open.len() as u32;
         while let Some(landmark) = open.pop() {
             let (known, held) =
-                (has(attained, landmark as usize), holds(state, self.facts[landmark as usize]));
+                (has(attained, landmark as usize), self.held(landmark as usize, state));
             // What holds and does not count yet will be undone and brought about once more.
             let needs = match (known, held) {
                 (true, true) => continue,
@@ -238,7 +264,7 @@ impl Landmarks {
                 _ => &self.needs_again[landmark as usize],
             };
             for &need in needs {
-                if !has(&ahead, need as usize) && !holds(state, self.facts[need as usize]) {
+                if !has(&ahead, need as usize) && !self.held(need as usize, state) {
                     put(&mut ahead, need as usize);
                     open.push(need);
                     count += 1;
@@ -322,135 +348,11 @@ fn leads_to(next: &[Vec<u32>], from: u32, to: u32) -> bool {
     false
 }
 
-/// What all operators have in common that may add a fact for the first time.
-struct Ways {
-    needs: Vec<FactId>,
-    deletes: Vec<FactId>,
-}
-
-impl Ways {
-    fn of<'a>(operators: impl Iterator<Item = &'a Operator> + Clone) -> Self {
-        Self {
-            needs: common(operators.clone().map(|operator| operator.preconditions.as_slice())),
-            deletes: common(operators.map(|operator| operator.del_effects.as_slice())),
-        }
-    }
-}
-
-fn common<'a>(mut lists: impl Iterator<Item = &'a [FactId]>) -> Vec<FactId> {
-    let mut common = lists.next().unwrap_or_default().to_vec();
-    lists.for_each(|list| common.retain(|fact| list.binary_search(fact).is_ok()));
-    common
-}
-
-/// For each fact its landmarks, itself among them.
-struct Sets {
-    words: usize,
-    of_fact: Vec<Option<Box<[u64]>>>,
-    added_by: Vec<Vec<u32>>,
-}
-
-impl Sets {
-    fn new(task: &Task, state: &State) -> Self {
-        let words = words(task.facts.len());
-        let mut added_by = vec![Vec::new(); task.facts.len()];
-        let mut needed_by = vec![Vec::new(); task.facts.len()];
-        for (number, operator) in task.operators.iter().enumerate() {
-            operator.add_effects.iter().for_each(|f| added_by[f.index()].push(number as u32));
-            operator.preconditions.iter().for_each(|f| needed_by[f.index()].push(number as u32));
-        }
-        let mut sets = Self { words, of_fact: vec![None; task.facts.len()], added_by };
-        for fact in members(state) {
-            let mut own = vec![0; words];
-            put(&mut own, fact);
-            sets.of_fact[fact] = Some(own.into());
-        }
-        let mut waits = vec![true; task.operators.len()];
-        let mut queue: VecDeque<u32> = (0..task.operators.len() as u32).collect();
-        let mut through = vec![0; words];
-        while let Some(number) = queue.pop_front() {
-            waits[number as usize] = false;
-            let operator = &task.operators[number as usize];
-            if !sets.of_needs(&operator.preconditions, &mut through) {
-                continue;
-            }
-            for &fact in &operator.add_effects {
-                if sets.narrow(fact, &through) {
-                    for &by in &needed_by[fact.index()] {
-                        if !std::mem::replace(&mut waits[by as usize], true) {
-                            queue.push_back(by);
-                        }
-                    }
-                }
-            }
-        }
-        sets
-    }
-
-    /// The landmarks of all preconditions together; false when one is out of reach.
-    fn of_needs(&self, needs: &[FactId], through: &mut [u64]) -> bool {
-        through.fill(0);
-        needs.iter().all(|need| match &self.of_fact[need.index()] {
-            Some(own) => {
-                unite(through, own);
-                true
-            }
-            None => false,
-        })
-    }
-
-    /// There is a way to a fact through these; whether that tells anything new.
-    fn narrow(&mut self, fact: FactId, through: &[u64]) -> bool {
-        let own = &mut self.of_fact[fact.index()];
-        let Some(own) = own else {
-            let mut set: Box<[u64]> = through.into();
-            put(&mut set, fact.index());
-            *own = Some(set);
-            return true;
-        };
-        let mut narrower = false;
-        for (at, (own, &through)) in own.iter_mut().zip(through).enumerate() {
-            let itself = if fact.index() / 64 == at { 1 << (fact.index() % 64) } else { 0 };
-            let kept = *own & (through | itself);
-            narrower |= kept != *own;
-            *own = kept;
-        }
-        narrower
-    }
-
-    /// A way that needs the fact itself is no first way to it, unless it held: a block is not taken off itself.
-    fn first_ways(&self, task: &Task, fact: FactId, held: bool) -> Ways {
-        let first = |operator: &&Operator| {
-            let before = |need: &FactId| {
-                let set = self.of_fact[need.index()].as_ref();
-                set.is_some_and(|set| !has(set, fact.index()))
-            };
-            held || operator.preconditions.iter().all(before)
-        };
-        Ways::of(self.operators(task, fact).filter(first))
-    }
-
-    fn ways(&self, task: &Task, fact: FactId) -> Ways {
-        let possible = |operator: &&Operator| {
-            operator.preconditions.iter().all(|need| self.of_fact[need.index()].is_some())
-        };
-        Ways::of(self.operators(task, fact).filter(possible))
-    }
-
-    fn operators<'a>(
-        &'a self,
-        task: &'a Task,
-        fact: FactId,
-    ) -> impl Iterator<Item = &'a Operator> + Clone {
-        self.added_by[fact.index()].iter().map(|&number| &task.operators[number as usize])
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::bits::take;
-    use crate::strips::Scenario;
+    use crate::strips::{Operator, Scenario};
     use crate::units::Source;
 
     /// Three blocks: А on Б on the table, and В; wanted is А on Б on В.
